@@ -1,0 +1,1 @@
+//! Turns a modelDescription.xml into Rust variables, and files into an FMU.

@@ -1,0 +1,1 @@
+//! Rocking of masonry walls.

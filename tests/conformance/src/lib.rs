@@ -1,0 +1,1 @@
+//! The C boundary against independent authorities.

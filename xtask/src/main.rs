@@ -1,0 +1,3 @@
+//! The jobs of the project: `cargo xtask fmu | demo | test`.
+
+fn main() {}
