@@ -1,0 +1,377 @@
+//! A wall in time: the state, the supports' motion, the outputs.
+
+use std::sync::Arc;
+
+use crate::ground_motion::GroundMotion;
+use crate::solver::{Method, Motion, Phase, Segment, SolverError, State, Work};
+use crate::variables::Mechanism;
+use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
+
+/// A wall under way.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    motion: Arc<Motion>,
+    record: Progress,
+}
+
+/// All that changes during a simulation: plain data, copied to save it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time \[s\].
+    pub time: f64,
+    /// State of the wall.
+    pub state: State,
+    /// Time of overturning \[s\]; `None` before.
+    pub overturn_time: Option<f64>,
+    /// A drift has been given, so that its couple acts on the supports.
+    pub drift: bool,
+    /// Work so far.
+    pub work: Work,
+}
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Impulses of the supports on the wall \[N s\].
+    pub impulses: Ends,
+    /// The wall overturned in this step.
+    pub overturned: bool,
+    /// The wall left its supports in this step.
+    pub departed: bool,
+    /// The bound on impacts was reached and the wall put to rest.
+    pub stilled: bool,
+}
+
+/// Outputs that follow from the state and the supports' present motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs {
+    /// u \[m\].
+    pub displacement: f64,
+    /// u̇ \[m/s\].
+    pub velocity: f64,
+    /// ü \[m/s²\].
+    pub acceleration: f64,
+    /// u/`u_ins` of its side \[-\].
+    pub ratio: f64,
+    /// F(u) − W d/h, at rest the holding force \[N\].
+    pub restoring_force: f64,
+    /// C u̇ \[N\].
+    pub damping_force: f64,
+    /// Forces of the supports on the wall \[N\].
+    pub reactions: Ends,
+}
+
+/// Partial derivatives of ü and of the forces with respect to one variable.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensitivity {
+    /// Of ü.
+    pub acceleration: f64,
+    /// Of F(u) − W d/h.
+    pub restoring_force: f64,
+    /// Of C u̇.
+    pub damping_force: f64,
+    /// Of the reactions.
+    pub reactions: Ends,
+}
+
+impl Simulation {
+    /// A wall at its start, at `time` \[s\], with the supports moving as `support` says; `tolerance` is the importer's, of
+    /// which and the parameter the tighter applies.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn new(
+        parameters: &Parameters,
+        tolerance: Option<f64>,
+        time: f64,
+        support: Support,
+    ) -> Result<Self, ParameterError> {
+        let wall = Wall::new(parameters)?;
+        let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
+        let method = Method::new(parameters, &wall, tolerance)?;
+        let motion = Motion::new(wall, method);
+        let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
+        let overturn_time = state.overturned.then_some(time);
+        let drift = support.drift != 0.0;
+        let record = Progress { time, state, overturn_time, drift, work: Work::default() };
+        Ok(Self { motion: Arc::new(motion), record })
+    }
+
+    /// The wall.
+    #[must_use]
+    pub fn wall(&self) -> &Wall {
+        self.motion.wall()
+    }
+
+    /// The method in use.
+    #[must_use]
+    pub fn method(&self) -> &Method {
+        self.motion.method()
+    }
+
+    /// Where the simulation stands.
+    #[must_use]
+    pub fn progress(&self) -> &Progress {
+        &self.record
+    }
+
+    /// Goes back, or on, to where a simulation of the same wall stood. The branch must be one of the wall's.
+    pub fn restore(&mut self, progress: Progress) {
+        assert!(progress.state.branch < self.wall().branches().len(), "a branch of this wall");
+        self.record = progress;
+    }
+
+    /// Moves the wall through a segment.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation then stands where it stood.
+    pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
+        let body = self.motion.wall().body();
+        let before = self.record;
+        let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
+        let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
+        let mut state = before.state;
+        let report = self.motion.advance(&mut state, segment, integral)?;
+        let mut step = Step {
+            overturned: report.overturning.is_some(),
+            departed: report.departure.is_some(),
+            stilled: report.stilled,
+            ..Step::default()
+        };
+        if !before.state.departed {
+            let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
+            // ∫ of a quantity linear over the segment, up to `length`
+            let integrate = |from: f64, to: f64| {
+                let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
+                length * (from + 0.5 * (to - from) * fraction)
+            };
+            let (from, to) = (segment.from, segment.to);
+            let supports = [integrate(from.bottom, to.bottom), integrate(from.top, to.top)];
+            let couple = if integral {
+                body.couple(report.displacement_integral, integrate(from.drift, to.drift))
+            } else {
+                0.0
+            };
+            step.impulses = body.impulses(supports, velocity - before.state.velocity, couple);
+        }
+        self.record.time += segment.duration;
+        self.record.state = state;
+        self.record.drift = drift;
+        self.record.work.add(report.work);
+        if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
+            self.record.overturn_time = Some(before.time + offset);
+        }
+        Ok(step)
+    }
+
+    /// Sets the clock, where the importer's and the sum of steps differ by rounding \[s\].
+    pub fn set_time(&mut self, time: f64) {
+        self.record.time = time;
+    }
+
+    /// The outputs under the supports' present motion.
+    #[must_use]
+    pub fn outputs(&self, support: Support) -> Outputs {
+        let wall = self.motion.wall();
+        let body = wall.body();
+        let m = body.effective_mass;
+        let State { displacement, velocity, branch, phase, departed, .. } = self.record.state;
+        let branch = &wall.branches()[branch];
+        let forcing = body.forcing(support);
+        // of the forcing, what is not support acceleration: W d/h
+        let pull = forcing - body.forcing(Support { drift: 0.0, ..support });
+        let (acceleration, restoring, damping) = match phase {
+            Phase::Moving => (
+                branch.acceleration(displacement, velocity, forcing),
+                branch.restoring(displacement) - pull,
+                branch.damping_at(displacement) * velocity,
+            ),
+            Phase::Resting => (0.0, forcing - pull, 0.0),
+            Phase::Landed => (0.0, 0.0, 0.0),
+        };
+        let reactions = if departed {
+            Ends::default()
+        } else {
+            let drift = self.record.drift || support.drift != 0.0;
+            body.reactions(support, acceleration, displacement, drift)
+        };
+        Outputs {
+            displacement,
+            velocity,
+            acceleration,
+            ratio: displacement / body.instability.of(displacement),
+            restoring_force: restoring * m,
+            damping_force: damping * m,
+            reactions,
+        }
+    }
+
+    /// Partial derivatives of the outputs with respect to u at fixed u̇ and supports.
+    #[must_use]
+    pub fn by_displacement(&self) -> Sensitivity {
+        let State { displacement, velocity, branch, phase, .. } = self.record.state;
+        if phase != Phase::Moving {
+            return Sensitivity::default();
+        }
+        let branch = &self.wall().branches()[branch];
+        let damping = branch.damping_slope(displacement) * velocity;
+        let couple = if self.record.drift { self.wall().body().couple(1.0, 0.0) } else { 0.0 };
+        self.sensitivity(Support::default(), -(branch.stiffness + damping), branch.stiffness, damping, couple)
+    }
+
+    /// Partial derivatives of the outputs with respect to u̇.
+    #[must_use]
+    pub fn by_velocity(&self) -> Sensitivity {
+        let State { displacement, branch, phase, .. } = self.record.state;
+        if phase != Phase::Moving {
+            return Sensitivity::default();
+        }
+        let damping = self.wall().branches()[branch].damping_at(displacement);
+        self.sensitivity(Support::default(), -damping, 0.0, damping, 0.0)
+    }
+
+    /// Derivatives of the outputs along a change of the supports' motion.
+    #[must_use]
+    pub fn by_support(&self, change: Support) -> Sensitivity {
+        let body = self.wall().body();
+        let forcing = body.forcing(change);
+        let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
+        let couple = if self.record.drift { body.couple(0.0, change.drift) } else { 0.0 };
+        match self.record.state.phase {
+            Phase::Moving => self.sensitivity(change, forcing, -pull, 0.0, couple),
+            Phase::Resting => self.sensitivity(change, 0.0, forcing - pull, 0.0, couple),
+            Phase::Landed => Sensitivity::default(),
+        }
+    }
+
+    /// Rates of the outputs along the motion while the supports change at the rate `support_rate`.
+    #[must_use]
+    pub fn rates(&self, support: Support, support_rate: Support) -> Sensitivity {
+        let now = self.outputs(support);
+        let along_u = self.by_displacement();
+        let along_v = self.by_velocity();
+        let along_support = self.by_support(support_rate);
+        let sum = |pick: fn(&Sensitivity) -> f64| {
+            pick(&along_u) * now.velocity + pick(&along_v) * now.acceleration + pick(&along_support)
+        };
+        Sensitivity {
+            acceleration: sum(|s| s.acceleration),
+            restoring_force: sum(|s| s.restoring_force),
+            damping_force: sum(|s| s.damping_force),
+            reactions: Ends { bottom: sum(|s| s.reactions.bottom), top: sum(|s| s.reactions.top) },
+        }
+    }
+
+    fn sensitivity(
+        &self,
+        change: Support,
+        acceleration: f64,
+        restoring: f64,
+        damping: f64,
+        couple: f64,
+    ) -> Sensitivity {
+        let body = self.wall().body();
+        let m = body.effective_mass;
+        let reactions = if self.record.state.departed {
+            Ends::default()
+        } else {
+            // linear in accelerations, and the couple adds to it
+            let plain = body.reactions(change, acceleration, 0.0, false);
+            match body.mechanism {
+                Mechanism::Parapet => plain,
+                Mechanism::VerticalSpanning => {
+                    Ends { bottom: plain.bottom - couple, top: plain.top + couple }
+                }
+            }
+        };
+        Sensitivity {
+            acceleration,
+            restoring_force: restoring * m,
+            damping_force: damping * m,
+            reactions,
+        }
+    }
+}
+
+/// Recorded motion of the supports: one record for both, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excitation {
+    bottom: GroundMotion,
+    top: Option<GroundMotion>,
+}
+
+impl Excitation {
+    /// One motion for both supports, or `top` for the top support (a wall in an upper storey).
+    #[must_use]
+    pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
+        Self { bottom, top }
+    }
+
+    /// Motion of the bottom support, or of both.
+    #[must_use]
+    pub fn bottom(&self) -> &GroundMotion {
+        &self.bottom
+    }
+
+    /// Motion of the top support where it has its own.
+    #[must_use]
+    pub fn top(&self) -> Option<&GroundMotion> {
+        self.top.as_ref()
+    }
+
+    /// Length of the longer record \[s\].
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.top.as_ref().map_or(0.0, GroundMotion::duration).max(self.bottom.duration())
+    }
+
+    /// The piece of motion from `elapsed` seconds after the start, linear in time, that lasts `remaining` or to the next
+    /// sample: its length \[s\] and the supports at both ends.
+    #[must_use]
+    pub fn stretch(&self, elapsed: f64, remaining: f64) -> Segment {
+        let mut duration = remaining;
+        for record in [Some(&self.bottom), self.top.as_ref()].into_iter().flatten() {
+            if let Some(next) = next_sample(record, elapsed) {
+                duration = duration.min(next - elapsed);
+            }
+        }
+        let [from, to] = ends(&self.bottom, elapsed, duration);
+        let [from_top, to_top] = self.top.as_ref().map_or([from, to], |top| ends(top, elapsed, duration));
+        Segment {
+            duration,
+            from: Support { bottom: from, top: from_top, drift: 0.0 },
+            to: Support { bottom: to, top: to_top, drift: 0.0 },
+        }
+    }
+}
+
+/// Part of a sample within which a time counts as that of the sample: sums of rounded steps come this close.
+const SAMPLE_ROUNDING: f64 = 1e-6;
+
+/// Number of the sample at or before a time, a time a rounding short of a sample being at it.
+fn sample_before(record: &GroundMotion, elapsed: f64) -> f64 {
+    (elapsed / record.step() + SAMPLE_ROUNDING).floor()
+}
+
+/// Time of the next sample; `None` after the last.
+fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
+    let next = sample_before(record, elapsed) + 1.0;
+    (next < record.samples().len() as f64).then(|| next * record.step())
+}
+
+/// Accelerations at both ends of a stretch within one sample interval; zero after the record.
+fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
+    let samples = record.samples();
+    let before = sample_before(record, elapsed);
+    if before < 0.0 || before + 1.0 >= samples.len() as f64 {
+        return [0.0, 0.0];
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ before < samples.len()")]
+    let index = before as usize;
+    let (low, high) = (samples[index], samples[index + 1]);
+    let value = |time: f64| {
+        let fraction = (time / record.step() - before).clamp(0.0, 1.0);
+        if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }
+    };
+    [value(elapsed), value(elapsed + duration)]
+}

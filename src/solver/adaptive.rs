@@ -1,0 +1,201 @@
+//! Taylor series of variable order, for damping that follows the secant stiffness.
+//!
+//! On a branch u is an analytic function of time, and its Taylor coefficients follow from the equation of motion by
+//! recurrence: with the law F/m = f₀ + k (u − uₐ), the secant ω² = (F/m)/u and c = 2ξ ω or (2ξ₁/ω₁) ω²,
+//! ```text
+//! (n+1)(n+2) uₙ₊₂ = pₙ − (F/m)ₙ − Σ cᵢ u̇ₙ₋ᵢ
+//! ω²ₙ = ((F/m)ₙ − Σ_{i≥1} uᵢ ω²ₙ₋ᵢ)/u₀           ωₙ = (ω²ₙ − Σ_{0<i<n} ωᵢ ωₙ₋ᵢ)/(2 ω₀)
+//! ```
+//! The order grows until two consecutive terms fall below the tolerance at the end of the step; where the highest order
+//! does not suffice the step shrinks instead (Jorba and Zou, Experimental Mathematics 14, 2005). The series is its own
+//! dense output, on which events are located.
+
+use crate::wall::{Branch, BranchDamping};
+
+use super::event::{Kinematics, Piece};
+
+/// Highest power of time in a series.
+pub(super) const HIGHEST_ORDER: usize = 26;
+
+/// Scales against which a term is judged: the largest term in u \[m\] and in u̇ \[m/s\] that may be left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tolerances {
+    pub(super) displacement: f64,
+    pub(super) velocity: f64,
+}
+
+/// A polynomial stretch of motion: u(t) = Σ uₙ tⁿ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Series {
+    coefficients: [f64; HIGHEST_ORDER + 1],
+    order: usize,
+    horizon: f64,
+}
+
+/// Work arrays of the recurrence.
+struct Recurrence<'a> {
+    branch: &'a Branch,
+    displacement: [f64; HIGHEST_ORDER + 1],
+    /// ω² of the secant.
+    secant: [f64; HIGHEST_ORDER + 1],
+    /// ω of the secant.
+    frequency: [f64; HIGHEST_ORDER + 1],
+}
+
+impl Recurrence<'_> {
+    /// (F/m)ₙ
+    fn restoring(&self, n: usize) -> f64 {
+        if n == 0 {
+            self.branch.restoring(self.displacement[0])
+        } else {
+            self.branch.stiffness * self.displacement[n]
+        }
+    }
+
+    /// u̇ₙ
+    fn velocity(&self, n: usize) -> f64 {
+        (n + 1) as f64 * self.displacement[n + 1]
+    }
+
+    /// (c u̇)ₙ, once uₙ₊₁ is known.
+    fn damping(&mut self, n: usize) -> f64 {
+        if let BranchDamping::Constant(c) = self.branch.damping {
+            return c * self.velocity(n);
+        }
+        // ω² u = F/m
+        let mut sum = self.restoring(n);
+        for i in 1..=n {
+            sum -= self.displacement[i] * self.secant[n - i];
+        }
+        self.secant[n] = sum / self.displacement[0];
+        match self.branch.damping {
+            BranchDamping::Constant(_) => 0.0,
+            BranchDamping::SecantStiffness(factor) => factor * self.product(&self.secant, n),
+            BranchDamping::SecantRatio(twice_xi) => {
+                // ω ω = ω²
+                self.frequency[n] = if n == 0 {
+                    self.secant[0].max(0.0).sqrt()
+                } else {
+                    let mut sum = self.secant[n];
+                    for i in 1..n {
+                        sum -= self.frequency[i] * self.frequency[n - i];
+                    }
+                    sum / (2.0 * self.frequency[0])
+                };
+                twice_xi * self.product(&self.frequency, n)
+            }
+        }
+    }
+
+    /// Σ factorᵢ u̇ₙ₋ᵢ
+    fn product(&self, factor: &[f64; HIGHEST_ORDER + 1], n: usize) -> f64 {
+        (0..=n).map(|i| factor[i] * self.velocity(n - i)).sum()
+    }
+}
+
+impl Series {
+    /// The motion from `start` under the forcing p₀ + p₁ t, over `remaining` or as much of it as the highest order
+    /// reaches within the tolerance.
+    pub(super) fn new(
+        branch: &Branch,
+        start: Kinematics,
+        forcing: [f64; 2],
+        remaining: f64,
+        tolerances: Tolerances,
+    ) -> Self {
+        let mut work = Recurrence {
+            branch,
+            displacement: [0.0; HIGHEST_ORDER + 1],
+            secant: [0.0; HIGHEST_ORDER + 1],
+            frequency: [0.0; HIGHEST_ORDER + 1],
+        };
+        work.displacement[0] = start.displacement;
+        work.displacement[1] = start.velocity;
+        let mut power = remaining;
+        let mut small_before = false;
+        for n in 0..=HIGHEST_ORDER - 2 {
+            let forcing = forcing.get(n).copied().unwrap_or(0.0);
+            let acceleration = forcing - work.restoring(n) - work.damping(n);
+            let order = n + 2;
+            work.displacement[order] = acceleration / ((n + 1) * (n + 2)) as f64;
+            // |uₙ| Tⁿ in u, n |uₙ| Tⁿ⁻¹ in u̇
+            let rate = work.displacement[order].abs() * power;
+            let small = rate * remaining <= tolerances.displacement
+                && order as f64 * rate <= tolerances.velocity
+                // forcing enters the first two terms, damping needs one more
+                && order > 3;
+            if small && small_before {
+                return Self { coefficients: work.displacement, order, horizon: remaining };
+            }
+            small_before = small;
+            power *= remaining;
+        }
+        let order = HIGHEST_ORDER;
+        let horizon = longest_step(&work.displacement, tolerances).min(remaining);
+        Self { coefficients: work.displacement, order, horizon }
+    }
+
+    /// A given polynomial, as other schemes make them.
+    pub(super) fn cubic(start: Kinematics, acceleration_rate: f64, horizon: f64) -> Self {
+        let mut coefficients = [0.0; HIGHEST_ORDER + 1];
+        coefficients[0] = start.displacement;
+        coefficients[1] = start.velocity;
+        coefficients[2] = 0.5 * start.acceleration;
+        coefficients[3] = acceleration_rate / 6.0;
+        Self { coefficients, order: 3, horizon }
+    }
+
+    fn used(&self) -> &[f64] {
+        &self.coefficients[..=self.order]
+    }
+}
+
+/// The step at which the last two terms of the highest order fall below the tolerance.
+fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances) -> f64 {
+    let mut step = f64::INFINITY;
+    for order in [HIGHEST_ORDER - 1, HIGHEST_ORDER] {
+        let size = coefficients[order].abs();
+        let n = order as f64;
+        step = step.min((tolerances.displacement / size).powf(1.0 / n));
+        step = step.min((tolerances.velocity / (n * size)).powf(1.0 / (n - 1.0)));
+    }
+    // what is left out after the last term is a geometric series of about the same size
+    0.9 * step
+}
+
+impl Piece for Series {
+    fn horizon(&self) -> f64 {
+        self.horizon
+    }
+
+    fn at(&self, time: f64) -> Kinematics {
+        let (mut displacement, mut velocity, mut half_acceleration) = (0.0, 0.0, 0.0);
+        for &coefficient in self.used().iter().rev() {
+            half_acceleration = half_acceleration * time + velocity;
+            velocity = velocity * time + displacement;
+            displacement = displacement * time + coefficient;
+        }
+        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+    }
+
+    fn bounds(&self) -> (f64, f64) {
+        // Σ n(n−1) |uₙ| Tⁿ⁻² and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³
+        let (mut acceleration, mut jerk) = (0.0, 0.0);
+        for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
+            let second = (n * (n - 1)) as f64 * coefficient.abs();
+            acceleration = acceleration * self.horizon + second;
+            if n > 2 {
+                jerk = jerk * self.horizon + second * (n - 2) as f64;
+            }
+        }
+        (acceleration, jerk)
+    }
+
+    fn displacement_integral(&self, time: f64) -> f64 {
+        let mut sum = 0.0;
+        for (n, coefficient) in self.used().iter().enumerate().rev() {
+            sum = sum * time + coefficient / (n + 1) as f64;
+        }
+        sum * time
+    }
+}

@@ -1,0 +1,235 @@
+//! Events inside a piece of motion: leaving the branch, and turning points.
+
+/// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Kinematics {
+    pub(super) displacement: f64,
+    pub(super) velocity: f64,
+    pub(super) acceleration: f64,
+}
+
+/// A smooth stretch of motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
+pub(super) trait Piece {
+    /// Length of time over which the piece holds \[s\].
+    fn horizon(&self) -> f64;
+
+    /// The motion `time` after the start of the piece.
+    fn at(&self, time: f64) -> Kinematics;
+
+    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] over the piece.
+    fn bounds(&self) -> (f64, f64);
+
+    /// ∫u dt from the start of the piece \[m s\].
+    fn displacement_integral(&self, time: f64) -> f64;
+}
+
+/// The motion leaves its branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Exit {
+    pub(super) time: f64,
+    pub(super) velocity: f64,
+    pub(super) upwards: bool,
+}
+
+/// A search stopped short of its bound on intervals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SearchExhausted;
+
+/// Halvings of an interval before it counts as monotone: 2⁻⁴⁸ of a piece is below its rounding.
+const DEEPEST: u32 = 48;
+/// Intervals one search may visit.
+const MOST_INTERVALS: u32 = 1 << 20;
+/// Newton steps and bisections of one root; 64 bisections alone exhaust a double.
+const ROOT_STEPS: u32 = 128;
+
+#[derive(Clone, Copy)]
+struct Node {
+    time: f64,
+    motion: Kinematics,
+}
+
+/// First time u passes `bounds` = \[lower, upper\] within the piece. Raises `peak` to the largest |u| at turning points
+/// and ends before that.
+///
+/// Works through intervals from left to right. An interval is settled when it is too short for u to reach anything
+/// (|ü| bound), when u̇ keeps its sign in it, or when ü does, so that u̇ has at most one zero; else it is halved.
+pub(super) fn first_exit<P: Piece>(
+    piece: &P,
+    start: Kinematics,
+    bounds: [f64; 2],
+    peak: &mut f64,
+) -> Result<Option<Exit>, SearchExhausted> {
+    let horizon = piece.horizon();
+    let search = Search { piece, bounds, limits: piece.bounds() };
+    let left = Node { time: 0.0, motion: start };
+    let right = Node { time: horizon, motion: piece.at(horizon) };
+    match search.settle(left, right, false, *peak) {
+        // The ordinary step: nothing to look for.
+        Verdict::Quiet => {
+            *peak = peak.max(right.motion.displacement.abs());
+            Ok(None)
+        }
+        Verdict::Split => search.by_halves(left, right, peak),
+        verdict => Ok(search.settled(left, right, &verdict, peak)),
+    }
+}
+
+enum Verdict {
+    /// Nothing can happen inside.
+    Quiet,
+    /// u̇ keeps its sign.
+    Monotone,
+    /// u̇ changes its sign once.
+    Turning,
+    Split,
+}
+
+struct Search<'a, P> {
+    piece: &'a P,
+    bounds: [f64; 2],
+    limits: (f64, f64),
+}
+
+impl<P: Piece> Search<'_, P> {
+    /// Works through `left`…`right` in halves.
+    fn by_halves(&self, left: Node, right: Node, peak: &mut f64) -> Result<Option<Exit>, SearchExhausted> {
+        let mut left = left;
+        let mut pending = [(right, 0_u32); DEEPEST as usize + 1];
+        let mut count = 1;
+        for _ in 0..MOST_INTERVALS {
+            let Some(index) = usize::checked_sub(count, 1) else { return Ok(None) };
+            let (right, depth) = pending[index];
+            let verdict = self.settle(left, right, depth == DEEPEST, *peak);
+            if let Verdict::Split = verdict {
+                let time = 0.5 * (left.time + right.time);
+                pending[index].1 = depth + 1;
+                pending[count] = (Node { time, motion: self.piece.at(time) }, depth + 1);
+                count += 1;
+                continue;
+            }
+            if let Some(exit) = self.settled(left, right, &verdict, peak) {
+                return Ok(Some(exit));
+            }
+            left = right;
+            count = index;
+        }
+        Err(SearchExhausted)
+    }
+
+    /// The exit in an interval that needs no more halving.
+    fn settled(&self, left: Node, right: Node, verdict: &Verdict, peak: &mut f64) -> Option<Exit> {
+        match verdict {
+            Verdict::Quiet | Verdict::Split => {}
+            Verdict::Monotone => {
+                if let Some(exit) = self.monotone(left, right) {
+                    return Some(exit);
+                }
+            }
+            Verdict::Turning => {
+                let turn = self.turning_point(left, right);
+                if let Some(exit) = self.monotone(left, turn) {
+                    return Some(exit);
+                }
+                *peak = peak.max(turn.motion.displacement.abs());
+                if let Some(exit) = self.monotone(turn, right) {
+                    return Some(exit);
+                }
+            }
+        }
+        *peak = peak.max(right.motion.displacement.abs());
+        None
+    }
+
+    fn settle(&self, left: Node, right: Node, deepest: bool, peak: f64) -> Verdict {
+        let (from, to) = (left.motion, right.motion);
+        let length = right.time - left.time;
+        let (most_acceleration, most_jerk) = self.limits;
+        // |u(t) − chord| ≤ L²/8 max|ü|
+        let sag = 0.125 * length * length * most_acceleration;
+        let highest = from.displacement.max(to.displacement) + sag;
+        let lowest = from.displacement.min(to.displacement) - sag;
+        if highest < self.bounds[1] && lowest > self.bounds[0] && highest.max(-lowest) <= peak {
+            return Verdict::Quiet;
+        }
+        let (v0, v1) = (from.velocity, to.velocity);
+        let apart = v0 * v1 < 0.0;
+        // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero between two values larger together than max|ü| L
+        if !apart && v0.abs() + v1.abs() > most_acceleration * length {
+            return Verdict::Monotone;
+        }
+        let (a0, a1) = (from.acceleration, to.acceleration);
+        let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
+        if steady || deepest {
+            return if apart { Verdict::Turning } else { Verdict::Monotone };
+        }
+        Verdict::Split
+    }
+
+    /// The one zero of u̇ in an interval.
+    fn turning_point(&self, left: Node, right: Node) -> Node {
+        let time = root(left.time, right.time, left.motion.velocity, |time| {
+            let motion = self.piece.at(time);
+            (motion.velocity, motion.acceleration)
+        });
+        Node { time, motion: self.piece.at(time) }
+    }
+
+    /// The exit in an interval over which u is monotone.
+    fn monotone(&self, left: Node, right: Node) -> Option<Exit> {
+        let [lower, upper] = self.bounds;
+        let upwards = left.motion.velocity + right.motion.velocity > 0.0;
+        let bound = if upwards { upper } else { lower };
+        let end = right.motion.displacement;
+        let leaves = if upwards { end > upper } else { end < lower };
+        if !leaves {
+            return None;
+        }
+        let time = root(left.time, right.time, left.motion.displacement - bound, |time| {
+            let motion = self.piece.at(time);
+            (motion.displacement - bound, motion.velocity)
+        });
+        Some(Exit { time, velocity: self.piece.at(time).velocity, upwards })
+    }
+}
+
+/// Root of a function with its derivative in a bracket, by Newton's method safeguarded with bisection; `first` is the
+/// value at `low`, whose sign differs from the one at `high`.
+fn root(low: f64, high: f64, first: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
+    if first == 0.0 {
+        return low;
+    }
+    let (mut low, mut high) = (low, high);
+    let rising = first < 0.0;
+    let mut time = low;
+    let mut value = first;
+    let mut slope = function(low).1;
+    let mut last_step = high - low;
+    for _ in 0..ROOT_STEPS {
+        let newton = time - value / slope;
+        // Newton must stay inside and at least halve its step every other time: bisection otherwise
+        let step = newton - time;
+        let next = if newton > low && newton < high && step.abs() < 0.75 * last_step.abs() {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        last_step = next - time;
+        if next == time || next <= low && time == low || next >= high && time == high {
+            break;
+        }
+        time = next;
+        (value, slope) = function(time);
+        if value == 0.0 {
+            break;
+        }
+        if (value < 0.0) == rising {
+            low = time;
+        } else {
+            high = time;
+        }
+        if high - low <= f64::EPSILON * high {
+            break;
+        }
+    }
+    time
+}

@@ -1,0 +1,114 @@
+//! Viscous damping: the coefficient C(u) of Eq. (12), per unit effective mass.
+
+use crate::variables::{DampingModel, DampingSource};
+
+use super::{Body, ParameterError, Parameters, RestoringForce, equivalence};
+
+/// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BranchDamping {
+    /// c is constant.
+    Constant(f64),
+    /// c = 2ξ ω(u), constant damping ratio on the secant frequency, Eqs. (8)–(9). Holds 2ξ.
+    SecantRatio(f64),
+    /// c = (2 ξ₁/ω₁) ω(u)², stiffness-proportional ratio, Eqs. (10)–(11). Holds 2 ξ₁/ω₁ \[s\].
+    SecantStiffness(f64),
+}
+
+impl BranchDamping {
+    /// c \[1/s\] where the secant stiffness per unit mass is ω² \[1/s²\]; none for ω² ≤ 0.
+    #[must_use]
+    pub fn coefficient(self, omega_squared: f64) -> f64 {
+        match self {
+            Self::Constant(c) => c,
+            Self::SecantRatio(twice_xi) => twice_xi * omega_squared.max(0.0).sqrt(),
+            Self::SecantStiffness(factor) => factor * omega_squared.max(0.0),
+        }
+    }
+
+    /// dc/d(ω²) \[s\]; zero for a constant coefficient and where there is no damping.
+    #[must_use]
+    pub fn sensitivity(self, omega_squared: f64) -> f64 {
+        match self {
+            Self::Constant(_) => 0.0,
+            _ if omega_squared <= 0.0 => 0.0,
+            Self::SecantRatio(twice_xi) => 0.5 * twice_xi / omega_squared.sqrt(),
+            Self::SecantStiffness(factor) => factor,
+        }
+    }
+}
+
+/// The damping of a wall: the model and the numbers in use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Damping {
+    pub(super) model: DampingModel,
+    /// ξ in use \[-\]: for a free-standing block its equivalent at ω₁, and 0 where there is none.
+    pub(super) ratio: f64,
+    /// C/`m_eff` on the elastic branch, and everywhere for a constant coefficient \[1/s\].
+    pub(super) elastic: f64,
+    omega1: f64,
+}
+
+impl Damping {
+    /// # Errors
+    /// [`ParameterError::NoElasticBranch`] where CDC, CDR or SDR meets the rigid-linear law;
+    /// [`ParameterError::Prediction`] where e = 0 leaves no prediction.
+    pub(super) fn new(
+        parameters: &Parameters,
+        body: &Body,
+        force: &RestoringForce,
+        restitution: f64,
+    ) -> Result<Self, ParameterError> {
+        let model = parameters.damping_model;
+        let omega1 = force.elastic_stiffness.map_or(0.0, |k1| (k1 / body.effective_mass).sqrt());
+        let given = parameters.damping_source == DampingSource::Given;
+        if !given && model != DampingModel::None && restitution <= 0.0 {
+            return Err(ParameterError::Prediction { restitution });
+        }
+        let choose = |value: f64, predicted: fn(f64, f64) -> f64| {
+            if given { value } else { predicted(force.elastic_fraction, restitution) }
+        };
+        let viscous = |predicted| {
+            if force.elastic_stiffness.is_none() {
+                return Err(ParameterError::NoElasticBranch { model: model.name() });
+            }
+            let ratio = choose(parameters.xi, predicted);
+            // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
+            Ok((ratio, 2.0 * omega1 * ratio))
+        };
+        let (ratio, elastic) = match model {
+            DampingModel::None => (0.0, 0.0),
+            DampingModel::ConstantCoefficient => viscous(equivalence::constant_coefficient)?,
+            DampingModel::ConstantRatio => viscous(equivalence::constant_ratio)?,
+            DampingModel::StiffnessProportional => viscous(equivalence::stiffness_proportional)?,
+            DampingModel::FreeStandingBlock => {
+                let c_bar = choose(parameters.c_bar, |_, e| equivalence::free_standing_block(e));
+                // C = m_eff √(g/(h/2)) c̄
+                let c = (parameters.gravity / (body.height / 2.0)).sqrt() * c_bar;
+                (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c)
+            }
+        };
+        Ok(Self { model, ratio, elastic, omega1 })
+    }
+
+    /// Whether C is constant on every branch.
+    pub(super) fn is_constant(&self) -> bool {
+        !matches!(self.model, DampingModel::ConstantRatio | DampingModel::StiffnessProportional)
+    }
+
+    /// The damping on a branch off the elastic one, before the force falls to zero.
+    pub(super) fn on_curved_branch(&self) -> BranchDamping {
+        match self.model {
+            DampingModel::ConstantRatio => BranchDamping::SecantRatio(2.0 * self.ratio),
+            DampingModel::StiffnessProportional => {
+                BranchDamping::SecantStiffness(2.0 * self.ratio / self.omega1)
+            }
+            _ => BranchDamping::Constant(self.elastic),
+        }
+    }
+
+    /// The damping beyond u₃, where the secant stiffness is negative.
+    pub(super) fn beyond_end(&self) -> BranchDamping {
+        BranchDamping::Constant(if self.is_constant() { self.elastic } else { 0.0 })
+    }
+}

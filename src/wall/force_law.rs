@@ -1,0 +1,190 @@
+//! Restoring forces: multilinear laws built on the rigid-linear one.
+
+use crate::variables::{ForceLaw, Softening};
+
+use super::{Body, ParameterError, Parameters};
+
+/// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`).
+///
+/// The anchor of the last line is its zero u₃, so that the force keeps its relative accuracy on the way there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Displacement of the anchor \[m\].
+    pub anchor: f64,
+    /// Force at the anchor \[N\].
+    pub force: f64,
+    /// Slope \[N/m\].
+    pub slope: f64,
+}
+
+impl Line {
+    /// Force at a displacement \[N\].
+    #[must_use]
+    pub fn at(&self, displacement: f64) -> f64 {
+        self.force + self.slope * (displacement - self.anchor)
+    }
+
+    /// The same line seen from the other side, F(u) → −F(−u).
+    fn mirrored(self) -> Self {
+        Self { anchor: -self.anchor, force: -self.force, slope: self.slope }
+    }
+}
+
+/// One side of a force law, in |u|: lines and the corners between them, from the origin outwards.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Side {
+    /// `corners[i]` lies between `lines[i]` and `lines[i + 1]`.
+    pub(super) corners: Vec<f64>,
+    pub(super) lines: Vec<Line>,
+    /// Where the force falls to zero, u₃ \[m\].
+    pub(super) end: f64,
+}
+
+/// A restoring force on both sides.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RestoringForce {
+    pub(super) positive: Side,
+    pub(super) negative: Side,
+    /// Slope of the elastic branch through the origin, k₁ \[N/m\]; `None` for the rigid-linear law.
+    pub(super) elastic_stiffness: Option<f64>,
+    /// End of the elastic branch as a fraction of `u_ins`, a₁ \[-\].
+    pub(super) elastic_fraction: f64,
+}
+
+impl RestoringForce {
+    /// # Errors
+    /// A relation between `a1`, `a3`, `d1`, or the points of a multilinear law, that does not hold.
+    pub(super) fn new(parameters: &Parameters, body: &Body) -> Result<Self, ParameterError> {
+        let k0 = body.geometric_stiffness;
+        let side = |f0: f64, u_ins: f64| match &parameters.multilinear {
+            Some(points) => Side::multilinear(points, f0, u_ins),
+            None => Side::from_parameters(parameters, [f0, u_ins, k0]),
+        };
+        check(parameters)?;
+        let positive = side(body.strength.positive, body.instability.positive);
+        let mut negative = side(body.strength.negative, body.instability.negative);
+        let rigid = parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear;
+        let elastic_stiffness = (!rigid).then(|| positive.lines[0].slope);
+        if let Some(k1) = elastic_stiffness {
+            // k₁ is the same on both sides: the same number keeps the branch through the origin one line.
+            negative.lines[0].slope = k1;
+        }
+        for line in &mut negative.lines {
+            *line = line.mirrored();
+        }
+        let elastic_fraction = match &parameters.multilinear {
+            Some(points) => points[0][0],
+            None if rigid => 0.0,
+            None => parameters.a1,
+        };
+        Ok(Self { positive, negative, elastic_stiffness, elastic_fraction })
+    }
+}
+
+impl Side {
+    fn from_parameters(parameters: &Parameters, [f0, u_ins, k0]: [f64; 3]) -> Self {
+        let Parameters { a1, a3, d1, .. } = *parameters;
+        let rigid = parameters.force_law == ForceLaw::RigidLinear;
+        let (u1, u3) = (if rigid { 0.0 } else { a1 * u_ins }, a3 * u_ins);
+        let slope = match parameters.softening {
+            // F = k₀ (u₃ − u)
+            Softening::Parallel => -k0,
+            // F = F₀ (1 − u/u₃)
+            Softening::Rotated => -f0 / u3,
+            // F = F₀ (1 − a₁)(u₃ − u)/(u₃ − u₁)
+            Softening::Chord => -f0 * (1.0 - u1 / u_ins) / (u3 - u1),
+        };
+        let softening = Line { anchor: u3, force: 0.0, slope };
+        let elastic = |force: f64| Line { anchor: 0.0, force: 0.0, slope: force / u1 };
+        match parameters.force_law {
+            ForceLaw::RigidLinear => Self { corners: vec![], lines: vec![softening], end: u3 },
+            ForceLaw::Bilinear => {
+                Self { corners: vec![u1], lines: vec![elastic(softening.at(u1)), softening], end: u3 }
+            }
+            ForceLaw::Trilinear => {
+                let yield_force = d1 * f0;
+                // u₂: where the softening line meets F_y
+                let u2 = u3 + yield_force / slope;
+                let plateau = Line { anchor: u1, force: yield_force, slope: 0.0 };
+                Self { corners: vec![u1, u2], lines: vec![elastic(yield_force), plateau, softening], end: u3 }
+            }
+        }
+    }
+
+    fn multilinear(points: &[[f64; 2]], f0: f64, u_ins: f64) -> Self {
+        let mut corners = Vec::with_capacity(points.len());
+        let mut lines = Vec::with_capacity(points.len());
+        let mut from = [0.0, 0.0];
+        let mut end = f64::INFINITY;
+        for point in points {
+            let to = [point[0] * u_ins, point[1] * f0];
+            let slope = (to[1] - from[1]) / (to[0] - from[0]);
+            let mut line = Line { anchor: from[0], force: from[1], slope };
+            if slope < 0.0 {
+                let zero = to[0] - to[1] / slope;
+                line = Line { anchor: zero, force: 0.0, slope };
+                end = zero;
+            }
+            lines.push(line);
+            corners.push(to[0]);
+            from = to;
+        }
+        // The force goes on along the last line.
+        corners.pop();
+        Self { corners, lines, end }
+    }
+}
+
+/// Relations within the force law: 0 < a₁ < a₃ ≤ 1, u₁ < u₂, rising points.
+fn check(parameters: &Parameters) -> Result<(), ParameterError> {
+    let Parameters { a1, a3, d1, softening, .. } = *parameters;
+    if let Some(points) = &parameters.multilinear {
+        return check_points(points);
+    }
+    if parameters.force_law == ForceLaw::RigidLinear {
+        return Ok(());
+    }
+    if a1 >= a3 {
+        return Err(ParameterError::ElasticBranchTooLong { a1, a3 });
+    }
+    if parameters.force_law == ForceLaw::Trilinear {
+        let (limit, formula) = match softening {
+            Softening::Parallel => (a3 - a1, "a3 - a1"),
+            Softening::Rotated => (1.0 - a1 / a3, "1 - a1/a3"),
+            Softening::Chord => (1.0 - a1, "1 - a1"),
+        };
+        if d1 >= limit {
+            return Err(ParameterError::PlateauTooHigh { d1, limit, formula, softening: softening.name() });
+        }
+    }
+    Ok(())
+}
+
+fn check_points(points: &[[f64; 2]]) -> Result<(), ParameterError> {
+    let refuse = |index: usize, reason: &'static str| {
+        let point = points.get(index).copied().unwrap_or([f64::NAN; 2]);
+        Err(ParameterError::Points { number: index + 1, displacement: point[0], force: point[1], reason })
+    };
+    if points.len() < 2 {
+        return refuse(0, "a multilinear law needs at least two points after the origin");
+    }
+    let mut previous = 0.0;
+    for (index, &[displacement, force]) in points.iter().enumerate() {
+        if !displacement.is_finite() || !force.is_finite() {
+            return refuse(index, "both numbers must be finite");
+        }
+        if displacement <= previous {
+            return refuse(index, "the displacements u/u_ins must rise from zero");
+        }
+        let last = index + 1 == points.len();
+        if force < 0.0 || (force == 0.0 && !last) {
+            return refuse(index, "the force F/F0 must be positive (the last one may be zero)");
+        }
+        previous = displacement;
+    }
+    let [before, last] = [points[points.len() - 2], points[points.len() - 1]];
+    if last[1] >= before[1] {
+        return refuse(points.len() - 1, "the last line must fall: the force goes on along it");
+    }
+    Ok(())
+}

@@ -1,0 +1,121 @@
+//! The two mechanisms: what geometry and loads make of Eq. (1).
+
+use crate::variables::{EccentricityMode, Mechanism};
+
+use super::{ParameterError, Parameters, Sides};
+
+/// The rigid body behind the equation of motion: masses, the rigid restoring force and where it ends.
+///
+/// Tomassetti et al., Tables 1 and 2, in the corrected form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Which mechanism.
+    pub mechanism: Mechanism,
+    /// Height h \[m\].
+    pub height: f64,
+    /// Height of the intermediate hinge above the base, h₁ \[m\]; h for a parapet, which has none.
+    pub hinge_height: f64,
+    /// Slenderness angle, α = atan(b/h) or α₁ = atan(b/h₁) \[rad\].
+    pub slenderness: f64,
+    /// Weight W = m g \[N\].
+    pub weight: f64,
+    /// Overburden O \[N\].
+    pub overburden: f64,
+    /// Mass m \[kg\].
+    pub mass: f64,
+    /// Effective mass `m_eff` \[kg\].
+    pub effective_mass: f64,
+    /// Participation λ of the support acceleration \[-\].
+    pub participation: f64,
+    /// Rigid strength F₀ of each side, both positive \[N\].
+    pub strength: Sides,
+    /// Negative geometric stiffness k₀, as a positive number \[N/m\].
+    pub geometric_stiffness: f64,
+    /// Static instability displacement `u_ins` = F₀/k₀ of each side, both positive \[m\].
+    pub instability: Sides,
+    /// Displacement at which the wall lies down: h/2 or h₁, never less than `u_ins` of the side \[m\].
+    pub landing: Sides,
+    /// Displacement from which the wall has left its supports: max(half the geometric end, `u_ins`) \[m\].
+    pub departure: Sides,
+    /// Share of the bottom and of the top support in the effective support acceleration, `w_b` and `w_t` \[-\].
+    pub support_weights: [f64; 2],
+}
+
+impl Body {
+    /// # Errors
+    /// [`ParameterError::NoStrength`] where the overburden's eccentricity leaves no positive F₀ on a side.
+    pub(super) fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let Parameters { mechanism, height: h, thickness: b, overburden: o, .. } = *parameters;
+        let mass = parameters.density * h * b * parameters.width;
+        let weight = mass * parameters.gravity;
+        let (hinge_height, effective_mass, participation, support_weights, end) = match mechanism {
+            Mechanism::Parapet => (h, 4.0 / 3.0 * mass, 0.75, [1.0, 0.0], h / 2.0),
+            Mechanism::VerticalSpanning => {
+                let h1 = parameters.hinge_ratio * h;
+                // w_b = (2h − h₁)/(3h), w_t = (h + h₁)/(3h)
+                let weights = [(2.0 * h - h1) / (3.0 * h), (h + h1) / (3.0 * h)];
+                (h1, 2.0 / 3.0 * mass, 1.5, weights, h1)
+            }
+        };
+        let strength_with = |c: f64| match mechanism {
+            // F₀ = (W + O) b/h − (2/h) O c
+            Mechanism::Parapet => ((weight + o) * b - 2.0 * o * c) / h,
+            // F₀ = (2/h₁)(W + O) b + O (b + 2c)/h₂
+            Mechanism::VerticalSpanning => {
+                2.0 / hinge_height * (weight + o) * b + o * (b + 2.0 * c) / (h - hinge_height)
+            }
+        };
+        let geometric_stiffness = match mechanism {
+            // k₀ = 2 (W + 2O)/h
+            Mechanism::Parapet => 2.0 * (weight + 2.0 * o) / h,
+            // k₀ = 2 (W + O)/h₁ + 2 O/h₂
+            Mechanism::VerticalSpanning => 2.0 * (weight + o) / hinge_height + 2.0 * o / (h - hinge_height),
+        };
+        let c = parameters.overburden_eccentricity;
+        let strength = Sides {
+            positive: strength_with(c),
+            negative: strength_with(match parameters.eccentricity_mode {
+                EccentricityMode::FixedToWall => -c,
+                EccentricityMode::FollowsPivot => c,
+            }),
+        };
+        for (side, force) in [("u > 0", strength.positive), ("u < 0", strength.negative)] {
+            if force.is_nan() || force <= 0.0 {
+                return Err(ParameterError::NoStrength { side, force, eccentricity: c, overburden: o });
+            }
+        }
+        let instability = strength.map(|force| force / geometric_stiffness);
+        Ok(Self {
+            mechanism,
+            height: h,
+            hinge_height,
+            slenderness: (b / hinge_height).atan(),
+            weight,
+            overburden: o,
+            mass,
+            effective_mass,
+            participation,
+            strength,
+            geometric_stiffness,
+            instability,
+            landing: instability.map(|u_ins| end.max(u_ins)),
+            departure: instability.map(|u_ins| (end / 2.0).max(u_ins)),
+            support_weights,
+        })
+    }
+
+    /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
+    ///
+    /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.
+    #[must_use]
+    pub fn forcing(&self, support: super::Support) -> f64 {
+        let [w_b, w_t] = self.support_weights;
+        match self.mechanism {
+            Mechanism::Parapet => -self.participation * support.bottom,
+            Mechanism::VerticalSpanning => {
+                -self.participation * (w_b * support.bottom + w_t * support.top)
+                    + self.weight * support.drift / (self.height * self.effective_mass)
+            }
+        }
+    }
+}

@@ -1,0 +1,377 @@
+//! The wall: parameters in, a validated equation of motion out.
+//!
+//! ```text
+//! m_eff ü + C(u) u̇ + F(u) = −λ m_eff a_eff                                              Eq. (12)
+//! ```
+//!
+//! A [`Wall`] that exists is valid and never changes. It is a short sorted list of [`Branch`]es, straight pieces of the
+//! restoring force per unit effective mass, and of the [`Corner`]s between them; a solver sees only the branch it is on.
+
+mod damping;
+pub mod equivalence;
+mod error;
+mod force_law;
+mod mechanism;
+mod parameters;
+pub mod restitution;
+mod supports;
+
+pub use damping::BranchDamping;
+pub use error::{ParameterError, Warning};
+pub use force_law::Line;
+pub use mechanism::Body;
+pub use parameters::Parameters;
+pub use supports::{Ends, Support};
+
+use damping::Damping;
+use force_law::{RestoringForce, Side};
+
+use crate::variables::{DampingModel, DampingSource, Impact, Mechanism};
+
+/// One quantity on the sides u > 0 and u < 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sides {
+    /// Side u > 0.
+    pub positive: f64,
+    /// Side u < 0, as a positive number.
+    pub negative: f64,
+}
+
+impl Sides {
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { positive: f(self.positive), negative: f(self.negative) }
+    }
+
+    /// The value of the side on which `displacement` lies; u = 0 belongs to the positive one.
+    #[must_use]
+    pub fn of(self, displacement: f64) -> f64 {
+        if displacement < 0.0 { self.negative } else { self.positive }
+    }
+}
+
+/// A straight piece of the restoring force per unit effective mass, with its damping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// Displacements the branch spans \[m\].
+    pub lower: f64,
+    /// See `lower`.
+    pub upper: f64,
+    /// Displacement of the line's anchor \[m\].
+    pub anchor: f64,
+    /// F/`m_eff` at the anchor \[m/s²\].
+    pub force: f64,
+    /// Slope of F/`m_eff` \[1/s²\].
+    pub stiffness: f64,
+    /// Damping on the branch.
+    pub damping: BranchDamping,
+}
+
+impl Branch {
+    /// F/`m_eff` \[m/s²\].
+    #[must_use]
+    pub fn restoring(&self, displacement: f64) -> f64 {
+        self.force + self.stiffness * (displacement - self.anchor)
+    }
+
+    /// C/`m_eff` \[1/s\].
+    #[must_use]
+    pub fn damping_at(&self, displacement: f64) -> f64 {
+        match self.damping {
+            BranchDamping::Constant(c) => c,
+            // ω² = F/(u m_eff); the branch through u = 0 has constant damping
+            secant => secant.coefficient(self.restoring(displacement) / displacement),
+        }
+    }
+
+    /// d(C/`m_eff`)/du \[1/(m s)\].
+    #[must_use]
+    pub fn damping_slope(&self, displacement: f64) -> f64 {
+        if let BranchDamping::Constant(_) = self.damping {
+            return 0.0;
+        }
+        let omega_squared = self.restoring(displacement) / displacement;
+        // d(F/u)/du = (k − F/u)/u
+        self.damping.sensitivity(omega_squared) * (self.stiffness - omega_squared) / displacement
+    }
+
+    /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
+    #[must_use]
+    pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64) -> f64 {
+        forcing - self.damping_at(displacement) * velocity - self.restoring(displacement)
+    }
+}
+
+/// What happens where two branches meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "independent marks of one place")]
+pub struct Corner {
+    /// Place \[m\].
+    pub displacement: f64,
+    /// Passing it is an impact, or a jump of the rigid force.
+    pub passage: bool,
+    /// Beyond it the wall has overturned.
+    pub overturning: bool,
+    /// Beyond it the wall has left its supports.
+    pub departure: bool,
+    /// Here the wall lies down.
+    pub landing: bool,
+}
+
+impl Corner {
+    /// Whether anything but a change of branch happens here.
+    #[must_use]
+    pub fn is_marked(&self) -> bool {
+        self.passage || self.overturning || self.departure || self.landing
+    }
+}
+
+/// A validated wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wall {
+    body: Body,
+    force: RestoringForce,
+    damping: Damping,
+    restitution: f64,
+    impact: bool,
+    branches: Vec<Branch>,
+    corners: Vec<Corner>,
+    warnings: Vec<Warning>,
+}
+
+/// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the root of √(u₃ − u).
+///
+/// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
+const RATIO_CUTOFF: f64 = 1e-10;
+
+impl Wall {
+    /// Checks the relations between parameters and lays out the branches.
+    ///
+    /// # Errors
+    /// [`ParameterError`], with the values, the limit and the remedy.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let body = Body::new(parameters)?;
+        let force = RestoringForce::new(parameters, &body)?;
+        let restitution = restitution::coefficient(parameters, &body)?;
+        let damping = Damping::new(parameters, &body, &force, restitution)?;
+        let impact = parameters.impact == Impact::Restitution;
+        let warnings = Warning::collect(parameters, &body, &force, impact);
+        let mut wall = Self {
+            body,
+            force,
+            damping,
+            restitution,
+            impact,
+            branches: Vec::new(),
+            corners: Vec::new(),
+            warnings,
+        };
+        wall.lay_out();
+        wall.check_start(parameters.u_start)?;
+        Ok(wall)
+    }
+
+    /// Masses, geometry and the rigid force.
+    #[must_use]
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Branches in order of displacement; branch `i` lies between corners `i` and `i + 1`.
+    #[must_use]
+    pub fn branches(&self) -> &[Branch] {
+        &self.branches
+    }
+
+    /// Corners in order of displacement, the two landings first and last.
+    #[must_use]
+    pub fn corners(&self) -> &[Corner] {
+        &self.corners
+    }
+
+    /// What the user should know about a valid choice of parameters.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Whether the force is rigid-linear: it jumps at u = 0, and the wall can rest.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.force.elastic_stiffness.is_none()
+    }
+
+    /// Whether C is constant on every branch, so that the closed form holds.
+    #[must_use]
+    pub fn has_constant_damping(&self) -> bool {
+        self.damping.is_constant()
+    }
+
+    /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
+    #[must_use]
+    pub fn omega1(&self) -> f64 {
+        self.force.elastic_stiffness.map_or(0.0, |k1| (k1 / self.body.effective_mass).sqrt())
+    }
+
+    /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.damping.ratio
+    }
+
+    /// Damping coefficient on the elastic branch C \[N s/m\].
+    #[must_use]
+    pub fn elastic_damping(&self) -> f64 {
+        self.damping.elastic * self.body.effective_mass
+    }
+
+    /// Coefficient of restitution in use, at impacts or behind predicted damping \[-\].
+    #[must_use]
+    pub fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    /// Factor on u̇ at a passage of u = 0: e, or 1 without impact.
+    #[must_use]
+    pub fn passage_factor(&self) -> f64 {
+        if self.impact { self.restitution } else { 1.0 }
+    }
+
+    /// Displacements at which the force falls to zero, u₃ of each side \[m\].
+    #[must_use]
+    pub fn force_end(&self) -> Sides {
+        Sides { positive: self.force.positive.end, negative: self.force.negative.end }
+    }
+
+    /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
+    #[must_use]
+    pub fn rest_band(&self) -> [f64; 2] {
+        let at_zero = |side: &Side| side.lines[0].at(0.0) / self.body.effective_mass;
+        [at_zero(&self.force.negative), at_zero(&self.force.positive)]
+    }
+
+    /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
+    #[must_use]
+    pub fn rest_speed(&self) -> f64 {
+        1e-13 * self.displacement_scale() * self.rocking_rate()
+    }
+
+    /// √(k₀/`m_eff`), the rate at which a tilted wall falls \[1/s\].
+    #[must_use]
+    pub fn rocking_rate(&self) -> f64 {
+        (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
+    }
+
+    /// The larger `u_ins`, to which errors and tolerances refer \[m\].
+    #[must_use]
+    pub fn displacement_scale(&self) -> f64 {
+        self.body.instability.positive.max(self.body.instability.negative)
+    }
+
+    /// The branch of a displacement; at a corner the one into which a motion of the given `direction` leads, at
+    /// rest the outer one.
+    #[must_use]
+    pub fn branch_of(&self, displacement: f64, direction: f64) -> usize {
+        let last = self.branches.len() - 1;
+        let outward = if direction == 0.0 { displacement } else { direction };
+        let index = if outward < 0.0 {
+            self.corners.partition_point(|corner| corner.displacement < displacement)
+        } else {
+            self.corners.partition_point(|corner| corner.displacement <= displacement)
+        };
+        index.saturating_sub(1).min(last)
+    }
+
+    /// Corners (u, F) of the restoring force from landing to landing, for drawing \[m, N\].
+    #[must_use]
+    pub fn backbone(&self) -> Vec<(f64, f64)> {
+        let m = self.body.effective_mass;
+        let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
+        for branch in &self.branches {
+            for u in [branch.lower, branch.upper] {
+                let point = (u, branch.restoring(u) * m);
+                if points.last() != Some(&point) {
+                    points.push(point);
+                }
+            }
+        }
+        points
+    }
+
+    /// # Errors
+    /// [`ParameterError::StartBeyondLanding`].
+    fn check_start(&self, u_start: f64) -> Result<(), ParameterError> {
+        let limit = self.body.landing.of(u_start);
+        if u_start.abs() < limit {
+            Ok(())
+        } else {
+            Err(ParameterError::StartBeyondLanding { u_start, limit })
+        }
+    }
+
+    fn lay_out(&mut self) {
+        let mut corners = vec![Corner {
+            displacement: 0.0,
+            passage: self.impact || self.is_rigid(),
+            ..Corner::default()
+        }];
+        for (side, sign) in [(&self.force.positive, 1.0), (&self.force.negative, -1.0)] {
+            let of = |sides: Sides| sides.of(sign);
+            let mut place = |displacement: f64, mark: fn(&mut Corner)| {
+                if displacement < of(self.body.landing) || displacement == of(self.body.landing) {
+                    insert(&mut corners, sign * displacement, mark);
+                }
+            };
+            for &corner in &side.corners {
+                place(corner, |_| {});
+            }
+            place(side.end, |_| {});
+            if self.damping.model == DampingModel::ConstantRatio {
+                place(side.end * (1.0 - RATIO_CUTOFF), |_| {});
+            }
+            place(of(self.body.instability), |corner| corner.overturning = true);
+            place(of(self.body.departure), |corner| corner.departure = true);
+            place(of(self.body.landing), |corner| corner.landing = true);
+        }
+        corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
+        if !corners.iter().any(|corner| corner.displacement == 0.0 && corner.passage) {
+            // One elastic line runs through the origin.
+            corners.retain(|corner| corner.displacement != 0.0);
+        }
+        self.branches = corners.windows(2).map(|pair| self.branch_between(&pair[0], &pair[1])).collect();
+        self.corners = corners;
+    }
+
+    fn branch_between(&self, from: &Corner, to: &Corner) -> Branch {
+        let (lower, upper) = (from.displacement, to.displacement);
+        let middle = 0.5 * (lower + upper);
+        let side = if middle < 0.0 { &self.force.negative } else { &self.force.positive };
+        let reach = middle.abs();
+        let index = side.corners.partition_point(|&corner| corner <= reach);
+        let line = side.lines[index];
+        let elastic = index == 0 && self.force.elastic_stiffness.is_some();
+        let end = match self.damping.model {
+            DampingModel::ConstantRatio => side.end * (1.0 - RATIO_CUTOFF),
+            _ => side.end,
+        };
+        let damping = if elastic {
+            BranchDamping::Constant(self.damping.elastic)
+        } else if reach > end {
+            self.damping.beyond_end()
+        } else {
+            self.damping.on_curved_branch()
+        };
+        let m = self.body.effective_mass;
+        Branch { lower, upper, anchor: line.anchor, force: line.force / m, stiffness: line.slope / m, damping }
+    }
+}
+
+fn insert(corners: &mut Vec<Corner>, displacement: f64, mark: fn(&mut Corner)) {
+    let found = corners.iter_mut().find(|corner| corner.displacement == displacement);
+    if let Some(corner) = found {
+        mark(corner);
+    } else {
+        let mut corner = Corner { displacement, ..Corner::default() };
+        mark(&mut corner);
+        corners.push(corner);
+    }
+}
