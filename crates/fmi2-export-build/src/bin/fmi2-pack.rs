@@ -1,0 +1,2 @@
+//! Packs an FMU.
+fn main() {}

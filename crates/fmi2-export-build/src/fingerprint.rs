@@ -1,0 +1,71 @@
+//! The guid of a description: a hash of its text, the same on every machine.
+
+/// FNV-1a, 128 bits: offset basis and prime from the specification by Fowler, Noll and Vo.
+#[must_use]
+pub fn fnv1a_128(bytes: impl IntoIterator<Item = u8>) -> u128 {
+    const OFFSET_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+    bytes.into_iter().fold(OFFSET_BASIS, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))
+}
+
+/// The guid of the description `xml`: 32 hexadecimal digits in braces.
+///
+/// Line ends count as `\n` and the guid's own value as empty, so that writing the guid into the text, or
+/// checking the text out elsewhere, does not change it.
+#[must_use]
+pub fn fingerprint(xml: &str) -> String {
+    let text = xml.replace("\r\n", "\n");
+    format!("{{{:032x}}}", fnv1a_128(with_guid(&text, "").bytes()))
+}
+
+/// The text `xml` with `guid` as the value of its first guid attribute; the rest stays as it is.
+pub(crate) fn with_guid(xml: &str, guid: &str) -> String {
+    match guid_range(xml) {
+        Some(range) => format!("{}{guid}{}", &xml[..range.start], &xml[range.end..]),
+        None => xml.to_owned(),
+    }
+}
+
+/// Where the value of the guid attribute of the root element is.
+fn guid_range(xml: &str) -> Option<std::ops::Range<usize>> {
+    let root = xml.find("<fmiModelDescription")?;
+    // A description may mention the guid in a text: only a name after white space counts.
+    let mut from = root;
+    let name = loop {
+        let at = from + xml[from..].find("guid")?;
+        from = at + "guid".len();
+        let before = xml[..at].ends_with(|c: char| c.is_ascii_whitespace());
+        if before && xml[from..].trim_start().starts_with('=') {
+            break from;
+        }
+    };
+    let open = name + xml[name..].find(['"', '\''])?;
+    let quote = char::from(xml.as_bytes()[open]);
+    let start = open + 1;
+    let end = start + xml[start..].find(quote)?;
+    Some(start..end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_agrees_with_published_values() {
+        assert_eq!(fnv1a_128(*b""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
+        assert_eq!(fnv1a_128(*b"a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+        assert_eq!(fnv1a_128(*b"foobar"), 0x343e_1662_793c_64bf_6f0d_3597_ba44_6f18);
+    }
+
+    #[test]
+    fn the_fingerprint_ignores_the_guid_and_the_line_ends_alone() {
+        let source = "<?xml version=\"1.0\"?>\n<!-- guid=\"x\" -->\n<fmiModelDescription description='guid' guid=\"{fingerprint}\">\n</fmiModelDescription>\n";
+        let guid = fingerprint(source);
+        assert_eq!(guid.len(), 34);
+        let packaged = with_guid(source, &guid);
+        assert!(packaged.contains(&format!("description='guid' guid=\"{guid}\"")));
+        assert_eq!(fingerprint(&packaged), guid);
+        assert_eq!(fingerprint(&packaged.replace('\n', "\r\n")), guid);
+        assert_ne!(fingerprint(&packaged.replace("description", "descriptiom")), guid);
+    }
+}
