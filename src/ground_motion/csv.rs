@@ -106,14 +106,10 @@ fn table(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
         samples.push(unit.to_si(real(cell, number)?));
         check_finite(&samples, cell, number)?;
     }
-    let last_line = times.line;
-    let (first_time, step) = match times.uniform()? {
-        Some(step) => (times.values[0], step),
-        None => {
-            let line = last_line.max(header_line);
-            let found = samples.len().to_string();
-            return Err(Fault::new(line, "at least two rows", found, "check that the file is complete"));
-        }
+    let last_line = times.0.last().map_or(header_line, |&(line, _)| line);
+    let Some((first_time, step)) = times.uniform()? else {
+        let found = samples.len().to_string();
+        return Err(Fault::new(last_line, "at least two rows", found, "check that the file is complete"));
     };
     check_stated_step(options.step, step, header_line)?;
     Ok(Parsed { step, samples, unit, first_time, notes: notes([header].into_iter()), last_line })
@@ -157,52 +153,47 @@ fn chosen_column(names: &[&str], line: usize, wanted: Option<&str>) -> Result<us
     }
 }
 
-/// The times of a table and where they stand.
+/// The lines of a table and the times on them [s].
 #[derive(Default)]
-struct Times {
-    values: Vec<f64>,
-    /// Line of the last time.
-    line: usize,
-}
+struct Times(Vec<(usize, f64)>);
 
 impl Times {
-    /// Takes the next time [s]; it must follow at the first step's distance.
+    /// Takes the next time; it must follow at the first step's distance.
     fn push(&mut self, time: f64, line: usize) -> Result<(), Fault> {
-        const REMEDY: &str = "resample the record to a uniform step, or write the times with more digits";
-        if let Some(&last) = self.values.last() {
+        if let Some(&(_, last)) = self.0.last() {
             if time <= last {
                 let expected = format!("a time after {last} s");
                 return Err(Fault::new(line, expected, format!("{time} s"), "times must increase"));
             }
-            let first_step = self.values.get(1).map_or(time - last, |second| second - self.values[0]);
             let step = time - last;
+            let first_step = self.0.get(1).map_or(step, |(_, second)| second - self.0[0].1);
             if !(step.is_finite() && (step - first_step).abs() <= TIME_TOLERANCE * first_step) {
                 let expected = format!("the first step of {} s", rounded(first_step));
-                return Err(Fault::new(line, expected, format!("a step of {} s", rounded(step)), REMEDY));
+                let remedy = "resample the record to a uniform step, or write the times with more digits";
+                return Err(Fault::new(line, expected, format!("a step of {} s", rounded(step)), remedy));
             }
         }
-        self.values.push(time);
-        self.line = line;
+        self.0.push((line, time));
         Ok(())
     }
 
-    /// The mean step [s], if there is one. Steps that change slowly leave the uniform grid and are refused.
-    fn uniform(&self) -> Result<Option<f64>, Fault> {
-        let [first, .., last] = self.values[..] else { return Ok(None) };
-        let intervals = index_as_f64(self.values.len() - 1);
-        let step = rounded((last - first) / intervals);
-        let off_grid = |&(index, &time): &(usize, &f64)| {
-            (time - first - index_as_f64(index) * step).abs() > TIME_TOLERANCE * step
-        };
-        match self.values.iter().enumerate().find(off_grid) {
-            None => Ok(Some(step)),
-            Some((index, time)) => {
-                let due = rounded(first + index_as_f64(index) * step);
-                let expected = format!("the time {due} s of row {} at the mean step of {step} s", index + 1);
-                let remedy = "resample the record to a uniform step";
-                Err(Fault::new(self.line, expected, format!("{time} s"), remedy))
+    /// The first time and the mean step. Steps that change slowly leave the uniform grid and are refused.
+    fn uniform(&self) -> Result<Option<(f64, f64)>, Fault> {
+        let [(_, first), .., (_, last)] = self.0[..] else { return Ok(None) };
+        let step = rounded((last - first) / index_as_f64(self.0.len() - 1));
+        for (index, &(line, time)) in self.0.iter().enumerate() {
+            let due = first + index_as_f64(index) * step;
+            if (time - due).abs() > TIME_TOLERANCE * step {
+                let expected = format!("{} s, at the mean step of {step} s", rounded(due));
+                return Err(Fault::new(
+                    line,
+                    expected,
+                    format!("{time} s"),
+                    "resample the record to a uniform step",
+                ));
             }
         }
+        Ok(Some((first, step)))
     }
 }
 

@@ -6,7 +6,7 @@ use std::io;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GroundMotionError {
-    /// The time step is zero, negative or not finite.
+    /// The time step is zero or negative, or the duration not finite.
     #[error("the time step of a ground motion must be positive and finite, found {step} s")]
     Step {
         /// The step given [s].
@@ -44,7 +44,8 @@ pub enum GroundMotionError {
     },
     /// A record of zeros has no peak to scale.
     #[error(
-        "every sample of the ground motion is 0, so it cannot be scaled to the peak {peak} m/s²; choose another record"
+        "every sample of the ground motion is 0, so it cannot be scaled to the peak {peak} m/s²; \
+         choose another record"
     )]
     NoPeak {
         /// The peak asked for [m/s²].

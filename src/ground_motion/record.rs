@@ -105,12 +105,12 @@ pub(super) struct Parsed {
 
 /// Reads a record file.
 ///
-/// Only regular files of at most [`MAX_FILE_BYTES`] are read; reading stops at the first byte that no text has, and memory
-/// stays within a small multiple of the file.
+/// Only regular files of at most [`MAX_FILE_BYTES`] are read; reading stops at the first byte that no text has, and
+/// memory stays within a small multiple of the file.
 ///
 /// # Errors
-/// If the file cannot be read or is not a record; the message names the file, the line, what was expected, what was found
-/// and the remedy.
+/// If the file cannot be read or is not a record; the message names the file, the line, what was expected, what was
+/// found and the remedy.
 pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -141,8 +141,11 @@ pub fn parse(name: &str, bytes: Vec<u8>, options: &ReadOptions) -> Result<Record
             Fault::new(parsed.last_line, "at least two samples", found, "check that the file is complete");
         return Err(fault.in_file(name));
     }
-    let Parsed { step, samples, unit, first_time, notes, .. } = parsed;
-    Ok(Record { motion: GroundMotion::new(step, samples)?, format, unit, first_time, notes })
+    let Parsed { step, samples, unit, first_time, notes, last_line } = parsed;
+    let motion = GroundMotion::new(step, samples).map_err(|error| {
+        Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file").in_file(name)
+    })?;
+    Ok(Record { motion, format, unit, first_time, notes })
 }
 
 /// The lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or `\r\r\n`.
