@@ -1,1 +1,3 @@
 //! Rocking of masonry walls.
+
+pub mod ground_motion;

@@ -1,0 +1,176 @@
+//! What can be wrong with a ground motion.
+
+use std::io;
+
+/// Why a ground motion could not be read or made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GroundMotionError {
+    /// The time step is zero or negative, or the duration not finite.
+    #[error("the time step of a ground motion must be positive and finite, found {step} s")]
+    Step {
+        /// The step given [s].
+        step: f64,
+    },
+    /// Nothing to interpolate between.
+    #[error("a ground motion needs at least two samples, found {found}")]
+    TooFewSamples {
+        /// Number of samples.
+        found: usize,
+    },
+    /// A sample is NaN or infinite.
+    #[error("sample {index} (counted from 0) of the ground motion is {value}; every sample must be finite")]
+    NotFinite {
+        /// Position of the sample, from 0.
+        index: usize,
+        /// Its value [m/s²].
+        value: f64,
+    },
+    /// A scale factor that is not finite or makes a sample overflow.
+    #[error(
+        "a ground motion with the peak {peak} m/s² cannot be scaled by {factor}; give a smaller finite factor"
+    )]
+    Factor {
+        /// The factor given.
+        factor: f64,
+        /// Largest absolute sample before scaling [m/s²].
+        peak: f64,
+    },
+    /// A target peak that is negative or not finite.
+    #[error("the target peak acceleration must be finite and not negative, found {peak} m/s²")]
+    Peak {
+        /// The peak asked for [m/s²].
+        peak: f64,
+    },
+    /// A record of zeros has no peak to scale.
+    #[error(
+        "every sample of the ground motion is 0, so it cannot be scaled to the peak {peak} m/s²; \
+         choose another record"
+    )]
+    NoPeak {
+        /// The peak asked for [m/s²].
+        peak: f64,
+    },
+    /// A trimming interval outside the record or shorter than one step.
+    #[error(
+        "cannot trim a ground motion of {duration} s to {from} s ... {to} s; \
+         the interval must lie within the record and span at least one step"
+    )]
+    Trim {
+        /// Start of the interval [s].
+        from: f64,
+        /// End of the interval [s].
+        to: f64,
+        /// Duration of the record [s].
+        duration: f64,
+    },
+    /// A parameter of a pulse or of the synthetic motion is outside its limits.
+    #[error("{name} of the ground motion is {value}; it must be {limit}")]
+    Parameter {
+        /// Name of the parameter, with its unit.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        limit: &'static str,
+    },
+    /// A harmonic motion that never ends.
+    #[error("a harmonic motion without an end needs a duration; state one of the two")]
+    Endless,
+    /// So many samples that memory or patience would run out.
+    #[error("the motion would take {found:.0} samples, more than {limit}; shorten it or lower its frequency")]
+    TooManySamples {
+        /// Number of samples needed.
+        found: f64,
+        /// Number of samples allowed.
+        limit: usize,
+    },
+    /// A unit of acceleration that is not known.
+    #[error("unknown unit of acceleration `{found}`; use one of m/s2, cm/s2 (or gal), mm/s2, g")]
+    Unit {
+        /// What was given.
+        found: String,
+    },
+    /// A record format that is not known.
+    #[error("unknown record format `{found}`; use one of at2, csv")]
+    Format {
+        /// What was given.
+        found: String,
+    },
+    /// The file could not be opened or read.
+    #[error("{file}: cannot be read: {reason}")]
+    Io {
+        /// Name of the file.
+        file: String,
+        /// The operating system's answer.
+        reason: io::Error,
+    },
+    /// A folder, pipe or device instead of a file.
+    #[error("{file}: expected a regular file, found {found}; save the record to a file first")]
+    NotAFile {
+        /// Name of the file.
+        file: String,
+        /// What it is.
+        found: &'static str,
+    },
+    /// More bytes than any record has.
+    #[error(
+        "{file}: expected a record of at most {limit} bytes, found {found}; \
+         check that this is a record, and trim or resample it"
+    )]
+    TooLarge {
+        /// Name of the file.
+        file: String,
+        /// Its size, or how much of it was seen.
+        found: String,
+        /// Number of bytes allowed.
+        limit: u64,
+    },
+    /// The content of a file is not what its format asks for.
+    #[error("{file}, line {line}: expected {expected}, found {found}; {remedy}")]
+    Content {
+        /// Name of the file.
+        file: String,
+        /// Line number, from 1.
+        line: usize,
+        /// What should have been there.
+        expected: String,
+        /// What is there.
+        found: String,
+        /// What to do about it.
+        remedy: String,
+    },
+}
+
+/// A fault in a record's text, before the name of its file is known.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) line: usize,
+    pub(super) expected: String,
+    pub(super) found: String,
+    pub(super) remedy: String,
+}
+
+impl Fault {
+    pub(super) fn new(
+        line: usize,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { line, expected: expected.into(), found: found.into(), remedy: remedy.into() }
+    }
+
+    pub(super) fn in_file(self, file: &str) -> GroundMotionError {
+        let Self { line, expected, found, remedy } = self;
+        GroundMotionError::Content { file: file.to_owned(), line, expected, found, remedy }
+    }
+}
+
+/// The start of a piece of a file, quoted and made printable for a message.
+pub(super) fn excerpt(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    let more = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
+    format!("`{shown}{more}`")
+}

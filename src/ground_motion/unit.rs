@@ -1,0 +1,93 @@
+//! Units of acceleration in records.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::GroundMotionError;
+
+/// Standard gravity, the unit g of records [m/s²], whatever gravity acts on the wall
+/// (3rd General Conference on Weights and Measures, 1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Unit of acceleration of a record.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Unit {
+    /// m/s².
+    MetrePerSecondSquared,
+    /// cm/s², also called gal.
+    CentimetrePerSecondSquared,
+    /// mm/s².
+    MillimetrePerSecondSquared,
+    /// g, 9.80665 m/s².
+    StandardGravity,
+}
+
+impl Unit {
+    /// Every unit.
+    pub const ALL: [Self; 4] = [
+        Self::MetrePerSecondSquared,
+        Self::CentimetrePerSecondSquared,
+        Self::MillimetrePerSecondSquared,
+        Self::StandardGravity,
+    ];
+
+    /// The unit's name as this project writes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MetrePerSecondSquared => "m/s2",
+            Self::CentimetrePerSecondSquared => "cm/s2",
+            Self::MillimetrePerSecondSquared => "mm/s2",
+            Self::StandardGravity => "g",
+        }
+    }
+
+    /// A value in this unit as m/s².
+    ///
+    /// Divides where the factor is not a binary fraction but its inverse is a whole number: 1 cm/s² is then the
+    /// double nearest to 0.01 m/s².
+    #[must_use]
+    pub fn to_si(self, value: f64) -> f64 {
+        match self {
+            Self::MetrePerSecondSquared => value,
+            Self::CentimetrePerSecondSquared => value / 100.0,
+            Self::MillimetrePerSecondSquared => value / 1000.0,
+            Self::StandardGravity => value * STANDARD_GRAVITY,
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Reads the usual spellings, in any case: `m/s2`, `m/s^2`, `m/s²`, `m/s**2`, `m/s/s`, `m/sec2`, `m/sec/sec`,
+/// `m s-2`, the same with `cm` and `mm`, `gal`, `g`.
+impl FromStr for Unit {
+    type Err = GroundMotionError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let plain: String = text
+            .to_lowercase()
+            .replace("sec", "s")
+            .replace('²', "2")
+            .replace('−', "-")
+            .chars()
+            .filter(|c| !c.is_whitespace() && !matches!(c, '^' | '*' | '·' | '(' | ')'))
+            .collect();
+        match plain.as_str() {
+            "g" => return Ok(Self::StandardGravity),
+            "gal" | "gals" => return Ok(Self::CentimetrePerSecondSquared),
+            _ => {}
+        }
+        let length = ["/s2", "/s/s", "s-2"].iter().find_map(|per_time| plain.strip_suffix(per_time));
+        match length {
+            Some("m") => Ok(Self::MetrePerSecondSquared),
+            Some("cm") => Ok(Self::CentimetrePerSecondSquared),
+            Some("mm") => Ok(Self::MillimetrePerSecondSquared),
+            _ => Err(GroundMotionError::Unit { found: text.chars().take(40).collect() }),
+        }
+    }
+}
