@@ -324,13 +324,15 @@ impl Run<'_> {
     fn rest(&mut self) {
         let [lowest, highest] = self.motion.rest_band;
         let now = self.forcing_now();
+        // a rounding later than the edge of the band, so that the forcing there has left it
+        let until = |edge: f64| ((edge - now).abs() + 2.0 * f64::EPSILON * edge.abs()) / self.rate.abs();
         let mut leaving = f64::INFINITY;
         if now > highest || now < lowest {
             leaving = self.time;
         } else if self.rate > 0.0 {
-            leaving = self.time + (highest - now) / self.rate;
+            leaving = self.time + until(highest);
         } else if self.rate < 0.0 {
-            leaving = self.time + (lowest - now) / self.rate;
+            leaving = self.time + until(lowest);
         }
         if leaving >= self.duration {
             self.time = self.duration;
