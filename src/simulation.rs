@@ -298,13 +298,20 @@ impl Simulation {
 pub struct Excitation {
     bottom: GroundMotion,
     top: Option<GroundMotion>,
+    held: bool,
 }
 
 impl Excitation {
     /// One motion for both supports, or `top` for the top support (a wall in an upper storey).
     #[must_use]
     pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
-        Self { bottom, top }
+        Self { bottom, top, held: false }
+    }
+
+    /// The same motion, but each sample held until the next as most importers do with an input, not linear between.
+    #[must_use]
+    pub fn held(self) -> Self {
+        Self { held: true, ..self }
     }
 
     /// Motion of the bottom support, or of both.
@@ -335,8 +342,12 @@ impl Excitation {
                 duration = duration.min(next - elapsed);
             }
         }
-        let [from, to] = ends(&self.bottom, elapsed, duration);
-        let [from_top, to_top] = self.top.as_ref().map_or([from, to], |top| ends(top, elapsed, duration));
+        let ends = |record| {
+            let [from, to] = ends(record, elapsed, duration);
+            if self.held { [sample_at(record, elapsed); 2] } else { [from, to] }
+        };
+        let [from, to] = ends(&self.bottom);
+        let [from_top, to_top] = self.top.as_ref().map_or([from, to], ends);
         Segment {
             duration,
             from: Support { bottom: from, top: from_top, drift: 0.0 },
@@ -357,6 +368,14 @@ fn sample_before(record: &GroundMotion, elapsed: f64) -> f64 {
 fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
     let next = sample_before(record, elapsed) + 1.0;
     (next < record.samples().len() as f64).then(|| next * record.step())
+}
+
+/// The sample at or before a time; zero after the record.
+fn sample_at(record: &GroundMotion, elapsed: f64) -> f64 {
+    let before = sample_before(record, elapsed);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a saturated cast is out of range")]
+    let sample = record.samples().get(before.max(0.0) as usize);
+    sample.copied().unwrap_or(0.0)
 }
 
 /// Accelerations at both ends of a stretch within one sample interval; zero after the record.

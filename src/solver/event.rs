@@ -8,6 +8,39 @@ pub(super) struct Kinematics {
     pub(super) acceleration: f64,
 }
 
+/// The largest u and −u so far, neither negative \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peaks {
+    /// Largest u.
+    pub positive: f64,
+    /// Largest −u.
+    pub negative: f64,
+}
+
+impl Peaks {
+    /// The peaks of a wall that stands at `displacement`.
+    #[must_use]
+    pub fn at(displacement: f64) -> Self {
+        Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
+    }
+
+    /// Largest |u| \[m\].
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.positive.max(self.negative)
+    }
+
+    pub(super) fn include(&mut self, displacement: f64) {
+        self.positive = self.positive.max(displacement);
+        self.negative = self.negative.max(-displacement);
+    }
+
+    /// Whether a range holds nothing new.
+    pub(super) fn cover(&self, lowest: f64, highest: f64) -> bool {
+        highest <= self.positive && -lowest <= self.negative
+    }
+}
+
 /// A smooth stretch of motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
     /// Length of time over which the piece holds \[s\].
@@ -48,8 +81,8 @@ struct Node {
     motion: Kinematics,
 }
 
-/// First time u passes `bounds` = \[lower, upper\] within the piece. Raises `peak` to the largest |u| at turning points
-/// and ends before that.
+/// First time u passes `bounds` = \[lower, upper\] within the piece. Raises `peaks` to the extremes of u
+/// at turning points and ends before that.
 ///
 /// Works through intervals from left to right. An interval is settled when it is too short for u to reach anything
 /// (|ü| bound), when u̇ keeps its sign in it, or when ü does, so that u̇ has at most one zero; else it is halved.
@@ -57,20 +90,20 @@ pub(super) fn first_exit<P: Piece>(
     piece: &P,
     start: Kinematics,
     bounds: [f64; 2],
-    peak: &mut f64,
+    peaks: &mut Peaks,
 ) -> Result<Option<Exit>, SearchExhausted> {
     let horizon = piece.horizon();
     let search = Search { piece, bounds, limits: piece.bounds() };
     let left = Node { time: 0.0, motion: start };
     let right = Node { time: horizon, motion: piece.at(horizon) };
-    match search.settle(left, right, false, *peak) {
+    match search.settle(left, right, false, peaks) {
         // The ordinary step: nothing to look for.
         Verdict::Quiet => {
-            *peak = peak.max(right.motion.displacement.abs());
+            peaks.include(right.motion.displacement);
             Ok(None)
         }
-        Verdict::Split => search.by_halves(left, right, peak),
-        verdict => Ok(search.settled(left, right, &verdict, peak)),
+        Verdict::Split => search.by_halves(left, right, peaks),
+        verdict => Ok(search.settled(left, right, &verdict, peaks)),
     }
 }
 
@@ -92,14 +125,14 @@ struct Search<'a, P> {
 
 impl<P: Piece> Search<'_, P> {
     /// Works through `left`…`right` in halves.
-    fn by_halves(&self, left: Node, right: Node, peak: &mut f64) -> Result<Option<Exit>, SearchExhausted> {
+    fn by_halves(&self, left: Node, right: Node, peaks: &mut Peaks) -> Result<Option<Exit>, SearchExhausted> {
         let mut left = left;
         let mut pending = [(right, 0_u32); DEEPEST as usize + 1];
         let mut count = 1;
         for _ in 0..MOST_INTERVALS {
             let Some(index) = usize::checked_sub(count, 1) else { return Ok(None) };
             let (right, depth) = pending[index];
-            let verdict = self.settle(left, right, depth == DEEPEST, *peak);
+            let verdict = self.settle(left, right, depth == DEEPEST, peaks);
             if let Verdict::Split = verdict {
                 let time = 0.5 * (left.time + right.time);
                 pending[index].1 = depth + 1;
@@ -107,7 +140,7 @@ impl<P: Piece> Search<'_, P> {
                 count += 1;
                 continue;
             }
-            if let Some(exit) = self.settled(left, right, &verdict, peak) {
+            if let Some(exit) = self.settled(left, right, &verdict, peaks) {
                 return Ok(Some(exit));
             }
             left = right;
@@ -117,7 +150,7 @@ impl<P: Piece> Search<'_, P> {
     }
 
     /// The exit in an interval that needs no more halving.
-    fn settled(&self, left: Node, right: Node, verdict: &Verdict, peak: &mut f64) -> Option<Exit> {
+    fn settled(&self, left: Node, right: Node, verdict: &Verdict, peaks: &mut Peaks) -> Option<Exit> {
         match verdict {
             Verdict::Quiet | Verdict::Split => {}
             Verdict::Monotone => {
@@ -130,17 +163,17 @@ impl<P: Piece> Search<'_, P> {
                 if let Some(exit) = self.monotone(left, turn) {
                     return Some(exit);
                 }
-                *peak = peak.max(turn.motion.displacement.abs());
+                peaks.include(turn.motion.displacement);
                 if let Some(exit) = self.monotone(turn, right) {
                     return Some(exit);
                 }
             }
         }
-        *peak = peak.max(right.motion.displacement.abs());
+        peaks.include(right.motion.displacement);
         None
     }
 
-    fn settle(&self, left: Node, right: Node, deepest: bool, peak: f64) -> Verdict {
+    fn settle(&self, left: Node, right: Node, deepest: bool, peaks: &Peaks) -> Verdict {
         let (from, to) = (left.motion, right.motion);
         let length = right.time - left.time;
         let (most_acceleration, most_jerk) = self.limits;
@@ -148,7 +181,7 @@ impl<P: Piece> Search<'_, P> {
         let sag = 0.125 * length * length * most_acceleration;
         let highest = from.displacement.max(to.displacement) + sag;
         let lowest = from.displacement.min(to.displacement) - sag;
-        if highest < self.bounds[1] && lowest > self.bounds[0] && highest.max(-lowest) <= peak {
+        if highest < self.bounds[1] && lowest > self.bounds[0] && peaks.cover(lowest, highest) {
             return Verdict::Quiet;
         }
         let (v0, v1) = (from.velocity, to.velocity);

@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::event::{Kinematics, Piece};
+use super::event::{Kinematics, Peaks, Piece};
 
 /// Impulse response G and its integrals H = ∫G, J = ∫H, K = ∫J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,7 +222,8 @@ impl ClosedForm {
         let from = displacement - swing;
         let to = from + drift * self.horizon;
         let (highest, lowest) = (from.max(to) + amplitude, from.min(to) - amplitude);
-        highest < quiet.upper && lowest > quiet.lower && highest.max(-lowest) <= quiet.peak * (1.0 + PEAK_ROUNDING)
+        let rounding = PEAK_ROUNDING * amplitude;
+        highest < quiet.upper && lowest > quiet.lower && quiet.peaks.cover(lowest + rounding, highest - rounding)
     }
 }
 
@@ -233,7 +234,7 @@ const PEAK_ROUNDING: f64 = 1e-14;
 pub(super) struct Quiet {
     pub(super) lower: f64,
     pub(super) upper: f64,
-    pub(super) peak: f64,
+    pub(super) peaks: Peaks,
 }
 
 impl Piece for ClosedForm {

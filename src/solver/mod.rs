@@ -12,6 +12,7 @@ use crate::variables::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Support, Wall};
 
 use adaptive::{Series, Tolerances};
+pub use event::Peaks;
 use event::{Exit, Kinematics, Piece, first_exit};
 use exact::{ClosedForm, Oscillator, Quiet};
 
@@ -52,8 +53,8 @@ pub struct State {
     pub overturned: bool,
     /// The wall has left its supports.
     pub departed: bool,
-    /// Largest |u| so far, turning points included \[m\].
-    pub peak: f64,
+    /// Extremes of u so far, turning points included.
+    pub peaks: Peaks,
 }
 
 /// What a segment did besides changing the state.
@@ -227,7 +228,7 @@ impl Motion {
             phase: Phase::Moving,
             overturned,
             departed,
-            peak: displacement.abs(),
+            peaks: Peaks::at(displacement),
         };
         let forcing = wall.body().forcing(support);
         if wall.is_rigid() && displacement == 0.0 && velocity == 0.0 {
@@ -357,7 +358,7 @@ impl Run<'_> {
         };
         let remaining = self.duration - self.time;
         let closed = || {
-            let quiet = Quiet { lower: branch.lower, upper: branch.upper, peak: self.state.peak };
+            let quiet = Quiet { lower: branch.lower, upper: branch.upper, peaks: self.state.peaks };
             let oscillator = self.motion.oscillators[index];
             AnyPiece::Closed(ClosedForm::new(oscillator, start, self.rate, remaining, &quiet))
         };
@@ -384,10 +385,10 @@ impl Run<'_> {
     fn follow<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
         let bounds = self.bounds();
         let start = self.kinematics();
-        let mut peak = self.state.peak;
-        let exit = first_exit(piece, start, bounds.map(|index| self.motion.wall.corners()[index].displacement), &mut peak)
+        let mut peaks = self.state.peaks;
+        let exit = first_exit(piece, start, bounds.map(|index| self.motion.wall.corners()[index].displacement), &mut peaks)
             .map_err(|_| self.exhausted())?;
-        self.state.peak = peak;
+        self.state.peaks = peaks;
         let length = exit.map_or(piece.horizon(), |exit| exit.time);
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
@@ -446,7 +447,7 @@ impl Run<'_> {
         let wall = &self.motion.wall;
         let corner = wall.corners()[index];
         self.state.displacement = corner.displacement;
-        self.state.peak = self.state.peak.max(corner.displacement.abs());
+        self.state.peaks.include(corner.displacement);
         self.report.work.corners += 1;
         let outwards = upwards == (corner.displacement > 0.0);
         if corner.overturning && outwards && !self.state.overturned {
