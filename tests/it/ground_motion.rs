@@ -133,10 +133,10 @@ proptest! {
     #[test]
     fn passes_through_its_samples(step in 1e-4..0.1, samples in prop::collection::vec(-10.0..10.0, 2..200)) {
         let motion = GroundMotion::new(step, samples.clone()).unwrap();
-        for (index, sample) in samples.iter().enumerate() {
+        for (sample, index) in samples.iter().zip(0_u32..) {
             // The quotient of the time and the step is off by at most two roundings of the index, up to 200;
             // neighbours differ by up to 20.
-            let error = (motion.at(index as f64 * step) - sample).abs();
+            let error = (motion.at(f64::from(index) * step) - sample).abs();
             prop_assert!(error <= 20.0 * 200.0 * 2.0 * f64::EPSILON, "sample {index}: {error}");
         }
     }

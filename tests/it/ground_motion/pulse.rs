@@ -30,8 +30,8 @@ fn sine_motion(pulse: Pulse, phase: f64, time: f64) -> [f64; 2] {
 /// Largest differences in velocity and displacement over all samples.
 fn largest_error(motion: &GroundMotion, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
     let history = integrated(motion, exact(0.0));
-    history.iter().enumerate().fold([0.0_f64; 2], |largest, (index, state)| {
-        let exact = exact(index as f64 * motion.step());
+    history.iter().zip(0_u32..).fold([0.0_f64; 2], |largest, (state, index)| {
+        let exact = exact(f64::from(index) * motion.step());
         [0, 1].map(|i| largest[i].max((state[i] - exact[i]).abs()))
     })
 }

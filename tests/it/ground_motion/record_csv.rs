@@ -21,7 +21,7 @@ fn read(text: &str, options: &ReadOptions) -> Result<Record, String> {
 
 #[track_caller]
 fn assert_refused(text: &str, options: &ReadOptions, fragments: &[&str]) {
-    let error = read(text, options).unwrap_err();
+    let error = read(text, options).expect_err(text);
     assert!(error.starts_with("x.csv, line "), "{error}");
     for fragment in fragments {
         assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
@@ -156,8 +156,8 @@ proptest! {
     #[test]
     fn reads_what_was_written(step in 1_u32..50, samples in prop::collection::vec(-30.0..30.0, 2..300)) {
         let step = f64::from(step) / 1000.0;
-        let column: String = samples.iter().map(|a: &f64| format!("{a}\n")).collect();
-        let rows = samples.iter().enumerate().map(|(i, a)| format!("{},{a}\n", i as f64 * step));
+        let column = samples.iter().fold(String::new(), |text, a: &f64| text + &format!("{a}\n"));
+        let rows = samples.iter().zip(0_u32..).map(|(a, i)| format!("{},{a}\n", f64::from(i) * step));
         let table = rows.fold("time,a_g\n".to_owned(), |text, row| text + &row);
         for record in [read(&table, &si()).unwrap(), read(&column, &with_step(step)).unwrap()] {
             prop_assert_eq!(record.motion.step(), step);

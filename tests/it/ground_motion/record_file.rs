@@ -16,13 +16,13 @@ fn file(name: &str) -> PathBuf {
 
 /// Bytes without any order, from the noise of a synthetic record.
 fn noise() -> Vec<u8> {
-    let motion = SyntheticMotion::default().motion().unwrap();
+    let motion = SyntheticMotion::default().motion().expect("the default is valid");
     motion.samples().iter().flat_map(|a| a.to_bits().to_le_bytes()).collect()
 }
 
 #[track_caller]
 fn assert_refused(path: &PathBuf, fragments: &[&str]) {
-    let error = read(path, &stated()).unwrap_err().to_string();
+    let error = read(path, &stated()).expect_err("no record").to_string();
     assert!(error.starts_with(&path.display().to_string()), "{error}");
     for fragment in fragments {
         assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");

@@ -30,7 +30,7 @@ fn cells(line: &str) -> Vec<String> {
         match character {
             '"' => quoted = !quoted,
             ',' if !quoted => cells.push(String::new()),
-            _ => cells.last_mut().unwrap().push(character),
+            _ => cells.last_mut().expect("there is a first cell").push(character),
         }
     }
     cells
