@@ -153,7 +153,7 @@ fn chosen_column(names: &[&str], line: usize, wanted: Option<&str>) -> Result<us
     }
 }
 
-/// The lines of a table and the times on them [s].
+/// The lines of a table and the times on them (s).
 #[derive(Default)]
 struct Times(Vec<(usize, f64)>);
 

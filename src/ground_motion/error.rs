@@ -9,7 +9,7 @@ pub enum GroundMotionError {
     /// The time step is zero or negative, or the duration not finite.
     #[error("the time step of a ground motion must be positive and finite, found {step} s")]
     Step {
-        /// The step given [s].
+        /// The step given (s).
         step: f64,
     },
     /// Nothing to interpolate between.
@@ -23,7 +23,7 @@ pub enum GroundMotionError {
     NotFinite {
         /// Position of the sample, from 0.
         index: usize,
-        /// Its value [m/s²].
+        /// Its value (m/s²).
         value: f64,
     },
     /// A scale factor that is not finite or makes a sample overflow.
@@ -33,13 +33,13 @@ pub enum GroundMotionError {
     Factor {
         /// The factor given.
         factor: f64,
-        /// Largest absolute sample before scaling [m/s²].
+        /// Largest absolute sample before scaling (m/s²).
         peak: f64,
     },
     /// A target peak that is negative or not finite.
     #[error("the target peak acceleration must be finite and not negative, found {peak} m/s²")]
     Peak {
-        /// The peak asked for [m/s²].
+        /// The peak asked for (m/s²).
         peak: f64,
     },
     /// A record of zeros has no peak to scale.
@@ -48,7 +48,7 @@ pub enum GroundMotionError {
          choose another record"
     )]
     NoPeak {
-        /// The peak asked for [m/s²].
+        /// The peak asked for (m/s²).
         peak: f64,
     },
     /// A trimming interval outside the record or shorter than one step.
@@ -57,11 +57,11 @@ pub enum GroundMotionError {
          the interval must lie within the record and span at least one step"
     )]
     Trim {
-        /// Start of the interval [s].
+        /// Start of the interval (s).
         from: f64,
-        /// End of the interval [s].
+        /// End of the interval (s).
         to: f64,
-        /// Duration of the record [s].
+        /// Duration of the record (s).
         duration: f64,
     },
     /// A parameter of a pulse or of the synthetic motion is outside its limits.

@@ -36,7 +36,7 @@ pub struct GroundMotion {
 }
 
 impl GroundMotion {
-    /// A motion from its step [s] and its samples [m/s²].
+    /// A motion from its step (s) and its samples (m/s²).
     ///
     /// # Errors
     /// If the step is not positive or the duration not finite, if there are fewer than two samples, if a sample is not
@@ -54,25 +54,25 @@ impl GroundMotion {
         Ok(Self { step, samples: samples.into() })
     }
 
-    /// Time between samples [s].
+    /// Time between samples (s).
     #[must_use]
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// The samples [m/s²].
+    /// The samples (m/s²).
     #[must_use]
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }
 
-    /// Time of the last sample [s].
+    /// Time of the last sample (s).
     #[must_use]
     pub fn duration(&self) -> f64 {
         time_of(self.samples.len() - 1, self.step)
     }
 
-    /// Acceleration at a time [s], in m/s². At the very end it is the last sample; a NaN time gives zero.
+    /// Acceleration at a time (s), in m/s². At the very end it is the last sample; a NaN time gives zero.
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {
         if !(0.0..=self.duration()).contains(&time) {
@@ -87,7 +87,7 @@ impl GroundMotion {
         (1.0 - fraction) * left + fraction * right
     }
 
-    /// Peak ground acceleration: the largest absolute sample [m/s²].
+    /// Peak ground acceleration: the largest absolute sample (m/s²).
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.samples.iter().fold(0.0, |peak, a| a.abs().max(peak))
@@ -118,7 +118,7 @@ impl GroundMotion {
         Ok(Self { step: self.step, samples: self.samples.iter().map(|a| factor * a).collect() })
     }
 
-    /// The motion scaled to the peak ground acceleration `pga` [m/s²].
+    /// The motion scaled to the peak ground acceleration `pga` (m/s²).
     ///
     /// # Errors
     /// If `pga` is negative or not finite, or if every sample is zero.
@@ -133,7 +133,7 @@ impl GroundMotion {
         self.checked_scaled(pga / peak)
     }
 
-    /// The part from the sample nearest to `from` to the one nearest to `to` [s], starting again at time zero.
+    /// The part from the sample nearest to `from` to the one nearest to `to` (s), starting again at time zero.
     ///
     /// # Errors
     /// If the interval does not lie within the record or holds fewer than two samples.
@@ -150,7 +150,7 @@ impl GroundMotion {
     }
 }
 
-/// Time of sample `index` [s].
+/// Time of sample `index` (s).
 fn time_of(index: usize, step: f64) -> f64 {
     index_as_f64(index) * step
 }

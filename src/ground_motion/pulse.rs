@@ -20,7 +20,7 @@ use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64, time_of}
 
 /// Steps in a period.
 const STEPS_PER_PERIOD: f64 = 2000.0;
-/// Longest step [s].
+/// Longest step (s).
 const LONGEST_STEP: f64 = 1e-3;
 /// Most samples of a motion (40 MB).
 const MAX_SAMPLES: usize = 5_000_000;
@@ -32,14 +32,14 @@ const RICKER_HALF_LENGTH: f64 = 6.5;
 pub enum Shape {
     /// a = A (1 − 2z²) exp(−z²), z = π f (t − t₀): second derivative of a Gaussian (Ricker, 1953).
     Ricker {
-        /// Time t₀ of the peak [s].
+        /// Time t₀ of the peak (s).
         centre: f64,
     },
     /// a = A sin(2π f t + φ), zero after the end if there is one.
     Harmonic {
-        /// Phase φ at time zero [rad].
+        /// Phase φ at time zero (rad).
         phase: f64,
-        /// Time at which the motion stops at once [s].
+        /// Time at which the motion stops at once (s).
         end: Option<f64>,
     },
     /// One cycle a = A sin(2π f t), 0 ≤ t ≤ 1/f.
@@ -53,14 +53,14 @@ pub enum Shape {
 pub struct Pulse {
     /// Its form.
     pub shape: Shape,
-    /// Amplitude A [m/s²].
+    /// Amplitude A (m/s²).
     pub amplitude: f64,
-    /// Frequency f [Hz].
+    /// Frequency f (Hz).
     pub frequency: f64,
 }
 
 impl Pulse {
-    /// The pulse as a record from time zero to its own end, or to `duration` [s] if that comes first.
+    /// The pulse as a record from time zero to its own end, or to `duration` (s) if that comes first.
     ///
     /// The record stops with the motion, it is not filled up with zeros.
     ///
@@ -70,7 +70,7 @@ impl Pulse {
         self.sampled(duration, (1.0 / (STEPS_PER_PERIOD * self.frequency)).min(LONGEST_STEP))
     }
 
-    /// As [`motion`](Self::motion), with the longest step [s] of the caller's choice; the step taken divides the
+    /// As [`motion`](Self::motion), with the longest step (s) of the caller's choice; the step taken divides the
     /// duration.
     ///
     /// # Errors
@@ -106,7 +106,7 @@ impl Pulse {
         GroundMotion::new(step, (0..=floor_index(intervals)).map(node).collect())
     }
 
-    /// Time after which the motion is zero [s]; a harmonic may have none.
+    /// Time after which the motion is zero (s); a harmonic may have none.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self.shape {
@@ -117,7 +117,7 @@ impl Pulse {
         }
     }
 
-    /// Acceleration of the formula at a time within the motion [s], in m/s².
+    /// Acceleration of the formula at a time within the motion (s), in m/s².
     fn acceleration(&self, time: f64) -> f64 {
         match self.shape {
             Shape::Ricker { centre } => {
@@ -131,7 +131,7 @@ impl Pulse {
         }
     }
 
-    /// a″ of the formula at a time within the motion [s], in m/s⁴.
+    /// a″ of the formula at a time within the motion (s), in m/s⁴.
     fn second_derivative(&self, time: f64) -> f64 {
         match self.shape {
             // (1 − 2z²) exp(−z²) = −½ d²/dz² exp(−z²), so its second derivative is −½ H₄(z) exp(−z²).
@@ -148,7 +148,7 @@ impl Pulse {
         }
     }
 
-    /// ω = 2π f [rad/s].
+    /// ω = 2π f (rad/s).
     fn angular_frequency(&self) -> f64 {
         2.0 * PI * self.frequency
     }

@@ -70,7 +70,7 @@ impl FromStr for Format {
 pub struct ReadOptions {
     /// Unit of the samples. Needed where the file does not state it; must not contradict a file that does.
     pub unit: Option<Unit>,
-    /// Time between samples [s]. Needed where the file does not state it; must not contradict a file that does.
+    /// Time between samples (s). Needed where the file does not state it; must not contradict a file that does.
     pub step: Option<f64>,
     /// Name of the column to read, for tables with several.
     pub column: Option<String>,
@@ -87,7 +87,7 @@ pub struct Record {
     pub format: Format,
     /// Unit of the file.
     pub unit: Unit,
-    /// Time the file gives its first sample [s]; the motion itself starts at zero.
+    /// Time the file gives its first sample (s); the motion itself starts at zero.
     pub first_time: f64,
     /// First lines of the header.
     pub notes: Vec<String>,

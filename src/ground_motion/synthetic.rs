@@ -45,11 +45,11 @@ const DECAY: f64 = std::f64::consts::LN_10 * 2.0;
 pub struct SyntheticMotion {
     /// Start of the random numbers: another seed gives another record of the same kind.
     pub seed: u64,
-    /// Duration [s], from 10 to 600; the nearest whole number of steps is taken.
+    /// Duration (s), from 10 to 600; the nearest whole number of steps is taken.
     pub duration: f64,
-    /// Step [s], from 0.0005 to 0.02. Another step gives another record.
+    /// Step (s), from 0.0005 to 0.02. Another step gives another record.
     pub step: f64,
-    /// Peak ground acceleration [m/s²].
+    /// Peak ground acceleration (m/s²).
     pub peak: f64,
 }
 
@@ -110,7 +110,7 @@ fn envelope(part: f64) -> f64 {
 /// Constants of ẍ + 2 ζ ω ẋ + ω² x = p.
 #[derive(Clone, Copy)]
 struct Filter {
-    /// ω [rad/s].
+    /// ω (rad/s).
     angular_frequency: f64,
     /// ζ.
     damping_ratio: f64,

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::GroundMotionError;
 
-/// Standard gravity, the unit g of records [m/s²], whatever gravity acts on the wall
+/// Standard gravity, the unit g of records (m/s²), whatever gravity acts on the wall
 /// (3rd General Conference on Weights and Measures, 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 

@@ -1,3 +1,4 @@
 //! The tests of the library.
 
 mod cases;
+mod ground_motion;

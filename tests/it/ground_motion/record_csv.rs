@@ -1,0 +1,173 @@
+//! CSV files: a table with times, one column with a step, and what is refused.
+
+use proptest::prelude::*;
+use rocking_wall::ground_motion::{Format, ReadOptions, Record, Unit, parse};
+
+fn si() -> ReadOptions {
+    ReadOptions { unit: Some(Unit::MetrePerSecondSquared), ..ReadOptions::default() }
+}
+
+fn with_step(step: f64) -> ReadOptions {
+    ReadOptions { step: Some(step), ..si() }
+}
+
+fn with_column(column: &str) -> ReadOptions {
+    ReadOptions { column: Some(column.to_owned()), ..si() }
+}
+
+fn read(text: &str, options: &ReadOptions) -> Result<Record, String> {
+    parse("x.csv", text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
+}
+
+#[track_caller]
+fn assert_refused(text: &str, options: &ReadOptions, fragments: &[&str]) {
+    let error = read(text, options).expect_err(text);
+    assert!(error.starts_with("x.csv, line "), "{error}");
+    for fragment in fragments {
+        assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
+    }
+}
+
+#[test]
+fn reads_a_table() {
+    let expected = read("time,a_g\n0.000,0.5\n0.005,-1e-1\n0.010,.25\n", &si()).unwrap();
+    assert_eq!(expected.format, Format::Csv);
+    assert_eq!((expected.motion.step(), expected.first_time), (0.005, 0.0));
+    assert_eq!(expected.motion.samples(), [0.5, -0.1, 0.25]);
+    for text in [
+        "\u{feff}time,a_g\r\n0.000,0.5\r\n0.005,-1e-1\r\n0.010,.25",
+        "\n time , \"a_g\" \n\n 0.000 , 0.5\n0.005,\t-0.1\n0.010,2.5E-1\n\n",
+        "Time,a_g\n0,0.5\n0.005,-0.1\n0.01,0.25\n",
+    ] {
+        assert_eq!(read(text, &si()).unwrap().motion, expected.motion, "{text}");
+    }
+    let gal = ReadOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..si() };
+    let in_gal = read("time_s,acc_cm_s2\n0,50\n0.005,-10\n0.01,25\n", &gal).unwrap();
+    assert_eq!(in_gal.motion, expected.motion);
+    assert!(read("time,a_g\n0,1\n0.005,2\n", &with_step(0.005)).is_ok());
+}
+
+#[test]
+fn chooses_a_column_by_name() {
+    let table = "time,a_g,drift\n0,1,10\n0.1,2,20\n";
+    assert_eq!(read(table, &with_column("a_g")).unwrap().motion.samples(), [1.0, 2.0]);
+    assert_eq!(read(table, &with_column("drift")).unwrap().motion.samples(), [10.0, 20.0]);
+    assert_refused(table, &si(), &["line 1", "one column beside `time`", "time,a_g,drift", "state the name"]);
+    assert_refused(table, &with_column("a_x"), &["line 1", "a column `a_x`", "time,a_g,drift"]);
+    assert_refused(table, &with_column("time"), &["line 1", "a column `time`"]);
+    assert_refused("time,a,a\n0,1,2\n1,2,3\n", &with_column("a"), &["line 1", "one column `a`"]);
+    assert_refused(
+        "a\n1\n2\n",
+        &ReadOptions { step: Some(0.1), ..with_column("b") },
+        &["line 1", "`b`", "`a`"],
+    );
+}
+
+#[test]
+fn keeps_the_time_of_the_first_sample_and_starts_at_zero() {
+    let record = read("time,a_g\n12.5,1\n12.6,2\n12.7,3\n", &si()).unwrap();
+    assert_eq!((record.first_time, record.motion.step(), record.motion.at(0.0)), (12.5, 0.1, 1.0));
+}
+
+#[test]
+fn reads_one_column() {
+    let expected = read("0.5\n-0.1\n0.25\n", &with_step(0.005)).unwrap();
+    assert_eq!(expected.motion.samples(), [0.5, -0.1, 0.25]);
+    assert_eq!(expected.motion.step(), 0.005);
+    for text in [
+        "# synthetic, dt=0.005 s, m/s2\n0.5\n-0.1\n0.25",
+        "acceleration\r\n0.5\r\n\r\n-0.1\r\n0.25\r\n",
+        "\u{feff}# one\n# two\n\"a_g\"\n0.5\n-0.1\n# a late remark\n0.25\n",
+    ] {
+        assert_eq!(read(text, &with_step(0.005)).unwrap().motion, expected.motion, "{text}");
+    }
+    assert_refused("0.5\n-0.1\n", &si(), &["a stated step", "state the step in seconds"]);
+    assert_refused("a\nb\n0.5\n", &with_step(0.1), &["line 2", "a finite number", "`b`"]);
+}
+
+#[test]
+fn the_unit_must_be_stated() {
+    let no_unit = ReadOptions { unit: None, ..with_step(0.1) };
+    for text in ["time,a_g\n0,1\n0.1,2\n", "1\n2\n"] {
+        assert_refused(text, &no_unit, &["a stated unit", "found no unit", "m/s2, cm/s2, mm/s2 or g"]);
+    }
+    // What is wrong with the file itself comes first.
+    assert_refused("time,a_g\n0,1\n0.1,x\n", &no_unit, &["line 3", "`x`"]);
+}
+
+#[test]
+fn times_must_be_uniform() {
+    let lines = |times: &[&str]| times.iter().fold("time,a\n".to_owned(), |text, time| text + time + ",0\n");
+    assert_refused(
+        &lines(&["0", "0.005", "0.010", "0.020"]),
+        &si(),
+        &["line 5", "the first step of 0.005 s", "found a step of 0.01 s", "resample"],
+    );
+    assert_refused(&lines(&["0", "0.005", "0.005"]), &si(), &["line 4", "after 0.005 s", "must increase"]);
+    assert_refused(&lines(&["0", "-0.005"]), &si(), &["line 3", "after 0 s", "found -0.005 s"]);
+    assert_refused(&lines(&["-1e308", "1e308", "1.1e308"]), &si(), &["line 3"]);
+    assert_refused("time,a\n0,0\n0.01,0\n", &with_step(0.02), &["the stated step of 0.02 s", "found 0.01 s"]);
+    // Each step is within 1 % of the first, their sum is not.
+    let slow: Vec<_> = (0..200).map(|i| format!("{}", f64::from(i) * (1.0 + 2e-5 * f64::from(i)))).collect();
+    let slow: Vec<_> = slow.iter().map(String::as_str).collect();
+    assert_refused(&lines(&slow), &si(), &["at the mean step", "resample"]);
+    // Times written in single precision are uniform enough.
+    let single: Vec<_> = (0..20_000_i16).map(|i| (f32::from(i) * 0.005_f32).to_string()).collect();
+    let single: Vec<_> = single.iter().map(String::as_str).collect();
+    let step = read(&lines(&single), &si()).unwrap().motion.step();
+    // Half a unit in the last of 24 bits at 100 s, over 20 000 steps, twice.
+    assert!((step - 0.005).abs() <= 2.0 * 4e-6 / 2e4, "{step}");
+}
+
+#[test]
+fn refuses_what_is_no_csv() {
+    let one_column = with_step(0.01);
+    for (text, options, fragments) in [
+        ("", si(), &["line 1", "found an empty file"][..]),
+        ("\n \r\n", si(), &["line 1", "found an empty file"]),
+        ("# only\n# comments\n", si(), &["line 1", "comments only"]),
+        ("time,a_g\n", si(), &["line 1", "at least two rows", "found 0"]),
+        ("time,a_g\n0,1\n", si(), &["line 2", "at least two rows", "found 1"]),
+        ("1\n", one_column.clone(), &["line 1", "at least two samples", "found 1"]),
+        ("0,1\n0.1,2\n", si(), &["line 1", "a header line `time,a_g`", "`0,1`"]),
+        ("a_g,time\n1,0\n2,0.1\n", si(), &["line 1", "first column must be `time`"]),
+        ("# remark\ntime,a_g\n0,1\n0.1,2\n", si(), &["line 1", "`# remark`", "remove the comment"]),
+        ("time,a_g\n0,1\n# remark\n0.1,2\n", si(), &["line 3", "`# remark`"]),
+        ("time;a_g\n0;1\n", si(), &["line 1", "separated by commas", "`time;a_g`"]),
+        ("time\ta_g\n0\t1\n", si(), &["line 1", "separated by commas", "`time\\ta_g`"]),
+        ("0.00 0.1\n0.01 0.2\n", one_column.clone(), &["line 1", "a finite number", "`0.00 0.1`"]),
+        ("time,a_g\n0,1\n0.1\n", si(), &["line 3", "2 values", "found 1 in `0.1`"]),
+        ("time,a_g\n0,1\n0,1,2\n", si(), &["line 3", "2 values", "found 3"]),
+        ("time,a_g\n0,1\n0.1,\n", si(), &["line 3", "a finite number", "``"]),
+        ("time,a_g\n0,nan\n0.1,1\n", si(), &["line 2", "`nan`"]),
+        ("time,a_g\n0,1\ninf,1\n", si(), &["line 3", "`inf`"]),
+        ("time,a_g\n0,1e999\n0.1,1\n", si(), &["line 2", "`1e999`"]),
+        ("nan\n1\n", one_column.clone(), &["line 1", "`nan`"]),
+        ("1\n-Infinity\n", one_column.clone(), &["line 2", "`-Infinity`"]),
+        ("1\n2\n3,4\n", one_column, &["line 3", "`3,4`"]),
+    ] {
+        assert_refused(text, &options, fragments);
+    }
+    let in_g = ReadOptions { unit: Some(Unit::StandardGravity), ..si() };
+    assert_refused("time,a_g\n0,1e308\n0.1,1\n", &in_g, &["line 2", "`1e308`"]);
+}
+
+proptest! {
+    #[test]
+    fn reads_what_was_written(step in 1_u32..50, samples in prop::collection::vec(-30.0..30.0, 2..300)) {
+        let step = f64::from(step) / 1000.0;
+        let column = samples.iter().fold(String::new(), |text, a: &f64| text + &format!("{a}\n"));
+        let rows = samples.iter().zip(0_u32..).map(|(a, i)| format!("{},{a}\n", f64::from(i) * step));
+        let table = rows.fold("time,a_g\n".to_owned(), |text, row| text + &row);
+        for record in [read(&table, &si()).unwrap(), read(&column, &with_step(step)).unwrap()] {
+            prop_assert_eq!(record.motion.step(), step);
+            prop_assert_eq!(record.motion.samples(), &samples[..]);
+        }
+    }
+
+    #[test]
+    fn never_panics(body in "[0-9 .,+e\n#a-]{0,80}") {
+        let _ = read(&body, &with_step(0.01));
+        let _ = read(&format!("time,a\n{body}"), &si());
+    }
+}

@@ -1,0 +1,95 @@
+//! Files of any kind: bounds, binary content, what is no file.
+
+use std::fs::{self, File};
+use std::path::PathBuf;
+
+use proptest::prelude::*;
+use rocking_wall::ground_motion::{Format, MAX_FILE_BYTES, ReadOptions, SyntheticMotion, Unit, parse, read};
+
+fn stated() -> ReadOptions {
+    ReadOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..ReadOptions::default() }
+}
+
+fn file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+/// Bytes without any order, from the noise of a synthetic record.
+fn noise() -> Vec<u8> {
+    let motion = SyntheticMotion::default().motion().expect("the default is valid");
+    motion.samples().iter().flat_map(|a| a.to_bits().to_le_bytes()).collect()
+}
+
+#[track_caller]
+fn assert_refused(path: &PathBuf, fragments: &[&str]) {
+    let error = read(path, &stated()).expect_err("no record").to_string();
+    assert!(error.starts_with(&path.display().to_string()), "{error}");
+    for fragment in fragments {
+        assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
+    }
+}
+
+#[test]
+fn reads_a_file() {
+    let path = file("sound.csv");
+    fs::write(&path, "# three samples\n0.1\n0.2\n-0.3\n").unwrap();
+    let record = read(&path, &stated()).unwrap();
+    assert_eq!(record.motion.samples().len(), 3);
+    assert_eq!(record.notes, ["three samples"]);
+    // The format that is stated is the one that is tried.
+    let error = read(&path, &ReadOptions { format: Some(Format::At2), ..stated() }).unwrap_err().to_string();
+    assert!(error.contains("NPTS"), "{error}");
+    assert_eq!("CSV".parse::<Format>().unwrap(), Format::Csv);
+    assert!("wav".parse::<Format>().unwrap_err().to_string().contains("`wav`"));
+}
+
+#[test]
+fn refuses_what_is_no_file() {
+    assert_refused(&file("there_is_none.AT2"), &["cannot be read"]);
+    assert_refused(&file(""), &["expected a regular file, found a folder"]);
+    #[cfg(unix)]
+    assert_refused(&PathBuf::from("/dev/zero"), &["expected a regular file, found a pipe or device"]);
+}
+
+#[test]
+fn refuses_noise_at_its_first_byte() {
+    let path = file("noise.AT2");
+    let mut bytes = b"time,a_g\n0,1\n".to_vec();
+    bytes.extend(noise());
+    fs::write(&path, bytes).unwrap();
+    assert_refused(&path, &["line ", "expected text, found the byte 0x00", "plain text"]);
+    let utf16: Vec<u8> = "time,a_g\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let error = parse("x.csv", utf16, &stated()).unwrap_err().to_string();
+    assert!(error.contains("line 1") && error.contains("0x00") && error.contains("UTF-16"), "{error}");
+}
+
+#[test]
+fn refuses_a_gigabyte_without_reading_it() {
+    let path = file("large.csv");
+    File::create(&path).unwrap().set_len(1 << 30).unwrap();
+    assert_refused(&path, &["at most 67108864 bytes", "found 1073741824"]);
+    fs::remove_file(&path).unwrap();
+    assert_eq!(MAX_FILE_BYTES, 67_108_864);
+}
+
+#[test]
+fn shortens_what_it_quotes() {
+    let error = parse("x.csv", vec![b'7'; 100_000], &stated()).unwrap_err().to_string();
+    assert!(error.contains("`7777") && error.len() < 300, "{error}");
+}
+
+proptest! {
+    #[test]
+    fn never_panics_on_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
+        for format in [None, Some(Format::At2), Some(Format::Csv)] {
+            let _ = parse("x", bytes.clone(), &ReadOptions { format, ..stated() });
+        }
+    }
+
+    #[test]
+    fn never_panics_on_any_text(text in "\\PC{0,200}") {
+        for format in [None, Some(Format::At2), Some(Format::Csv)] {
+            let _ = parse("x", text.clone().into_bytes(), &ReadOptions { format, ..stated() });
+        }
+    }
+}
