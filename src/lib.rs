@@ -40,6 +40,8 @@
 //! - SI units throughout; u > 0 moves towards +x, `a_g` > 0 accelerates the ground towards +x.
 
 pub mod ground_motion;
+pub mod response;
+pub mod scene;
 pub mod simulation;
 pub mod solver;
 pub mod variables {

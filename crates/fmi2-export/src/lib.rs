@@ -7,3 +7,4 @@
 #[derive(Debug)] pub struct Item { pub name: &'static str, pub value: i32, pub description: &'static str }
 pub trait VariableId: Copy + Eq + std::fmt::Debug + 'static { const ALL: &'static [Self]; fn variable(self) -> &'static Variable; fn from_reference(reference: u32) -> Option<Self>;
  fn from_name(name: &str) -> Option<Self> { Self::ALL.iter().copied().find(|v| v.variable().name == name) } }
+pub fn fnv1a_128(bytes: impl Iterator<Item = u8>) -> u128 { bytes.fold(0x6c62272e07bb014262b821756295c58d, |h, b| (h ^ u128::from(b)).wrapping_mul(0x0000000001000000000000000000013b)) }

@@ -1,0 +1,114 @@
+//! The scene file as it is written: tables, keys, values, and where they stand.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use fmi2_export::VariableId;
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use crate::variables::RealVariable;
+
+use super::error::Place;
+use super::motion::MotionTable;
+use super::{SceneError, input_names};
+
+/// Largest scene file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// A table of parameters: names and values with their places.
+pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
+
+/// A scene file.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Document {
+    /// Title, for people; else the file's name.
+    pub title: Option<String>,
+    /// Inputs that stay variables of the scene's FMU: by default `a_g`, and none for a scene with its own motion.
+    pub inputs: Option<Vec<Spanned<String>>>,
+    /// End of the run \[s\]; by default the motion's duration and tail, or 30 s.
+    pub stop_time: Option<Spanned<f64>>,
+    /// Step of the output \[s\]; by default the motion's own, or 0.01 s.
+    pub output_step: Option<Spanned<f64>>,
+    /// Shape, mass and loads.
+    pub geometry: Group,
+    /// Restoring force.
+    pub force_law: Group,
+    /// Viscous damping.
+    pub damping: Group,
+    /// Restitution.
+    pub impact: Group,
+    /// Initial displacement and velocity.
+    pub start: Group,
+    /// Solver and tolerance.
+    pub solver: Group,
+    /// What moves the supports.
+    pub motion: Option<Spanned<MotionTable>>,
+}
+
+impl Document {
+    pub(super) fn parse(place: &Place<'_>) -> Result<Self, SceneError> {
+        toml::from_str(place.text()).map_err(|error| {
+            let message = error.message().replace('\n', " ");
+            place.error(error.span().unwrap_or(0..0), message)
+        })
+    }
+
+    /// The tables of parameters with their names.
+    pub(super) fn groups(&self) -> [(&'static str, &Group); 6] {
+        [
+            ("geometry", &self.geometry),
+            ("force_law", &self.force_law),
+            ("damping", &self.damping),
+            ("impact", &self.impact),
+            ("start", &self.start),
+            ("solver", &self.solver),
+        ]
+    }
+
+    /// The inputs the scene names.
+    pub(super) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, SceneError> {
+        let mut inputs = Vec::new();
+        for name in self.inputs.iter().flatten() {
+            let found = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
+            let Some(input) = found else {
+                let known: Vec<_> = input_names().collect();
+                let message = format!("{:?} is not an input; the inputs are {}", name.get_ref(), known.join(", "));
+                return Err(place.error(name.span(), message));
+            };
+            if inputs.contains(&input) {
+                return Err(place.error(name.span(), format!("{:?} is listed twice", name.get_ref())));
+            }
+            inputs.push(input);
+        }
+        Ok(inputs)
+    }
+}
+
+/// The text of a scene file.
+pub(super) fn read_bounded(path: &Path, name: &str) -> Result<String, SceneError> {
+    let fail = |reason: String| SceneError::File { file: name.to_owned(), reason };
+    let metadata = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?;
+    if !metadata.is_file() {
+        return Err(fail("not a regular file; give a scene file (TOML)".into()));
+    }
+    if metadata.len() > MAX_FILE_BYTES {
+        let size = metadata.len();
+        return Err(fail(format!("{size} bytes; a scene file has at most {MAX_FILE_BYTES}")));
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| fail(error.to_string()))?;
+    file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = 1 + error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count();
+        SceneError::Line {
+            file: name.to_owned(),
+            line,
+            message: "not UTF-8 text; give a scene file (TOML)".into(),
+        }
+    })
+}

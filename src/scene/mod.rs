@@ -1,0 +1,268 @@
+//! A scene: a wall, its motion and what a run shows, as a TOML file.
+//!
+//! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[start]` and `[solver]` hold the parameters of the
+//! model description under the same names; `[motion]` says what moves the supports. An FMU made from a scene carries it
+//! as `resources/scene.toml`, read by the same code.
+
+mod document;
+mod error;
+mod motion;
+mod parameter;
+
+use std::path::Path;
+
+use fmi2_export::{Causality, Kind, VariableId};
+
+use crate::simulation::Excitation;
+use crate::variables::{ForceLaw, IntegerVariable, RealVariable};
+use crate::wall::Parameters;
+
+pub use document::{Document, Group};
+pub use error::SceneError;
+pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
+
+use error::Place;
+
+/// Free vibration after a scene's motion when it states no tail \[s\].
+pub const DEFAULT_TAIL: f64 = 10.0;
+
+/// Tables of a scene and the parameters each may hold: every parameter of the model description is in one of them.
+pub const GROUPS: [(&str, &[&str]); 6] = [
+    (
+        "geometry",
+        &[
+            "mechanism",
+            "height",
+            "thickness",
+            "width",
+            "density",
+            "gravity",
+            "hinge_ratio",
+            "overburden",
+            "overburden_eccentricity",
+            "eccentricity_mode",
+        ],
+    ),
+    ("force_law", &["force_law", "a1", "a3", "d1", "softening"]),
+    ("damping", &["damping_model", "damping_source", "xi", "c_bar"]),
+    ("impact", &["impact", "restitution_source", "restitution"]),
+    ("start", &["u_start", "u_dot_start"]),
+    ("solver", &["solver", "tolerance", "newmark_step"]),
+];
+
+/// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
+pub const POINTS: &str = "points";
+
+/// A wall, its motion, and how long it is watched.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Title, for people.
+    pub title: String,
+    /// The wall and its solver.
+    pub parameters: Parameters,
+    /// What moves the supports; `None` for free vibration or for motion that comes through inputs.
+    pub excitation: Option<Excitation>,
+    /// Inputs that stay variables of the scene's FMU.
+    pub inputs: Vec<RealVariable>,
+    /// End of the run \[s\].
+    pub stop_time: f64,
+    /// Step of the output \[s\].
+    pub output_step: f64,
+    /// Facts about the motion worth showing: source, scale, peak.
+    pub motion_notes: Vec<String>,
+}
+
+impl Default for Scene {
+    /// The defaults of the model description: released by hand, without motion.
+    fn default() -> Self {
+        Self {
+            title: "Free rocking of the default parapet".into(),
+            parameters: Parameters::default(),
+            excitation: None,
+            inputs: vec![RealVariable::AG],
+            stop_time: 30.0,
+            output_step: DEFAULT_OUTPUT_STEP,
+            motion_notes: Vec::new(),
+        }
+    }
+}
+
+/// Output step of a scene without motion \[s\].
+const DEFAULT_OUTPUT_STEP: f64 = 0.01;
+/// Longest run and most output points, against a slip of the keyboard.
+const LONGEST_RUN: f64 = 1e7;
+const MOST_POINTS: f64 = 2e7;
+
+impl Scene {
+    /// Reads a scene file; records it names are looked up beside it.
+    ///
+    /// # Errors
+    /// [`SceneError`], with file, line, value and remedy.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let name = path.display().to_string();
+        let text = document::read_bounded(path, &name)?;
+        Self::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))
+    }
+
+    /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in `folder`.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
+        let place = Place::new(name, text);
+        let document = Document::parse(&place)?;
+        Self::from_document(&document, &place, folder)
+    }
+
+    fn from_document(document: &Document, place: &Place<'_>, folder: &Path) -> Result<Self, SceneError> {
+        let mut parameters = Parameters::default();
+        for (group, entries) in document.groups() {
+            parameter::apply_group(&mut parameters, group, entries, place)?;
+        }
+        let motion = document.motion.as_ref();
+        let loaded = motion.map(|table| motion::load(table, place, folder)).transpose()?;
+        let inputs = document.inputs(place)?;
+        if motion.is_some() || !inputs.is_empty() {
+            // A shaken or coupled wall starts upright unless the scene says otherwise.
+            let start = document.start.keys().map(|key| key.get_ref().as_str());
+            if !start.clone().any(|key| key == "u_start") {
+                parameters.u_start = 0.0;
+            }
+        }
+        let (excitation, tail, motion_notes) = match loaded {
+            Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes),
+            None => (None, 0.0, Vec::new()),
+        };
+        let free = Self::default();
+        let natural_stop = excitation.as_ref().map_or(free.stop_time, |e| e.duration() + tail);
+        let natural_step =
+            excitation.as_ref().map_or(DEFAULT_OUTPUT_STEP, |e| e.bottom().step().max(1e-3));
+        let inputs = match (&excitation, inputs.is_empty() && document.inputs.is_none()) {
+            (None, true) => free.inputs,
+            _ => inputs,
+        };
+        Ok(Self {
+            title: document.title.clone().unwrap_or_else(|| name_of(place.name())),
+            parameters,
+            inputs,
+            stop_time: place.within("stop_time", document.stop_time.as_ref(), natural_stop, LONGEST_RUN)?,
+            output_step: place.within("output_step", document.output_step.as_ref(), natural_step, 1e3)?,
+            excitation,
+            motion_notes,
+        })
+    }
+
+    /// Sets one parameter by name from text, as `--set xi=0.03` does.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] naming the variable, the value and the limit.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), SceneError> {
+        parameter::set_from_text(&mut self.parameters, name, text)
+    }
+
+    /// Replaces the motion; the run lasts as long as the motion and `tail` seconds more, and starts upright.
+    pub fn shake(&mut self, excitation: Excitation, tail: f64, notes: Vec<String>) {
+        self.stop_time = excitation.duration() + tail;
+        self.output_step = excitation.bottom().step().max(1e-3);
+        self.excitation = Some(excitation);
+        self.motion_notes = notes;
+        self.inputs.clear();
+        self.parameters.u_start = 0.0;
+    }
+
+    /// Number of output intervals of the run.
+    ///
+    /// # Errors
+    /// [`SceneError::TooLong`] beyond 2·10⁷.
+    pub fn output_count(&self) -> Result<usize, SceneError> {
+        let count = (self.stop_time / self.output_step - 1e-9).ceil();
+        if count <= MOST_POINTS {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < count ≤ 2e7")]
+            Ok(count.max(1.0) as usize)
+        } else {
+            Err(SceneError::TooLong { stop: self.stop_time, step: self.output_step, limit: MOST_POINTS })
+        }
+    }
+
+    /// Names of the variables this scene's FMU needs, by the rule that what a scene does not use is not there.
+    #[must_use]
+    pub fn uses(&self, name: &str) -> bool {
+        parameter::is_used(self, name)
+    }
+}
+
+/// A title from a file name.
+fn name_of(file: &str) -> String {
+    Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
+}
+
+/// The value of a parameter as text that a scene or an XML start attribute can hold; `None` for other variables.
+#[must_use]
+pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
+    if let Some(variable) = RealVariable::from_name(name) {
+        return parameters.clone().real_mut(variable).map(|value| format!("{value:?}"));
+    }
+    let variable = IntegerVariable::from_name(name)?;
+    let Kind::Enumeration { items, .. } = variable.variable().kind else { return None };
+    let value = parameters.choice(variable);
+    items.iter().find(|item| item.value == value).map(|item| format!("{:?}", item.name))
+}
+
+/// A scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
+#[must_use]
+pub fn to_toml(scene: &Scene, motion: &str) -> String {
+    use std::fmt::Write;
+    let mut text = String::new();
+    // writing to a String cannot fail
+    let _ = writeln!(text, "title = {}", quoted(&scene.title));
+    let _ = writeln!(text, "stop_time = {:?}\noutput_step = {:?}", scene.stop_time, scene.output_step);
+    let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
+    let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
+    for (group, names) in GROUPS {
+        let _ = writeln!(text, "\n[{group}]");
+        for name in names {
+            match (&scene.parameters.multilinear, *name) {
+                (Some(points), "force_law") => {
+                    let _ = writeln!(text, "force_law = \"multilinear\"");
+                    let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
+                    let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
+                }
+                (Some(_), "a1" | "a3" | "d1" | "softening") => {}
+                _ => {
+                    if let Some(value) = parameter_text(&scene.parameters, name) {
+                        let _ = writeln!(text, "{name} = {value}");
+                    }
+                }
+            }
+        }
+    }
+    if !motion.is_empty() {
+        let _ = write!(text, "\n[motion]\n{motion}");
+    }
+    text
+}
+
+/// A basic TOML string.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from('"');
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            c if c.is_control() => quoted.push_str(&format!("\\u{:04X}", u32::from(c))),
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// Names of the inputs of the model description.
+pub fn input_names() -> impl Iterator<Item = &'static str> {
+    let inputs = RealVariable::ALL.iter().map(|variable| variable.variable());
+    inputs.filter(|variable| variable.causality == Causality::Input).map(|variable| variable.name)
+}
+
+/// Whether the law is one of the enumeration, not the multilinear one of scenes.
+fn is_named_law(parameters: &Parameters, law: ForceLaw) -> bool {
+    parameters.multilinear.is_none() && parameters.force_law == law
+}

@@ -1,0 +1,308 @@
+//! The motion of a scene: a record, a pulse, a harmonic or the synthetic one, for both supports or one for each.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::ground_motion::{
+    Format, GroundMotion, GroundMotionError, Pulse, ReadOptions, Shape, SyntheticMotion, Unit, read,
+};
+use crate::simulation::Excitation;
+
+use super::error::Place;
+use super::{DEFAULT_TAIL, SceneError};
+
+/// `[motion]`: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct MotionTable {
+    /// Record file, beside the scene file: PEER AT2 or CSV.
+    pub record: Option<PathBuf>,
+    /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
+    pub unit: Option<String>,
+    /// Time between samples \[s\], for a record that does not state it.
+    pub step: Option<f64>,
+    /// Column of a CSV table.
+    pub column: Option<String>,
+    /// Format of the record, found from its content if none is given.
+    pub format: Option<String>,
+    /// Ricker pulse.
+    pub ricker: Option<RickerTable>,
+    /// Harmonic motion.
+    pub harmonic: Option<HarmonicTable>,
+    /// One cycle of a sine.
+    pub sine_cycle: Option<SineTable>,
+    /// Half a cycle of a sine.
+    pub half_sine: Option<SineTable>,
+    /// The project's synthetic motion.
+    pub synthetic: Option<SyntheticTable>,
+    /// Factor on the motion \[-\].
+    pub scale: Option<f64>,
+    /// Peak acceleration to scale to \[m/s²\].
+    pub pga: Option<f64>,
+    /// Start of the part to use \[s\].
+    pub from: Option<f64>,
+    /// End of the part to use \[s\].
+    pub to: Option<f64>,
+    /// Free vibration after the motion \[s\]; 10 s if none is given.
+    pub tail: Option<f64>,
+    /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
+    pub fingerprint: Option<String>,
+    /// Another record for the top support (a wall in an upper storey).
+    pub top: Option<TopTable>,
+}
+
+/// `[motion.top]`: the record of the top support; trimmed and timed like the bottom one.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[allow(missing_docs, reason = "as in MotionTable")]
+pub struct TopTable {
+    pub record: PathBuf,
+    pub unit: Option<String>,
+    pub step: Option<f64>,
+    pub column: Option<String>,
+    pub format: Option<String>,
+    pub scale: Option<f64>,
+    pub pga: Option<f64>,
+    pub fingerprint: Option<String>,
+}
+
+/// Ricker pulse a = A (1 − 2z²) exp(−z²), z = π f (t − t₀).
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct RickerTable {
+    /// A \[m/s²\].
+    pub amplitude: f64,
+    /// f \[Hz\].
+    pub frequency: f64,
+    /// t₀ \[s\].
+    pub centre: f64,
+}
+
+/// Harmonic motion a = A sin(2π f t + φ).
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct HarmonicTable {
+    /// A \[m/s²\].
+    pub amplitude: f64,
+    /// f \[Hz\].
+    pub frequency: f64,
+    /// φ \[rad\].
+    #[serde(default)]
+    pub phase: f64,
+    /// Length \[s\].
+    pub duration: f64,
+}
+
+/// One or half a cycle of a = A sin(2π f t).
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct SineTable {
+    /// A \[m/s²\].
+    pub amplitude: f64,
+    /// f \[Hz\].
+    pub frequency: f64,
+}
+
+/// The project's synthetic motion; every key has a default.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+pub struct SyntheticTable {
+    /// Seed of the noise: another seed is another motion.
+    pub seed: Option<u64>,
+    /// Length \[s\].
+    pub duration: Option<f64>,
+    /// Step \[s\].
+    pub step: Option<f64>,
+}
+
+/// A motion ready to use.
+pub(super) struct Loaded {
+    pub(super) excitation: Excitation,
+    pub(super) tail: f64,
+    pub(super) notes: Vec<String>,
+}
+
+/// How a record file is to be read and scaled.
+struct RecordSpec<'a> {
+    path: &'a Path,
+    unit: Option<&'a str>,
+    step: Option<f64>,
+    column: Option<&'a str>,
+    format: Option<&'a str>,
+    fingerprint: Option<&'a str>,
+}
+
+pub(super) fn load(
+    table: &Spanned<MotionTable>,
+    place: &Place<'_>,
+    folder: &Path,
+) -> Result<Loaded, SceneError> {
+    let motion = |source| SceneError::Motion { file: place.name().to_owned(), line: place.line(table.span()), source };
+    let refuse = |message: String| place.error(table.span(), message);
+    let spec = table.get_ref();
+    let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
+    if !(0.0..=1e6).contains(&tail) {
+        return Err(refuse(format!("tail = {tail} s must be between 0 and 1e6 s")));
+    }
+    let mut notes = Vec::new();
+    let source = source(spec, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
+    let bottom = scale(trim(source, spec).map_err(motion)?, spec.scale, spec.pga)
+        .map_err(|problem| problem.at(&motion, &refuse))?;
+    let top = match &spec.top {
+        None => None,
+        Some(top) => {
+            let record = RecordSpec {
+                path: &top.record,
+                unit: top.unit.as_deref(),
+                step: top.step,
+                column: top.column.as_deref(),
+                format: top.format.as_deref(),
+                fingerprint: top.fingerprint.as_deref(),
+            };
+            let source = read_record(&record, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
+            let source = trim(source, spec).map_err(motion)?;
+            Some(scale(source, top.scale, top.pga).map_err(|problem| problem.at(&motion, &refuse))?)
+        }
+    };
+    notes.push(format!("peak acceleration {:.4} m/s², {} s", bottom.peak(), bottom.duration()));
+    Ok(Loaded { excitation: Excitation::new(bottom, top), tail, notes })
+}
+
+/// What went wrong with a motion: in the table itself or in the record.
+enum Problem {
+    Table(String),
+    Motion(GroundMotionError),
+}
+
+impl From<GroundMotionError> for Problem {
+    fn from(error: GroundMotionError) -> Self {
+        Self::Motion(error)
+    }
+}
+
+impl Problem {
+    fn at(
+        self,
+        motion: &impl Fn(GroundMotionError) -> SceneError,
+        refuse: &impl Fn(String) -> SceneError,
+    ) -> SceneError {
+        match self {
+            Self::Table(message) => refuse(message),
+            Self::Motion(error) => motion(error),
+        }
+    }
+}
+
+fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {
+    let pulse = |shape, amplitude, frequency| Pulse { shape, amplitude, frequency }.motion(None);
+    let mut found: Vec<(&str, Result<GroundMotion, Problem>)> = Vec::new();
+    if let Some(path) = &spec.record {
+        let record = RecordSpec {
+            path,
+            unit: spec.unit.as_deref(),
+            step: spec.step,
+            column: spec.column.as_deref(),
+            format: spec.format.as_deref(),
+            fingerprint: spec.fingerprint.as_deref(),
+        };
+        found.push(("record", read_record(&record, folder, notes)));
+    } else if spec.unit.is_some() || spec.step.is_some() || spec.column.is_some() || spec.format.is_some() {
+        let message = "unit, step, column and format belong to a record; add record = \"FILE\" or leave them out";
+        return Err(Problem::Table(message.into()));
+    }
+    if let Some(&RickerTable { amplitude, frequency, centre }) = spec.ricker.as_ref() {
+        notes.push(format!("Ricker pulse, {amplitude} m/s² at {frequency} Hz"));
+        found.push(("ricker", pulse(Shape::Ricker { centre }, amplitude, frequency).map_err(Into::into)));
+    }
+    if let Some(&HarmonicTable { amplitude, frequency, phase, duration }) = spec.harmonic.as_ref() {
+        notes.push(format!("harmonic, {amplitude} m/s² at {frequency} Hz"));
+        let shape = Shape::Harmonic { phase, end: Some(duration) };
+        found.push(("harmonic", pulse(shape, amplitude, frequency).map_err(Into::into)));
+    }
+    for (name, table, shape) in [
+        ("sine_cycle", &spec.sine_cycle, Shape::SineCycle),
+        ("half_sine", &spec.half_sine, Shape::HalfSine),
+    ] {
+        if let Some(&SineTable { amplitude, frequency }) = table.as_ref() {
+            notes.push(format!("{}, {amplitude} m/s² at {frequency} Hz", name.replace('_', " ")));
+            found.push((name, pulse(shape, amplitude, frequency).map_err(Into::into)));
+        }
+    }
+    if let Some(table) = &spec.synthetic {
+        let default = SyntheticMotion::default();
+        let recipe = SyntheticMotion {
+            seed: table.seed.unwrap_or(default.seed),
+            duration: table.duration.unwrap_or(default.duration),
+            step: table.step.unwrap_or(default.step),
+            ..default
+        };
+        notes.push(format!("synthetic motion, seed {}", recipe.seed));
+        found.push(("synthetic", recipe.motion().map_err(Into::into)));
+    }
+    let names: Vec<_> = found.iter().map(|(name, _)| *name).collect();
+    let listed = if names.is_empty() { "none".to_owned() } else { names.join(" and ") };
+    let (Some((_, motion)), true) = (found.pop(), names.len() == 1) else {
+        let message = format!(
+            "[motion] needs exactly one of record, ricker, harmonic, sine_cycle, half_sine and synthetic; found {listed}"
+        );
+        return Err(Problem::Table(message));
+    };
+    motion
+}
+
+fn read_record(
+    spec: &RecordSpec<'_>,
+    folder: &Path,
+    notes: &mut Vec<String>,
+) -> Result<GroundMotion, Problem> {
+    let unit = spec.unit.map(str::parse::<Unit>).transpose()?;
+    let format = spec.format.map(str::parse::<Format>).transpose()?;
+    let options = ReadOptions { unit, step: spec.step, column: spec.column.map(str::to_owned), format };
+    let path = folder.join(spec.path);
+    let record = read(&path, &options)?;
+    if let Some(expected) = spec.fingerprint {
+        let bytes = std::fs::read(&path)
+            .map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
+        let found = fingerprint(&bytes);
+        if found != *expected {
+            let file = path.display();
+            return Err(Problem::Table(format!(
+                "{file} has the fingerprint {found}, not {expected}: it is not the record this scene was made with"
+            )));
+        }
+    }
+    let name = spec.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    notes.push(format!("record {name} ({})", record.format.description()));
+    Ok(record.motion)
+}
+
+/// The fingerprint of a record file as a scene states it.
+#[must_use]
+pub fn fingerprint(bytes: &[u8]) -> String {
+    format!("{:032x}", fmi2_export::fnv1a_128(bytes.iter().copied()))
+}
+
+fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, GroundMotionError> {
+    if spec.from.is_none() && spec.to.is_none() {
+        return Ok(motion);
+    }
+    let to = spec.to.unwrap_or_else(|| motion.duration());
+    motion.trimmed(spec.from.unwrap_or(0.0), to)
+}
+
+fn scale(motion: GroundMotion, factor: Option<f64>, pga: Option<f64>) -> Result<GroundMotion, Problem> {
+    match (factor, pga) {
+        (None, None) => Ok(motion),
+        (Some(factor), None) => Ok(motion.checked_scaled(factor)?),
+        (None, Some(pga)) => Ok(motion.scaled_to_peak(pga)?),
+        (Some(_), Some(_)) => Err(Problem::Table("scale and pga exclude each other; give one of them".into())),
+    }
+}

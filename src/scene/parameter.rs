@@ -1,0 +1,188 @@
+//! Parameters of a scene: names, kinds and limits come from the model description.
+
+use fmi2_export::{Kind, Variable, VariableId};
+use toml::Value;
+
+use crate::variables::{
+    DampingModel, DampingSource, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable,
+    RestitutionSource, Solver,
+};
+use crate::wall::Parameters;
+
+use super::document::Group;
+use super::error::Place;
+use super::{GROUPS, POINTS, Scene, SceneError, input_names, is_named_law};
+
+/// The name in `force_law` that stands for a law of points.
+const MULTILINEAR: &str = "multilinear";
+
+/// Applies one table.
+pub(super) fn apply_group(
+    parameters: &mut Parameters,
+    group: &str,
+    entries: &Group,
+    place: &Place<'_>,
+) -> Result<(), SceneError> {
+    let names = GROUPS.iter().find(|(name, _)| *name == group).map_or(&[][..], |(_, names)| *names);
+    let mut multilinear = None;
+    let mut points = None;
+    for (key, value) in entries {
+        let name = key.get_ref().as_str();
+        if group == "force_law" && name == POINTS {
+            points = Some((key, value));
+            continue;
+        }
+        if group == "force_law" && name == "force_law" && value.get_ref().as_str() == Some(MULTILINEAR) {
+            multilinear = Some(key);
+            continue;
+        }
+        if !names.contains(&name) {
+            return Err(place.error(key.span(), unknown(name, group, names)));
+        }
+        set(parameters, name, value.get_ref()).map_err(|message| place.error(value.span(), message))?;
+    }
+    match (multilinear, points) {
+        (Some(_), Some((_, value))) => {
+            let points = read_points(value.get_ref()).map_err(|message| place.error(value.span(), message))?;
+            parameters.multilinear = Some(points.into());
+        }
+        (Some(key), None) => {
+            let message =
+                format!("force_law = {MULTILINEAR:?} needs {POINTS} = [[u/u_ins, F/F0], ...] in [force_law]");
+            return Err(place.error(key.span(), message));
+        }
+        (None, Some((key, _))) => {
+            let message = format!("{POINTS} needs force_law = {MULTILINEAR:?} beside it");
+            return Err(place.error(key.span(), message));
+        }
+        (None, None) => {}
+    }
+    Ok(())
+}
+
+/// A parameter set from text: a number, or the name of an item with or without quotes.
+pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str) -> Result<(), SceneError> {
+    let known = GROUPS.iter().any(|(_, names)| names.contains(&name));
+    if !known {
+        let all: Vec<_> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let message = format!("there is no parameter {name:?}; the parameters are {}", all.join(", "));
+        return Err(SceneError::Value { message });
+    }
+    let value = if let Ok(number) = text.trim().parse::<f64>() {
+        Value::Float(number)
+    } else {
+        Value::String(text.trim().trim_matches('"').to_owned())
+    };
+    if name == "force_law" {
+        parameters.multilinear = None;
+    }
+    set(parameters, name, &value).map_err(|message| SceneError::Value { message })
+}
+
+fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), String> {
+    if let Some(variable) = RealVariable::from_name(name) {
+        let number = number(value).ok_or_else(|| format!("{name} = {value:?} is not a number"))?;
+        check_limits(variable.variable(), number)?;
+        if let Some(field) = parameters.real_mut(variable) {
+            *field = number;
+            return Ok(());
+        }
+    }
+    if let Some(variable) = IntegerVariable::from_name(name)
+        && let Kind::Enumeration { items, .. } = variable.variable().kind
+    {
+        let item = value.as_str().and_then(|text| items.iter().find(|item| item.name == text));
+        if item.is_some_and(|item| parameters.set_choice(variable, item.value)) {
+            return Ok(());
+        }
+        let names: Vec<_> = items.iter().map(|item| item.name).collect();
+        let shown = value.as_str().map_or_else(|| format!("{value:?}"), |text| format!("{text:?}"));
+        return Err(format!("{name} = {shown} is not one of {}", names.join(", ")));
+    }
+    Err(format!("{name} is not a parameter"))
+}
+
+/// A number, whole or not.
+fn number(value: &Value) -> Option<f64> {
+    #[allow(clippy::cast_precision_loss, reason = "a whole number beyond 2⁵³ is beyond every limit too")]
+    match value {
+        Value::Float(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
+    }
+}
+
+fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
+    let Kind::Real { min, max, .. } = variable.kind else { return Ok(()) };
+    let (name, unit) = (variable.name, variable.unit.map_or(String::new(), |unit| format!(" {unit}")));
+    if !number.is_finite() {
+        return Err(format!("{name} = {number} must be a finite number"));
+    }
+    match (min, max) {
+        (Some(min), _) if number < min => Err(format!("{name} = {number}{unit} is below its limit {min}{unit}")),
+        (_, Some(max)) if number > max => Err(format!("{name} = {number}{unit} is above its limit {max}{unit}")),
+        _ => Ok(()),
+    }
+}
+
+fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
+    let shape = || format!("{POINTS} must be a list of pairs [u/u_ins, F/F0], from the first corner outwards");
+    let list = value.as_array().ok_or_else(shape)?;
+    let pair = |item: &Value| {
+        let [u, f] = item.as_array()?.as_slice() else { return None };
+        Some([number(u)?, number(f)?])
+    };
+    list.iter().map(|item| pair(item).ok_or_else(shape)).collect()
+}
+
+fn unknown(name: &str, group: &str, names: &[&str]) -> String {
+    let elsewhere = GROUPS.iter().find(|(_, others)| others.contains(&name));
+    elsewhere.map_or_else(
+        || format!("unknown key {name:?} in [{group}]; it holds {}", names.join(", ")),
+        |(other, _)| format!("{name:?} belongs in [{other}], not in [{group}]"),
+    )
+}
+
+/// Whether the FMU of a scene lists a variable.
+///
+/// Choices are frozen and disappear; a number stays where it plays a part in the scene's choices.
+pub(super) fn is_used(scene: &Scene, name: &str) -> bool {
+    let p = &scene.parameters;
+    let vertical = p.mechanism == Mechanism::VerticalSpanning;
+    let loaded = p.overburden > 0.0;
+    let law = |law| is_named_law(p, law);
+    let multilinear = p.multilinear.is_some();
+    let damped = p.damping_model != DampingModel::None;
+    let given = p.damping_source == DampingSource::Given;
+    let free_standing = p.damping_model == DampingModel::FreeStandingBlock;
+    let impact = p.impact == Impact::Restitution;
+    let needs_e = impact || (damped && !given);
+    if IntegerVariable::from_name(name).is_some() {
+        return false;
+    }
+    if input_names().any(|input| input == name) {
+        return scene.inputs.iter().any(|input| input.variable().name == name);
+    }
+    match name {
+        "hinge_ratio" | "reaction_top" | "impulse_top" => vertical,
+        "overburden" | "overburden_eccentricity" => loaded,
+        "F0_negative" | "u_ins_negative" => loaded && p.overburden_eccentricity != 0.0,
+        "a1" | "omega1" => !law(ForceLaw::RigidLinear) && !(multilinear && name == "a1"),
+        "a3" => !multilinear,
+        "d1" => law(ForceLaw::Trilinear),
+        "xi" => damped && given && !free_standing,
+        "c_bar" => damped && given && free_standing,
+        "damping_force" | "xi_used" => damped,
+        "restitution" => needs_e && p.restitution_source == RestitutionSource::Given,
+        "restitution_used" => needs_e,
+        "newmark_step" => p.solver == Solver::Newmark,
+        "tolerance" => match p.solver {
+            Solver::Exact | Solver::Newmark => false,
+            Solver::Adaptive => true,
+            Solver::Automatic => {
+                matches!(p.damping_model, DampingModel::ConstantRatio | DampingModel::StiffnessProportional)
+            }
+        },
+        _ => true,
+    }
+}
