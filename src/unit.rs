@@ -1,0 +1,498 @@
+//! The wall as an FMI model.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use fmi2_export::{
+    Environment, Experiment, Failure, Log, Model, StateReader, StateWriter, Step as CommunicationStep, VariableId,
+};
+
+use crate::scene::Scene;
+use crate::simulation::{Excitation, Outputs, Progress, Sensitivity, Simulation};
+use crate::solver::{Peaks, Phase, Segment, State, Work};
+use crate::variables::{
+    BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, Mechanism, RealVariable, StringVariable,
+};
+use crate::wall::{Ends, Parameters, Support, Wall};
+
+/// The inputs as they stand, and their rates for the next step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Inputs {
+    /// Ground acceleration, held over a step \[m/s²\].
+    ground: f64,
+    bottom: Input,
+    top: Input,
+    drift: Input,
+}
+
+/// A continuous input.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Input {
+    value: f64,
+    /// Rate for the next step; zero after it.
+    rate: f64,
+    /// Rate over the last step, for output derivatives.
+    last_rate: f64,
+}
+
+impl Input {
+    fn set(&mut self, value: f64) {
+        *self = Self { value, ..Self::default() };
+    }
+
+    /// After a step the input counts as extrapolated to its end.
+    fn pass(&mut self, duration: f64) {
+        *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
+    }
+}
+
+impl Inputs {
+    /// The supports' motion `ahead` seconds after the present, given the motion a scene brings along.
+    fn support(&self, own: Support, ahead: f64) -> Support {
+        let at = |input: &Input| input.value + input.rate * ahead;
+        Support {
+            bottom: own.bottom + self.ground + at(&self.bottom),
+            top: own.top + self.ground + at(&self.top),
+            drift: own.drift + at(&self.drift),
+        }
+    }
+
+    fn rate(&self, pick: fn(&Input) -> f64) -> Support {
+        Support { bottom: pick(&self.bottom), top: pick(&self.top), drift: pick(&self.drift) }
+    }
+}
+
+/// A wall between the FMI calls.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    parameters: Parameters,
+    excitation: Option<Arc<Excitation>>,
+    inputs: Inputs,
+    experiment: Experiment,
+    /// The wall as the parameters stand: while they may change, without a past.
+    simulation: Simulation,
+    /// Initialisation is over.
+    running: bool,
+    impulses: Ends,
+    outputs: Outputs,
+    top_ignored_told: bool,
+}
+
+impl Unit {
+    fn new(parameters: Parameters, excitation: Option<Arc<Excitation>>) -> Result<Self, Failure> {
+        let simulation = start(&parameters, Experiment::default(), Support::default())?;
+        let outputs = simulation.outputs(Support::default());
+        let mut unit = Self {
+            parameters,
+            excitation,
+            inputs: Inputs::default(),
+            experiment: Experiment::default(),
+            simulation,
+            running: false,
+            impulses: Ends::default(),
+            outputs,
+            top_ignored_told: false,
+        };
+        unit.calculate()?;
+        Ok(unit)
+    }
+
+    /// The motion the scene brings along, at the present.
+    fn own_support(&self) -> Support {
+        let elapsed = self.simulation.progress().time - self.experiment.start;
+        self.excitation.as_ref().map_or_else(Support::default, |motion| motion.stretch(elapsed, 0.0).from)
+    }
+
+    /// The supports now.
+    fn support(&self) -> Support {
+        self.inputs.support(self.own_support(), 0.0)
+    }
+
+    fn refresh(&mut self) {
+        self.outputs = self.simulation.outputs(self.support());
+    }
+
+    fn wall(&self) -> &Wall {
+        self.simulation.wall()
+    }
+
+    fn input(&mut self, variable: RealVariable) -> Option<&mut Input> {
+        match variable {
+            RealVariable::ABottom => Some(&mut self.inputs.bottom),
+            RealVariable::ATop => Some(&mut self.inputs.top),
+            RealVariable::Drift => Some(&mut self.inputs.drift),
+            _ => None,
+        }
+    }
+
+    /// One communication step on a copy, through the samples of the scene's own motion.
+    fn advance(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
+        let mut simulation = self.simulation.clone();
+        simulation.set_time(step.from);
+        let end = step.from + step.duration;
+        let mut impulses = Ends::default();
+        let mut done = 0.0;
+        for _ in 0..MOST_SEGMENTS {
+            let remaining = step.duration - done;
+            let segment = self.segment(&simulation, done, remaining);
+            let last = segment.duration >= remaining;
+            let outcome = simulation
+                .advance(&segment)
+                .map_err(|error| format!("at t = {} s: {error}", simulation.progress().time))?;
+            impulses.bottom += outcome.impulses.bottom;
+            impulses.top += outcome.impulses.top;
+            done += segment.duration;
+            if outcome.stilled {
+                log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
+            }
+            if outcome.overturned {
+                let time = simulation.progress().overturn_time.unwrap_or(end);
+                log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
+            }
+            if outcome.departed {
+                log.event(format_args!(
+                    "left the supports by t = {end} s: reactions and impulses are 0 from there on"
+                ));
+            }
+            if last {
+                simulation.set_time(end);
+                self.simulation = simulation;
+                self.impulses = impulses;
+                for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
+                    input.pass(step.duration);
+                }
+                self.refresh();
+                return Ok(());
+            }
+        }
+        Err(format!("the step of {} s spans more than {MOST_SEGMENTS} samples; use smaller steps", step.duration)
+            .into())
+    }
+
+    /// The next piece of a step over which the supports move linearly.
+    fn segment(&self, simulation: &Simulation, done: f64, remaining: f64) -> Segment {
+        let own = self.excitation.as_ref().map(|motion| {
+            let elapsed = simulation.progress().time - self.experiment.start;
+            motion.stretch(elapsed, remaining)
+        });
+        let own = own.unwrap_or(Segment {
+            duration: remaining,
+            from: Support::default(),
+            to: Support::default(),
+        });
+        Segment {
+            duration: own.duration,
+            from: self.inputs.support(own.from, done),
+            to: self.inputs.support(own.to, done + own.duration),
+        }
+    }
+
+    fn tell_about_the_top(&mut self, log: &mut Log<'_>) {
+        let driven = self.inputs.top != Input::default();
+        if driven && !self.top_ignored_told && self.parameters.mechanism == Mechanism::Parapet {
+            self.top_ignored_told = true;
+            log.warning(format_args!(
+                "a_top is ignored: a parapet has no top support; give its base motion in a_bottom or a_g"
+            ));
+        }
+    }
+}
+
+/// Samples of a scene's own motion in one communication step.
+const MOST_SEGMENTS: usize = 100_000_000;
+
+fn start(parameters: &Parameters, experiment: Experiment, support: Support) -> Result<Simulation, Failure> {
+    Simulation::new(parameters, experiment.tolerance, experiment.start, support)
+        .map_err(|error| Failure::from(error.to_string()))
+}
+
+impl Model for Unit {
+    type Real = RealVariable;
+    type Integer = IntegerVariable;
+    type Boolean = BooleanVariable;
+    type Text = StringVariable;
+
+    const GUID: &'static str = GUID;
+    const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
+    const PAYLOAD: &'static str = "scene.toml";
+
+    fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
+        let Some(payload) = environment.payload else {
+            return Self::new(Parameters::default(), None);
+        };
+        let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
+        let folder = environment.resources.unwrap_or(Path::new("."));
+        let scene =
+            Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
+        Self::new(scene.parameters, scene.excitation.map(Arc::new))
+    }
+
+    fn real(&self, variable: RealVariable) -> f64 {
+        use RealVariable as V;
+        let (outputs, progress) = (&self.outputs, self.simulation.progress());
+        let (wall, body) = (self.wall(), self.wall().body());
+        match variable {
+            V::AG => self.inputs.ground,
+            V::ABottom => self.inputs.bottom.value,
+            V::ATop => self.inputs.top.value,
+            V::Drift => self.inputs.drift.value,
+            V::U => outputs.displacement,
+            V::UDot => outputs.velocity,
+            V::UDdot => outputs.acceleration,
+            V::URatio => outputs.ratio,
+            V::RestoringForce => outputs.restoring_force,
+            V::DampingForce => outputs.damping_force,
+            V::ReactionBottom => outputs.reactions.bottom,
+            V::ReactionTop => outputs.reactions.top,
+            V::ImpulseBottom => self.impulses.bottom,
+            V::ImpulseTop => self.impulses.top,
+            V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
+            V::UMax => progress.state.peaks.largest(),
+            V::Mass => body.mass,
+            V::EffectiveMass => body.effective_mass,
+            V::Participation => body.participation,
+            V::F0 => body.strength.positive,
+            V::F0Negative => body.strength.negative,
+            V::UIns => body.instability.positive,
+            V::UInsNegative => body.instability.negative,
+            V::Omega1 => wall.omega1(),
+            V::XiUsed => wall.damping_ratio(),
+            V::RestitutionUsed => wall.restitution(),
+            parameter => self.parameters.real(parameter).unwrap_or(f64::NAN),
+        }
+    }
+
+    fn integer(&self, variable: IntegerVariable) -> i32 {
+        self.parameters.choice(variable)
+    }
+
+    fn boolean(&self, variable: BooleanVariable) -> bool {
+        match variable {
+            BooleanVariable::Overturned => self.simulation.progress().state.overturned,
+        }
+    }
+
+    fn text(&self, variable: StringVariable) -> &str {
+        match variable {}
+    }
+
+    fn set_real(&mut self, variable: RealVariable, value: f64) {
+        if variable == RealVariable::AG {
+            self.inputs.ground = value;
+        } else if let Some(input) = self.input(variable) {
+            input.set(value);
+        } else if let Some(parameter) = self.parameters.real_mut(variable) {
+            *parameter = value;
+        }
+        if self.running {
+            self.refresh();
+        }
+    }
+
+    fn set_integer(&mut self, variable: IntegerVariable, value: i32) {
+        let known = self.parameters.set_choice(variable, value);
+        assert!(known, "the layer has checked that {value} is an item of {}", variable.variable().name);
+    }
+
+    fn set_boolean(&mut self, _variable: BooleanVariable, _value: bool) {}
+
+    fn set_text(&mut self, variable: StringVariable, _value: &str) {
+        match variable {}
+    }
+
+    fn set_input_derivative(&mut self, variable: RealVariable, value: f64) -> bool {
+        self.input(variable).map(|input| input.rate = value).is_some()
+    }
+
+    fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
+        let support_rate = self.inputs.rate(|input| input.last_rate);
+        let rates = || self.simulation.rates(self.support(), support_rate);
+        match variable {
+            RealVariable::U => Some(self.outputs.velocity),
+            RealVariable::UDot => Some(self.outputs.acceleration),
+            RealVariable::UDdot => Some(rates().acceleration),
+            RealVariable::ReactionBottom => Some(rates().reactions.bottom),
+            RealVariable::ReactionTop => Some(rates().reactions.top),
+            _ => None,
+        }
+    }
+
+    fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
+        use RealVariable as V;
+        let ratio = 1.0 / self.wall().body().instability.of(self.outputs.displacement);
+        let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
+        let (by_u, by_velocity, along) = match known {
+            V::U => (1.0, 0.0, self.simulation.by_displacement()),
+            V::UDot => (0.0, 1.0, self.simulation.by_velocity()),
+            V::AG => (0.0, 0.0, support(1.0, 1.0, 0.0)),
+            V::ABottom => (0.0, 0.0, support(1.0, 0.0, 0.0)),
+            V::ATop => (0.0, 0.0, support(0.0, 1.0, 0.0)),
+            V::Drift => (0.0, 0.0, support(0.0, 0.0, 1.0)),
+            _ => return None,
+        };
+        let Sensitivity { acceleration, restoring_force, damping_force, reactions } = along;
+        match unknown {
+            V::U => Some(by_u),
+            V::UDot => Some(by_velocity),
+            V::UDdot => Some(acceleration),
+            V::URatio => Some(by_u * ratio),
+            V::RestoringForce => Some(restoring_force),
+            V::DampingForce => Some(damping_force),
+            V::ReactionBottom => Some(reactions.bottom),
+            V::ReactionTop => Some(reactions.top),
+            // memories of the past: not functions of the present state and inputs
+            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
+            _ => None,
+        }
+    }
+
+    fn calculate(&mut self) -> Result<(), Failure> {
+        if self.running {
+            return Ok(());
+        }
+        let elapsed_zero = self.excitation.as_ref().map(|motion| motion.stretch(0.0, 0.0).from);
+        let support = self.inputs.support(elapsed_zero.unwrap_or_default(), 0.0);
+        self.simulation = start(&self.parameters, self.experiment, support)?;
+        self.refresh();
+        Ok(())
+    }
+
+    fn setup_experiment(&mut self, experiment: Experiment) {
+        self.experiment = experiment;
+    }
+
+    fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure> {
+        self.calculate()?;
+        self.running = true;
+        for warning in self.wall().warnings() {
+            log.warning(format_args!("{warning}"));
+        }
+        self.tell_about_the_top(log);
+        if self.parameters.u_start != 0.0 {
+            log.info(format_args!(
+                "released from u_start = {} m; a wall that is coupled or shaken wants u_start = 0",
+                self.parameters.u_start
+            ));
+        }
+        log.info(format_args!("solver: {:?}", self.simulation.method()));
+        Ok(())
+    }
+
+    fn do_step(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
+        self.tell_about_the_top(log);
+        self.advance(step, log)
+    }
+
+    fn write_state(&self, writer: &mut StateWriter) {
+        for &variable in RealVariable::ALL {
+            if let Some(value) = self.parameters.real(variable) {
+                writer.f64(value);
+            }
+        }
+        for &variable in IntegerVariable::ALL {
+            writer.u64(u64::from(self.parameters.choice(variable).unsigned_abs()));
+        }
+        let Inputs { ground, bottom, top, drift } = self.inputs;
+        writer.f64(ground);
+        for Input { value, rate, last_rate } in [bottom, top, drift] {
+            writer.f64(value);
+            writer.f64(rate);
+            writer.f64(last_rate);
+        }
+        let Experiment { tolerance, start, stop } = self.experiment;
+        writer.f64(start);
+        for optional in [tolerance, stop, self.simulation.progress().overturn_time] {
+            writer.bool(optional.is_some());
+            writer.f64(optional.unwrap_or(0.0));
+        }
+        writer.bool(self.running);
+        writer.bool(self.top_ignored_told);
+        writer.f64(self.impulses.bottom);
+        writer.f64(self.impulses.top);
+        let Progress { time, state, drift, work, .. } = *self.simulation.progress();
+        for value in
+            [time, state.displacement, state.velocity, state.peaks.positive, state.peaks.negative]
+        {
+            writer.f64(value);
+        }
+        for value in [state.branch as u64, phase_number(state.phase), work.pieces, work.corners, work.impacts] {
+            writer.u64(value);
+        }
+        for value in [state.overturned, state.departed, drift] {
+            writer.bool(value);
+        }
+    }
+
+    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
+        let mut unit = self.clone();
+        for &variable in RealVariable::ALL {
+            if let Some(field) = unit.parameters.real_mut(variable) {
+                *field = reader.f64()?;
+            }
+        }
+        for &variable in IntegerVariable::ALL {
+            let value = i32::try_from(reader.u64()?).map_err(|_| "an enumeration out of range")?;
+            if !unit.parameters.set_choice(variable, value) {
+                return Err(format!("{value} is not an item of {}", variable.variable().name).into());
+            }
+        }
+        let mut input = |input: &mut Input, reader: &mut StateReader<'_>| -> Result<(), Failure> {
+            *input = Input { value: reader.f64()?, rate: reader.f64()?, last_rate: reader.f64()? };
+            Ok(())
+        };
+        unit.inputs.ground = reader.f64()?;
+        input(&mut unit.inputs.bottom, reader)?;
+        input(&mut unit.inputs.top, reader)?;
+        input(&mut unit.inputs.drift, reader)?;
+        let start_time = reader.f64()?;
+        let mut optional = || -> Result<Option<f64>, Failure> {
+            let (some, value) = (reader.bool()?, reader.f64()?);
+            Ok(some.then_some(value))
+        };
+        let (tolerance, stop, overturn_time) = (optional()?, optional()?, optional()?);
+        unit.experiment = Experiment { tolerance, start: start_time, stop };
+        let running = reader.bool()?;
+        unit.top_ignored_told = reader.bool()?;
+        unit.impulses = Ends { bottom: reader.f64()?, top: reader.f64()? };
+        let [time, displacement, velocity, positive, negative] = reader.f64s()?;
+        let [branch, phase, pieces, corners, impacts] = reader.u64s()?;
+        let state = State {
+            displacement,
+            velocity,
+            branch: usize::try_from(branch).map_err(|_| "a branch out of range")?,
+            phase: phase_of(phase)?,
+            peaks: Peaks { positive, negative },
+            overturned: reader.bool()?,
+            departed: reader.bool()?,
+        };
+        let drift = reader.bool()?;
+        unit.running = false;
+        unit.calculate()?;
+        if state.branch >= unit.wall().branches().len() {
+            return Err("a branch the wall does not have".into());
+        }
+        let work = Work { pieces, corners, impacts };
+        unit.simulation.restore(Progress { time, state, overturn_time, drift, work });
+        unit.running = running;
+        unit.refresh();
+        *self = unit;
+        Ok(())
+    }
+}
+
+fn phase_number(phase: Phase) -> u64 {
+    match phase {
+        Phase::Moving => 0,
+        Phase::Resting => 1,
+        Phase::Landed => 2,
+    }
+}
+
+fn phase_of(number: u64) -> Result<Phase, Failure> {
+    match number {
+        0 => Ok(Phase::Moving),
+        1 => Ok(Phase::Resting),
+        2 => Ok(Phase::Landed),
+        _ => Err("an unknown phase".into()),
+    }
+}
