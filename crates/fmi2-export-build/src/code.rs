@@ -101,7 +101,10 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
         return;
     }
 
-    add(code, format_args!("\nimpl ::fmi2_export::VariableId for {name} {{\n    const ALL: &'static [Self] = &["));
+    add(
+        code,
+        format_args!("\nimpl ::fmi2_export::VariableId for {name} {{\n    const ALL: &'static [Self] = &["),
+    );
     for variable in variables {
         add(code, format_args!("\n        Self::{},", variant(variable)));
     }
@@ -194,7 +197,8 @@ fn table_row(code: &mut String, variable: &Variable, enumerations: &[Enumeration
 
 /// The items of an enumeration variable's type, as an expression.
 fn items(variable: &Variable, enumerations: &[EnumerationType]) -> String {
-    let declared = enumerations.iter().find(|candidate| Some(&candidate.name) == variable.declared_type.as_ref());
+    let declared =
+        enumerations.iter().find(|candidate| Some(&candidate.name) == variable.declared_type.as_ref());
     let mut text = String::from("&[");
     for item in declared.map_or(&[][..], |enumeration| &enumeration.items) {
         let (name, value, description) = (&item.name, item.value, &item.description);
@@ -212,16 +216,16 @@ fn items(variable: &Variable, enumerations: &[EnumerationType]) -> String {
 /// The enum of an enumeration type, convertible to and from its numbers and names.
 fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     let name = camel_case(&enumeration.name).unwrap_or_default();
-    let variants: Vec<_> = enumeration
-        .items
-        .iter()
-        .map(|item| (camel_case(&item.name).unwrap_or_default(), item))
-        .collect();
+    let variants: Vec<_> =
+        enumeration.items.iter().map(|item| (camel_case(&item.name).unwrap_or_default(), item)).collect();
     let documentation = markdown(&enumeration.description);
     add(code, format_args!("\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n"));
     add(code, format_args!("pub enum {name} {{\n"));
     for (variant, item) in &variants {
-        add(code, format_args!("    /// `{}`: {}.\n    {variant},\n", item.name, markdown(&item.description)));
+        add(
+            code,
+            format_args!("    /// `{}`: {}.\n    {variant},\n", item.name, markdown(&item.description)),
+        );
     }
     add(code, format_args!("}}\n\nimpl {name} {{\n    /// Every item, in the order of the description.\n"));
     code.push_str("    pub const ALL: &'static [Self] = &[");
@@ -229,9 +233,10 @@ fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     add(code, format_args!("{}];\n", list.join(", ")));
 
     let arms = |text: &dyn Fn(&str, &crate::description::Item) -> String, last: &str| {
-        variants.iter().fold(String::new(), |all, (variant, item)| {
-            all + "            " + &text(variant, item) + ",\n"
-        }) + last
+        variants
+            .iter()
+            .fold(String::new(), |all, (variant, item)| all + "            " + &text(variant, item) + ",\n")
+            + last
     };
     let method = |code: &mut String, documentation: &str, signature: &str, on: &str, arms: String| {
         add(

@@ -170,7 +170,8 @@ mod tests {
 
     #[test]
     fn reading_keeps_lines_and_writing_is_canonical() {
-        let text = "<?xml version=\"1.0\"?>\n<!-- a -->\n<a  x='1'\n y=\"&lt;2\">\n\n  <b/>\n  <c></c>\n</a>\n";
+        let text =
+            "<?xml version=\"1.0\"?>\n<!-- a -->\n<a  x='1'\n y=\"&lt;2\">\n\n  <b/>\n  <c></c>\n</a>\n";
         let root = Element::parse(text).unwrap();
         assert_eq!((root.line, root.children[0].line, root.children[1].line), (3, 6, 7));
         assert_eq!(root.attribute("y"), Some("<2"));

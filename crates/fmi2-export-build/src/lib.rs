@@ -8,26 +8,23 @@
 //! ```text
 //! element      XML with line numbers ─► Element ─► XML in canonical form
 //! description  Element ─► Description: the variables, types and structure
-//! check        what the FMI 2.0 schema cannot say
+//! check        what the FMI 2.0 schema cannot say about variables; structure: about the ModelStructure
 //! code         Description ─► variables.rs
 //! reduced      Description ─► Description of a subset
 //! archive      files ─► FMU, the same bytes for the same content
 //! ```
 
-#[cfg(feature = "archive")]
-pub mod archive;
 mod check;
 mod code;
 mod description;
 mod element;
 mod error;
 mod fingerprint;
-
+mod structure;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
 pub use fingerprint::{fingerprint, fnv1a_128};
-
 
 use std::path::Path;
 
