@@ -202,21 +202,21 @@ fn unit_is_declared(
 }
 
 fn limits(variable: &Variable) -> Result<(), Fault> {
-    fn within<T: PartialOrd + Display>(
+    fn within<T: Copy + PartialOrd + Display>(
         variable: &Variable,
         start: Option<T>,
         min: Option<T>,
         max: Option<T>,
     ) -> Result<(), Fault> {
-        let text = |limit: &Option<T>| limit.as_ref().map_or("none".to_owned(), T::to_string);
+        let text = |limit: Option<T>| limit.map_or("none".to_owned(), |limit| limit.to_string());
         let name = variable.name.clone();
         if min.is_some() && max.is_some() && min > max {
-            let (min, max) = (text(&min), text(&max));
+            let (min, max) = (text(min), text(max));
             return Err(variable.fault(Problem::CrossedLimits { name, min, max }));
         }
         let Some(value) = start else { return Ok(()) };
-        if min.as_ref().is_some_and(|min| value < *min) || max.as_ref().is_some_and(|max| value > *max) {
-            let (start, min, max) = (value.to_string(), text(&min), text(&max));
+        if min.is_some_and(|min| value < min) || max.is_some_and(|max| value > max) {
+            let (start, min, max) = (value.to_string(), text(min), text(max));
             return Err(variable.fault(Problem::StartOutsideLimits { name, start, min, max }));
         }
         Ok(())

@@ -157,8 +157,8 @@ struct LineCounter<'a> {
 impl LineCounter<'_> {
     fn at(&mut self, offset: u64) -> usize {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.text.len());
-        let passed = self.text.as_bytes().get(self.offset..offset).unwrap_or_default();
-        self.line += passed.iter().filter(|byte| **byte == b'\n').count();
+        // Only a position inside a character gives no text, and the reader has none.
+        self.line += self.text.get(self.offset..offset).unwrap_or_default().matches('\n').count();
         self.offset = offset.max(self.offset);
         self.line
     }

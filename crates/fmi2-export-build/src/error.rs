@@ -28,7 +28,7 @@ pub enum DescriptionError {
         /// The description's file.
         path: PathBuf,
         /// What is wrong, and where.
-        fault: Fault,
+        fault: Box<Fault>,
     },
 }
 

@@ -20,11 +20,13 @@ mod description;
 mod element;
 mod error;
 mod fingerprint;
+mod reduced;
 mod structure;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
 pub use fingerprint::{fingerprint, fnv1a_128};
+pub use reduced::{DefaultExperiment, Reduction, ReductionError};
 
 use std::path::Path;
 
@@ -39,7 +41,7 @@ pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let text = std::fs::read_to_string(xml)
         .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;
     let description = Description::parse(&text)
-        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault })?;
+        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
     let path = out_dir.join("variables.rs");
     std::fs::write(&path, code::module(&description))
         .map_err(|source| DescriptionError::Write { path, source })

@@ -61,7 +61,8 @@ impl Description {
         let kept: Vec<bool> =
             self.variables.iter().map(|variable| (reduction.keep)(&variable.name)).collect();
         for (name, _) in reduction.starts {
-            let there = self.variables.iter().zip(&kept).any(|(variable, kept)| *kept && variable.name == *name);
+            let there =
+                self.variables.iter().zip(&kept).any(|(variable, kept)| *kept && variable.name == *name);
             if !there {
                 return Err(ReductionError::NoSuchVariable { name: name.clone() });
             }

@@ -1,4 +1,4 @@
-//! The ModelStructure: which unknowns there are and what they depend on.
+//! The `ModelStructure`: which unknowns there are and what they depend on.
 
 use crate::description::{Causality, Initial, Variable};
 use crate::element::Element;
@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 const KINDS: [&str; 5] = ["dependent", "constant", "fixed", "tunable", "discrete"];
 
-/// One of the three lists of the ModelStructure.
+/// One of the three lists of the `ModelStructure`.
 struct List<'a> {
     name: &'static str,
     /// Whether a variable (with its 0-based index) belongs into it.
@@ -17,7 +17,7 @@ struct List<'a> {
     /// Whether an unknown may depend on a variable.
     known: &'a dyn Fn(usize, &Variable) -> bool,
     known_not: &'static str,
-    /// The allowed values of dependenciesKind.
+    /// The allowed values of `dependenciesKind`.
     kinds: &'a [&'static str],
 }
 
