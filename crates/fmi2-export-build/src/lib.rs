@@ -11,15 +11,19 @@
 //! check        what the FMI 2.0 schema cannot say about variables; structure: about the ModelStructure
 //! code         Description ─► variables.rs
 //! reduced      Description ─► Description of a subset
-//! archive      files ─► FMU, the same bytes for the same content
+//! archive      FMU ◄─► files in memory, the same bytes for the same content; pack: files of a build ─► FMU
 //! ```
 
+#[cfg(feature = "archive")]
+pub mod archive;
 mod check;
 mod code;
 mod description;
 mod element;
 mod error;
 mod fingerprint;
+#[cfg(feature = "archive")]
+pub mod pack;
 mod reduced;
 mod structure;
 
