@@ -163,8 +163,6 @@ fn units_of_types(root: &Element) -> Result<(), Fault> {
 }
 
 fn units(root: &Element, variable: &Variable) -> Result<(), Fault> {
-    unit_is_declared(root, &variable.name, variable.unit.as_deref(), variable.display_unit.as_deref())
-        .map_err(|problem| variable.fault(problem))?;
     let declared = variable.declared_type.as_deref().and_then(|name| simple_type(root, name)?.child("Real"));
     match (declared.and_then(|real| real.attribute("unit")), &variable.unit) {
         (Some(type_unit), Some(unit)) if type_unit != unit => Err(variable.fault(Problem::UnitMismatch {
@@ -173,7 +171,10 @@ fn units(root: &Element, variable: &Variable) -> Result<(), Fault> {
             declared_type: variable.declared_type.clone().unwrap_or_default(),
             type_unit: type_unit.to_owned(),
         })),
-        _ => Ok(()),
+        (_, unit) => {
+            unit_is_declared(root, &variable.name, unit.as_deref(), variable.display_unit.as_deref())
+                .map_err(|problem| variable.fault(problem))
+        }
     }
 }
 

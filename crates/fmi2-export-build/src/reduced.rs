@@ -1,6 +1,6 @@
 //! The description of an FMU with some of the variables, and with its own start values.
 
-use crate::description::{Description, Variable};
+use crate::description::{Causality, Description, Variable};
 use crate::element::Element;
 use crate::error::Fault;
 use std::collections::{HashMap, HashSet};
@@ -130,39 +130,57 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
 }
 
 fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Variable]) {
-    let is_derivative = |unknown: &Element| {
-        let old: Option<usize> = unknown.attribute("index").and_then(|index| index.trim().parse().ok());
-        let variable = old.and_then(|old| variables.get(old.checked_sub(1)?));
-        variable.and_then(|variable| variable.derivative).is_some_and(|state| indices.get(state).is_some())
+    let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.get(old).is_some());
+    // A derivative whose state is gone is one no more, nor is a state without its derivative a state.
+    let is_derivative =
+        |old: usize| kept(old).and_then(|variable| variable.derivative).is_some_and(|of| kept(of).is_some());
+    let states: HashSet<usize> = (1..=variables.len())
+        .filter(|old| is_derivative(*old))
+        .filter_map(|old| kept(old)?.derivative)
+        .collect();
+    let known = |old: usize| {
+        let free =
+            |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Independent);
+        kept(old).is_some_and(|variable| free(variable) || states.contains(&old))
+    };
+    let exposed = |old: usize| {
+        let always = [Causality::Output, Causality::CalculatedParameter];
+        kept(old).is_some_and(|variable| always.contains(&variable.causality))
+            || states.contains(&old)
+            || is_derivative(old)
     };
     for list in &mut structure.children {
-        let derivatives = list.name == "Derivatives";
-        list.children.retain(|unknown| {
-            indices.of(unknown, "index").is_some() && (!derivatives || is_derivative(unknown))
-        });
+        let initial = list.name == "InitialUnknowns";
+        let belongs = |old: usize| match list.name.as_str() {
+            "Derivatives" => is_derivative(old),
+            _ => kept(old).is_some() && (!initial || exposed(old)),
+        };
+        list.children.retain(|unknown| old_index(unknown).is_some_and(belongs));
         for unknown in &mut list.children {
-            if let Some(index) = indices.of(unknown, "index") {
-                unknown.set_attribute("index", index.to_string());
+            if let Some(new) = old_index(unknown).and_then(|old| indices.get(old)) {
+                unknown.set_attribute("index", new.to_string());
             }
-            retain_dependencies(unknown, indices);
+            retain_dependencies(unknown, |old| indices.get(old).filter(|_| initial || known(old)));
         }
     }
     structure.children.retain(|list| !list.children.is_empty());
 }
 
-fn retain_dependencies(unknown: &mut Element, indices: &Indices) {
+fn old_index(unknown: &Element) -> Option<usize> {
+    unknown.attribute("index")?.trim().parse().ok()
+}
+
+/// Renumbers the dependencies by `new_index`, which gives none for those that are gone.
+fn retain_dependencies(unknown: &mut Element, new_index: impl Fn(usize) -> Option<usize>) {
     let Some(dependencies) = unknown.attribute("dependencies") else { return };
-    let new = dependencies
-        .split_ascii_whitespace()
-        .map(|old| old.parse().ok().and_then(|old| indices.get(old)))
-        .collect::<Vec<_>>();
-    let joined = |words: Vec<String>| words.join(" ");
+    let new: Vec<Option<usize>> =
+        dependencies.split_ascii_whitespace().map(|old| new_index(old.parse().ok()?)).collect();
     let kinds = unknown.attribute("dependenciesKind").map(|kinds| {
         let kept = kinds.split_ascii_whitespace().zip(&new).filter(|(_, new)| new.is_some());
-        joined(kept.map(|(kind, _)| kind.to_owned()).collect())
+        kept.map(|(kind, _)| kind).collect::<Vec<_>>().join(" ")
     });
-    let dependencies = joined(new.iter().flatten().map(usize::to_string).collect());
-    unknown.set_attribute("dependencies", dependencies);
+    let dependencies: Vec<_> = new.iter().flatten().map(usize::to_string).collect();
+    unknown.set_attribute("dependencies", dependencies.join(" "));
     if let Some(kinds) = kinds {
         unknown.set_attribute("dependenciesKind", kinds);
     }
