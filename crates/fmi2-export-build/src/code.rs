@@ -69,6 +69,16 @@ impl BaseType {
         }
     }
 
+    /// The table of its variables.
+    fn table(self) -> &'static str {
+        match self {
+            Self::Real => "REALS",
+            Self::Integer => "INTEGERS",
+            Self::Boolean => "BOOLEANS",
+            Self::String => "STRINGS",
+        }
+    }
+
     fn documentation(self) -> &'static str {
         match self {
             Self::Real => "Variables of type Real.",
@@ -79,10 +89,9 @@ impl BaseType {
     }
 }
 
-/// The enum of the variables of one base type, its table and its `VariableId`.
+/// The enum of the variables of one base type, its `VariableId` and its table.
 fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumerations: &[EnumerationType]) {
     let (name, documentation) = (base.rust_name(), base.documentation());
-    let variant = |variable: &Variable| camel_case(&variable.name).unwrap_or_default();
     add(code, format_args!("\n/// {documentation}\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n"));
     add(code, format_args!("pub enum {name} {{\n"));
     for variable in variables {
@@ -92,40 +101,27 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
             None | Some("1") => String::new(),
             Some(unit) => format!(" \\[{unit}\\]"),
         };
-        add(code, format_args!("    /// `{}`: {text}{unit}.\n", variable.name));
-        add(code, format_args!("    {},\n", variant(variable)));
+        add(code, format_args!("    /// `{}`: {text}{unit}.\n    {},\n", variable.name, variant(variable)));
     }
     code.push_str("}\n");
     if variables.is_empty() {
-        add(code, format_args!("{}", EMPTY.replace("NAME", name)));
+        code.push_str(&EMPTY.replace("NAME", name));
         return;
     }
-
-    add(code, format_args!("\nimpl ::fmi2_export::VariableId for {name} {{\n    const ALL: &'static [Self] = &["));
-    for variable in variables {
-        add(code, format_args!("\n        Self::{},", variant(variable)));
-    }
-    code.push_str("\n    ];\n\n    fn variable(self) -> &'static ::fmi2_export::Variable {\n");
-    // The table is inside the function: nothing else has a use for it.
-    code.push_str("        &TABLE_NAME[self as usize]\n    }\n".replace("NAME", &table_name(base)).as_str());
-    code.push_str("\n    #[allow(clippy::too_many_lines, reason = \"one line per variable\")]\n");
-    code.push_str("    fn from_reference(reference: u32) -> Option<Self> {\n        match reference {\n");
-    for variable in variables {
-        add(code, format_args!("            {} => Some(Self::{}),\n", variable.reference, variant(variable)));
-    }
-    code.push_str("            _ => None,\n        }\n    }\n}\n");
-
+    let list = variables.iter().map(|variable| format!("\n        Self::{},", variant(variable)));
+    let arms = variables.iter().map(|variable| {
+        format!("            {} => Some(Self::{}),\n", variable.reference, variant(variable))
+    });
     code.push_str(
-        "\n#[allow(clippy::unreadable_literal, reason = \"as Rust prints a number, it reads back to the same bits\")]\n",
+        &FILLED
+            .replace("NAME", name)
+            .replace("TABLE", base.table())
+            .replace("LIST", &list.collect::<String>())
+            .replace("ARMS", &arms.collect::<String>()),
     );
-    add(
-        code,
-        format_args!(
-            "static TABLE_{}: [::fmi2_export::Variable; {}] = [\n",
-            table_name(base),
-            variables.len()
-        ),
-    );
+    code.push_str(LITERALS);
+    let count = variables.len();
+    add(code, format_args!("static {}: [::fmi2_export::Variable; {count}] = [\n", base.table()));
     for variable in variables {
         table_row(code, variable, enumerations);
     }
@@ -146,8 +142,28 @@ impl ::fmi2_export::VariableId for NAME {
 }
 ";
 
-fn table_name(base: BaseType) -> String {
-    base.rust_name().trim_end_matches("Variable").to_ascii_uppercase()
+const FILLED: &str = "
+impl ::fmi2_export::VariableId for NAME {
+    const ALL: &'static [Self] = &[LIST
+    ];
+
+    fn variable(self) -> &'static ::fmi2_export::Variable {
+        &TABLE[self as usize]
+    }
+
+    #[allow(clippy::too_many_lines, reason = \"one line per variable\")]
+    fn from_reference(reference: u32) -> Option<Self> {
+        match reference {
+ARMS            _ => None,
+        }
+    }
+}
+";
+
+const LITERALS: &str = "\n#[allow(clippy::unreadable_literal, reason = \"numbers as Rust prints them read back to the same bits\")]\n";
+
+fn variant(variable: &Variable) -> String {
+    camel_case(&variable.name).unwrap_or_default()
 }
 
 fn table_row(code: &mut String, variable: &Variable, enumerations: &[EnumerationType]) {
@@ -194,7 +210,8 @@ fn table_row(code: &mut String, variable: &Variable, enumerations: &[Enumeration
 
 /// The items of an enumeration variable's type, as an expression.
 fn items(variable: &Variable, enumerations: &[EnumerationType]) -> String {
-    let declared = enumerations.iter().find(|candidate| Some(&candidate.name) == variable.declared_type.as_ref());
+    let declared =
+        enumerations.iter().find(|candidate| Some(&candidate.name) == variable.declared_type.as_ref());
     let mut text = String::from("&[");
     for item in declared.map_or(&[][..], |enumeration| &enumeration.items) {
         let (name, value, description) = (&item.name, item.value, &item.description);
@@ -212,16 +229,16 @@ fn items(variable: &Variable, enumerations: &[EnumerationType]) -> String {
 /// The enum of an enumeration type, convertible to and from its numbers and names.
 fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     let name = camel_case(&enumeration.name).unwrap_or_default();
-    let variants: Vec<_> = enumeration
-        .items
-        .iter()
-        .map(|item| (camel_case(&item.name).unwrap_or_default(), item))
-        .collect();
+    let variants: Vec<_> =
+        enumeration.items.iter().map(|item| (camel_case(&item.name).unwrap_or_default(), item)).collect();
     let documentation = markdown(&enumeration.description);
     add(code, format_args!("\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n"));
     add(code, format_args!("pub enum {name} {{\n"));
     for (variant, item) in &variants {
-        add(code, format_args!("    /// `{}`: {}.\n    {variant},\n", item.name, markdown(&item.description)));
+        add(
+            code,
+            format_args!("    /// `{}`: {}.\n    {variant},\n", item.name, markdown(&item.description)),
+        );
     }
     add(code, format_args!("}}\n\nimpl {name} {{\n    /// Every item, in the order of the description.\n"));
     code.push_str("    pub const ALL: &'static [Self] = &[");
@@ -229,9 +246,10 @@ fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
     add(code, format_args!("{}];\n", list.join(", ")));
 
     let arms = |text: &dyn Fn(&str, &crate::description::Item) -> String, last: &str| {
-        variants.iter().fold(String::new(), |all, (variant, item)| {
-            all + "            " + &text(variant, item) + ",\n"
-        }) + last
+        variants
+            .iter()
+            .fold(String::new(), |all, (variant, item)| all + "            " + &text(variant, item) + ",\n")
+            + last
     };
     let method = |code: &mut String, documentation: &str, signature: &str, on: &str, arms: String| {
         add(

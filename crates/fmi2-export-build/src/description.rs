@@ -162,7 +162,10 @@ impl Description {
     /// The name of the library, and of the functions' owner.
     #[must_use]
     pub fn model_identifier(&self) -> &str {
-        self.root.child("CoSimulation").and_then(|element| element.attribute("modelIdentifier")).unwrap_or_default()
+        self.root
+            .child("CoSimulation")
+            .and_then(|element| element.attribute("modelIdentifier"))
+            .unwrap_or_default()
     }
 
     /// The names of the variables, in their order.
@@ -202,7 +205,8 @@ fn read_variable(root: &Element, element: &Element) -> Result<Variable, Fault> {
     element.required("valueReference")?;
     let reference = element.parsed("valueReference", "a value reference")?.unwrap_or_default();
     let causality = element.parsed("causality", Causality::EXPECTED)?.unwrap_or(Causality::Local);
-    let variability = element.parsed("variability", Variability::EXPECTED)?.unwrap_or(Variability::Continuous);
+    let variability =
+        element.parsed("variability", Variability::EXPECTED)?.unwrap_or(Variability::Continuous);
     let initial = element.parsed("initial", Initial::EXPECTED)?;
     let typed = element
         .children
@@ -264,7 +268,11 @@ fn read_kind(typed: &Element, inherited: Option<&Element>) -> Result<Kind, Fault
     };
     match typed.name.as_str() {
         "Real" => {
-            let kind = Kind::Real { start: typed.parsed("start", "a number")?, min: real("min")?, max: real("max")? };
+            let kind = Kind::Real {
+                start: typed.parsed("start", "a number")?,
+                min: real("min")?,
+                max: real("max")?,
+            };
             check::finite(typed, &kind)?;
             Ok(kind)
         }

@@ -28,7 +28,7 @@ pub enum DescriptionError {
         /// The description's file.
         path: PathBuf,
         /// What is wrong, and where.
-        fault: Fault,
+        fault: Box<Fault>,
     },
 }
 
@@ -84,15 +84,21 @@ pub enum Problem {
     UndeclaredType { name: String, declared_type: String, kind: &'static str },
     #[error("`{name}` cannot be {causality}, {variability} and {initial} at once")]
     IllegalCombination { name: String, causality: &'static str, variability: &'static str, initial: String },
-    #[error("`{name}` is {variability}, but only a Real can be continuous")]
-    ContinuousNotReal { name: String, variability: &'static str },
+    #[error(
+        "`{name}` is continuous (which is what leaving out the variability means), but only a Real can be"
+    )]
+    ContinuousNotReal { name: String },
     #[error("the limits of `{name}` are crossed: min {min} exceeds max {max}")]
     CrossedLimits { name: String, min: String, max: String },
     #[error("the start value {start} of `{name}` is outside its limits {min} to {max}")]
     StartOutsideLimits { name: String, start: String, min: String, max: String },
     #[error("the start value {start} of `{name}` is no item of its type `{declared_type}`")]
     StartNotAnItem { name: String, start: i32, declared_type: String },
-    #[error("`{name}` gives the index {index} in `{attribute}`, but there are only the variables 1 to {count}")]
+    #[error("the item `{name}` has the value {value}, which the item on line {first} has already")]
+    RepeatedItemValue { name: String, value: i32, first: usize },
+    #[error(
+        "`{name}` gives the index {index} in `{attribute}`, but there are only the variables 1 to {count}"
+    )]
     NoSuchIndex { name: String, attribute: &'static str, index: usize, count: usize },
     #[error("`{name}` is the derivative of `{of}`, and both must be continuous Reals and not the same")]
     BadDerivative { name: String, of: String },
@@ -102,6 +108,10 @@ pub enum Problem {
     LeftOut { list: &'static str, name: String, why: &'static str },
     #[error("{list} lists `{name}` twice")]
     ListedTwice { list: &'static str, name: String },
+    #[error("in {list}, `{name}` cannot depend on `{on}`, which {why}")]
+    UnknownDependency { name: String, on: String, list: &'static str, why: &'static str },
+    #[error("in {list}, the dependenciesKind of `{name}` cannot contain {kind:?}, only {allowed}")]
+    BadDependencyKind { name: String, kind: String, list: &'static str, allowed: String },
     #[error("`{name}` has {dependencies} dependencies, but dependenciesKind has {kinds} entries")]
     UnequalDependencies { name: String, dependencies: usize, kinds: usize },
 }

@@ -8,10 +8,10 @@
 //! ```text
 //! element      XML with line numbers ─► Element ─► XML in canonical form
 //! description  Element ─► Description: the variables, types and structure
-//! check        what the FMI 2.0 schema cannot say
+//! check        what the FMI 2.0 schema cannot say about variables; structure: about the ModelStructure
 //! code         Description ─► variables.rs
 //! reduced      Description ─► Description of a subset
-//! archive      files ─► FMU, the same bytes for the same content
+//! archive      FMU ◄─► files in memory, the same bytes for the same content; pack: files of a build ─► FMU
 //! ```
 
 #[cfg(feature = "archive")]
@@ -22,12 +22,15 @@ mod description;
 mod element;
 mod error;
 mod fingerprint;
-
+#[cfg(feature = "archive")]
+pub mod pack;
+mod reduced;
+mod structure;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
 pub use fingerprint::{fingerprint, fnv1a_128};
-
+pub use reduced::{DefaultExperiment, Reduction, ReductionError};
 
 use std::path::Path;
 
@@ -42,7 +45,7 @@ pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let text = std::fs::read_to_string(xml)
         .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;
     let description = Description::parse(&text)
-        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault })?;
+        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
     let path = out_dir.join("variables.rs");
     std::fs::write(&path, code::module(&description))
         .map_err(|source| DescriptionError::Write { path, source })

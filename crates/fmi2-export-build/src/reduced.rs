@@ -1,0 +1,236 @@
+//! The description of an FMU with some of the variables, and with its own start values.
+
+use crate::description::{Causality, Description, Variable};
+use crate::element::Element;
+use crate::error::Fault;
+use std::collections::{HashMap, HashSet};
+
+/// What the description of the smaller FMU is to say.
+pub struct Reduction<'a> {
+    /// Name of the model.
+    pub model_name: &'a str,
+    /// One line on the model.
+    pub description: &'a str,
+    /// The guid, braces included.
+    pub guid: &'a str,
+    /// Whether the variable of this name stays.
+    pub keep: &'a dyn Fn(&str) -> bool,
+    /// New start values by name, as they are written in the XML: numbers, `true` or `false`, item numbers.
+    pub starts: &'a [(String, String)],
+    /// The default experiment.
+    pub experiment: DefaultExperiment,
+}
+
+/// What an importer simulates unless it is told otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DefaultExperiment {
+    /// Start time [s].
+    pub start: f64,
+    /// Stop time [s].
+    pub stop: f64,
+    /// Communication step [s].
+    pub step: f64,
+    /// Relative tolerance [-].
+    pub tolerance: f64,
+}
+
+/// Why a description cannot be reduced like this.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReductionError {
+    /// A start value for a variable that is not there, or not kept.
+    #[error("a start value is given for `{name}`, which the reduced description does not have")]
+    NoSuchVariable {
+        /// The variable's name.
+        name: String,
+    },
+    /// The result breaks a rule; the line is the result's.
+    #[error("the reduced description, {0}")]
+    Invalid(#[from] Fault),
+}
+
+impl Description {
+    /// The description with the variables, start values, guid, names and experiment of `reduction`.
+    ///
+    /// Value references stay; indices count anew. Units, types and dependencies that nothing uses any more are gone.
+    ///
+    /// # Errors
+    ///
+    /// A start value for a variable that is not kept, or one its limits or its type refuse.
+    pub fn reduced(&self, reduction: &Reduction<'_>) -> Result<Self, ReductionError> {
+        let kept: Vec<bool> =
+            self.variables.iter().map(|variable| (reduction.keep)(&variable.name)).collect();
+        for (name, _) in reduction.starts {
+            let there =
+                self.variables.iter().zip(&kept).any(|(variable, kept)| *kept && variable.name == *name);
+            if !there {
+                return Err(ReductionError::NoSuchVariable { name: name.clone() });
+            }
+        }
+        let mut root = self.root.clone();
+        for (attribute, value) in [
+            ("modelName", reduction.model_name),
+            ("description", reduction.description),
+            ("guid", reduction.guid),
+        ] {
+            root.set_attribute(attribute, value.to_owned());
+        }
+        let indices = Indices::new(&kept);
+        if let Some(variables) = root.child_mut("ModelVariables") {
+            retain_variables(variables, &indices, reduction.starts);
+        }
+        if let Some(structure) = root.child_mut("ModelStructure") {
+            retain_unknowns(structure, &indices, &self.variables);
+        }
+        retain_types(&mut root);
+        retain_units(&mut root);
+        set_experiment(&mut root, reduction.experiment);
+        let text = root.to_xml();
+        Ok(Self::parse(&text)?)
+    }
+}
+
+/// New 1-based indices by old ones, of the variables that stay.
+struct Indices(HashMap<usize, usize>);
+
+impl Indices {
+    fn new(kept: &[bool]) -> Self {
+        let old = kept.iter().enumerate().filter(|(_, kept)| **kept).map(|(at, _)| at + 1);
+        Self(old.enumerate().map(|(new, old)| (old, new + 1)).collect())
+    }
+
+    fn get(&self, old: usize) -> Option<usize> {
+        self.0.get(&old).copied()
+    }
+
+    /// The new index of what the attribute says.
+    fn of(&self, element: &Element, attribute: &str) -> Option<usize> {
+        self.get(element.attribute(attribute)?.trim().parse().ok()?)
+    }
+}
+
+fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(String, String)]) {
+    let mut old = 0;
+    variables.children.retain(|_| {
+        old += 1;
+        indices.get(old).is_some()
+    });
+    for variable in &mut variables.children {
+        let name = variable.attribute("name").unwrap_or_default().to_owned();
+        let Some(typed) = variable.children.first_mut() else { continue };
+        match indices.of(typed, "derivative") {
+            Some(state) => typed.set_attribute("derivative", state.to_string()),
+            // The state is gone, and so is the relation.
+            None => typed.attributes.retain(|(attribute, _)| attribute != "derivative"),
+        }
+        if let Some((_, start)) = starts.iter().find(|(of, _)| *of == name) {
+            typed.set_attribute("start", start.clone());
+        }
+    }
+}
+
+fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Variable]) {
+    let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.get(old).is_some());
+    // A derivative whose state is gone is one no more, nor is a state without its derivative a state.
+    let is_derivative =
+        |old: usize| kept(old).and_then(|variable| variable.derivative).is_some_and(|of| kept(of).is_some());
+    let states: HashSet<usize> = (1..=variables.len())
+        .filter(|old| is_derivative(*old))
+        .filter_map(|old| kept(old)?.derivative)
+        .collect();
+    let known = |old: usize| {
+        let free =
+            |variable: &Variable| matches!(variable.causality, Causality::Input | Causality::Independent);
+        kept(old).is_some_and(|variable| free(variable) || states.contains(&old))
+    };
+    let exposed = |old: usize| {
+        let always = [Causality::Output, Causality::CalculatedParameter];
+        kept(old).is_some_and(|variable| always.contains(&variable.causality))
+            || states.contains(&old)
+            || is_derivative(old)
+    };
+    for list in &mut structure.children {
+        let initial = list.name == "InitialUnknowns";
+        let belongs = |old: usize| match list.name.as_str() {
+            "Derivatives" => is_derivative(old),
+            _ => kept(old).is_some() && (!initial || exposed(old)),
+        };
+        list.children.retain(|unknown| old_index(unknown).is_some_and(belongs));
+        for unknown in &mut list.children {
+            if let Some(new) = old_index(unknown).and_then(|old| indices.get(old)) {
+                unknown.set_attribute("index", new.to_string());
+            }
+            retain_dependencies(unknown, |old| indices.get(old).filter(|_| initial || known(old)));
+        }
+    }
+    structure.children.retain(|list| !list.children.is_empty());
+}
+
+fn old_index(unknown: &Element) -> Option<usize> {
+    unknown.attribute("index")?.trim().parse().ok()
+}
+
+/// Renumbers the dependencies by `new_index`, which gives none for those that are gone.
+fn retain_dependencies(unknown: &mut Element, new_index: impl Fn(usize) -> Option<usize>) {
+    let Some(dependencies) = unknown.attribute("dependencies") else { return };
+    let new: Vec<Option<usize>> =
+        dependencies.split_ascii_whitespace().map(|old| new_index(old.parse().ok()?)).collect();
+    let kinds = unknown.attribute("dependenciesKind").map(|kinds| {
+        let kept = kinds.split_ascii_whitespace().zip(&new).filter(|(_, new)| new.is_some());
+        kept.map(|(kind, _)| kind).collect::<Vec<_>>().join(" ")
+    });
+    let dependencies: Vec<_> = new.iter().flatten().map(usize::to_string).collect();
+    unknown.set_attribute("dependencies", dependencies.join(" "));
+    if let Some(kinds) = kinds {
+        unknown.set_attribute("dependenciesKind", kinds);
+    }
+}
+
+fn retain_types(root: &mut Element) {
+    let used = values_in(root.child("ModelVariables"), "declaredType");
+    retain_named(root, "TypeDefinitions", &used);
+}
+
+fn retain_units(root: &mut Element) {
+    let mut used = values_in(root.child("ModelVariables"), "unit");
+    used.extend(values_in(root.child("TypeDefinitions"), "unit"));
+    retain_named(root, "UnitDefinitions", &used);
+}
+
+/// The values of an attribute in the children of the children.
+fn values_in(list: Option<&Element>, attribute: &str) -> HashSet<String> {
+    let elements = list.into_iter().flat_map(|list| &list.children).flat_map(|element| &element.children);
+    elements.filter_map(|element| element.attribute(attribute)).map(str::to_owned).collect()
+}
+
+/// Keeps the children whose name is used, and the list itself only if any are left.
+fn retain_named(root: &mut Element, list: &str, used: &HashSet<String>) {
+    if let Some(list) = root.child_mut(list) {
+        list.children.retain(|element| element.attribute("name").is_some_and(|name| used.contains(name)));
+    }
+    root.children.retain(|element| element.name != list || !element.children.is_empty());
+}
+
+fn set_experiment(root: &mut Element, experiment: DefaultExperiment) {
+    const NAME: &str = "DefaultExperiment";
+    if root.child(NAME).is_none() {
+        // The schema's order: after the log categories, before annotations and variables.
+        let before = ["VendorAnnotations", "ModelVariables"];
+        let at = root.children.iter().position(|element| before.contains(&element.name.as_str()));
+        let element =
+            Element { name: NAME.to_owned(), line: root.line, attributes: Vec::new(), children: Vec::new() };
+        root.children.insert(at.unwrap_or(root.children.len()), element);
+    }
+    if let Some(element) = root.child_mut(NAME) {
+        for (attribute, value) in [
+            ("startTime", experiment.start),
+            ("stopTime", experiment.stop),
+            ("stepSize", experiment.step),
+            ("tolerance", experiment.tolerance),
+        ] {
+            // As Rust prints a number it reads back to the same bits; a whole number needs no fraction.
+            let text = format!("{value:?}");
+            element.set_attribute(attribute, text.strip_suffix(".0").unwrap_or(&text).to_owned());
+        }
+    }
+}
