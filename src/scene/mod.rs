@@ -19,6 +19,7 @@ use crate::wall::Parameters;
 
 pub use document::{Document, Group};
 pub use error::SceneError;
+pub use motion::fingerprint;
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 
 use error::Place;

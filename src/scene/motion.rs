@@ -22,7 +22,7 @@ pub struct MotionTable {
     pub record: Option<PathBuf>,
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
     pub unit: Option<String>,
-    /// Time between samples \[s\], for a record that does not state it.
+    /// Time between samples (s), for a record that does not state it.
     pub step: Option<f64>,
     /// Column of a CSV table.
     pub column: Option<String>,
@@ -38,15 +38,15 @@ pub struct MotionTable {
     pub half_sine: Option<SineTable>,
     /// The project's synthetic motion.
     pub synthetic: Option<SyntheticTable>,
-    /// Factor on the motion \[-\].
+    /// Factor on the motion (-).
     pub scale: Option<f64>,
-    /// Peak acceleration to scale to \[m/s²\].
+    /// Peak acceleration to scale to (m/s²).
     pub pga: Option<f64>,
-    /// Start of the part to use \[s\].
+    /// Start of the part to use (s).
     pub from: Option<f64>,
-    /// End of the part to use \[s\].
+    /// End of the part to use (s).
     pub to: Option<f64>,
-    /// Free vibration after the motion \[s\]; 10 s if none is given.
+    /// Free vibration after the motion (s); 10 s if none is given.
     pub tail: Option<f64>,
     /// Fingerprint of the record file, FNV-1a-128 in hexadecimal; a file that differs is refused.
     pub fingerprint: Option<String>,
@@ -75,11 +75,11 @@ pub struct TopTable {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct RickerTable {
-    /// A \[m/s²\].
+    /// A (m/s²).
     pub amplitude: f64,
-    /// f \[Hz\].
+    /// f (Hz).
     pub frequency: f64,
-    /// t₀ \[s\].
+    /// t₀ (s).
     pub centre: f64,
 }
 
@@ -88,14 +88,14 @@ pub struct RickerTable {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct HarmonicTable {
-    /// A \[m/s²\].
+    /// A (m/s²).
     pub amplitude: f64,
-    /// f \[Hz\].
+    /// f (Hz).
     pub frequency: f64,
-    /// φ \[rad\].
+    /// φ (rad).
     #[serde(default)]
     pub phase: f64,
-    /// Length \[s\].
+    /// Length (s).
     pub duration: f64,
 }
 
@@ -104,9 +104,9 @@ pub struct HarmonicTable {
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct SineTable {
-    /// A \[m/s²\].
+    /// A (m/s²).
     pub amplitude: f64,
-    /// f \[Hz\].
+    /// f (Hz).
     pub frequency: f64,
 }
 
@@ -117,9 +117,9 @@ pub struct SineTable {
 pub struct SyntheticTable {
     /// Seed of the noise: another seed is another motion.
     pub seed: Option<u64>,
-    /// Length \[s\].
+    /// Length (s).
     pub duration: Option<f64>,
-    /// Step \[s\].
+    /// Step (s).
     pub step: Option<f64>,
 }
 

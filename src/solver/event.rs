@@ -181,7 +181,7 @@ impl<P: Piece> Search<'_, P> {
         let sag = 0.125 * length * length * most_acceleration;
         let highest = from.displacement.max(to.displacement) + sag;
         let lowest = from.displacement.min(to.displacement) - sag;
-        if highest < self.bounds[1] && lowest > self.bounds[0] && peaks.cover(lowest, highest) {
+        if highest <= self.bounds[1] && lowest >= self.bounds[0] && peaks.cover(lowest, highest) {
             return Verdict::Quiet;
         }
         let (v0, v1) = (from.velocity, to.velocity);

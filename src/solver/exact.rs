@@ -223,7 +223,7 @@ impl ClosedForm {
         let to = from + drift * self.horizon;
         let (highest, lowest) = (from.max(to) + amplitude, from.min(to) - amplitude);
         let rounding = PEAK_ROUNDING * amplitude;
-        highest < quiet.upper && lowest > quiet.lower && quiet.peaks.cover(lowest + rounding, highest - rounding)
+        highest <= quiet.upper && lowest >= quiet.lower && quiet.peaks.cover(lowest + rounding, highest - rounding)
     }
 }
 

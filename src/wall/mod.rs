@@ -286,7 +286,9 @@ impl Wall {
     pub fn backbone(&self) -> Vec<(f64, f64)> {
         let m = self.body.effective_mass;
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
-        for branch in &self.branches {
+        // the branch before u₃ that only drops the damping is no corner of the force
+        let drawn = self.branches.iter().filter(|b| b.upper - b.lower > 2.0 * RATIO_CUTOFF * b.upper.abs());
+        for branch in drawn {
             for u in [branch.lower, branch.upper] {
                 let point = (u, branch.restoring(u) * m);
                 if points.last() != Some(&point) {

@@ -1,4 +1,6 @@
 //! The tests of the library.
 
 mod cases;
+mod closed_forms;
 mod ground_motion;
+mod properties;

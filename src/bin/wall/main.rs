@@ -1,3 +1,39 @@
-//! The command line.
+//! `wall`: the command line of rocking-wall.
 
-fn main() {}
+mod args;
+mod describe;
+mod motion;
+mod output;
+mod package;
+mod schema;
+mod simulate;
+
+use std::process::ExitCode;
+
+use args::{Arguments, Command};
+use clap::{CommandFactory, Parser};
+
+/// Exit code for input that cannot be used; clap uses the same.
+const BAD_INPUT: u8 = 2;
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Package(arguments) => package::run(&arguments),
+        Command::Describe(arguments) => describe::run(&arguments),
+        Command::Motion(arguments) => motion::run(&arguments),
+        Command::Schema => schema::run(),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "wall", &mut script);
+            output::to_stdout(&String::from_utf8_lossy(&script))
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::report(&format!("{error:#}"));
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}

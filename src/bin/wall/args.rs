@@ -1,0 +1,229 @@
+//! The arguments of `wall`, and what they make of a scene.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, Parser, Subcommand};
+use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene};
+use rocking_wall::simulation::Excitation;
+
+/// Out-of-plane rocking of masonry walls under earthquakes.
+#[derive(Debug, Parser)]
+#[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a scene, or the default wall, and write its history and its page
+    Simulate(SimulateArguments),
+    /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
+    Package(PackageArguments),
+    /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
+    Describe(DescribeArguments),
+    /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    Motion(MotionArguments),
+    /// Print the JSON schema of scene files
+    Schema,
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+/// A scene and what replaces parts of it.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Scene file (TOML); without one the defaults of the model description
+    pub(crate) scene: Option<PathBuf>,
+    /// Set a parameter, such as xi=0.03 or force_law=trilinear; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+}
+
+/// A record file and how to read it.
+#[derive(Debug, Args)]
+pub(crate) struct RecordArguments {
+    /// Accelerogram that replaces the scene's motion: PEER AT2 or CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) record: Option<PathBuf>,
+    /// Unit of the record: m/s2, cm/s2, mm/s2 or g; an AT2 file states its own
+    #[arg(long, requires = "record")]
+    pub(crate) unit: Option<String>,
+    /// Time between samples in s, for a record that does not state it
+    #[arg(long, requires = "record", value_name = "SECONDS")]
+    pub(crate) record_step: Option<f64>,
+    /// Column of a CSV table
+    #[arg(long, requires = "record")]
+    pub(crate) column: Option<String>,
+    /// Format of the record (at2, csv), if its content does not tell
+    #[arg(long, requires = "record")]
+    pub(crate) format: Option<String>,
+    /// Shake with the project's synthetic motion
+    #[arg(long, conflicts_with = "record")]
+    pub(crate) synthetic: bool,
+    /// Factor on the motion given here
+    #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
+    pub(crate) scale: Option<f64>,
+    /// Peak acceleration in m/s2 to scale the motion given here to
+    #[arg(long, value_name = "M_PER_S2")]
+    pub(crate) pga: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    #[command(flatten)]
+    pub(crate) record: RecordArguments,
+    /// Free vibration in s after a motion given here
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) tail: Option<f64>,
+    /// Hold each sample until the next, as most importers do with an input, instead of a straight line between
+    #[arg(long)]
+    pub(crate) hold: bool,
+    /// End of the run in s
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) stop_time: Option<f64>,
+    /// Step of the output in s
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) output_step: Option<f64>,
+    /// Write the history as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with the rocking wall and its history
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PackageArguments {
+    /// Scene file (TOML)
+    pub(crate) scene: PathBuf,
+    /// The FMU to write
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// The general FMU to start from
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
+    pub(crate) base: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DescribeArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MotionArguments {
+    #[command(flatten)]
+    pub(crate) record: RecordArguments,
+    /// The CSV file to write, with the columns time and a_g in s and m/s2
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: PathBuf,
+}
+
+impl SceneArguments {
+    /// The scene with its parameters set.
+    pub(crate) fn load(&self) -> Result<Scene> {
+        match &self.scene {
+            Some(path) => Ok(Scene::read(path)?),
+            None => Ok(Scene::default()),
+        }
+    }
+
+    /// Applies `--set`, after a motion may have changed the start.
+    pub(crate) fn apply(&self, scene: &mut Scene) -> Result<()> {
+        for assignment in &self.set {
+            let Some((name, value)) = assignment.split_once('=') else {
+                bail!("--set {assignment}: expected NAME=VALUE, such as --set xi=0.03");
+            };
+            scene.set(name.trim(), value).with_context(|| format!("--set {assignment}"))?;
+        }
+        Ok(())
+    }
+}
+
+impl RecordArguments {
+    /// The motion given, scaled, and a note on it.
+    pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
+        let (motion, note) = match &self.record {
+            Some(path) => self.read(path)?,
+            None if self.synthetic => {
+                (SyntheticMotion::default().motion()?, "synthetic motion".to_owned())
+            }
+            None if self.scale.is_some() || self.pga.is_some() => {
+                bail!("--scale and --pga act on a motion given with --record or --synthetic; give one of them");
+            }
+            None => return Ok(None),
+        };
+        let motion = match (self.scale, self.pga) {
+            (Some(factor), _) => motion.checked_scaled(factor)?,
+            (None, Some(pga)) => motion.scaled_to_peak(pga)?,
+            (None, None) => motion,
+        };
+        Ok(Some((motion, note)))
+    }
+
+    fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
+        let options = ReadOptions {
+            unit: self.unit.as_deref().map(str::parse::<Unit>).transpose()?,
+            step: self.record_step,
+            column: self.column.clone(),
+            format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
+        };
+        let record = read(path, &options)?;
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        Ok((record.motion, format!("record {name} ({})", record.format.description())))
+    }
+}
+
+impl SimulateArguments {
+    /// The scene to run.
+    pub(crate) fn scene(&self) -> Result<Scene> {
+        let mut scene = self.scene.load()?;
+        if let Some((motion, note)) = self.record.load()? {
+            let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
+            let tail = self.tail.unwrap_or(DEFAULT_TAIL);
+            if !(0.0..=1e6).contains(&tail) {
+                bail!("--tail {tail}: must be between 0 and 1e6 s");
+            }
+            scene.shake(Excitation::new(motion, None), tail, vec![note, peak]);
+            if self.scene.scene.is_none() {
+                scene.title = "The default parapet, shaken".into();
+            }
+        } else if self.tail.is_some() {
+            bail!("--tail belongs to a motion given with --record or --synthetic; a scene states its own tail");
+        }
+        self.scene.apply(&mut scene)?;
+        if self.hold {
+            let Some(excitation) = scene.excitation.take() else {
+                bail!("--hold needs a motion; give --record or --synthetic, or a scene with one");
+            };
+            scene.excitation = Some(excitation.held());
+            scene.motion_notes.push("each sample held until the next".into());
+        }
+        for (name, given, value) in [
+            ("--stop-time", self.stop_time, &mut scene.stop_time),
+            ("--output-step", self.output_step, &mut scene.output_step),
+        ] {
+            if let Some(given) = given {
+                if !(given > 0.0 && given <= 1e7) {
+                    bail!("{name} {given}: must be above 0 and at most 1e7 s");
+                }
+                *value = given;
+            }
+        }
+        Ok(scene)
+    }
+}

@@ -1,0 +1,112 @@
+//! `wall describe`: what follows from a wall's parameters.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use rocking_wall::solver::Method;
+use rocking_wall::wall::{Wall, equivalence};
+
+use crate::args::DescribeArguments;
+use crate::output;
+
+/// One derived number: name, symbol, value, unit.
+struct Fact(&'static str, &'static str, f64, &'static str);
+
+pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
+    let mut scene = arguments.scene.load()?;
+    arguments.scene.apply(&mut scene)?;
+    let parameters = &scene.parameters;
+    let wall = Wall::new(parameters)?;
+    let method = Method::new(parameters, &wall, parameters.tolerance)?;
+    let facts = facts(&wall);
+    let law =
+        if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let words = [
+        ("title", scene.title.clone()),
+        ("mechanism", parameters.mechanism.name().to_owned()),
+        ("force_law", law.to_owned()),
+        ("damping_model", parameters.damping_model.name().to_owned()),
+        ("impact", parameters.impact.name().to_owned()),
+        ("solver", method_name(&method).to_owned()),
+    ];
+    if arguments.json {
+        let mut object = serde_json::Map::new();
+        for (name, value) in words {
+            object.insert(name.into(), value.into());
+        }
+        for Fact(name, _, value, _) in facts {
+            object.insert(name.into(), value.into());
+        }
+        let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
+        object.insert("backbone".into(), serde_json::to_value(backbone)?);
+        let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
+        object.insert("warnings".into(), warnings.into());
+        return output::to_stdout(&(serde_json::to_string_pretty(&object)? + "\n"));
+    }
+    let mut text = String::new();
+    for (name, value) in words {
+        let _ = writeln!(text, "{name:<22}{value}");
+    }
+    text.push('\n');
+    for Fact(name, symbol, value, unit) in facts {
+        let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
+    }
+    text.push_str("\ncapacity curve             u [m]         F [N]\n");
+    for (displacement, force) in wall.backbone() {
+        let _ = writeln!(text, "                    {} {}", significant(displacement), significant(force));
+    }
+    for warning in wall.warnings() {
+        let _ = writeln!(text, "\nnote: {warning}");
+    }
+    output::to_stdout(&text)
+}
+
+/// Six significant figures, right-aligned.
+fn significant(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || (1e-3..1e6).contains(&magnitude) {
+        let digits = if value == 0.0 { 1.0 } else { magnitude.log10().floor() };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8 decimals")]
+        let decimals = (5.0 - digits).clamp(0.0, 8.0) as usize;
+        format!("{value:>13.decimals$}")
+    } else {
+        format!("{value:>13.5e}")
+    }
+}
+
+fn facts(wall: &Wall) -> Vec<Fact> {
+    let body = wall.body();
+    let omega1 = wall.omega1();
+    let period = if omega1 > 0.0 { 2.0 * std::f64::consts::PI / omega1 } else { 0.0 };
+    let e = wall.restitution();
+    vec![
+        Fact("mass", "m", body.mass, "kg"),
+        Fact("effective_mass", "m_eff", body.effective_mass, "kg"),
+        Fact("participation", "lambda", body.participation, "-"),
+        Fact("weight", "W", body.weight, "N"),
+        Fact("slenderness", "alpha", body.slenderness, "rad"),
+        Fact("F0", "F0+", body.strength.positive, "N"),
+        Fact("F0_negative", "F0-", body.strength.negative, "N"),
+        Fact("u_ins", "u_ins+", body.instability.positive, "m"),
+        Fact("u_ins_negative", "u_ins-", body.instability.negative, "m"),
+        Fact("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
+        Fact("force_end", "u3+", wall.force_end().positive, "m"),
+        Fact("rocking_onset", "a_g", body.strength.positive / (body.participation * body.effective_mass), "m/s2"),
+        Fact("omega1", "omega1", omega1, "rad/s"),
+        Fact("elastic_period", "T1", period, "s"),
+        Fact("restitution_used", "e", e, "-"),
+        Fact("xi_used", "xi", wall.damping_ratio(), "-"),
+        Fact("elastic_damping", "C", wall.elastic_damping(), "N s/m"),
+        Fact("xi_makris", "Eq. 14", equivalence::makris_konstantinidis(e), "-"),
+        Fact("xi_giannini", "Eq. 17", equivalence::giannini_masiani(e), "-"),
+    ]
+}
+
+/// The solver in words.
+pub(crate) fn method_name(method: &Method) -> &'static str {
+    match method {
+        Method::Exact => "exact",
+        Method::Adaptive { .. } => "adaptive",
+        Method::Newmark { .. } => "newmark",
+    }
+}

@@ -1,0 +1,44 @@
+//! What leaves the program: stdout, stderr, and files that are whole or not there.
+
+#![allow(clippy::print_stderr, reason = "messages to the user")]
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+/// Writes a file whole or not at all: beside its place first, then renamed.
+pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
+    let context = || format!("{}: cannot be written", path.display());
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let name = path.file_name().with_context(context)?;
+    let part = folder.join(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
+    let written = std::fs::write(&part, content).and_then(|()| std::fs::rename(&part, path));
+    if written.is_err() {
+        // nothing half-written stays behind; that it may never have been there is no matter
+        let _ = std::fs::remove_file(&part);
+    }
+    written.with_context(context)
+}
+
+/// Prints to stdout; a reader that has closed the pipe has had enough.
+pub(crate) fn to_stdout(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error).context("stdout"),
+        _ => Ok(()),
+    }
+}
+
+/// An error for the user.
+pub(crate) fn report(message: &str) {
+    eprintln!("wall: {message}");
+}
+
+/// Something the user should know.
+pub(crate) fn note(message: &str) {
+    eprintln!("wall: note: {message}");
+}

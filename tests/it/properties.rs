@@ -1,0 +1,192 @@
+//! Properties that hold for every wall: mirror, time shift, splitting, energy, rest, agreement of the solvers.
+
+use proptest::prelude::*;
+use rocking_wall::simulation::{Progress, Simulation};
+use rocking_wall::solver::Segment;
+use rocking_wall::variables::{
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening, Solver,
+};
+use rocking_wall::wall::{Parameters, Support, Wall};
+
+/// A random valid wall at rest.
+fn walls() -> impl Strategy<Value = Parameters> {
+    let shape = (0.5_f64..10.0, 0.03_f64..0.2, 0.2_f64..0.8, 0.0_f64..2.0, -0.2_f64..0.2);
+    let law = (0..3_i32, 0.005_f64..0.1, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
+    let damping = (0..5_i32, 0.0_f64..0.1, any::<bool>(), 0.7_f64..0.99, any::<[bool; 2]>());
+    (shape, law, damping).prop_map(|((h, slenderness, hinge, load, eccentricity), law, damping)| {
+        let (force_law, a1, a3, d1, softening) = law;
+        let (model, xi, impact, restitution, [vertical, follows]) = damping;
+        let force_law = ForceLaw::ALL[usize::try_from(force_law).unwrap()];
+        let model = DampingModel::ALL[usize::try_from(model).unwrap()];
+        let rigid = force_law == ForceLaw::RigidLinear;
+        let viscous = !matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
+        let mechanism = if vertical { Mechanism::VerticalSpanning } else { Mechanism::Parapet };
+        let thickness = h * slenderness * if vertical { hinge } else { 1.0 };
+        Parameters {
+            mechanism,
+            height: h,
+            thickness,
+            hinge_ratio: hinge,
+            overburden: load * 1800.0 * 9.81 * h * thickness,
+            overburden_eccentricity: eccentricity * thickness,
+            eccentricity_mode: if follows { EccentricityMode::FollowsPivot } else { EccentricityMode::FixedToWall },
+            force_law,
+            a1,
+            a3,
+            d1,
+            softening: Softening::ALL[usize::try_from(softening).unwrap()],
+            damping_model: if rigid && viscous { DampingModel::None } else { model },
+            damping_source: DampingSource::Given,
+            xi,
+            c_bar: xi,
+            impact: if impact { Impact::Restitution } else { Impact::None },
+            restitution_source: RestitutionSource::Given,
+            restitution,
+            u_start: 0.0,
+            u_dot_start: 0.0,
+            tolerance: 1e-13,
+            ..Parameters::default()
+        }
+    })
+}
+
+/// Accelerations of a random broken line, in units of the wall's own strength.
+fn motions() -> impl Strategy<Value = Vec<f64>> {
+    proptest::collection::vec(-1.8_f64..1.8, 8..40)
+}
+
+struct Run {
+    parameters: Parameters,
+    accelerations: Vec<f64>,
+    step: f64,
+}
+
+impl Run {
+    fn new(parameters: Parameters, motion: &[f64]) -> Self {
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        let body = wall.body();
+        let strength = body.strength.positive.min(body.strength.negative);
+        let onset = strength / (body.participation * body.effective_mass);
+        let accelerations = motion.iter().map(|a| a * onset).collect();
+        Self { parameters, accelerations, step: 0.3 / wall.rocking_rate() }
+    }
+
+    fn history(&self, time: f64, parts: u32) -> Vec<Progress> {
+        let support = |index: usize| Support::rigid(self.accelerations[index]);
+        let mut simulation = Simulation::new(&self.parameters, None, time, support(0)).expect("a valid wall");
+        let mut history = vec![*simulation.progress()];
+        for index in 1..self.accelerations.len() {
+            let (from, to) = (support(index - 1), support(index));
+            for part in 0..parts {
+                let at = |part: u32| from.towards(to, f64::from(part) / f64::from(parts));
+                let duration = self.step / f64::from(parts);
+                let segment = Segment { duration, from: at(part), to: at(part + 1) };
+                simulation.advance(&segment).expect("a bounded motion");
+            }
+            history.push(*simulation.progress());
+        }
+        history
+    }
+
+    fn scale(&self) -> f64 {
+        Wall::new(&self.parameters).expect("a valid wall").displacement_scale()
+    }
+}
+
+/// Largest |Δu|/u_ins between two histories while the wall stands: beyond, differences grow without bound.
+fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> f64 {
+    let standing = a.iter().zip(b).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
+    standing.map(|(a, b)| (a.state.displacement - sign * b.state.displacement).abs() / scale).fold(0.0, f64::max)
+}
+
+/// Rounding grows with each reversal near instability; forty segments amplify it by less than 1e5 in walls that stand.
+const TOLERANCE: f64 = 1e-9;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Mirrored motion moves a symmetric wall to the mirrored displacements.
+    #[test]
+    fn mirror(parameters in walls(), motion in motions()) {
+        let parameters = Parameters { eccentricity_mode: EccentricityMode::FollowsPivot, ..parameters };
+        let run = Run::new(parameters.clone(), &motion);
+        let mirrored: Vec<_> = motion.iter().map(|a| -a).collect();
+        let other = Run::new(parameters, &mirrored);
+        let difference = apart(&run.history(0.0, 1), &other.history(0.0, 1), run.scale(), -1.0);
+        prop_assert!(difference == 0.0, "differs by {difference}");
+    }
+
+    /// The clock does not matter.
+    #[test]
+    fn time_shift(parameters in walls(), motion in motions()) {
+        let run = Run::new(parameters, &motion);
+        let difference = apart(&run.history(0.0, 1), &run.history(1234.5, 1), run.scale(), 1.0);
+        prop_assert!(difference == 0.0, "differs by {difference}");
+    }
+
+    /// A segment may be cut into parts.
+    #[test]
+    fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
+        let run = Run::new(parameters, &motion);
+        let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
+        prop_assert!(difference < TOLERANCE, "differs by {difference}");
+    }
+
+    /// Where the exact solver is exact, the adaptive one agrees.
+    #[test]
+    fn exact_and_adaptive_agree(parameters in walls(), motion in motions()) {
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        prop_assume!(wall.has_constant_damping());
+        let exact = Run::new(Parameters { solver: Solver::Exact, ..parameters.clone() }, &motion);
+        let adaptive = Run::new(Parameters { solver: Solver::Adaptive, ..parameters }, &motion);
+        let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
+        prop_assert!(difference < TOLERANCE, "differs by {difference}");
+    }
+
+    /// Without motion nothing moves.
+    #[test]
+    fn rest_stays_rest(parameters in walls(), duration in 1e-6_f64..100.0) {
+        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
+        let still = Support::default();
+        simulation.advance(&Segment { duration, from: still, to: still }).expect("rest");
+        prop_assert_eq!(simulation.progress().state.displacement, 0.0);
+        prop_assert_eq!(simulation.progress().state.velocity, 0.0);
+    }
+
+    /// Free motion never gains energy, ½ m u̇² + ∫F du.
+    #[test]
+    fn energy_never_grows(parameters in walls(), start in -0.95_f64..0.95, step in 1e-3_f64..0.5) {
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
+        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
+        let still = Support::default();
+        let scale = energy(&wall, wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
+        let mut before = f64::INFINITY;
+        for _ in 0..200 {
+            simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
+            let state = simulation.progress().state;
+            if state.overturned {
+                break;
+            }
+            let now = energy(&wall, state.displacement, state.velocity);
+            // 64 roundings of the potential's parts
+            prop_assert!(now <= before + 64.0 * f64::EPSILON * scale, "grew by {:e}", (now - before) / scale);
+            before = now;
+        }
+    }
+}
+
+/// Energy per unit effective mass.
+fn energy(wall: &Wall, displacement: f64, velocity: f64) -> f64 {
+    let potential: f64 = wall
+        .branches()
+        .iter()
+        .map(|branch| {
+            // ∫F du over the part of the branch between 0 and u: trapezoids are exact on straight lines
+            let (low, high) = (displacement.min(0.0), displacement.max(0.0));
+            let (from, to) = (branch.lower.max(low), branch.upper.min(high));
+            if from < to { 0.5 * (branch.restoring(from) + branch.restoring(to)) * (to - from) } else { 0.0 }
+        })
+        .sum();
+    0.5 * velocity * velocity + if displacement < 0.0 { -potential } else { potential }
+}
