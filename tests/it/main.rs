@@ -1,4 +1,5 @@
 //! The tests of the library.
 
 mod cases;
+mod description;
 mod ground_motion;
