@@ -2,5 +2,6 @@
 
 mod cases;
 mod closed_forms;
+mod description;
 mod ground_motion;
 mod properties;

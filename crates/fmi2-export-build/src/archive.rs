@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-/// More content than this is no FMU of ours: a small archive can unpack to anything [bytes].
+/// More content than this is no FMU of ours: a small archive can unpack to anything \[bytes\].
 const MAX_CONTENT: u64 = 1 << 30;
 
 /// The files of an FMU by their path inside it, in the order of the paths.

@@ -105,7 +105,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
     }
     code.push_str("}\n");
     if variables.is_empty() {
-        code.push_str(&EMPTY.replace("NAME", name));
+        code.push_str(&EMPTY.replace("@name@", name));
         return;
     }
     let list = variables.iter().map(|variable| format!("\n        Self::{},", variant(variable)));
@@ -114,10 +114,10 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
     });
     code.push_str(
         &FILLED
-            .replace("NAME", name)
-            .replace("TABLE", base.table())
-            .replace("LIST", &list.collect::<String>())
-            .replace("ARMS", &arms.collect::<String>()),
+            .replace("@name@", name)
+            .replace("@table@", base.table())
+            .replace("@list@", &list.collect::<String>())
+            .replace("@arms@", &arms.collect::<String>()),
     );
     code.push_str(LITERALS);
     let count = variables.len();
@@ -129,7 +129,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
 }
 
 const EMPTY: &str = "
-impl ::fmi2_export::VariableId for NAME {
+impl ::fmi2_export::VariableId for @name@ {
     const ALL: &'static [Self] = &[];
 
     fn variable(self) -> &'static ::fmi2_export::Variable {
@@ -143,18 +143,18 @@ impl ::fmi2_export::VariableId for NAME {
 ";
 
 const FILLED: &str = "
-impl ::fmi2_export::VariableId for NAME {
-    const ALL: &'static [Self] = &[LIST
+impl ::fmi2_export::VariableId for @name@ {
+    const ALL: &'static [Self] = &[@list@
     ];
 
     fn variable(self) -> &'static ::fmi2_export::Variable {
-        &TABLE[self as usize]
+        &@table@[self as usize]
     }
 
     #[allow(clippy::too_many_lines, reason = \"one line per variable\")]
     fn from_reference(reference: u32) -> Option<Self> {
         match reference {
-ARMS            _ => None,
+@arms@            _ => None,
         }
     }
 }

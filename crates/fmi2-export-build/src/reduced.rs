@@ -24,13 +24,13 @@ pub struct Reduction<'a> {
 /// What an importer simulates unless it is told otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DefaultExperiment {
-    /// Start time [s].
+    /// Start time \[s\].
     pub start: f64,
-    /// Stop time [s].
+    /// Stop time \[s\].
     pub stop: f64,
-    /// Communication step [s].
+    /// Communication step \[s\].
     pub step: f64,
-    /// Relative tolerance [-].
+    /// Relative tolerance \[-\].
     pub tolerance: f64,
 }
 

@@ -1,0 +1,160 @@
+//! The model description against what the project promised, and the documentation against the description.
+
+use fmi2_export::{Kind, Variable, VariableId};
+use rocking_wall::variables::{
+    BooleanVariable, DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, IntegerVariable,
+    Mechanism, RealVariable, RestitutionSource, Softening, Solver, StringVariable,
+};
+
+const XML: &str = include_str!("../../modelDescription/modelDescription.xml");
+const PAGE: &str = include_str!("../../modelDescription/documentation/index.html");
+
+/// Every variable, in the order of the description: value references count from 1 in it.
+fn variables() -> Vec<&'static Variable> {
+    fn of<V: VariableId>() -> impl Iterator<Item = &'static Variable> {
+        V::ALL.iter().map(|variable| variable.variable())
+    }
+    let mut all: Vec<_> = of::<RealVariable>()
+        .chain(of::<IntegerVariable>())
+        .chain(of::<BooleanVariable>())
+        .chain(of::<StringVariable>())
+        .collect();
+    all.sort_by_key(|variable| variable.reference);
+    all
+}
+
+#[test]
+fn the_names_others_rely_on_are_there_in_their_order() {
+    let expected = "
+        a_g a_bottom a_top drift
+        u u_dot overturned u_ddot u_ratio restoring_force damping_force reaction_bottom reaction_top impulse_bottom
+        impulse_top overturn_time u_max
+        mechanism height thickness width density gravity hinge_ratio overburden overburden_eccentricity eccentricity_mode
+        force_law a1 a3 d1 softening
+        damping_model damping_source xi c_bar
+        impact restitution_source restitution
+        u_start u_dot_start solver tolerance newmark_step
+        mass effective_mass participation F0 F0_negative u_ins u_ins_negative omega1 xi_used restitution_used";
+    let names: Vec<_> = variables().iter().map(|variable| variable.name).collect();
+    assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
+    let references: Vec<_> = variables().iter().map(|variable| variable.reference).collect();
+    assert!(references.iter().copied().eq(1..=54), "{references:?}");
+}
+
+#[test]
+fn items_have_the_names_others_rely_on_and_count_from_one() {
+    macro_rules! items {
+        ($($type:ident: $names:literal),+ $(,)?) => {$(
+            let names: Vec<_> = $type::ALL.iter().map(|item| item.name()).collect();
+            assert_eq!(names, $names.split(' ').collect::<Vec<_>>());
+            assert!($type::ALL.iter().map(|item| item.value()).eq((1..).take(names.len())), "{names:?}");
+            for item in $type::ALL {
+                assert_eq!($type::from_value(item.value()), Some(*item));
+                assert_eq!($type::from_name(item.name()), Some(*item));
+                assert!(!item.description().is_empty(), "{item:?}");
+            }
+        )+};
+    }
+    items! {
+        Mechanism: "parapet vertical_spanning",
+        EccentricityMode: "fixed_to_wall follows_pivot",
+        ForceLaw: "rigid_linear bilinear trilinear",
+        Softening: "parallel rotated chord",
+        DampingModel: "none constant_coefficient free_standing_block constant_ratio stiffness_proportional",
+        DampingSource: "given predicted",
+        Impact: "none restitution",
+        RestitutionSource: "given analytic calibrated momentum",
+        Solver: "automatic exact adaptive newmark",
+    }
+}
+
+#[test]
+fn every_variable_says_what_it_is() {
+    for variable in variables() {
+        assert!(variable.description.len() > 10, "{}", variable.name);
+        assert!(!variable.description.ends_with('.'), "{}", variable.name);
+        let real = matches!(variable.kind, Kind::Real { .. });
+        assert_eq!(variable.unit.is_some(), real, "{}", variable.name);
+    }
+    let mut reals = 0;
+    for line in XML.lines().filter(|line| line.trim_start().starts_with("<Real declaredType=")) {
+        // Importers do not take units and nominal values from types.
+        assert!(line.contains(" unit=\"") && line.contains(" nominal=\""), "{line}");
+        reals += 1;
+    }
+    assert_eq!(reals, RealVariable::ALL.len());
+}
+
+#[test]
+fn the_frame_is_complete() {
+    for text in [
+        &format!("version=\"{}\"", env!("CARGO_PKG_VERSION")),
+        "guid=\"{fingerprint}\"",
+        "variableNamingConvention=\"structured\"",
+        "needsExecutionTool=\"false\"",
+        "canHandleVariableCommunicationStepSize=\"true\"",
+        "canInterpolateInputs=\"true\"",
+        "maxOutputDerivativeOrder=\"1\"",
+        "canRunAsynchronuously=\"false\"",
+        "canBeInstantiatedOnlyOncePerProcess=\"false\"",
+        "canNotUseMemoryManagementFunctions=\"true\"",
+        "canGetAndSetFMUstate=\"true\"",
+        "canSerializeFMUstate=\"true\"",
+        "providesDirectionalDerivative=\"true\"",
+        "<DefaultExperiment startTime=\"0\" stopTime=\"30\" stepSize=\"0.03\" tolerance=\"1e-8\"/>",
+    ] {
+        assert!(XML.contains(text), "{text}");
+    }
+    for category in
+        ["logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal", "logEvents", "logAll"]
+    {
+        assert!(XML.contains(&format!("<Category name=\"{category}\"")), "{category}");
+    }
+    // A date would make every build another FMU.
+    assert!(!XML.contains("generationDateAndTime"));
+}
+
+#[test]
+fn the_documentation_lists_every_variable_with_its_default() {
+    for variable in variables() {
+        let name = variable.name;
+        let head = format!("<tr><td><code>{name}</code></td>");
+        assert_eq!(PAGE.matches(&head).count(), 1, "{name} has one row in documentation/index.html");
+        let row = PAGE.split(&head).nth(1).and_then(|rest| rest.split("</tr>").next()).unwrap_or_default();
+        // Unit, default, meaning; what has no default has no such column.
+        let cells: Vec<_> = row.split("<td>").skip(1).map(|cell| cell.trim_end_matches("</td>")).collect();
+        let default = match &variable.kind {
+            Kind::Real { start, .. } => start.map(|start| cells[1].parse() == Ok(start)),
+            Kind::Enumeration { start, items } => start.map(|start| {
+                items
+                    .iter()
+                    .any(|item| item.value == start && cells[1] == format!("<code>{}</code>", item.name))
+            }),
+            Kind::Boolean { start } => start.map(|start| cells[1] == start.to_string()),
+            Kind::Integer { start, .. } => start.map(|start| cells[1] == start.to_string()),
+            Kind::String { start } => start.map(|start| cells[1] == start),
+        };
+        assert_ne!(
+            default,
+            Some(false),
+            "{name}: the page's default {:?} is not the description's",
+            cells[1]
+        );
+        assert_eq!(cells.len(), if default.is_some() { 3 } else { 2 }, "{name}: {row}");
+        if let Kind::Enumeration { items, .. } = &variable.kind {
+            for item in *items {
+                let entry = format!("<dt>{} <code>{}</code></dt>", item.value, item.name);
+                assert!(row.contains(&entry), "{name}: {entry}");
+            }
+        }
+    }
+    let rows = PAGE.matches("<tr><td><code>").count();
+    assert_eq!(rows, variables().len(), "the page lists a variable that is none");
+}
+
+#[test]
+fn the_documentation_needs_nothing_from_outside() {
+    for text in ["http://", "https://", "<script", "<img", "<link", "url("] {
+        assert!(!PAGE.contains(text), "{text}");
+    }
+}
