@@ -178,8 +178,8 @@ impl Piece for Series {
         Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    fn bounds(&self) -> (f64, f64) {
-        // Σ n(n−1) |uₙ| Tⁿ⁻² and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³
+    fn bounds(&self, _from: Kinematics, _length: f64) -> (f64, f64) {
+        // over the whole piece, which is short: Σ n(n−1) |uₙ| Tⁿ⁻² and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³
         let (mut acceleration, mut jerk) = (0.0, 0.0);
         for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
             let second = (n * (n - 1)) as f64 * coefficient.abs();

@@ -49,8 +49,8 @@ pub(super) trait Piece {
     /// The motion `time` after the start of the piece.
     fn at(&self, time: f64) -> Kinematics;
 
-    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] over the piece.
-    fn bounds(&self) -> (f64, f64);
+    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
+    fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64);
 
     /// ∫u dt from the start of the piece \[m s\].
     fn displacement_integral(&self, time: f64) -> f64;
@@ -93,7 +93,7 @@ pub(super) fn first_exit<P: Piece>(
     peaks: &mut Peaks,
 ) -> Result<Option<Exit>, SearchExhausted> {
     let horizon = piece.horizon();
-    let search = Search { piece, bounds, limits: piece.bounds() };
+    let search = Search { piece, bounds };
     let left = Node { time: 0.0, motion: start };
     let right = Node { time: horizon, motion: piece.at(horizon) };
     match search.settle(left, right, false, peaks) {
@@ -120,7 +120,6 @@ enum Verdict {
 struct Search<'a, P> {
     piece: &'a P,
     bounds: [f64; 2],
-    limits: (f64, f64),
 }
 
 impl<P: Piece> Search<'_, P> {
@@ -176,7 +175,7 @@ impl<P: Piece> Search<'_, P> {
     fn settle(&self, left: Node, right: Node, deepest: bool, peaks: &Peaks) -> Verdict {
         let (from, to) = (left.motion, right.motion);
         let length = right.time - left.time;
-        let (most_acceleration, most_jerk) = self.limits;
+        let (most_acceleration, most_jerk) = self.piece.bounds(from, length);
         // |u(t) − chord| ≤ L²/8 max|ü|
         let sag = 0.125 * length * length * most_acceleration;
         let highest = from.displacement.max(to.displacement) + sag;

@@ -248,22 +248,22 @@ impl Piece for ClosedForm {
         Kinematics { displacement: displacement + change[0], velocity: change[1], acceleration: change[2] }
     }
 
-    fn bounds(&self) -> (f64, f64) {
+    fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64) {
         let Oscillator { damping: c, stiffness: k, .. } = self.oscillator;
-        let a0 = self.start.acceleration.abs();
-        // ü obeys the free equation, starting from ü₀ and the jerk p₁ − c ü₀ − k u̇₀
-        let jerk = (self.forcing_rate - c * self.start.acceleration - k * self.start.velocity).abs();
+        let acceleration = from.acceleration.abs();
+        // ü obeys the free equation, starting from ü and the jerk p₁ − c ü − k u̇
+        let jerk = (self.forcing_rate - c * from.acceleration - k * from.velocity).abs();
         if k > 0.0 {
             // ü² + (d ü/dt)²/k never grows
             let root = k.sqrt();
-            let most = a0.hypot(jerk / root);
+            let most = acceleration.hypot(jerk / root);
             (most, most * root)
         } else {
             // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
             let rate = (-k).sqrt();
-            let growth = (rate * self.horizon).cosh();
-            let most = (a0 + jerk * self.horizon) * growth;
-            (most, jerk * growth + rate * rate * self.horizon * most)
+            let growth = (rate * length).cosh();
+            let most = (acceleration + jerk * length) * growth;
+            (most, jerk * growth + rate * rate * length * most)
         }
     }
 
