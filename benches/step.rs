@@ -6,21 +6,22 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use rocking_wall::ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, DampingSource};
 use rocking_wall::wall::{Parameters, Support};
 
-const STEPS: usize = 20_000;
-const RUNS: usize = 15;
-const STEP: f64 = 0.005;
+const RUNS: usize = 25;
 
 fn main() {
-    let record: Vec<f64> = (0..=STEPS).map(acceleration).collect();
-    let oscillator = least(|| {
+    let motion = SyntheticMotion::default().motion().expect("the default motion");
+    let record = motion.samples();
+    let steps = record.len() - 1;
+    let oscillator = least(steps, || {
         // uₙ₊₁ = A uₙ + b₀ aₙ + b₁ aₙ₊₁, the piecewise-exact recurrence
         let (mut u, mut v) = (1e-4_f64, 0.0_f64);
-        for ends in black_box(&record).windows(2) {
+        for ends in black_box(record).windows(2) {
             let (from, to) = (ends[0], ends[1]);
             (u, v) = (
                 0.9986 * u + 0.004_99 * v - 1.2e-5 * from - 4e-6 * to,
@@ -31,10 +32,10 @@ fn main() {
     });
     println!("{:<46}{oscillator:>9.1} ns", "bare linear oscillator");
     let walls = [
-        ("elastic step, constant coefficient", DampingModel::ConstantCoefficient, 1e-3),
-        ("elastic step, constant ratio", DampingModel::ConstantRatio, 1e-3),
-        ("rocking, constant coefficient", DampingModel::ConstantCoefficient, 0.6),
-        ("rocking, constant ratio", DampingModel::ConstantRatio, 0.6),
+        ("elastic step, constant coefficient", DampingModel::ConstantCoefficient, 0.05),
+        ("elastic step, constant ratio", DampingModel::ConstantRatio, 0.05),
+        ("rocking, constant coefficient", DampingModel::ConstantCoefficient, 0.5),
+        ("rocking, constant ratio", DampingModel::ConstantRatio, 0.5),
     ];
     for (name, damping_model, scale) in walls {
         let parameters = Parameters {
@@ -45,11 +46,11 @@ fn main() {
             ..Parameters::default()
         };
         let start = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
-        let cost = least(|| {
+        let cost = least(steps, || {
             let mut simulation = start.clone();
-            for ends in black_box(&record).windows(2) {
+            for ends in black_box(record).windows(2) {
                 let [from, to] = [ends[0], ends[1]].map(|a| Support::rigid(scale * a));
-                let segment = Segment { duration: STEP, from, to };
+                let segment = Segment { duration: motion.step(), from, to };
                 simulation.advance(&segment).expect("a bounded motion");
             }
             assert!(!simulation.progress().state.overturned, "{name}: the wall stands");
@@ -59,15 +60,8 @@ fn main() {
     }
 }
 
-/// A smooth made-up motion that makes the default wall rock without overturning \[m/s²\].
-fn acceleration(index: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "a small index")]
-    let t = index as f64 * STEP;
-    0.9 * (7.0 * t).sin() + 0.3 * (2.3 * t).sin()
-}
-
 /// Nanoseconds a step, the least of several runs after a warm-up.
-fn least(mut run: impl FnMut() -> f64) -> f64 {
+fn least(steps: usize, mut run: impl FnMut() -> f64) -> f64 {
     black_box(run());
     let mut least = f64::INFINITY;
     for _ in 0..RUNS {
@@ -76,6 +70,6 @@ fn least(mut run: impl FnMut() -> f64) -> f64 {
         least = least.min(start.elapsed().as_secs_f64());
     }
     #[allow(clippy::cast_precision_loss, reason = "a small count")]
-    let steps = STEPS as f64;
+    let steps = steps as f64;
     least * 1e9 / steps
 }
