@@ -1,0 +1,113 @@
+//! Which variable may be set when, and to what.
+
+use crate::call::Phase;
+use crate::model::Failure;
+use crate::variable::{Causality, Item, Kind, Variability, Variable, VariableId};
+
+/// The variable with this value reference among those of one type.
+pub(crate) fn find<V: VariableId>(reference: u32) -> Result<V, Failure> {
+    V::from_reference(reference).ok_or_else(|| unknown(reference))
+}
+
+#[cold]
+fn unknown(reference: u32) -> Failure {
+    Failure(format!("no variable of this type has the value reference {reference}"))
+}
+
+/// Whether `variable` may be set in `phase`.
+pub(crate) fn check_settable(variable: &Variable, phase: Phase) -> Result<(), Failure> {
+    let in_step_mode = phase == Phase::StepMode;
+    let allowed = match (variable.causality, variable.variability) {
+        (_, Variability::Constant) => false,
+        (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => true,
+        (Causality::Parameter, _) => !in_step_mode,
+        _ => false,
+    };
+    if allowed { Ok(()) } else { Err(not_settable(variable, phase)) }
+}
+
+#[cold]
+fn not_settable(variable: &Variable, phase: Phase) -> Failure {
+    let name = variable.name;
+    let what = match variable.causality {
+        Causality::Parameter | Causality::Input if variable.variability == Variability::Constant => {
+            "a constant"
+        }
+        Causality::Parameter => {
+            return Failure(format!(
+                "{name} is a fixed parameter and cannot be set {phase}: set it before fmi2ExitInitializationMode"
+            ));
+        }
+        Causality::CalculatedParameter => "a calculated parameter",
+        Causality::Input => "an input",
+        Causality::Output => "an output",
+        Causality::Local => "a local variable",
+        Causality::Independent => "the independent variable",
+    };
+    Failure(format!("{name} is {what} and cannot be set: only parameters and inputs can"))
+}
+
+/// Whether `value` is finite and within the limits of `variable`.
+pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
+    if !value.is_finite() {
+        return Err(Failure(format!("{} = {value} is not a finite number", variable.name)));
+    }
+    match variable.kind {
+        Kind::Real { min: Some(min), .. } if value < min => {
+            Err(beyond(variable, value, "below its minimum", min))
+        }
+        Kind::Real { max: Some(max), .. } if value > max => {
+            Err(beyond(variable, value, "above its maximum", max))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether `value` is within the limits of `variable`, or one of its items.
+pub(crate) fn check_integer(variable: &Variable, value: i32) -> Result<(), Failure> {
+    match variable.kind {
+        Kind::Integer { min: Some(min), .. } if value < min => {
+            Err(beyond(variable, value, "below its minimum", min))
+        }
+        Kind::Integer { max: Some(max), .. } if value > max => {
+            Err(beyond(variable, value, "above its maximum", max))
+        }
+        Kind::Enumeration { items, .. } if items.iter().all(|item| item.value != value) => {
+            Err(no_item(variable, value, items))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cold]
+fn beyond<T: std::fmt::Display>(variable: &Variable, value: T, beyond: &str, limit: T) -> Failure {
+    let unit = match variable.unit {
+        None | Some("1") => String::new(),
+        Some(unit) => format!(" {unit}"),
+    };
+    Failure(format!("{} = {value}{unit} is {beyond}, {limit}{unit}", variable.name))
+}
+
+#[cold]
+fn no_item(variable: &Variable, value: i32, items: &[Item]) -> Failure {
+    let items: Vec<_> = items.iter().map(|item| format!("{} = {}", item.name, item.value)).collect();
+    Failure(format!("{} = {value} is none of its items: {}", variable.name, items.join(", ")))
+}
+
+/// Whether `variable` is one whose derivative can be set.
+pub(crate) fn check_derivable_input(variable: &Variable) -> Result<(), Failure> {
+    let name = variable.name;
+    match (variable.causality, variable.variability) {
+        (Causality::Input, Variability::Continuous) => Ok(()),
+        (Causality::Input, _) => Err(Failure(format!("{name} is not continuous and takes no derivative"))),
+        _ => Err(Failure(format!("{name} is no input and takes no derivative"))),
+    }
+}
+
+/// Whether the derivative asked for is the first.
+pub(crate) fn check_order(variable: &Variable, order: i32) -> Result<(), Failure> {
+    if order == 1 {
+        return Ok(());
+    }
+    Err(Failure(format!("derivative of order {order} of {}: only order 1 is supported", variable.name)))
+}

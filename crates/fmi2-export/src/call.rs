@@ -1,0 +1,175 @@
+//! The call order of FMI 2.0 co-simulation (FMI 2.0.5, section 4.2.4) as a table.
+
+use std::fmt;
+
+/// Where an instance is in its life.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Phase {
+    Instantiated,
+    InitializationMode,
+    StepMode,
+    Terminated,
+    /// A call returned `fmi2Error`.
+    Error,
+    /// The instance could not even be reset.
+    Fatal,
+}
+
+impl Phase {
+    const ALL: [Self; 6] = [
+        Self::Instantiated,
+        Self::InitializationMode,
+        Self::StepMode,
+        Self::Terminated,
+        Self::Error,
+        Self::Fatal,
+    ];
+
+    /// The number that stands for it in a saved state.
+    pub(crate) const fn number(self) -> u64 {
+        self as u64
+    }
+
+    pub(crate) fn from_number(number: u64) -> Option<Self> {
+        Self::ALL.into_iter().find(|phase| phase.number() == number)
+    }
+
+    const fn bit(self) -> u8 {
+        1 << self as u8
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Instantiated => "before fmi2EnterInitializationMode",
+            Self::InitializationMode => "in Initialization Mode",
+            Self::StepMode => "in step mode",
+            Self::Terminated => "after fmi2Terminate",
+            Self::Error => "after an error: reset it, restore a state or free it",
+            Self::Fatal => "after a fatal error: free it",
+        })
+    }
+}
+
+/// The functions that the call order is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Call {
+    SetDebugLogging,
+    SetupExperiment,
+    EnterInitializationMode,
+    ExitInitializationMode,
+    Terminate,
+    Reset,
+    GetReal,
+    GetInteger,
+    GetBoolean,
+    GetString,
+    SetReal,
+    SetInteger,
+    SetBoolean,
+    SetString,
+    GetFmuState,
+    SetFmuState,
+    FreeFmuState,
+    SerializedFmuStateSize,
+    SerializeFmuState,
+    DeSerializeFmuState,
+    GetDirectionalDerivative,
+    SetRealInputDerivatives,
+    GetRealOutputDerivatives,
+    DoStep,
+    CancelStep,
+    GetStatus,
+    GetRealStatus,
+    GetIntegerStatus,
+    GetBooleanStatus,
+    GetStringStatus,
+}
+
+struct Row {
+    call: Call,
+    name: &'static str,
+    allowed: u8,
+}
+
+const NEVER: u8 = 0;
+const INST: u8 = Phase::Instantiated.bit();
+const INIT: u8 = Phase::InitializationMode.bit();
+const STEP: u8 = Phase::StepMode.bit();
+const TERM: u8 = Phase::Terminated.bit();
+const ERR: u8 = Phase::Error.bit();
+
+#[rustfmt::skip]
+const TABLE: [Row; 30] = [
+    row(Call::SetDebugLogging,          "fmi2SetDebugLogging",          INST | INIT | STEP | TERM | ERR),
+    row(Call::SetupExperiment,          "fmi2SetupExperiment",          INST),
+    row(Call::EnterInitializationMode,  "fmi2EnterInitializationMode",  INST),
+    row(Call::ExitInitializationMode,   "fmi2ExitInitializationMode",          INIT),
+    row(Call::Terminate,                "fmi2Terminate",                              STEP),
+    row(Call::Reset,                    "fmi2Reset",                    INST | INIT | STEP | TERM | ERR),
+    row(Call::GetReal,                  "fmi2GetReal",                         INIT | STEP | TERM | ERR),
+    row(Call::GetInteger,               "fmi2GetInteger",                      INIT | STEP | TERM | ERR),
+    row(Call::GetBoolean,               "fmi2GetBoolean",                      INIT | STEP | TERM | ERR),
+    row(Call::GetString,                "fmi2GetString",                       INIT | STEP | TERM | ERR),
+    row(Call::SetReal,                  "fmi2SetReal",                  INST | INIT | STEP),
+    row(Call::SetInteger,               "fmi2SetInteger",               INST | INIT | STEP),
+    row(Call::SetBoolean,               "fmi2SetBoolean",               INST | INIT | STEP),
+    row(Call::SetString,                "fmi2SetString",                INST | INIT | STEP),
+    row(Call::GetFmuState,              "fmi2GetFMUstate",              INST | INIT | STEP | TERM | ERR),
+    row(Call::SetFmuState,              "fmi2SetFMUstate",              INST | INIT | STEP | TERM | ERR),
+    row(Call::FreeFmuState,             "fmi2FreeFMUstate",             INST | INIT | STEP | TERM | ERR),
+    row(Call::SerializedFmuStateSize,   "fmi2SerializedFMUstateSize",   INST | INIT | STEP | TERM | ERR),
+    row(Call::SerializeFmuState,        "fmi2SerializeFMUstate",        INST | INIT | STEP | TERM | ERR),
+    row(Call::DeSerializeFmuState,      "fmi2DeSerializeFMUstate",      INST | INIT | STEP | TERM | ERR),
+    row(Call::GetDirectionalDerivative, "fmi2GetDirectionalDerivative",        INIT | STEP | TERM | ERR),
+    row(Call::SetRealInputDerivatives,  "fmi2SetRealInputDerivatives",         INIT | STEP),
+    row(Call::GetRealOutputDerivatives, "fmi2GetRealOutputDerivatives",               STEP | TERM | ERR),
+    row(Call::DoStep,                   "fmi2DoStep",                                 STEP),
+    // Steps are computed while the importer waits: there is never one to cancel.
+    row(Call::CancelStep,               "fmi2CancelStep",               NEVER),
+    row(Call::GetStatus,                "fmi2GetStatus",                              STEP | TERM | ERR),
+    row(Call::GetRealStatus,            "fmi2GetRealStatus",                          STEP | TERM | ERR),
+    row(Call::GetIntegerStatus,         "fmi2GetIntegerStatus",                       STEP | TERM | ERR),
+    row(Call::GetBooleanStatus,         "fmi2GetBooleanStatus",                       STEP | TERM | ERR),
+    row(Call::GetStringStatus,          "fmi2GetStringStatus",                        STEP | TERM | ERR),
+];
+
+const fn row(call: Call, name: &'static str, allowed: u8) -> Row {
+    Row { call, name, allowed }
+}
+
+// The table is indexed by call, so its rows stand in the order of the enum.
+const _: () = {
+    let mut index = 0;
+    while index < TABLE.len() {
+        assert!(TABLE[index].call as usize == index);
+        index += 1;
+    }
+};
+
+impl Call {
+    /// The name of the C function.
+    pub(crate) const fn name(self) -> &'static str {
+        TABLE[self as usize].name
+    }
+
+    pub(crate) const fn is_allowed(self, phase: Phase) -> bool {
+        TABLE[self as usize].allowed & phase.bit() != 0
+    }
+
+    /// Whether a failure of this call ends the simulation.
+    ///
+    /// A state that is refused does not: nothing of the instance took part in it.
+    pub(crate) const fn failure_is_final(self) -> bool {
+        !matches!(
+            self,
+            Self::GetFmuState
+                | Self::SetFmuState
+                | Self::FreeFmuState
+                | Self::SerializedFmuStateSize
+                | Self::SerializeFmuState
+                | Self::DeSerializeFmuState
+        )
+    }
+}

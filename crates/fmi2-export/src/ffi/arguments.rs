@@ -1,0 +1,71 @@
+//! What C passes, as Rust sees it.
+
+use super::types::Text;
+use crate::model::Failure;
+use std::ffi::CStr;
+use std::mem::MaybeUninit;
+use std::{slice, str};
+
+/// The array of `count` elements at `start`. NULL is fine if it is empty.
+///
+/// # Safety
+/// `start` is NULL or points to `count` elements that nobody changes during `'a`.
+pub(super) unsafe fn array<'a, T>(name: &str, start: *const T, count: usize) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check_array(name, start, count)?;
+    // SAFETY: neither NULL nor misaligned nor larger than an object can be; the rest as the caller promises.
+    Ok(unsafe { slice::from_raw_parts(start, count) })
+}
+
+/// The array of `count` elements at `start` to be written, whatever is in it.
+///
+/// # Safety
+/// `start` is NULL or points to room for `count` elements that nobody else uses during `'a`.
+pub(super) unsafe fn array_mut<'a, T>(
+    name: &str,
+    start: *mut T,
+    count: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    check_array(name, start, count)?;
+    // SAFETY: neither NULL nor misaligned nor larger than an object can be; the rest as the caller promises.
+    Ok(unsafe { slice::from_raw_parts_mut(start.cast(), count) })
+}
+
+/// The place at `target`, whatever is in it.
+///
+/// # Safety
+/// As for [`array_mut`] with one element.
+pub(super) unsafe fn place<'a, T>(name: &str, target: *mut T) -> Result<&'a mut MaybeUninit<T>, Failure> {
+    check_array(name, target, 1)?;
+    // SAFETY: neither NULL nor misaligned; the rest as the caller promises.
+    Ok(unsafe { &mut *target.cast() })
+}
+
+/// The text at `start`. None if it is NULL.
+///
+/// # Safety
+/// `start` is NULL or points to a text that ends with a NUL and that nobody changes during `'a`.
+pub(super) unsafe fn text<'a>(name: &str, start: Text) -> Result<Option<&'a str>, Failure> {
+    if start.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: as the caller promises.
+    let bytes = unsafe { CStr::from_ptr(start) }.to_bytes();
+    str::from_utf8(bytes).map(Some).map_err(|_| Failure(format!("{name} is not UTF-8")))
+}
+
+fn check_array<T>(name: &str, start: *const T, count: usize) -> Result<(), Failure> {
+    if start.is_null() {
+        return Err(Failure(format!("{name} is NULL")));
+    }
+    if !start.is_aligned() {
+        return Err(Failure(format!("{name} is not aligned to its type")));
+    }
+    let fits = count.checked_mul(size_of::<T>()).is_some_and(|size| isize::try_from(size).is_ok());
+    if fits { Ok(()) } else { Err(Failure(format!("{name} cannot have {count} elements"))) }
+}

@@ -1,0 +1,131 @@
+//! The functions of co-simulation alone (FMI 2.0.5, section 4.2).
+
+use super::arguments::{array, array_mut, place};
+use super::types::{
+    Boolean, Component, DISCARD, DO_STEP_STATUS, Integer, LAST_SUCCESSFUL_TIME, OK, Real, Status, StatusKind,
+    TERMINATED, Text, ValueReference, status,
+};
+use super::with;
+use crate::call::Call;
+use crate::instance::Instance;
+use crate::model::{Failure, Model};
+
+/// `fmi2SetRealInputDerivatives`
+///
+/// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves all as they were.
+///
+/// # Safety
+/// `component` is NULL or an instance; the arrays have `count` elements.
+pub unsafe fn set_real_input_derivatives<M: Model>(
+    component: Component,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const Integer,
+    values: *const Real,
+) -> Status {
+    let body = |instance: &mut Instance<M>| {
+        // SAFETY: as the caller promises.
+        let (references, orders, values) = unsafe {
+            (array("vr", references, count)?, array("order", orders, count)?, array("value", values, count)?)
+        };
+        instance.set_input_derivatives(references, orders, values)
+    };
+    // SAFETY: as the caller promises.
+    unsafe { with(component, Call::SetRealInputDerivatives, body) }
+}
+
+/// `fmi2GetRealOutputDerivatives`
+///
+/// # Safety
+/// `component` is NULL or an instance; the arrays have `count` elements.
+pub unsafe fn get_real_output_derivatives<M: Model>(
+    component: Component,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const Integer,
+    values: *mut Real,
+) -> Status {
+    let body = |instance: &mut Instance<M>| {
+        // SAFETY: as the caller promises.
+        let (references, orders, values) = unsafe {
+            (
+                array("vr", references, count)?,
+                array("order", orders, count)?,
+                array_mut("value", values, count)?,
+            )
+        };
+        instance.output_derivatives(references, orders, values)
+    };
+    // SAFETY: as the caller promises.
+    unsafe { with(component, Call::GetRealOutputDerivatives, body) }
+}
+
+/// `fmi2DoStep`
+///
+/// Never returns `fmi2Discard`: some importers would try again for ever.
+///
+/// # Safety
+/// `component` is NULL or an instance.
+pub unsafe fn do_step<M: Model>(
+    component: Component,
+    communication_point: Real,
+    step_size: Real,
+    _no_set_fmu_state_prior_to_current_point: Boolean,
+) -> Status {
+    let body = |instance: &mut Instance<M>| instance.do_step(communication_point, step_size);
+    // SAFETY: as the caller promises.
+    unsafe { with(component, Call::DoStep, body) }
+}
+
+/// `fmi2CancelStep`
+///
+/// An error always: no step is asynchronous.
+///
+/// # Safety
+/// `component` is NULL or an instance.
+pub unsafe fn cancel_step<M: Model>(component: Component) -> Status {
+    // SAFETY: as the caller promises.
+    unsafe { with(component, Call::CancelStep, |_: &mut Instance<M>| Ok(())) }
+}
+
+macro_rules! status_functions {
+    ($($type:ty: $c_name:literal $name:ident $call:ident, $found:expr;)*) => { $(
+        #[doc = concat!("`", $c_name, "`")]
+        ///
+        /// `fmi2Discard`, after a log, for a kind that this type has no status of: so asks FMI 2.0.5, section 4.2.3.
+        ///
+        /// # Safety
+        /// `component` is NULL or an instance; `value` is NULL or points to room for one value.
+        pub unsafe fn $name<M: Model>(component: Component, kind: StatusKind, value: *mut $type) -> Status {
+            let mut discarded = false;
+            let body = |instance: &mut Instance<M>| {
+                // SAFETY: as the caller promises.
+                let value = unsafe { place("value", value) }?;
+                let found: fn(&Instance<M>, StatusKind) -> Option<$type> = $found;
+                if let Some(found) = found(instance, kind) {
+                    value.write(found);
+                } else {
+                    discarded = true;
+                    instance.no_status(Call::$call, kind);
+                }
+                Ok::<_, Failure>(())
+            };
+            // SAFETY: as the caller promises.
+            let status = unsafe { with(component, Call::$call, body) };
+            if discarded && status == OK { DISCARD } else { status }
+        }
+    )* };
+}
+
+status_functions! {
+    Status: "fmi2GetStatus" get_status GetStatus, |instance, kind| {
+        (kind == DO_STEP_STATUS).then(|| status(instance.last_step()))
+    };
+    Real: "fmi2GetRealStatus" get_real_status GetRealStatus, |instance, kind| {
+        (kind == LAST_SUCCESSFUL_TIME).then(|| instance.time())
+    };
+    Integer: "fmi2GetIntegerStatus" get_integer_status GetIntegerStatus, |_, _| None;
+    // The model never ends the simulation by itself.
+    Boolean: "fmi2GetBooleanStatus" get_boolean_status GetBooleanStatus, |_, kind| (kind == TERMINATED).then_some(0);
+    Text: "fmi2GetStringStatus" get_string_status GetStringStatus, |_, _| None;
+}

@@ -1,0 +1,58 @@
+//! No panic leaves the library, and none is printed.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
+
+thread_local! {
+    /// Whether this thread is inside a call from C.
+    static INSIDE: Cell<bool> = const { Cell::new(false) };
+    /// Where the last panic inside a call from C happened.
+    static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked with.
+/// Elsewhere the hook that was there before goes on.
+pub fn install_panic_hook() {
+    static INSTALLED: Once = Once::new();
+    INSTALLED.call_once(|| {
+        let before = panic::take_hook();
+        panic::set_hook(Box::new(move |information| {
+            if !INSIDE.get() {
+                return before(information);
+            }
+            if let Some(location) = information.location() {
+                let place = format!("{}:{}", location.file(), location.line());
+                PLACE.with(|last| last.replace(place));
+            }
+        }));
+    });
+}
+
+/// What `body` returns, or the message of its panic.
+pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+    let outer = INSIDE.replace(true);
+    // What the body may have left half done is dealt with by who asked: the instance counts as failed.
+    let result = panic::catch_unwind(AssertUnwindSafe(body));
+    INSIDE.set(outer);
+    result.map_err(|payload| {
+        let place = PLACE.with(RefCell::take);
+        format!("{} ({place})", message(payload))
+    })
+}
+
+fn message(payload: Box<dyn Any + Send>) -> String {
+    let payload = match payload.downcast::<String>() {
+        Ok(text) => return *text,
+        Err(payload) => payload,
+    };
+    match payload.downcast::<&'static str>() {
+        Ok(text) => (*text).to_owned(),
+        Err(payload) => {
+            // Dropping what is unknown could panic in turn.
+            std::mem::forget(payload);
+            "panic without a text".to_owned()
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! One instance of a model: what the C functions do, without C.
+
+mod saved;
+mod step;
+mod values;
+
+use crate::call::{Call, Phase};
+use crate::guid;
+use crate::log::{Category, Filter, Logger, Status};
+use crate::model::{Environment, Experiment, Failure, Model};
+use crate::uri::path_from_location;
+use std::collections::BTreeMap;
+use std::ffi::CString;
+
+/// What a state saves, and a reset restores.
+#[derive(Clone)]
+struct Snapshot<M> {
+    model: M,
+    phase: Phase,
+    /// Where the last step ended [s].
+    time: f64,
+    experiment: Experiment,
+    /// Values were set that [`Model::calculate`] has not seen.
+    stale: bool,
+}
+
+/// One instance of the model `M`.
+pub(crate) struct Instance<M: Model> {
+    now: Snapshot<M>,
+    fresh: Snapshot<M>,
+    guid: String,
+    logger: Logger,
+    last_step: Status,
+    /// The states given out, by the address that is their handle. An address that is not here is never followed.
+    saved: BTreeMap<usize, Box<Snapshot<M>>>,
+    /// What the last `fmi2GetString` returned pointers to.
+    texts: Vec<CString>,
+}
+
+impl<M: Model> Instance<M> {
+    /// A new instance. None, with a log, if guid or model refuse.
+    pub(crate) fn new(name: &str, guid: &str, location: Option<&str>, mut logger: Logger) -> Option<Self> {
+        let resources = location.and_then(path_from_location);
+        if let (Some(location), None) = (location, &resources) {
+            logger.log().warning(format_args!(
+                "the resource location {location:?} is no local folder: it is ignored"
+            ));
+        }
+        let instantiated = guid::check::<M>(guid, resources.as_deref()).and_then(|payload| {
+            let instance_name = if name.is_empty() { M::IDENTIFIER } else { name };
+            let environment =
+                Environment { instance_name, resources: resources.as_deref(), payload: payload.as_deref() };
+            M::instantiate(environment, &mut logger.log())
+        });
+        let model = match instantiated {
+            Ok(model) => model,
+            Err(failure) => {
+                logger.log().error(format_args!("fmi2Instantiate: {failure}"));
+                return None;
+            }
+        };
+        let fresh = Snapshot {
+            model,
+            phase: Phase::Instantiated,
+            time: 0.0,
+            experiment: Experiment::default(),
+            stale: true,
+        };
+        Some(Self {
+            now: fresh.clone(),
+            fresh,
+            guid: guid.to_owned(),
+            logger,
+            last_step: Status::Ok,
+            saved: BTreeMap::new(),
+            texts: Vec::new(),
+        })
+    }
+
+    /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation.
+    pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
+        let done = if call.is_allowed(self.now.phase) { body(self) } else { Err(self.out_of_turn(call)) };
+        match done {
+            Ok(()) => Status::Ok,
+            Err(failure) => self.failed(call, &failure),
+        }
+    }
+
+    /// After a panic in `call`: the model may be anything, but it can be replaced.
+    #[cold]
+    pub(crate) fn panicked(&mut self, call: Call, message: &str) -> Status {
+        let (phase, status, category) = match call {
+            Call::Reset => (Phase::Fatal, Status::Fatal, Category::Fatal),
+            _ => (Phase::Error, Status::Error, Category::Error),
+        };
+        self.now.phase = phase;
+        let text = format_args!("{}: internal error, please report it: {message}", call.name());
+        self.logger.log().write(status, category, text);
+        status
+    }
+
+    #[cold]
+    fn out_of_turn(&self, call: Call) -> Failure {
+        match call {
+            Call::CancelStep => "there is no step to cancel: fmi2DoStep returns when the step is done".into(),
+            _ => Failure(format!("not allowed now: the instance is {}", self.now.phase)),
+        }
+    }
+
+    #[cold]
+    fn failed(&mut self, call: Call, failure: &Failure) -> Status {
+        if call.failure_is_final() && self.now.phase != Phase::Fatal {
+            self.now.phase = Phase::Error;
+        }
+        self.logger.log().error(format_args!("{}: {failure}", call.name()));
+        Status::Error
+    }
+
+    pub(crate) fn set_debug_logging<'a>(
+        &mut self,
+        on: bool,
+        categories: impl Iterator<Item = Result<&'a str, Failure>>,
+    ) -> Result<(), Failure> {
+        let mut filter = None;
+        for name in categories {
+            let name = name?;
+            let category = Category::from_name(name).ok_or_else(|| {
+                let known: Vec<_> = Category::ALL.iter().map(|category| category.name()).collect();
+                Failure(format!("unknown log category {name:?}: there are {}", known.join(", ")))
+            })?;
+            filter = Some(filter.unwrap_or(Filter::ERRORS).with(category));
+        }
+        self.logger.filter = if on { filter.unwrap_or(Filter::EVERYTHING) } else { Filter::ERRORS };
+        Ok(())
+    }
+
+    pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Failure> {
+        let Experiment { tolerance, start, stop } = experiment;
+        if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
+            return Err(Failure(format!("tolerance = {tolerance} is not finite and above 0")));
+        }
+        if !start.is_finite() {
+            return Err(Failure(format!("startTime = {start} s is not finite")));
+        }
+        if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
+            return Err(Failure(format!(
+                "stopTime = {stop} s is not finite and at or after startTime = {start} s"
+            )));
+        }
+        self.now.time = start;
+        self.now.experiment = experiment;
+        self.now.model.setup_experiment(experiment);
+        Ok(())
+    }
+
+    pub(crate) fn enter_initialization_mode(&mut self) {
+        self.now.phase = Phase::InitializationMode;
+    }
+
+    pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
+        self.calculate()?;
+        self.now.model.initialize(&mut self.logger.log())?;
+        self.now.phase = Phase::StepMode;
+        Ok(())
+    }
+
+    pub(crate) fn terminate(&mut self) {
+        self.now.phase = Phase::Terminated;
+    }
+
+    /// Everything as instantiated, but for the log categories and the states saved.
+    pub(crate) fn reset(&mut self) {
+        self.now = self.fresh.clone();
+        self.last_step = Status::Ok;
+    }
+
+    /// Before values are read: what follows from values set in Initialization Mode.
+    fn calculate(&mut self) -> Result<(), Failure> {
+        if self.now.stale && self.now.phase == Phase::InitializationMode {
+            self.now.model.calculate()?;
+            self.now.stale = false;
+        }
+        Ok(())
+    }
+}
