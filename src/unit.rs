@@ -436,7 +436,7 @@ impl Model for Unit {
                 return Err(format!("{value} is not an item of {}", variable.variable().name).into());
             }
         }
-        let mut input = |input: &mut Input, reader: &mut StateReader<'_>| -> Result<(), Failure> {
+        let input = |input: &mut Input, reader: &mut StateReader<'_>| -> Result<(), Failure> {
             *input = Input { value: reader.f64()?, rate: reader.f64()?, last_rate: reader.f64()? };
             Ok(())
         };
@@ -454,14 +454,17 @@ impl Model for Unit {
         let running = reader.bool()?;
         unit.top_ignored_told = reader.bool()?;
         unit.impulses = Ends { bottom: reader.f64()?, top: reader.f64()? };
-        let [time, displacement, velocity, positive, negative] = reader.f64s()?;
-        let [branch, phase, pieces, corners, impacts] = reader.u64s()?;
+        let mut number = || reader.f64();
+        let (time, displacement, velocity) = (number()?, number()?, number()?);
+        let peaks = Peaks { positive: number()?, negative: number()? };
+        let (branch, phase) = (reader.u64()?, reader.u64()?);
+        let work = Work { pieces: reader.u64()?, corners: reader.u64()?, impacts: reader.u64()? };
         let state = State {
             displacement,
             velocity,
             branch: usize::try_from(branch).map_err(|_| "a branch out of range")?,
             phase: phase_of(phase)?,
-            peaks: Peaks { positive, negative },
+            peaks,
             overturned: reader.bool()?,
             departed: reader.bool()?,
         };
@@ -471,7 +474,6 @@ impl Model for Unit {
         if state.branch >= unit.wall().branches().len() {
             return Err("a branch the wall does not have".into());
         }
-        let work = Work { pieces, corners, impacts };
         unit.simulation.restore(Progress { time, state, overturn_time, drift, work });
         unit.running = running;
         unit.refresh();

@@ -254,9 +254,9 @@ impl Piece for ClosedForm {
         // ü obeys the free equation, starting from ü and the jerk p₁ − c ü − k u̇
         let jerk = (self.forcing_rate - c * from.acceleration - k * from.velocity).abs();
         if k > 0.0 {
-            // ü² + (d ü/dt)²/k never grows
+            // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
             let root = k.sqrt();
-            let most = acceleration.hypot(jerk / root);
+            let most = acceleration + jerk / root;
             (most, most * root)
         } else {
             // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise

@@ -150,6 +150,13 @@ impl Parameters {
         }
     }
 
+    /// The value of a real parameter; `None` for a variable that is not a parameter.
+    #[must_use]
+    pub fn real(&self, variable: RealVariable) -> Option<f64> {
+        // one match serves both: the copy is of plain numbers
+        self.clone().real_mut(variable).copied()
+    }
+
     /// The value of a choice, as the number of its item.
     #[must_use]
     pub fn choice(&self, variable: IntegerVariable) -> i32 {
