@@ -1,3 +1,66 @@
 //! The jobs of the project: `cargo xtask fmu | demo | test`.
+//!
+//! No dependencies: this program builds in a second on a fresh machine. The Python packages a job needs it installs
+//! itself under the target folder, pinned by hash.
 
-fn main() {}
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
+
+mod command;
+mod demo;
+mod fmu;
+mod python;
+mod test;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// What went wrong, with the remedy.
+pub(crate) type Result<T> = std::result::Result<T, String>;
+
+const HELP: &str = "\
+The jobs of the project.
+
+  cargo xtask fmu [--portable]     build the library and zip fmu_out/wall.fmu
+                                   --portable: with zig, for Linux machines as old as glibc 2.17
+  cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
+                                   (PEER AT2, or CSV with its unit), write histories and pages to fmu_out/
+  cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["fmu"] => fmu::build(fmu::Linker::System).map(|path| println!("{}", path.display())),
+        ["fmu", "--portable"] => fmu::build(fmu::Linker::Zig).map(|path| println!("{}", path.display())),
+        ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
+        ["test"] => test::run(),
+        [] | ["help" | "-h" | "--help", ..] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        other => {
+            eprintln!("xtask: unknown job `{}`\n\n{HELP}", other.join(" "));
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The root of the workspace.
+pub(crate) fn root() -> PathBuf {
+    let mut path = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    path.pop();
+    path
+}
+
+/// The target folder, wherever the environment puts it.
+pub(crate) fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
+}

@@ -1,0 +1,52 @@
+//! Running other programs.
+
+use std::ffi::OsStr;
+use std::process::Command;
+
+use crate::{Result, root};
+
+/// A program in the root folder.
+pub(crate) fn program(name: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(name);
+    command.current_dir(root());
+    command
+}
+
+/// The cargo that runs this.
+pub(crate) fn cargo() -> Command {
+    program(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Runs a command to its end.
+///
+/// # Errors
+/// If it cannot start or does not succeed; `remedy` says what to do then.
+pub(crate) fn succeed(command: &mut Command, remedy: &str) -> Result<()> {
+    let shown = shown(command);
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("`{shown}` ended with {status}; {remedy}")),
+        Err(error) => Err(format!("`{shown}` cannot start: {error}; {remedy}")),
+    }
+}
+
+/// Runs a command and returns what it prints.
+///
+/// # Errors
+/// As [`succeed`].
+pub(crate) fn output(command: &mut Command, remedy: &str) -> Result<String> {
+    let shown = shown(command);
+    match command.output() {
+        Ok(output) if output.status.success() => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        Ok(output) => {
+            let text = String::from_utf8_lossy(&output.stderr);
+            Err(format!("`{shown}` ended with {}; {remedy}\n{}", output.status, text.trim_end()))
+        }
+        Err(error) => Err(format!("`{shown}` cannot start: {error}; {remedy}")),
+    }
+}
+
+fn shown(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    words.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(" ")
+}

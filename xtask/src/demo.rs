@@ -1,0 +1,72 @@
+//! `cargo xtask demo`: the FMU, shaken.
+
+use std::path::{Path, PathBuf};
+
+use crate::command::{output, succeed};
+use crate::fmu::{self, Linker};
+use crate::python::Environment;
+use crate::test::wall_binary;
+use crate::{Result, root};
+
+/// Runs the demo with the embedded motion, then with the user's record if there is one.
+///
+/// # Errors
+/// If a step of it fails.
+pub(crate) fn run(record: &[&str]) -> Result<()> {
+    let unit = fmu::build(Linker::System)?;
+    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let wall = wall_binary()?;
+    let out = root().join("fmu_out");
+    shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;
+    if let [file, rest @ ..] = record {
+        let mut arguments = vec!["--record", *file];
+        if let [unit] = rest {
+            arguments.extend(["--unit", *unit]);
+        }
+        let name = Path::new(file).file_stem().map_or_else(|| "record".into(), |stem| stem.to_string_lossy());
+        shake(&unit, &python, &wall, &out.join(format!("demo_{name}")), &arguments)?;
+    }
+    Ok(())
+}
+
+/// Shakes the FMU in FMPy with a motion, and the same wall on the command line.
+fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[&str]) -> Result<()> {
+    let file = |suffix: &str| {
+        let mut name = base.as_os_str().to_owned();
+        name.push(suffix);
+        PathBuf::from(name)
+    };
+    let (input, history, page) = (file("_input.csv"), file(".csv"), file(".html"));
+    let command = |first: &str| {
+        let mut command = crate::command::program(wall);
+        command.arg(first).args(motion);
+        command
+    };
+    run_quietly(command("motion").arg("--csv").arg(&input))?;
+    let text = std::fs::read_to_string(&input).map_err(|error| format!("{}: {error}", input.display()))?;
+    let stop = text.lines().last().and_then(|line| line.split(',').next()).unwrap_or("30").to_owned();
+    let mut fmpy = python.program("python");
+    fmpy.arg("tests/python/shake.py").arg(unit).arg(&input).arg(&stop).arg(&history);
+    let in_fmpy = output(&mut fmpy, "see its message")?;
+    let held = output(
+        command("simulate").args(["--hold", "--json", "--stop-time", &stop]),
+        "see its message",
+    )?;
+    run_quietly(command("simulate").arg("--html").arg(&page))?;
+    println!("largest |u| of the FMU in FMPy:   {} m", in_fmpy.trim());
+    println!("the same on the command line:     {} m", number(&held, "u_max"));
+    for path in [&history, &page] {
+        println!("written {}", path.display());
+    }
+    Ok(())
+}
+
+fn run_quietly(command: &mut std::process::Command) -> Result<()> {
+    succeed(command.stdout(std::process::Stdio::null()), "see its message above")
+}
+
+/// A number from flat JSON.
+fn number<'a>(json: &'a str, key: &str) -> &'a str {
+    let rest = json.split(&format!("\"{key}\":")).nth(1).unwrap_or("?");
+    rest.split([',', '}', '\n']).next().unwrap_or("?").trim()
+}

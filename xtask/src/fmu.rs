@@ -1,0 +1,116 @@
+//! `cargo xtask fmu`: the library, then the archive.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::{cargo, succeed};
+use crate::python::Environment;
+use crate::{Result, root, target};
+
+/// What links the library.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Linker {
+    /// The machine's own linker and C library.
+    System,
+    /// Zig with the symbols of glibc 2.17.
+    Zig,
+}
+
+/// The oldest C library a portable FMU runs on.
+const PORTABLE_TARGET: &str = "x86_64-unknown-linux-gnu.2.17";
+
+/// Builds `fmu_out/wall.fmu` and returns its path.
+///
+/// # Errors
+/// If the library does not build or the archive cannot be written.
+pub(crate) fn build(linker: Linker) -> Result<PathBuf> {
+    let library = library(linker)?;
+    let output = root().join("fmu_out/wall.fmu");
+    pack(&library, &output)?;
+    Ok(output)
+}
+
+/// Builds the portable library alone and returns its path.
+///
+/// # Errors
+/// As [`build`].
+pub(crate) fn portable_library() -> Result<PathBuf> {
+    library(Linker::Zig)
+}
+
+/// Builds the library without the command line's crates.
+fn library(linker: Linker) -> Result<PathBuf> {
+    let folder = target().join("fmu");
+    let mut build = cargo();
+    match linker {
+        Linker::System => {
+            build.arg("rustc");
+        }
+        Linker::Zig => {
+            let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
+            build = zig.program("cargo-zigbuild");
+            build.arg("rustc").args(["--target", PORTABLE_TARGET]);
+            let mut path = zig.programs().into_os_string();
+            if let Some(rest) = std::env::var_os("PATH") {
+                path.push(":");
+                path.push(rest);
+            }
+            build.env("PATH", path);
+        }
+    }
+    build.args(["--release", "--locked", "--package", "rocking-wall", "--lib", "--crate-type", "cdylib"]);
+    build.args(["--no-default-features", "--features", "fmu"]);
+    build.env("CARGO_TARGET_DIR", &folder);
+    reproducible(&mut build);
+    succeed(&mut build, "see the compiler's message above")?;
+    let mut built = folder;
+    if linker == Linker::Zig {
+        built.push(PORTABLE_TARGET.trim_end_matches(".2.17"));
+    }
+    built.push("release");
+    built.push(library_name());
+    Ok(built)
+}
+
+/// Makes the library's bytes independent of the folders it is built in.
+fn reproducible(build: &mut Command) {
+    let cargo_home = std::env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::var_os("HOME").map(|home| Path::new(&home).join(".cargo")));
+    let mut flags = vec![
+        "-Cstrip=symbols".to_owned(),
+        format!("--remap-path-prefix={}=/target", target().join("fmu").display()),
+        format!("--remap-path-prefix={}=/rocking-wall", root().display()),
+    ];
+    if let Some(cargo_home) = cargo_home {
+        flags.push(format!("--remap-path-prefix={}=/cargo", cargo_home.display()));
+    }
+    build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
+}
+
+/// Zips the FMU.
+fn pack(library: &Path, output: &Path) -> Result<()> {
+    let mut pack = cargo();
+    pack.args(["run", "--quiet", "--locked", "--package", "fmi2-export-build", "--features", "archive"]);
+    pack.args(["--bin", "fmi2-pack", "--"]);
+    pack.args(["--description", "modelDescription/modelDescription.xml"]);
+    pack.args(["--documentation", "modelDescription/documentation"]);
+    pack.arg("--binary").arg(library).args(["--platform", platform()]);
+    pack.arg("--output").arg(output);
+    succeed(&mut pack, "see its message above")
+}
+
+/// FMI's name for this machine.
+fn platform() -> &'static str {
+    if cfg!(target_os = "windows") {
+        "win64"
+    } else if cfg!(target_os = "macos") {
+        "darwin64"
+    } else {
+        "linux64"
+    }
+}
+
+fn library_name() -> String {
+    format!("{}rocking_wall{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
+}

@@ -1,0 +1,63 @@
+//! Python environments under the target folder, their packages pinned by hash.
+
+use std::path::{Path, PathBuf};
+
+use crate::command::{output, program, succeed};
+use crate::{Result, root, target};
+
+/// A virtual environment with the packages of a lock file.
+pub(crate) struct Environment {
+    folder: PathBuf,
+}
+
+impl Environment {
+    /// The environment of a lock file (relative to the root), made anew when the lock changed.
+    ///
+    /// # Errors
+    /// If Python 3 with venv is missing or a package cannot be installed.
+    pub(crate) fn of(name: &str, lock: &str) -> Result<Self> {
+        let environment = Self { folder: target().join("python").join(name) };
+        let lock = root().join(lock);
+        let wanted = std::fs::read(&lock).map_err(|error| format!("{}: {error}", lock.display()))?;
+        let stamp = environment.folder.join("lock");
+        if std::fs::read(&stamp).is_ok_and(|found| found == wanted) {
+            return Ok(environment);
+        }
+        environment.make(&lock)?;
+        std::fs::write(&stamp, wanted).map_err(|error| format!("{}: {error}", stamp.display()))?;
+        Ok(environment)
+    }
+
+    fn make(&self, lock: &Path) -> Result<()> {
+        println!("installing the packages of {}", lock.display());
+        if self.folder.exists() {
+            std::fs::remove_dir_all(&self.folder)
+                .map_err(|error| format!("{}: {error}", self.folder.display()))?;
+        }
+        let remedy = "install Python 3.11 or newer with its venv module";
+        succeed(program("python3").args(["-m", "venv"]).arg(&self.folder), remedy)?;
+        let mut pip = self.program("python");
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r"]);
+        succeed(pip.arg(lock), "check the network, then run the job again")
+    }
+
+    /// A program of the environment.
+    pub(crate) fn program(&self, name: &str) -> std::process::Command {
+        program(self.folder.join("bin").join(name))
+    }
+
+    /// The folder of an installed package.
+    ///
+    /// # Errors
+    /// If the package is not there.
+    pub(crate) fn package(&self, name: &str) -> Result<PathBuf> {
+        let code = format!("import {name}, os; print(list({name}.__path__)[0])");
+        let remedy = "remove the target folder's python/ and run the job again";
+        output(self.program("python").args(["-c", &code]), remedy).map(|path| PathBuf::from(path.trim()))
+    }
+
+    /// The environment's folder of programs.
+    pub(crate) fn programs(&self) -> PathBuf {
+        self.folder.join("bin")
+    }
+}

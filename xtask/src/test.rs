@@ -1,0 +1,140 @@
+//! `cargo xtask test`: every test, and a summary that names what did not run.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::command::{cargo, output, program, succeed};
+use crate::fmu::{self, Linker};
+use crate::python::Environment;
+use crate::{Result, root, target};
+
+/// Where real accelerograms are looked for if `ROCKING_WALL_RECORDS` does not say.
+const RECORDS: &str = "../shared/records";
+
+/// Runs every test; all parts run even where one fails.
+///
+/// # Errors
+/// If a part failed.
+pub(crate) fn run() -> Result<()> {
+    let parts: [(&str, fn() -> Result<()>); 5] = [
+        ("Rust tests", rust),
+        ("archive tests", archive),
+        ("the FMU through FMPy", python),
+        ("the portable FMU", portable),
+        ("the C boundary", conformance),
+    ];
+    let mut lines = Vec::new();
+    let (mut passed, mut failed) = (0, 0);
+    for (name, part) in parts {
+        println!("\n== {name}");
+        let start = Instant::now();
+        let outcome = part();
+        let seconds = start.elapsed().as_secs();
+        match outcome {
+            Ok(()) => {
+                passed += 1;
+                lines.push(format!("passed  {name} ({seconds} s)"));
+            }
+            Err(message) => {
+                failed += 1;
+                lines.push(format!("FAILED  {name} ({seconds} s): {message}"));
+            }
+        }
+    }
+    println!("\n== summary");
+    for line in lines {
+        println!("{line}");
+    }
+    for line in not_run() {
+        println!("not run {line}");
+    }
+    println!("{passed} passed, {failed} failed");
+    if failed == 0 { Ok(()) } else { Err(format!("{failed} of {} parts failed", passed + failed)) }
+}
+
+/// What the tests leave out on this machine, and the remedy.
+fn not_run() -> Vec<String> {
+    let mut lines = Vec::new();
+    if !records().is_dir() {
+        lines.push("tests on real accelerograms: name their folder in ROCKING_WALL_RECORDS".to_owned());
+    }
+    if browser().is_none() {
+        lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
+    }
+    lines
+}
+
+fn records() -> PathBuf {
+    std::env::var_os("ROCKING_WALL_RECORDS").map_or_else(|| root().join(RECORDS), PathBuf::from)
+}
+
+/// A Chromium with its driver.
+fn browser() -> Option<PathBuf> {
+    let paths = std::env::var_os("PATH")?;
+    let find = |name: &str| std::env::split_paths(&paths).map(|folder| folder.join(name)).find(|path| path.is_file());
+    find("chromedriver")?;
+    ["chromium", "chromium-browser", "google-chrome"].into_iter().find_map(find)
+}
+
+fn rust() -> Result<()> {
+    run_tests(cargo().args(["test", "--locked"]))
+}
+
+fn archive() -> Result<()> {
+    run_tests(cargo().args(["test", "--locked", "--package", "fmi2-export-build", "--features", "archive"]))
+}
+
+fn run_tests(command: &mut std::process::Command) -> Result<()> {
+    succeed(command, "see the failures above")
+}
+
+/// The program `wall`, built.
+pub(crate) fn wall_binary() -> Result<PathBuf> {
+    succeed(cargo().args(["build", "--release", "--locked", "--bin", "wall"]), "see the compiler's message above")?;
+    Ok(target().join("release").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
+}
+
+fn python() -> Result<()> {
+    let unit = fmu::build(Linker::System)?;
+    let wall = wall_binary()?;
+    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let mut pytest = python.program("python");
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
+    pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    succeed(&mut pytest, "see the failures above")
+}
+
+/// Builds the portable FMU and reads its symbol table.
+fn portable() -> Result<()> {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        println!("not run: the portable FMU is made on x86-64 Linux");
+        return Ok(());
+    }
+    let library = fmu::portable_library()?;
+    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let mut check = python.program("python");
+    check.arg("tests/python/check_symbols.py").arg(library);
+    succeed(&mut check, "see its message above")
+}
+
+fn conformance() -> Result<()> {
+    let unit = fmu::build(Linker::System)?;
+    let clang = Environment::of("clang", "xtask/locks/clang.lock")?;
+    let libclang = clang.package("clang")?.join("native");
+    let include = output(
+        program("cc").arg("-print-file-name=include"),
+        "install a C compiler",
+    )?;
+    let folder = target().join("conformance");
+    let mut test = cargo();
+    test.args(["test", "--locked", "--package", "conformance"]);
+    test.env("LIBCLANG_PATH", libclang)
+        .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
+        .env("CARGO_TARGET_DIR", folder)
+        .env("ROCKING_WALL_FMU", absolute(&unit));
+    run_tests(&mut test)
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
