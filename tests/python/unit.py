@@ -1,0 +1,105 @@
+"""An instance of an FMU by the names of its variables, on FMPy's FMU2Slave."""
+
+import contextlib
+import shutil
+
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+
+
+class Unpacked:
+    def __init__(self, path):
+        self.folder = extract(str(path))
+        self.description = read_model_description(self.folder)
+
+
+class Unit:
+    """One instance. `messages` collects (status, category, text) of its log."""
+
+    def __init__(self, unpacked, name="wall", logging=False):
+        self.description = unpacked.description
+        self.variables = {variable.name: variable for variable in self.description.modelVariables}
+        self.items = {
+            kind.name: {item.name: int(item.value) for item in kind.items}
+            for kind in self.description.typeDefinitions
+            if kind.items
+        }
+        self.messages = []
+        self._logger = fmi2CallbackLoggerTYPE(self._log)
+        self.callbacks = fmi2CallbackFunctions()
+        self.callbacks.logger = self._logger
+        self.slave = FMU2Slave(
+            guid=self.description.guid,
+            unzipDirectory=unpacked.folder,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName=name,
+        )
+        self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging)
+        self.time = 0.0
+
+    @staticmethod
+    @contextlib.contextmanager
+    def unpack(path):
+        unpacked = Unpacked(path)
+        try:
+            yield unpacked
+        finally:
+            shutil.rmtree(unpacked.folder, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.slave.freeInstance()
+
+    def _log(self, _environment, _name, status, category, message):
+        self.messages.append((status, category.decode(), message.decode()))
+
+    def reference(self, name):
+        return self.variables[name].valueReference
+
+    def set(self, **values):
+        for name, value in values.items():
+            variable = self.variables[name]
+            reference = [variable.valueReference]
+            if isinstance(value, str):
+                value = self.items[variable.declaredType.name][value]
+            if variable.type == "Real":
+                self.slave.setReal(reference, [value])
+            elif variable.type == "Boolean":
+                self.slave.setBoolean(reference, [value])
+            else:
+                self.slave.setInteger(reference, [value])
+        return self
+
+    def rates(self, **values):
+        """First derivatives of inputs, for the next step."""
+        references = [self.reference(name) for name in values]
+        self.slave.setRealInputDerivatives(references, [1] * len(values), list(values.values()))
+
+    def get(self, *names):
+        values = []
+        for name in names:
+            variable = self.variables[name]
+            reference = [variable.valueReference]
+            if variable.type == "Real":
+                values += self.slave.getReal(reference)
+            elif variable.type == "Boolean":
+                values += [bool(value) for value in self.slave.getBoolean(reference)]
+            else:
+                values += self.slave.getInteger(reference)
+        return values[0] if len(values) == 1 else values
+
+    def start(self, time=0.0, tolerance=None, stop=None, **values):
+        """Sets values, then goes through initialisation."""
+        self.slave.setupExperiment(tolerance=tolerance, startTime=time, stopTime=stop)
+        self.set(**values)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        self.time = time
+        return self
+
+    def step(self, duration):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
+        self.time += duration
+        return self
