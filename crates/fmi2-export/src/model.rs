@@ -111,18 +111,18 @@ pub struct Environment<'a> {
 pub struct Experiment {
     /// Relative tolerance, above 0.
     pub tolerance: Option<f64>,
-    /// Start time [s].
+    /// Start time \[s\].
     pub start: f64,
-    /// Stop time [s], not before the start.
+    /// Stop time \[s\], not before the start.
     pub stop: Option<f64>,
 }
 
 /// One communication step.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Step {
-    /// Time at its start [s].
+    /// Time at its start \[s\].
     pub from: f64,
-    /// Its length [s], above 0. It may be too small to change the time.
+    /// Its length \[s\], above 0. It may be too small to change the time.
     pub duration: f64,
 }
 

@@ -4,7 +4,7 @@
 ///
 /// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these names.
 ///
-/// ```ignore
+/// ```text
 /// #[cfg(feature = "fmu")]
 /// fmi2_export::export_fmu!(crate::Spring);
 /// ```
