@@ -2,7 +2,7 @@
 
 use fmi2_export::{
     Causality, Environment, Experiment, Failure, Item, Kind, Log, Model, StateReader, StateWriter, Step,
-    Variability, Variable, VariableId,
+    Variability, Variable, VariableId, set_start_values,
 };
 use std::cell::Cell;
 
@@ -129,8 +129,8 @@ impl Model for Spring {
         log.info(format_args!("{} is a spring", environment.instance_name));
         let payload = environment.payload.map(String::from_utf8_lossy);
         let home = environment.resources.map(|path| path.to_string_lossy()).unwrap_or_default();
-        Ok(Self {
-            stiffness: 4.0,
+        let mut spring = Self {
+            stiffness: 0.0,
             x_start: 0.0,
             period: 0.0,
             force: 0.0,
@@ -140,15 +140,20 @@ impl Model for Spring {
             bias: 0.0,
             x: 0.0,
             v: 0.0,
-            law: 1,
-            substeps: 8,
+            law: 0,
+            substeps: 0,
             fault: 0,
             count: 0,
             clamped: false,
             held: false,
-            label: payload.unwrap_or("spring".into()).into_owned(),
+            label: String::new(),
             home: home.into_owned(),
-        })
+        };
+        set_start_values(&mut spring);
+        if let Some(payload) = payload {
+            spring.label = payload.into_owned();
+        }
+        Ok(spring)
     }
 
     fn real(&self, variable: Real) -> f64 {

@@ -203,5 +203,5 @@ fn the_experiment_is_part_of_the_state() {
     assert_eq!(other.get(Real::Trim), 1e-3);
     assert_eq!(other.step(2.0, 1.0), OK);
     assert_eq!(other.step(3.0, 1.0), ERROR);
-    other.expect_error(&["stopTime 3 s"]);
+    other.expect_error(&["stopTime 3.0 s"]);
 }

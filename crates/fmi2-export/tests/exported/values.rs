@@ -8,6 +8,14 @@ use std::ffi::CStr;
 use std::ptr;
 
 #[test]
+fn a_model_starts_with_the_values_of_its_description() {
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.get(Real::Stiffness), 4.0);
+    assert_eq!(importer.get_integer(Integer::Law), 1);
+    assert_eq!(importer.get_integer(Integer::Substeps), 8);
+}
+
+#[test]
 fn what_is_set_is_got() {
     let importer = Importer::in_initialization_mode();
     assert_eq!(importer.set(Real::Stiffness, 9.0), OK);
@@ -75,11 +83,11 @@ fn contradictions_are_told_when_values_are_asked_for() {
 fn limits_are_checked_and_named() {
     for (variable, value, parts) in [
         (Real::Stiffness, 0.25, ["fmi2SetReal", "stiffness = 0.25 N/m", "minimum, 0.5 N/m"]),
-        (Real::Stiffness, 101.0, ["fmi2SetReal", "stiffness = 101 N/m", "maximum, 100 N/m"]),
+        (Real::Stiffness, 101.0, ["fmi2SetReal", "stiffness = 101.0 N/m", "maximum, 100.0 N/m"]),
         (Real::Stiffness, f64::NAN, ["fmi2SetReal", "stiffness = NaN", "finite"]),
         (Real::Force, f64::INFINITY, ["fmi2SetReal", "force = inf", "finite"]),
         (Real::Push, f64::NEG_INFINITY, ["fmi2SetReal", "push = -inf", "finite"]),
-        (Real::Force, -50.001, ["fmi2SetReal", "force = -50.001 N", "minimum, -50 N"]),
+        (Real::Force, -50.001, ["fmi2SetReal", "force = -50.001 N", "minimum, -50.0 N"]),
     ] {
         let importer = Importer::in_initialization_mode();
         let before = importer.get(variable);
