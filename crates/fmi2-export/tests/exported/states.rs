@@ -2,7 +2,8 @@
 
 use crate::fmi2::*;
 use crate::importer::Importer;
-use crate::spring::{Integer, Real};
+use crate::spring::{Integer, Real, Spring};
+use fmi2_export::Model;
 use fmi2_export::ffi::types::{ERROR, FmuState, OK, Status};
 use std::ptr;
 
@@ -150,25 +151,46 @@ fn bytes_that_are_damaged_are_refused_and_change_nothing() {
     assert_eq!(go_on(&importer), go_on(&at_half_a_second()));
 }
 
-/// Bytes in order, of a state no model has.
-#[test]
-fn a_state_the_model_refuses_is_refused() {
-    let importer = Importer::in_initialization_mode();
-    assert_eq!(importer.set_integer(Integer::Substeps, 2), OK);
-    let mut stored = bytes(&importer);
-    let find = |bytes: &[u8], value: i32| {
-        bytes.windows(4).rposition(|window| window == value.to_le_bytes()).unwrap()
-    };
-    let at = find(&stored[..stored.len() - 30], 2);
-    stored[at..at + 4].copy_from_slice(&0_i32.to_le_bytes());
-    let end = stored.len() - 8;
-    // FNV-1a, 64 bits, written anew.
-    let checksum = stored[..end].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+/// `stored` with other bytes as its payload, and a length and checksum that suit them.
+fn with_payload(stored: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
+    // Magic, version, and the guid with its length; then the length of the payload.
+    let start = 8 + 8 + (8 + Spring::GUID.len());
+    let mut payload = stored[start + 8..stored.len() - 8].to_vec();
+    change(&mut payload);
+    let mut bytes = [&stored[..start], &(payload.len() as u64).to_le_bytes(), &payload].concat();
+    // FNV-1a, 64 bits.
+    let checksum = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     });
-    stored[end..].copy_from_slice(&checksum.to_le_bytes());
-    assert_eq!(load(&importer, &stored), Err(ERROR));
-    importer.expect_error(&["0 substeps"]);
+    bytes.extend(checksum.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn bytes_in_order_are_refused_if_they_are_no_state_of_this_model() {
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.set_integer(Integer::Substeps, 57), OK);
+    let stored = bytes(&importer);
+    assert!(load(&importer, &with_payload(&stored, |_| {})).is_ok());
+    let refused = |change: &dyn Fn(&mut Vec<u8>), part| {
+        assert_eq!(load(&importer, &with_payload(&stored, change)), Err(ERROR), "{part}");
+        importer.expect_error(&["fmi2DeSerializeFMUstate", part]);
+    };
+    refused(&|payload| payload.push(0), "1 bytes more");
+    refused(&|payload| payload.truncate(payload.len() - 1), "too short");
+    refused(&Vec::clear, "too short");
+    // The phase is the first number, the time the second.
+    for phase in [5, 6, 255] {
+        refused(&|payload| payload[0] = phase, "no known phase");
+    }
+    refused(&|payload| payload[8..16].copy_from_slice(&f64::NAN.to_le_bytes()), "not finite");
+    refused(
+        &|payload| {
+            let at = payload.windows(4).position(|window| window == 57_i32.to_le_bytes()).unwrap();
+            payload[at] = 0;
+        },
+        "0 substeps",
+    );
 }
 
 #[test]
