@@ -33,7 +33,8 @@ pub unsafe fn get_version<M: Model>() -> Text {
 
 /// `fmi2Instantiate`
 ///
-/// NULL is returned, after a log, when guid, kind or environment do not suit. What `functions` points to is copied.
+/// NULL is returned, after a log, when guid, kind or environment do not suit. What `functions` points to is
+/// copied.
 ///
 /// # Safety
 /// The texts are NULL or end with a NUL; `functions` is NULL or points to callbacks of the stated types.

@@ -12,8 +12,8 @@ thread_local! {
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked with.
-/// Elsewhere the hook that was there before goes on.
+/// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked
+/// with. Elsewhere the hook that was there before goes on.
 pub fn install_panic_hook() {
     static INSTALLED: Once = Once::new();
     INSTALLED.call_once(|| {

@@ -31,7 +31,8 @@ pub(crate) struct Instance<M: Model> {
     guid: String,
     logger: Logger,
     last_step: Status,
-    /// The states given out, by the address that is their handle. An address that is not here is never followed.
+    /// The states given out, by the address that is their handle. An address that is not here is never
+    /// followed.
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
     /// What the last `fmi2GetString` returned pointers to.
     texts: Vec<CString>,

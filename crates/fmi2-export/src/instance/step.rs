@@ -5,8 +5,8 @@ use crate::call::Call;
 use crate::log::{Category, Status};
 use crate::model::{Failure, Model, Step};
 
-/// Communication points are sums of rounded steps: they may differ from the own time by this much, relative to
-/// the larger of the time and 1 s.
+/// Communication points are sums of rounded steps: they may differ from the own time by this much, relative
+/// to the larger of the time and 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {

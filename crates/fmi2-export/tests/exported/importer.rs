@@ -47,8 +47,8 @@ impl Journal {
 }
 
 /// Rust cannot define a variadic function, but it can define one with the one pointer that follows the format
-/// "%s". On the platforms these tests run on (System V on x86-64, AAPCS on 64-bit Arm Linux) a pointer after the format
-/// is passed to a variadic function like to any other. Only tests do this.
+/// "%s". On the platforms these tests run on (System V on x86-64, AAPCS on 64-bit Arm Linux) a pointer after
+/// the format is passed to a variadic function like to any other. Only tests do this.
 fn logger() -> CallbackLogger {
     type Fixed = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text, *const c_char);
     let fixed: Fixed = write_down;

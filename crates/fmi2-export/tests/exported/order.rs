@@ -40,7 +40,8 @@ fn lost() -> Importer {
 
 type Function = unsafe fn(Component) -> Status;
 
-/// Each function, the phases it is allowed in by FMI 2.0.5 (section 4.2.4), and a call with arguments that are in order.
+/// Each function, the phases it is allowed in by FMI 2.0.5 (section 4.2.4), and a call with arguments that
+/// are in order.
 #[rustfmt::skip]
 const FUNCTIONS: [(&str, &str, Function); 30] = [
     ("fmi2SetDebugLogging",          "INSTE.", |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) }),
@@ -77,7 +78,8 @@ const FUNCTIONS: [(&str, &str, Function); 30] = [
 
 unsafe fn with_state(c: Component, body: unsafe fn(Component, *mut std::ffi::c_void) -> Status) -> Status {
     let mut state = ptr::null_mut();
-    // SAFETY: the instance lives. Where it cannot be saved the state stays NULL, which the body's function then sees.
+    // SAFETY: the instance lives. Where it cannot be saved the state stays NULL, which the body's function
+    // then sees.
     unsafe {
         fmi2GetFMUstate(c, &mut state);
         body(c, state)
