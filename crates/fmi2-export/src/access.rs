@@ -14,16 +14,19 @@ fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
-/// Whether `variable` may be set in `phase`.
-pub(crate) fn check_settable(variable: &Variable, phase: Phase) -> Result<(), Failure> {
-    let in_step_mode = phase == Phase::StepMode;
-    let allowed = match (variable.causality, variable.variability) {
+/// Whether `variable` may be set in `phase`, which is one that has sets.
+pub(crate) fn is_settable(variable: &Variable, phase: Phase) -> bool {
+    match (variable.causality, variable.variability) {
         (_, Variability::Constant) => false,
         (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => true,
-        (Causality::Parameter, _) => !in_step_mode,
+        (Causality::Parameter, _) => phase != Phase::StepMode,
         _ => false,
-    };
-    if allowed { Ok(()) } else { Err(not_settable(variable, phase)) }
+    }
+}
+
+/// Refuses what may not be set in `phase`.
+pub(crate) fn check_settable(variable: &Variable, phase: Phase) -> Result<(), Failure> {
+    if is_settable(variable, phase) { Ok(()) } else { Err(not_settable(variable, phase)) }
 }
 
 #[cold]
@@ -50,7 +53,7 @@ fn not_settable(variable: &Variable, phase: Phase) -> Failure {
 /// Whether `value` is finite and within the limits of `variable`.
 pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
     if !value.is_finite() {
-        return Err(Failure(format!("{} = {value} is not a finite number", variable.name)));
+        return Err(Failure(format!("{} = {value:?} is not a finite number", variable.name)));
     }
     match variable.kind {
         Kind::Real { min: Some(min), .. } if value < min => {
@@ -79,13 +82,14 @@ pub(crate) fn check_integer(variable: &Variable, value: i32) -> Result<(), Failu
     }
 }
 
+// Debug, because Display spells 1e300 out.
 #[cold]
-fn beyond<T: std::fmt::Display>(variable: &Variable, value: T, beyond: &str, limit: T) -> Failure {
+fn beyond<T: std::fmt::Debug>(variable: &Variable, value: T, beyond: &str, limit: T) -> Failure {
     let unit = match variable.unit {
         None | Some("1") => String::new(),
         Some(unit) => format!(" {unit}"),
     };
-    Failure(format!("{} = {value}{unit} is {beyond}, {limit}{unit}", variable.name))
+    Failure(format!("{} = {value:?}{unit} is {beyond}, {limit:?}{unit}", variable.name))
 }
 
 #[cold]

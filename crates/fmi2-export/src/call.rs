@@ -16,22 +16,16 @@ pub(crate) enum Phase {
 }
 
 impl Phase {
-    const ALL: [Self; 6] = [
-        Self::Instantiated,
-        Self::InitializationMode,
-        Self::StepMode,
-        Self::Terminated,
-        Self::Error,
-        Self::Fatal,
-    ];
-
     /// The number that stands for it in a saved state.
     pub(crate) const fn number(self) -> u64 {
         self as u64
     }
 
+    /// The phase of a saved state. A lost instance saves none.
     pub(crate) fn from_number(number: u64) -> Option<Self> {
-        Self::ALL.into_iter().find(|phase| phase.number() == number)
+        let saved =
+            [Self::Instantiated, Self::InitializationMode, Self::StepMode, Self::Terminated, Self::Error];
+        saved.into_iter().find(|phase| phase.number() == number)
     }
 
     const fn bit(self) -> u8 {

@@ -74,12 +74,14 @@
 //!
 //! # What the layer sees to
 //!
-//! - Call order, from one table. A call that returns `fmi2Error` ends the simulation: then only getters, reset, saved states and
-//!   free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes) leave an instance as it was.
+//! - Call order, from one table. A call that returns `fmi2Error` ends the simulation: then only getters, reset,
+//!   saved states and free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes) leave an instance
+//!   as it was.
 //! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets nothing.
-//! - Time: communication points are compared with a tolerance, and the step goes from the model's own time, so that rounding
-//!   is never lost or counted twice. A step too small to reach it changes nothing.
-//! - Saved states, in memory and as bytes with guid and checksum; reset.
+//! - Time: communication points are compared with a tolerance, and the step goes from the model's own time, so that
+//!   rounding is never lost or counted twice. A step too small to reach it changes nothing.
+//! - Saved states, in memory and as bytes with guid and checksum; reset. A state in memory belongs to its instance;
+//!   as bytes it goes to any other of the same guid.
 //! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even formatted.
 //! - Panics: caught, logged with their place, returned as `fmi2Error`, not printed.
 //! - Guids: description and library belong together, and a payload in `resources/` to its description.
@@ -88,9 +90,9 @@
 //!
 //! # Map
 //!
-//! [`Variable`] and [`Model`] are the model's side, [`ffi`] is C's; between them one instance with its table of allowed calls.
-//! Model Exchange would add a module beside [`ffi::co_simulation`], rows to the table and methods in a trait that
-//! extends [`Model`].
+//! [`Variable`] and [`Model`] are the model's side, [`ffi`] is C's; between them one instance with its table
+//! of allowed calls. Model Exchange would add a module beside [`ffi::co_simulation`], rows to the table and
+//! methods in a trait that extends [`Model`].
 
 mod access;
 mod call;
@@ -100,6 +102,7 @@ mod hash;
 mod instance;
 mod log;
 mod model;
+mod start;
 mod state;
 mod uri;
 mod variable;
@@ -107,6 +110,7 @@ mod variable;
 pub use hash::fnv1a_128;
 pub use log::{Category, Filter, Log, Sink, Status};
 pub use model::{Environment, Experiment, Failure, Model, Step};
+pub use start::set_start_values;
 pub use state::{StateReader, StateWriter};
 pub use uri::path_from_location;
 pub use variable::{Causality, Item, Kind, Variability, Variable, VariableId};

@@ -129,7 +129,8 @@ impl<'a> Log<'a> {
         self.write(Status::Error, Category::Error, message);
     }
 
-    /// Logs what is not quite right. The call returns `fmi2OK` all the same: some importers give up on `fmi2Warning`.
+    /// Logs what is not quite right. The call returns `fmi2OK` all the same: some importers give up on
+    /// `fmi2Warning`.
     pub fn warning(&mut self, message: impl Display) {
         self.write(Status::Warning, Category::Warning, message);
     }

@@ -8,9 +8,9 @@ use std::path::Path;
 
 /// A model that an FMU can be made of.
 ///
-/// The layer has checked call order, references, causality, limits and finiteness before it calls any of these, and keeps the
-/// time. `Clone` is what resets an instance and saves its state, so a model is plain data; large constant
-/// data belongs in an `Arc`.
+/// The layer has checked call order, references, causality, limits and finiteness before it calls any of
+/// these, and keeps the time. `Clone` is what resets an instance and saves its state, so a model is plain
+/// data; large constant data belongs in an `Arc`.
 pub trait Model: Clone + Send + Sized + 'static {
     /// Its Real variables.
     type Real: VariableId;
@@ -62,8 +62,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The partial derivative ∂unknown/∂known, in the quotient of their units. None if they are no such pair.
     fn directional_derivative(&self, unknown: Self::Real, known: Self::Real) -> Option<f64>;
 
-    /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before gets, and before
-    /// [`initialize`](Self::initialize).
+    /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before
+    /// gets, and before [`initialize`](Self::initialize).
     ///
     /// # Errors
     /// When the parameters contradict each other.
@@ -88,7 +88,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// Writes all that is not derived: parameters, inputs and their derivatives, experiment, state.
     fn write_state(&self, writer: &mut StateWriter);
 
-    /// Reads what [`write_state`](Self::write_state) wrote, into a model as instantiated, and computes what is derived.
+    /// Reads what [`write_state`](Self::write_state) wrote, into a model as instantiated, and computes what
+    /// is derived.
     ///
     /// # Errors
     /// When the values are not those of a valid model.
@@ -102,7 +103,8 @@ pub struct Environment<'a> {
     pub instance_name: &'a str,
     /// The `resources` folder of the unpacked FMU, if the importer told of a usable one.
     pub resources: Option<&'a Path>,
-    /// The bytes of `resources/`[`Model::PAYLOAD`], whose hash agrees with the guid. None if the guid states none.
+    /// The bytes of `resources/`[`Model::PAYLOAD`], whose hash agrees with the guid. None if the guid states
+    /// none.
     pub payload: Option<&'a [u8]>,
 }
 
@@ -111,18 +113,18 @@ pub struct Environment<'a> {
 pub struct Experiment {
     /// Relative tolerance, above 0.
     pub tolerance: Option<f64>,
-    /// Start time [s].
+    /// Start time \[s\].
     pub start: f64,
-    /// Stop time [s], not before the start.
+    /// Stop time \[s\], not before the start.
     pub stop: Option<f64>,
 }
 
 /// One communication step.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Step {
-    /// Time at its start [s].
+    /// Time at its start \[s\].
     pub from: f64,
-    /// Its length [s], above 0. It may be too small to change the time.
+    /// Its length \[s\], above 0. It may be too small to change the time.
     pub duration: f64,
 }
 

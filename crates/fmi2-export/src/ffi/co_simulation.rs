@@ -12,7 +12,8 @@ use crate::model::{Failure, Model};
 
 /// `fmi2SetRealInputDerivatives`
 ///
-/// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves all as they were.
+/// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves
+/// all as they were.
 ///
 /// # Safety
 /// `component` is NULL or an instance; the arrays have `count` elements.
@@ -92,7 +93,8 @@ macro_rules! status_functions {
     ($($type:ty: $c_name:literal $name:ident $call:ident, $found:expr;)*) => { $(
         #[doc = concat!("`", $c_name, "`")]
         ///
-        /// `fmi2Discard`, after a log, for a kind that this type has no status of: so asks FMI 2.0.5, section 4.2.3.
+        /// `fmi2Discard`, after a log, for a kind that this type has no status of: so asks FMI 2.0.5, section
+        /// 4.2.3.
         ///
         /// # Safety
         /// `component` is NULL or an instance; `value` is NULL or points to room for one value.

@@ -33,7 +33,8 @@ pub unsafe fn get_version<M: Model>() -> Text {
 
 /// `fmi2Instantiate`
 ///
-/// NULL is returned, after a log, when guid, kind or environment do not suit. What `functions` points to is copied.
+/// NULL is returned, after a log, when guid, kind or environment do not suit. What `functions` points to is
+/// copied.
 ///
 /// # Safety
 /// The texts are NULL or end with a NUL; `functions` is NULL or points to callbacks of the stated types.
@@ -47,36 +48,30 @@ pub unsafe fn instantiate<M: Model>(
     _visible: Boolean,
     logging_on: Boolean,
 ) -> Component {
-    let instance = guard::catch(|| {
-        let name = if instance_name.is_null() {
-            CString::default()
-        } else {
-            // SAFETY: not NULL; the rest as the caller promises.
-            unsafe { CStr::from_ptr(instance_name) }.to_owned()
-        };
-        // SAFETY: as the caller promises.
-        let callbacks = unsafe { functions.as_ref() };
-        let sink = callbacks.and_then(|callbacks| sink(*callbacks, name.clone()));
-        let mut logger = Logger::new(sink, logging_on != 0);
-        // SAFETY: as the caller promises.
-        let texts = unsafe { (text("fmuGUID", guid), text("fmuResourceLocation", resource_location)) };
-        let (guid, location) = match check_arguments(fmu_type, texts) {
-            Ok(arguments) => arguments,
-            Err(failure) => {
-                logger.log().error(format_args!("fmi2Instantiate: {failure}"));
-                return None;
-            }
-        };
-        Instance::<M>::new(&name.to_string_lossy(), guid, location, logger)
+    let name = if instance_name.is_null() {
+        CString::default()
+    } else {
+        // SAFETY: not NULL; the rest as the caller promises.
+        unsafe { CStr::from_ptr(instance_name) }.to_owned()
+    };
+    // SAFETY: as the caller promises.
+    let callbacks = unsafe { array("functions", functions, 1) }.ok().and_then(<[_]>::first);
+    let logger =
+        || Logger::new(callbacks.and_then(|callbacks| sink(*callbacks, name.clone())), logging_on != 0);
+    // SAFETY: as the caller promises.
+    let texts = unsafe { (text("fmuGUID", guid), text("fmuResourceLocation", resource_location)) };
+    let instance = guard::catch(|| match check_arguments(fmu_type, texts) {
+        Ok((guid, location)) => Instance::<M>::new(&name.to_string_lossy(), guid, location, logger()),
+        Err(failure) => {
+            logger().log().error(format_args!("fmi2Instantiate: {failure}"));
+            None
+        }
     });
     match instance {
         Ok(Some(instance)) => Box::into_raw(Box::new(instance)).cast(),
         Ok(None) => ptr::null_mut(),
         Err(panic) => {
-            // SAFETY: as the caller promises.
-            let callbacks = unsafe { functions.as_ref() };
-            let sink = callbacks.and_then(|callbacks| sink(*callbacks, CString::default()));
-            Logger::new(sink, false).log().error(format_args!("fmi2Instantiate: internal error: {panic}"));
+            logger().log().error(format_args!("fmi2Instantiate: internal error, please report it: {panic}"));
             ptr::null_mut()
         }
     }

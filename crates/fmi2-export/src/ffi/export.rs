@@ -2,9 +2,10 @@
 
 /// Makes the model `$model` an FMU: defines the 34 C functions of FMI 2.0 co-simulation in a module `fmi2`.
 ///
-/// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these names.
+/// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these
+/// names.
 ///
-/// ```ignore
+/// ```text
 /// #[cfg(feature = "fmu")]
 /// fmi2_export::export_fmu!(crate::Spring);
 /// ```

@@ -12,8 +12,8 @@ thread_local! {
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked with.
-/// Elsewhere the hook that was there before goes on.
+/// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked
+/// with. Elsewhere the hook that was there before goes on.
 pub fn install_panic_hook() {
     static INSTALLED: Once = Once::new();
     INSTALLED.call_once(|| {
@@ -24,7 +24,8 @@ pub fn install_panic_hook() {
             }
             if let Some(location) = information.location() {
                 let place = format!("{}:{}", location.file(), location.line());
-                PLACE.with(|last| last.replace(place));
+                // A thread that is ending has no place to keep it; a panic in here would abort.
+                let _ = PLACE.try_with(|last| last.replace(place));
             }
         }));
     });
@@ -37,7 +38,7 @@ pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     let result = panic::catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outer);
     result.map_err(|payload| {
-        let place = PLACE.with(RefCell::take);
+        let place = PLACE.try_with(RefCell::take).unwrap_or_default();
         format!("{} ({place})", message(payload))
     })
 }

@@ -1,7 +1,7 @@
 //! The C boundary: generic functions that [`export_fmu!`](crate::export_fmu) gives their C names.
 //!
-//! The only unsafe code of the layer. What is unsafe is to believe C: that an instance is one, that an array has as many elements
-//! as stated, that a text ends. NULL and misaligned pointers are refused.
+//! The only unsafe code of the layer. What is unsafe is to believe C: that an instance is one, that an array
+//! has as many elements as stated, that a text ends. NULL and misaligned pointers are refused.
 
 #![allow(unsafe_code)]
 
@@ -23,7 +23,8 @@ use types::{Component, ERROR, Status};
 /// Lets the instance `component` do `body`, if it is the turn of `call`.
 ///
 /// # Safety
-/// `component` is NULL or what `instantiate` of the same model returned and `free_instance` has not taken, and no other thread uses it.
+/// `component` is NULL or what `instantiate` of the same model returned and `free_instance` has not taken,
+/// and no other thread uses it.
 unsafe fn with<M: Model>(
     component: Component,
     call: Call,

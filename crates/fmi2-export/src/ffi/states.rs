@@ -1,6 +1,7 @@
 //! The functions on saved states (FMI 2.0.5, section 2.1.8).
 //!
-//! An `fmi2FMUstate` is only compared with those an instance gave out, never followed: a foreign or freed one is refused.
+//! An `fmi2FMUstate` is only compared with those an instance gave out, never followed: a foreign or freed one
+//! is refused.
 
 use super::arguments::{array, array_mut, place};
 use super::types::{Byte, Component, FmuState, Status};
@@ -112,7 +113,8 @@ pub unsafe fn serialize_fmu_state<M: Model>(
 /// Makes a new state, whatever `state` points to. Bytes that are refused leave it as it is.
 ///
 /// # Safety
-/// `component` is NULL or an instance; `bytes` has `size` bytes; `state` is NULL or points to a state or to NULL.
+/// `component` is NULL or an instance; `bytes` has `size` bytes; `state` is NULL or points to a state or to
+/// NULL.
 pub unsafe fn de_serialize_fmu_state<M: Model>(
     component: Component,
     bytes: *const Byte,

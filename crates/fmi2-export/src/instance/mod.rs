@@ -31,7 +31,8 @@ pub(crate) struct Instance<M: Model> {
     guid: String,
     logger: Logger,
     last_step: Status,
-    /// The states given out, by the address that is their handle. An address that is not here is never followed.
+    /// The states given out, by the address that is their handle. An address that is not here is never
+    /// followed.
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
     /// What the last `fmi2GetString` returned pointers to.
     texts: Vec<CString>,
@@ -137,14 +138,14 @@ impl<M: Model> Instance<M> {
     pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Failure> {
         let Experiment { tolerance, start, stop } = experiment;
         if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
-            return Err(Failure(format!("tolerance = {tolerance} is not finite and above 0")));
+            return Err(Failure(format!("tolerance = {tolerance:?} is not finite and above 0")));
         }
         if !start.is_finite() {
-            return Err(Failure(format!("startTime = {start} s is not finite")));
+            return Err(Failure(format!("startTime = {start:?} s is not finite")));
         }
         if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
             return Err(Failure(format!(
-                "stopTime = {stop} s is not finite and at or after startTime = {start} s"
+                "stopTime = {stop:?} s is not finite and at or after startTime = {start:?} s"
             )));
         }
         self.now.time = start;

@@ -2,6 +2,7 @@
 
 use super::{Instance, Snapshot};
 use crate::call::Phase;
+use crate::log::Status;
 use crate::model::{Experiment, Failure, Model};
 use crate::state::{self, StateReader, StateWriter};
 
@@ -20,6 +21,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn restore(&mut self, handle: usize) -> Result<(), Failure> {
         let snapshot = Snapshot::clone(self.find_saved(handle)?);
         self.now = snapshot;
+        self.last_step = Status::Ok;
         Ok(())
     }
 

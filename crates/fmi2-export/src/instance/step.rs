@@ -5,8 +5,8 @@ use crate::call::Call;
 use crate::log::{Category, Status};
 use crate::model::{Failure, Model, Step};
 
-/// Communication points are sums of rounded steps: they may differ from the own time by this much, relative to
-/// the larger of the time and 1 s.
+/// Communication points are sums of rounded steps: they may differ from the own time by this much, relative
+/// to the larger of the time and 1 s.
 const TIME_TOLERANCE: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {
@@ -17,30 +17,31 @@ impl<M: Model> Instance<M> {
     }
 
     fn try_step(&mut self, point: f64, size: f64) -> Result<(), Failure> {
+        // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
         if !(size.is_finite() && size > 0.0) {
             return Err(Failure(format!(
-                "communicationStepSize = {size} s is not finite and above 0 (time {time} s)"
+                "communicationStepSize = {size:?} s is not finite and above 0 (time {time:?} s)"
             )));
         }
         if !point.is_finite() {
             return Err(Failure(format!(
-                "currentCommunicationPoint = {point} s is not finite (time {time} s)"
+                "currentCommunicationPoint = {point:?} s is not finite (time {time:?} s)"
             )));
         }
         if (point - time).abs() > tolerance_at(point) {
             return Err(Failure(format!(
-                "currentCommunicationPoint = {point} s, but the last step ended at {time} s"
+                "currentCommunicationPoint = {point:?} s, but the last step ended at {time:?} s"
             )));
         }
         let end = point + size;
         if let Some(stop) = self.now.experiment.stop.filter(|&stop| end > stop + tolerance_at(stop)) {
             return Err(Failure(format!(
-                "the step from {point} s by {size} s ends after the stopTime {stop} s given to fmi2SetupExperiment"
+                "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s given to fmi2SetupExperiment"
             )));
         }
         if !end.is_finite() {
-            return Err(Failure(format!("the step from {point} s by {size} s has no finite end")));
+            return Err(Failure(format!("the step from {point:?} s by {size:?} s has no finite end")));
         }
         // From the own time, so that no step is computed twice or left out.
         let duration = (point - time) + size;

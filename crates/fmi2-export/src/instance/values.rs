@@ -122,7 +122,7 @@ impl<M: Model> Instance<M> {
             access::check_order(variable, order)?;
             if !value.is_finite() {
                 return Err(Failure(format!(
-                    "the derivative {value} of {} is not a finite number",
+                    "the derivative {value:?} of {} is not a finite number",
                     variable.name
                 )));
             }
@@ -168,7 +168,7 @@ impl<M: Model> Instance<M> {
             let known = access::find::<M::Real>(known)?;
             if !seed.is_finite() {
                 return Err(Failure(format!(
-                    "the seed {seed} of {} is not a finite number",
+                    "the seed {seed:?} of {} is not a finite number",
                     known.variable().name
                 )));
             }
