@@ -115,7 +115,10 @@ impl Simulation {
         &self.record
     }
 
-    /// Goes back, or on, to where a simulation of the same wall stood. The branch must be one of the wall's.
+    /// Goes back, or on, to where a simulation of the same wall stood.
+    ///
+    /// # Panics
+    /// If the branch is not one of the wall's.
     pub fn restore(&mut self, progress: Progress) {
         assert!(progress.state.branch < self.wall().branches().len(), "a branch of this wall");
         self.record = progress;
@@ -284,12 +287,7 @@ impl Simulation {
                 }
             }
         };
-        Sensitivity {
-            acceleration,
-            restoring_force: restoring * m,
-            damping_force: damping * m,
-            reactions,
-        }
+        Sensitivity { acceleration, restoring_force: restoring * m, damping_force: damping * m, reactions }
     }
 }
 
@@ -373,7 +371,11 @@ fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
 /// The sample at or before a time; zero after the record.
 fn sample_at(record: &GroundMotion, elapsed: f64) -> f64 {
     let before = sample_before(record, elapsed);
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a saturated cast is out of range")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a saturated cast is out of range"
+    )]
     let sample = record.samples().get(before.max(0.0) as usize);
     sample.copied().unwrap_or(0.0)
 }

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fmi2_export::{
-    Environment, Experiment, Failure, Log, Model, StateReader, StateWriter, Step as CommunicationStep, VariableId,
+    Environment, Experiment, Failure, Log, Model, StateReader, StateWriter, Step as CommunicationStep,
+    VariableId,
 };
 
 use crate::scene::Scene;
@@ -143,7 +144,9 @@ impl Unit {
             impulses.top += outcome.impulses.top;
             done += segment.duration;
             if outcome.stilled {
-                log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
+                log.warning(format_args!(
+                    "impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"
+                ));
             }
             if outcome.overturned {
                 let time = simulation.progress().overturn_time.unwrap_or(end);
@@ -165,8 +168,11 @@ impl Unit {
                 return Ok(());
             }
         }
-        Err(format!("the step of {} s spans more than {MOST_SEGMENTS} samples; use smaller steps", step.duration)
-            .into())
+        Err(format!(
+            "the step of {} s spans more than {MOST_SEGMENTS} samples; use smaller steps",
+            step.duration
+        )
+        .into())
     }
 
     /// The next piece of a step over which the supports move linearly.
@@ -175,11 +181,8 @@ impl Unit {
             let elapsed = simulation.progress().time - self.experiment.start;
             motion.stretch(elapsed, remaining)
         });
-        let own = own.unwrap_or(Segment {
-            duration: remaining,
-            from: Support::default(),
-            to: Support::default(),
-        });
+        let own =
+            own.unwrap_or(Segment { duration: remaining, from: Support::default(), to: Support::default() });
         Segment {
             duration: own.duration,
             from: self.inputs.support(own.from, done),
@@ -222,8 +225,7 @@ impl Model for Unit {
         };
         let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
         let folder = environment.resources.unwrap_or(Path::new("."));
-        let scene =
-            Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
+        let scene = Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
         Self::new(scene.parameters, scene.excitation.map(Arc::new))
     }
 
@@ -410,12 +412,11 @@ impl Model for Unit {
         writer.f64(self.impulses.bottom);
         writer.f64(self.impulses.top);
         let Progress { time, state, drift, work, .. } = *self.simulation.progress();
-        for value in
-            [time, state.displacement, state.velocity, state.peaks.positive, state.peaks.negative]
-        {
+        for value in [time, state.displacement, state.velocity, state.peaks.positive, state.peaks.negative] {
             writer.f64(value);
         }
-        for value in [state.branch as u64, phase_number(state.phase), work.pieces, work.corners, work.impacts] {
+        for value in [state.branch as u64, phase_number(state.phase), work.pieces, work.corners, work.impacts]
+        {
             writer.u64(value);
         }
         for value in [state.overturned, state.departed, drift] {

@@ -76,7 +76,8 @@ impl Document {
             let found = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
             let Some(input) = found else {
                 let known: Vec<_> = input_names().collect();
-                let message = format!("{:?} is not an input; the inputs are {}", name.get_ref(), known.join(", "));
+                let message =
+                    format!("{:?} is not an input; the inputs are {}", name.get_ref(), known.join(", "));
                 return Err(place.error(name.span(), message));
             };
             if inputs.contains(&input) {
@@ -104,7 +105,7 @@ pub(super) fn read_bounded(path: &Path, name: &str) -> Result<String, SceneError
     file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        let line = 1 + error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count();
+        let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
         SceneError::Line {
             file: name.to_owned(),
             line,

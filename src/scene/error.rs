@@ -24,7 +24,7 @@ pub enum SceneError {
     Value { message: String },
     /// The motion.
     #[error("{file}, line {line}: {source}")]
-    Motion { file: String, line: usize, source: GroundMotionError },
+    Motion { file: String, line: usize, source: Box<GroundMotionError> },
     /// Relations between parameters.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
@@ -61,7 +61,7 @@ impl<'a> Place<'a> {
     /// The 1-based line of a byte range.
     pub(super) fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        1 + before.iter().filter(|&&byte| byte == b'\n').count()
+        before.split(|&byte| byte == b'\n').count()
     }
 
     pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {

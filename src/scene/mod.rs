@@ -136,8 +136,7 @@ impl Scene {
         };
         let free = Self::default();
         let natural_stop = excitation.as_ref().map_or(free.stop_time, |e| e.duration() + tail);
-        let natural_step =
-            excitation.as_ref().map_or(DEFAULT_OUTPUT_STEP, |e| e.bottom().step().max(1e-3));
+        let natural_step = excitation.as_ref().map_or(DEFAULT_OUTPUT_STEP, |e| e.bottom().step().max(1e-3));
         let inputs = match (&excitation, inputs.is_empty() && document.inputs.is_none()) {
             (None, true) => free.inputs,
             _ => inputs,
@@ -194,7 +193,9 @@ impl Scene {
 
 /// A title from a file name.
 fn name_of(file: &str) -> String {
-    Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
+    Path::new(file)
+        .file_stem()
+        .map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
 }
 
 /// The value of a parameter as text that a scene or an XML start attribute can hold; `None` for other variables.
@@ -249,7 +250,7 @@ fn quoted(text: &str) -> String {
     for character in text.chars() {
         match character {
             '"' | '\\' => quoted.extend(['\\', character]),
-            c if c.is_control() => quoted.push_str(&format!("\\u{:04X}", u32::from(c))),
+            c if c.is_control() => quoted.extend(format!("\\u{:04X}", u32::from(c)).chars()),
             c => quoted.push(c),
         }
     }

@@ -145,7 +145,11 @@ pub(super) fn load(
     place: &Place<'_>,
     folder: &Path,
 ) -> Result<Loaded, SceneError> {
-    let motion = |source| SceneError::Motion { file: place.name().to_owned(), line: place.line(table.span()), source };
+    let motion = |source| SceneError::Motion {
+        file: place.name().to_owned(),
+        line: place.line(table.span()),
+        source: Box::new(source),
+    };
     let refuse = |message: String| place.error(table.span(), message);
     let spec = table.get_ref();
     let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
@@ -167,7 +171,8 @@ pub(super) fn load(
                 format: top.format.as_deref(),
                 fingerprint: top.fingerprint.as_deref(),
             };
-            let source = read_record(&record, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
+            let source =
+                read_record(&record, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
             let source = trim(source, spec).map_err(motion)?;
             Some(scale(source, top.scale, top.pga).map_err(|problem| problem.at(&motion, &refuse))?)
         }
@@ -215,7 +220,8 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
         };
         found.push(("record", read_record(&record, folder, notes)));
     } else if spec.unit.is_some() || spec.step.is_some() || spec.column.is_some() || spec.format.is_some() {
-        let message = "unit, step, column and format belong to a record; add record = \"FILE\" or leave them out";
+        let message =
+            "unit, step, column and format belong to a record; add record = \"FILE\" or leave them out";
         return Err(Problem::Table(message.into()));
     }
     if let Some(&RickerTable { amplitude, frequency, centre }) = spec.ricker.as_ref() {
@@ -227,10 +233,9 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
         let shape = Shape::Harmonic { phase, end: Some(duration) };
         found.push(("harmonic", pulse(shape, amplitude, frequency).map_err(Into::into)));
     }
-    for (name, table, shape) in [
-        ("sine_cycle", &spec.sine_cycle, Shape::SineCycle),
-        ("half_sine", &spec.half_sine, Shape::HalfSine),
-    ] {
+    for (name, table, shape) in
+        [("sine_cycle", &spec.sine_cycle, Shape::SineCycle), ("half_sine", &spec.half_sine, Shape::HalfSine)]
+    {
         if let Some(&SineTable { amplitude, frequency }) = table.as_ref() {
             notes.push(format!("{}, {amplitude} m/s² at {frequency} Hz", name.replace('_', " ")));
             found.push((name, pulse(shape, amplitude, frequency).map_err(Into::into)));
@@ -269,8 +274,8 @@ fn read_record(
     let path = folder.join(spec.path);
     let record = read(&path, &options)?;
     if let Some(expected) = spec.fingerprint {
-        let bytes = std::fs::read(&path)
-            .map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
+        let bytes =
+            std::fs::read(&path).map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
         let found = fingerprint(&bytes);
         if found != *expected {
             let file = path.display();
@@ -303,6 +308,8 @@ fn scale(motion: GroundMotion, factor: Option<f64>, pga: Option<f64>) -> Result<
         (None, None) => Ok(motion),
         (Some(factor), None) => Ok(motion.checked_scaled(factor)?),
         (None, Some(pga)) => Ok(motion.scaled_to_peak(pga)?),
-        (Some(_), Some(_)) => Err(Problem::Table("scale and pga exclude each other; give one of them".into())),
+        (Some(_), Some(_)) => {
+            Err(Problem::Table("scale and pga exclude each other; give one of them".into()))
+        }
     }
 }

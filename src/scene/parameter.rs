@@ -43,7 +43,8 @@ pub(super) fn apply_group(
     }
     match (multilinear, points) {
         (Some(_), Some((_, value))) => {
-            let points = read_points(value.get_ref()).map_err(|message| place.error(value.span(), message))?;
+            let points =
+                read_points(value.get_ref()).map_err(|message| place.error(value.span(), message))?;
             parameters.multilinear = Some(points.into());
         }
         (Some(key), None) => {
@@ -119,14 +120,19 @@ fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
         return Err(format!("{name} = {number} must be a finite number"));
     }
     match (min, max) {
-        (Some(min), _) if number < min => Err(format!("{name} = {number}{unit} is below its limit {min}{unit}")),
-        (_, Some(max)) if number > max => Err(format!("{name} = {number}{unit} is above its limit {max}{unit}")),
+        (Some(min), _) if number < min => {
+            Err(format!("{name} = {number}{unit} is below its limit {min}{unit}"))
+        }
+        (_, Some(max)) if number > max => {
+            Err(format!("{name} = {number}{unit} is above its limit {max}{unit}"))
+        }
         _ => Ok(()),
     }
 }
 
 fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
-    let shape = || format!("{POINTS} must be a list of pairs [u/u_ins, F/F0], from the first corner outwards");
+    let shape =
+        || format!("{POINTS} must be a list of pairs [u/u_ins, F/F0], from the first corner outwards");
     let list = value.as_array().ok_or_else(shape)?;
     let pair = |item: &Value| {
         let [u, f] = item.as_array()?.as_slice() else { return None };
@@ -167,7 +173,8 @@ pub(super) fn is_used(scene: &Scene, name: &str) -> bool {
         "hinge_ratio" | "reaction_top" | "impulse_top" => vertical,
         "overburden" | "overburden_eccentricity" => loaded,
         "F0_negative" | "u_ins_negative" => loaded && p.overburden_eccentricity != 0.0,
-        "a1" | "omega1" => !law(ForceLaw::RigidLinear) && !(multilinear && name == "a1"),
+        "a1" => !multilinear && !law(ForceLaw::RigidLinear),
+        "omega1" => !law(ForceLaw::RigidLinear),
         "a3" => !multilinear,
         "d1" => law(ForceLaw::Trilinear),
         "xi" => damped && given && !free_standing,

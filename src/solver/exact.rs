@@ -137,7 +137,12 @@ impl Oscillator {
             (before, term) = (term, -(c * term + k * before));
         }
         let square = time * time;
-        Green { g: time * sums[0], h: square * sums[1], j: square * time * sums[2], k: square * square * sums[3] }
+        Green {
+            g: time * sums[0],
+            h: square * sums[1],
+            j: square * time * sums[2],
+            k: square * square * sums[3],
+        }
     }
 
     /// The propagator of one duration: maps (u̇₀, ü₀, p₁) to (u − u₀, u̇, ü).
@@ -223,7 +228,9 @@ impl ClosedForm {
         let to = from + drift * self.horizon;
         let (highest, lowest) = (from.max(to) + amplitude, from.min(to) - amplitude);
         let rounding = PEAK_ROUNDING * amplitude;
-        highest <= quiet.upper && lowest >= quiet.lower && quiet.peaks.cover(lowest + rounding, highest - rounding)
+        highest <= quiet.upper
+            && lowest >= quiet.lower
+            && quiet.peaks.cover(lowest + rounding, highest - rounding)
     }
 }
 
@@ -244,7 +251,8 @@ impl Piece for ClosedForm {
 
     fn at(&self, time: f64) -> Kinematics {
         let Kinematics { displacement, velocity, acceleration } = self.start;
-        let change = self.oscillator.propagator(time) * Vector3::new(velocity, acceleration, self.forcing_rate);
+        let change =
+            self.oscillator.propagator(time) * Vector3::new(velocity, acceleration, self.forcing_rate);
         Kinematics { displacement: displacement + change[0], velocity: change[1], acceleration: change[2] }
     }
 

@@ -163,8 +163,7 @@ impl Method {
     pub fn new(parameters: &Parameters, wall: &Wall, tolerance: f64) -> Result<Self, ParameterError> {
         let exact = wall.has_constant_damping();
         match parameters.solver {
-            Solver::Automatic if exact => Ok(Self::Exact),
-            Solver::Exact if exact => Ok(Self::Exact),
+            Solver::Automatic | Solver::Exact if exact => Ok(Self::Exact),
             Solver::Exact => Err(ParameterError::NotExact { model: parameters.damping_model.name() }),
             Solver::Automatic | Solver::Adaptive => Ok(Self::Adaptive { tolerance }),
             Solver::Newmark => Ok(Self::Newmark { step: parameters.newmark_step }),
@@ -247,7 +246,12 @@ impl Motion {
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was.
-    pub fn advance(&self, state: &mut State, segment: &Segment, integral: bool) -> Result<Report, SolverError> {
+    pub fn advance(
+        &self,
+        state: &mut State,
+        segment: &Segment,
+        integral: bool,
+    ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
         let mut run = Run {
@@ -260,7 +264,7 @@ impl Motion {
             integral,
             report: Report::default(),
         };
-        run.to_the_end()?;
+        run.finish()?;
         *state = run.state;
         Ok(run.report)
     }
@@ -297,7 +301,7 @@ enum AnyPiece {
 }
 
 impl Run<'_> {
-    fn to_the_end(&mut self) -> Result<(), SolverError> {
+    fn finish(&mut self) -> Result<(), SolverError> {
         for _ in 0..MOST_PIECES {
             if self.time >= self.duration {
                 return self.check();
@@ -386,8 +390,13 @@ impl Run<'_> {
         let bounds = self.bounds();
         let start = self.kinematics();
         let mut peaks = self.state.peaks;
-        let exit = first_exit(piece, start, bounds.map(|index| self.motion.wall.corners()[index].displacement), &mut peaks)
-            .map_err(|_| self.exhausted())?;
+        let exit = first_exit(
+            piece,
+            start,
+            bounds.map(|index| self.motion.wall.corners()[index].displacement),
+            &mut peaks,
+        )
+        .map_err(|_| self.exhausted())?;
         self.state.peaks = peaks;
         let length = exit.map_or(piece.horizon(), |exit| exit.time);
         if self.integral && !self.state.departed {

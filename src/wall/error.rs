@@ -13,7 +13,9 @@ pub enum ParameterError {
     )]
     NoStrength { side: &'static str, force: f64, eccentricity: f64, overburden: f64 },
     /// a₁ ≥ a₃.
-    #[error("a1 = {a1} must be smaller than a3 = {a3}: the elastic branch ends before the force does; reduce a1 or raise a3")]
+    #[error(
+        "a1 = {a1} must be smaller than a3 = {a3}: the elastic branch ends before the force does; reduce a1 or raise a3"
+    )]
     ElasticBranchTooLong { a1: f64, a3: f64 },
     /// u₁ ≥ u₂.
     #[error(
@@ -40,10 +42,14 @@ pub enum ParameterError {
     )]
     NoElasticBranch { model: &'static str },
     /// ln e at e = 0.
-    #[error("damping_source = predicted needs a coefficient of restitution above 0, but it is {restitution}; give xi or c_bar instead")]
+    #[error(
+        "damping_source = predicted needs a coefficient of restitution above 0, but it is {restitution}; give xi or c_bar instead"
+    )]
     Prediction { restitution: f64 },
     /// The start lies where the wall has landed.
-    #[error("u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to upright")]
+    #[error(
+        "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to upright"
+    )]
     StartBeyondLanding { u_start: f64, limit: f64 },
     /// The closed form does not hold.
     #[error(
@@ -99,8 +105,7 @@ impl Warning {
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
         let model = parameters.damping_model;
-        let predicted =
-            model != DampingModel::None && parameters.damping_source == DampingSource::Predicted;
+        let predicted = model != DampingModel::None && parameters.damping_source == DampingSource::Predicted;
         let free_standing = model == DampingModel::FreeStandingBlock;
         if predicted && free_standing && (body.mechanism != Mechanism::Parapet || body.overburden > 0.0) {
             warnings.push(Self::PredictedFreeStanding);

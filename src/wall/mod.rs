@@ -311,11 +311,8 @@ impl Wall {
     }
 
     fn lay_out(&mut self) {
-        let mut corners = vec![Corner {
-            displacement: 0.0,
-            passage: self.impact || self.is_rigid(),
-            ..Corner::default()
-        }];
+        let mut corners =
+            vec![Corner { displacement: 0.0, passage: self.impact || self.is_rigid(), ..Corner::default() }];
         for (side, sign) in [(&self.force.positive, 1.0), (&self.force.negative, -1.0)] {
             let of = |sides: Sides| sides.of(sign);
             let mut place = |displacement: f64, mark: fn(&mut Corner)| {
@@ -363,7 +360,14 @@ impl Wall {
             self.damping.on_curved_branch()
         };
         let m = self.body.effective_mass;
-        Branch { lower, upper, anchor: line.anchor, force: line.force / m, stiffness: line.slope / m, damping }
+        Branch {
+            lower,
+            upper,
+            anchor: line.anchor,
+            force: line.force / m,
+            stiffness: line.slope / m,
+            damping,
+        }
     }
 }
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use fmi2_export::{Kind, VariableId};
 
 use crate::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable,
-    RestitutionSource, Softening, Solver,
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, IntegerVariable, Mechanism,
+    RealVariable, RestitutionSource, Softening, Solver,
 };
 
 /// The parameters of a wall and of its solution, in SI units, named as in `modelDescription.xml`.

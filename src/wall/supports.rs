@@ -71,7 +71,8 @@ impl Body {
         match self.mechanism {
             Mechanism::Parapet => 0.0,
             Mechanism::VerticalSpanning => {
-                -(self.weight * displacement / 2.0 + (self.weight / 2.0 + self.overburden) * drift) / self.height
+                -(self.weight * displacement / 2.0 + (self.weight / 2.0 + self.overburden) * drift)
+                    / self.height
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The reference cases of `tests/data/cases`, made by two independent programs (see the README there).
 //!
-//! A case passes where |error|/u_ins stays within max(1e-9, 100 ε sensitivity, 100 `double_vs_quad`) up to its horizon:
+//! A case passes where |error|/`u_ins` stays within max(1e-9, 100 ε sensitivity, 100 `double_vs_quad`) up to its horizon:
 //! the project's own tolerance, or what rounding alone can do to the result.
 
 use std::path::PathBuf;
@@ -9,7 +9,8 @@ use rocking_wall::ground_motion::{GroundMotion, Pulse, Shape};
 use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Segment, Work};
 use rocking_wall::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening, Solver,
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
+    Solver,
 };
 use rocking_wall::wall::{Parameters, Support};
 use serde_json::Value;
@@ -110,7 +111,8 @@ impl Case {
             "none" => return None,
             "record" => {
                 let text = std::fs::read_to_string(folder().join(self.text("/excitation/file"))).unwrap();
-                let samples = text.lines().filter(|line| !line.starts_with('#')).map(|line| line.parse().unwrap());
+                let samples =
+                    text.lines().filter(|line| !line.starts_with('#')).map(|line| line.parse().unwrap());
                 GroundMotion::new(self.required("/excitation/dt"), samples.collect())
                     .unwrap()
                     .scaled(self.required("/excitation/scale"))
@@ -205,7 +207,11 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
         assert!((found - time).abs() < 1e-6, "{name}: overturned at {found} s, reference {time} s");
     } else {
         let peak = case.required("/result/umax");
-        assert!((progress.state.peaks.largest() - peak).abs() / u_ins < 1e-7, "{name}: peak {} for {peak}", progress.state.peaks.largest());
+        assert!(
+            (progress.state.peaks.largest() - peak).abs() / u_ins < 1e-7,
+            "{name}: peak {} for {peak}",
+            progress.state.peaks.largest()
+        );
     }
     assert!(worst <= 1.0, "{name}: the error takes {worst} of its bound");
     (worst, progress.work)

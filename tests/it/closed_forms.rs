@@ -120,10 +120,12 @@ fn decay_by_restitution() {
         assert_eq!(simulation.progress().work.impacts, u64::from(n.unsigned_abs()));
         amplitude = next;
     }
-    assert!((equivalence::priestley(e, 0.9, 2) - (0.9_f64 / (1.0 - (1.0 - 0.9_f64.powi(4) * 0.99).sqrt())).ln()
-        / (2.0 * std::f64::consts::PI))
-        .abs()
-        < TOLERANCE);
+    assert!(
+        (equivalence::priestley(e, 0.9, 2)
+            - (0.9_f64 / (1.0 - (1.0 - 0.9_f64.powi(4) * 0.99).sqrt())).ln() / (2.0 * std::f64::consts::PI))
+            .abs()
+            < TOLERANCE
+    );
 }
 
 /// Table 5 of the paper: the analytic and calibrated e of the nine walls, to the last printed digit.

@@ -1,5 +1,8 @@
 //! The tests of the library.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
+
 mod cases;
 mod closed_forms;
 mod description;

@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening, Solver,
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
+    Solver,
 };
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -29,7 +30,11 @@ fn walls() -> impl Strategy<Value = Parameters> {
             hinge_ratio: hinge,
             overburden: load * 1800.0 * 9.81 * h * thickness,
             overburden_eccentricity: eccentricity * thickness,
-            eccentricity_mode: if follows { EccentricityMode::FollowsPivot } else { EccentricityMode::FixedToWall },
+            eccentricity_mode: if follows {
+                EccentricityMode::FollowsPivot
+            } else {
+                EccentricityMode::FixedToWall
+            },
             force_law,
             a1,
             a3,
@@ -96,7 +101,9 @@ impl Run {
 /// Largest |Δu|/u_ins between two histories while the wall stands: beyond, differences grow without bound.
 fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> f64 {
     let standing = a.iter().zip(b).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
-    standing.map(|(a, b)| (a.state.displacement - sign * b.state.displacement).abs() / scale).fold(0.0, f64::max)
+    standing
+        .map(|(a, b)| (a.state.displacement - sign * b.state.displacement).abs() / scale)
+        .fold(0.0, f64::max)
 }
 
 /// Rounding grows with each reversal near instability; forty segments amplify it by less than 1e5 in walls that stand.

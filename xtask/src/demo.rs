@@ -48,10 +48,8 @@ fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[
     let mut fmpy = python.program("python");
     fmpy.arg("tests/python/shake.py").arg(unit).arg(&input).arg(&stop).arg(&history);
     let in_fmpy = output(&mut fmpy, "see its message")?;
-    let held = output(
-        command("simulate").args(["--hold", "--json", "--stop-time", &stop]),
-        "see its message",
-    )?;
+    let held =
+        output(command("simulate").args(["--hold", "--json", "--stop-time", &stop]), "see its message")?;
     run_quietly(command("simulate").arg("--html").arg(&page))?;
     println!("largest |u| of the FMU in FMPy:   {} m", in_fmpy.trim());
     println!("the same on the command line:     {} m", number(&held, "u_max"));

@@ -11,12 +11,15 @@ use crate::{Result, root, target};
 /// Where real accelerograms are looked for if `ROCKING_WALL_RECORDS` does not say.
 const RECORDS: &str = "../shared/records";
 
+/// One part of the tests.
+type Part = fn() -> Result<()>;
+
 /// Runs every test; all parts run even where one fails.
 ///
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, fn() -> Result<()>); 5] = [
+    let parts: [(&str, Part); 5] = [
         ("Rust tests", rust),
         ("archive tests", archive),
         ("the FMU through FMPy", python),
@@ -71,7 +74,9 @@ fn records() -> PathBuf {
 /// A Chromium with its driver.
 fn browser() -> Option<PathBuf> {
     let paths = std::env::var_os("PATH")?;
-    let find = |name: &str| std::env::split_paths(&paths).map(|folder| folder.join(name)).find(|path| path.is_file());
+    let find = |name: &str| {
+        std::env::split_paths(&paths).map(|folder| folder.join(name)).find(|path| path.is_file())
+    };
     find("chromedriver")?;
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find_map(find)
 }
@@ -90,7 +95,10 @@ fn run_tests(command: &mut std::process::Command) -> Result<()> {
 
 /// The program `wall`, built.
 pub(crate) fn wall_binary() -> Result<PathBuf> {
-    succeed(cargo().args(["build", "--release", "--locked", "--bin", "wall"]), "see the compiler's message above")?;
+    succeed(
+        cargo().args(["build", "--release", "--locked", "--bin", "wall"]),
+        "see the compiler's message above",
+    )?;
     Ok(target().join("release").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
 }
 
@@ -121,10 +129,7 @@ fn conformance() -> Result<()> {
     let unit = fmu::build(Linker::System)?;
     let clang = Environment::of("clang", "xtask/locks/clang.lock")?;
     let libclang = clang.package("clang")?.join("native");
-    let include = output(
-        program("cc").arg("-print-file-name=include"),
-        "install a C compiler",
-    )?;
+    let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let folder = target().join("conformance");
     let mut test = cargo();
     test.args(["test", "--locked", "--package", "conformance"]);

@@ -40,7 +40,7 @@ pub(crate) enum Command {
 pub(crate) struct SceneArguments {
     /// Scene file (TOML); without one the defaults of the model description
     pub(crate) scene: Option<PathBuf>,
-    /// Set a parameter, such as xi=0.03 or force_law=trilinear; may be given several times
+    /// Set a parameter, such as `xi=0.03` or `force_law=trilinear`; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
 }
@@ -128,7 +128,7 @@ pub(crate) struct DescribeArguments {
 pub(crate) struct MotionArguments {
     #[command(flatten)]
     pub(crate) record: RecordArguments,
-    /// The CSV file to write, with the columns time and a_g in s and m/s2
+    /// The CSV file to write, with the columns time (s) and `a_g` (m/s2)
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: PathBuf,
 }
@@ -159,11 +159,11 @@ impl RecordArguments {
     pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
         let (motion, note) = match &self.record {
             Some(path) => self.read(path)?,
-            None if self.synthetic => {
-                (SyntheticMotion::default().motion()?, "synthetic motion".to_owned())
-            }
+            None if self.synthetic => (SyntheticMotion::default().motion()?, "synthetic motion".to_owned()),
             None if self.scale.is_some() || self.pga.is_some() => {
-                bail!("--scale and --pga act on a motion given with --record or --synthetic; give one of them");
+                bail!(
+                    "--scale and --pga act on a motion given with --record or --synthetic; give one of them"
+                );
             }
             None => return Ok(None),
         };
@@ -203,7 +203,9 @@ impl SimulateArguments {
                 scene.title = "The default parapet, shaken".into();
             }
         } else if self.tail.is_some() {
-            bail!("--tail belongs to a motion given with --record or --synthetic; a scene states its own tail");
+            bail!(
+                "--tail belongs to a motion given with --record or --synthetic; a scene states its own tail"
+            );
         }
         self.scene.apply(&mut scene)?;
         if self.hold {

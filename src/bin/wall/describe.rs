@@ -19,8 +19,7 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let wall = Wall::new(parameters)?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
     let facts = facts(&wall);
-    let law =
-        if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
         ("title", scene.title.clone()),
         ("mechanism", parameters.mechanism.name().to_owned()),
@@ -91,7 +90,12 @@ fn facts(wall: &Wall) -> Vec<Fact> {
         Fact("u_ins_negative", "u_ins-", body.instability.negative, "m"),
         Fact("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
         Fact("force_end", "u3+", wall.force_end().positive, "m"),
-        Fact("rocking_onset", "a_g", body.strength.positive / (body.participation * body.effective_mass), "m/s2"),
+        Fact(
+            "rocking_onset",
+            "a_g",
+            body.strength.positive / (body.participation * body.effective_mass),
+            "m/s2",
+        ),
         Fact("omega1", "omega1", omega1, "rad/s"),
         Fact("elastic_period", "T1", period, "s"),
         Fact("restitution_used", "e", e, "-"),

@@ -4,6 +4,8 @@
 //! uses, and the scene travels in `resources/`, with its motion. The guid ends in the scene's fingerprint, so that the
 //! library refuses to run without it.
 
+use std::fmt::Write;
+
 use anyhow::{Context, Result, bail};
 use fmi2_export_build::archive::Archive;
 use fmi2_export_build::{DefaultExperiment, Description, Reduction};
@@ -20,8 +22,9 @@ const STEPS: f64 = 1000.0;
 pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
-    let mut archive = Archive::open(&arguments.base)
-        .with_context(|| "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base")?;
+    let mut archive = Archive::open(&arguments.base).with_context(
+        || "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base",
+    )?;
     let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
     let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
     let base = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
@@ -61,7 +64,8 @@ pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
 fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
     let mut csv = String::new();
     for sample in motion.samples() {
-        csv.push_str(&format!("{sample:?}\n"));
+        // writing to a String cannot fail
+        let _ = writeln!(csv, "{sample:?}");
     }
     let table = format!(
         "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",

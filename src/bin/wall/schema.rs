@@ -28,7 +28,10 @@ pub(crate) fn schema() -> Result<Value> {
         ("stop_time", "End of the run [s]; by default the motion's duration and tail, or 30 s."),
         ("output_step", "Step of the output [s]; by default the motion's own, or 0.01 s."),
     ] {
-        properties.insert(name.into(), json!({ "type": "number", "exclusiveMinimum": 0, "description": description }));
+        properties.insert(
+            name.into(),
+            json!({ "type": "number", "exclusiveMinimum": 0, "description": description }),
+        );
     }
     for (group, names) in GROUPS {
         let mut members: Map<String, Value> =
