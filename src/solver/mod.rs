@@ -1,6 +1,6 @@
 //! Solvers: from a state and a segment of support motion to the state at its end.
 //!
-//! One loop serves all of them. It asks the method for the next [`Piece`](event::Piece) of motion, follows it to its end or to the first corner,
+//! One loop serves all of them. It asks the method for the next piece of motion, follows it to its end or to the first corner,
 //! and applies what happens there: change of branch, impact, overturning, departure from the supports, landing.
 
 mod adaptive;
