@@ -18,6 +18,9 @@ use super::{SceneError, input_names};
 /// Largest scene file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 
+/// How much of a faulty line a message repeats.
+const SHOWN_CHARACTERS: usize = 60;
+
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
 
@@ -52,8 +55,11 @@ pub struct Document {
 impl Document {
     pub(super) fn parse(place: &Place<'_>) -> Result<Self, SceneError> {
         toml::from_str(place.text()).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
             let message = error.message().replace('\n', " ");
-            place.error(error.span().unwrap_or(0..0), message)
+            let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
+            let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
+            place.error(span, format!("{message}, in `{shown}`"))
         })
     }
 

@@ -5,6 +5,7 @@
 
 mod cases;
 mod closed_forms;
+mod command_line;
 mod description;
 mod ground_motion;
 mod properties;

@@ -19,12 +19,14 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Run a scene, or the default wall, and write its history and its page
+    #[command(allow_negative_numbers = true)]
     Simulate(SimulateArguments),
     /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
     Package(PackageArguments),
     /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
     Describe(DescribeArguments),
     /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    #[command(allow_negative_numbers = true)]
     Motion(MotionArguments),
     /// Print the JSON schema of scene files
     Schema,

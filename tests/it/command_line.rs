@@ -1,0 +1,201 @@
+//! The program `wall`: one clear message for bad input, exit code 2, nothing left behind.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// An empty folder of the test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn wall(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_wall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Runs `arguments` and expects one line on stderr that holds every one of `words`, exit code 2, and no new file.
+fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let names = || {
+        let mut names: Vec<_> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    let before = names();
+    let output = wall(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert_eq!(message.trim_end().lines().count(), 1, "{arguments:?}: {message}");
+    for word in words {
+        assert!(message.contains(word), "{arguments:?}: no {word:?} in {message}");
+    }
+    assert!(output.stdout.is_empty(), "{arguments:?}: {}", text(&output.stdout));
+    assert_eq!(names(), before, "{arguments:?}: left something behind");
+}
+
+/// A scene, and what the message about it must say.
+const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
+    ("unknown_key", "[geometry]\nheight = 3\ncolour = 1\n", &["line 3", "colour", "thickness"]),
+    ("unknown_table", "[geomtry]\nheight = 3\n", &["line 1", "geomtry"]),
+    ("wrong_table", "[geometry]\nxi = 0.1\n", &["line 2", "xi", "[damping]"]),
+    ("not_toml", "title = \"a\"\nheight 3\n", &["line 2"]),
+    ("twice", "[start]\nu_start = 0\nu_start = 1\n", &["line 3", "u_start"]),
+    ("negative", "[geometry]\n\nthickness = -0.3\n", &["line 3", "thickness", "-0.3", "0.0001 m"]),
+    ("nan", "[damping]\nxi = nan\n", &["line 2", "xi", "finite"]),
+    ("infinite", "[geometry]\nheight = inf\n", &["line 2", "height", "finite"]),
+    ("word", "[geometry]\nheight = \"tall\"\n", &["line 2", "height", "number"]),
+    ("item", "[force_law]\nforce_law = \"linear\"\n", &["line 2", "linear", "rigid_linear, bilinear, trilinear"]),
+    ("a1_above_a3", "[force_law]\na1 = 0.95\na3 = 0.9\n", &["a1 = 0.95", "a3 = 0.9", "reduce a1"]),
+    ("d1", "[force_law]\nforce_law = \"trilinear\"\nd1 = 0.98\n", &["d1 = 0.98", "0.97", "parallel"]),
+    ("rigid_ratio", "[force_law]\nforce_law = \"rigid_linear\"\n", &["constant_ratio", "free_standing_block"]),
+    ("exact_ratio", "[solver]\nsolver = \"exact\"\n", &["exact", "constant_ratio", "adaptive"]),
+    ("eccentric", "[geometry]\noverburden = 1e6\noverburden_eccentricity = 0.3\n", &["F0", "overburden"]),
+    ("far", "[start]\nu_start = 5\n", &["u_start = 5", "2 m"]),
+    ("points", "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.1, 1.0], [0.05, 0.0]]\n", &["point 2", "rise"]),
+    ("no_points", "[force_law]\nforce_law = \"multilinear\"\n", &["line 2", "points"]),
+    ("input", "inputs = [\"a_g\", \"wind\"]\n", &["line 1", "wind", "a_bottom"]),
+    ("motion", "[motion]\ntail = 1\n", &["line 1", "record", "synthetic"]),
+    ("two_motions", "[motion]\nsynthetic = {}\nrecord = \"a.csv\"\nunit = \"g\"\n", &["exactly one"]),
+    ("scale", "[motion]\nsynthetic = {}\nscale = 2\npga = 3\n", &["scale", "pga", "one of them"]),
+    ("no_record", "[motion]\nrecord = \"none.AT2\"\n", &["none.AT2"]),
+    ("step", "stop_time = 1e6\noutput_step = 1e-6\n", &["stop_time", "output_step"]),
+];
+
+#[test]
+fn bad_scenes() {
+    let folder = folder("bad_scenes");
+    for (name, scene, words) in BAD_SCENES {
+        let file = format!("{name}.toml");
+        std::fs::write(folder.join(&file), scene).unwrap();
+        refused(&folder, &["simulate", &file, "--csv", "out.csv", "--html", "out.html"], words);
+        if !matches!(name, "step" | "exact_ratio") {
+            refused(&folder, &["package", &file, "-o", "out.fmu"], &[]);
+        }
+    }
+    refused(&folder, &["simulate", "missing.toml"], &["missing.toml"]);
+    std::fs::write(folder.join("noise.toml"), [0xff_u8, 0xfe, 0x00, 0x80]).unwrap();
+    refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "UTF-8"]);
+}
+
+/// A record, its arguments, and what the message about it must say.
+const BAD_RECORDS: [(&str, &str, &[&str], &[&str]); 7] = [
+    ("no_unit.csv", "time,a_g\n0,0\n0.01,1\n", &[], &["no_unit.csv", "unit"]),
+    ("nan.csv", "time,a_g\n0,0\n0.01,nan\n", &["--unit", "g"], &["nan.csv", "line 3", "nan"]),
+    ("empty.csv", "", &["--unit", "g"], &["empty.csv", "empty"]),
+    ("uneven.csv", "time,a_g\n0,0\n0.01,1\n0.03,1\n", &["--unit", "g"], &["uneven.csv", "line 4", "0.02"]),
+    ("unit.csv", "time,a_g\n0,0\n0.01,1\n", &["--unit", "furlong"], &["furlong", "m/s2"]),
+    (
+        "count.AT2",
+        "PEER\nevent\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n .1 .2 .3\n",
+        &[],
+        &["count.AT2", "4", "3"],
+    ),
+    (
+        "no_unit.AT2",
+        "PEER\nevent\nACCELERATION TIME SERIES\nNPTS= 2, DT= .01 SEC\n .1 .2\n",
+        &[],
+        &["unit"],
+    ),
+];
+
+#[test]
+fn bad_records() {
+    let folder = folder("bad_records");
+    for (name, content, extra, words) in BAD_RECORDS {
+        std::fs::write(folder.join(name), content).unwrap();
+        let arguments = [&["simulate", "--csv", "out.csv", "--record", name][..], extra].concat();
+        refused(&folder, &arguments, words);
+    }
+    // a gigabyte of noise is refused by its size, unread
+    let file = std::fs::File::create(folder.join("huge.csv")).unwrap();
+    file.set_len(1 << 30).unwrap();
+    refused(&folder, &["simulate", "--record", "huge.csv", "--unit", "g"], &["huge.csv"]);
+}
+
+#[test]
+fn bad_arguments() {
+    let folder = folder("bad_arguments");
+    refused(&folder, &["simulate", "--set", "xi"], &["NAME=VALUE"]);
+    refused(&folder, &["simulate", "--set", "mass=3"], &["mass", "height"]);
+    refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
+    refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
+    refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
+    refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
+    let plain = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/plain_parapet.toml");
+    refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "none.fmu"], &["none.fmu", "cargo xtask fmu"]);
+    std::fs::write(folder.join("broken.fmu"), "PK").unwrap();
+    refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "broken.fmu"], &["broken.fmu"]);
+}
+
+/// Every example scene runs, stands where it should, and says the same as its history.
+#[test]
+fn example_scenes() {
+    let folder = folder("example_scenes");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(scenes).unwrap() {
+        let scene = entry.unwrap().path();
+        let output = wall(&folder, &["simulate", scene.to_str().unwrap(), "--csv", "out.csv", "--json"]);
+        assert!(output.status.success(), "{}: {}", scene.display(), text(&output.stderr));
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let history = std::fs::read_to_string(folder.join("out.csv")).unwrap();
+        let column = history.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+        let largest = column.fold(0.0_f64, |largest, u| largest.max(u.abs()));
+        let peak = summary["u_max"].as_f64().unwrap();
+        // the history has no sample at the turning point itself
+        assert!(largest <= peak && largest >= 0.99 * peak, "{}: {largest} for {peak}", scene.display());
+        assert_eq!(summary["overturned"], false, "{}", scene.display());
+        count += 1;
+    }
+    assert!(count >= 5);
+}
+
+/// The JSON forms are JSON; describe and simulate agree with the library.
+#[test]
+fn machine_readable_output() {
+    let folder = folder("machine_readable");
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = wall(&folder, arguments);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let facts = json(&["describe", "--json"]);
+    // Figure 2's wall: m = 1800 · 4 · 0.4 · 1, m_eff = 4/3 m, u_ins = b/2, F0 = W b/h
+    assert_eq!(facts["mass"], 2880.0);
+    assert_eq!(facts["effective_mass"], 3840.0);
+    for (name, expected) in [("u_ins", 0.2), ("F0", 2825.28)] {
+        let found = facts[name].as_f64().unwrap();
+        assert!((found - expected).abs() < 1e-12 * expected, "{name}: {found}");
+    }
+    let schema = json(&["schema"]);
+    assert_eq!(schema["properties"]["damping"]["properties"]["xi"]["maximum"], 10.0);
+    assert!(schema["$defs"]["MotionTable"]["properties"]["record"].is_object());
+    for shell in ["bash", "zsh", "fish"] {
+        let output = wall(&folder, &["completions", shell]);
+        assert!(output.status.success() && text(&output.stdout).contains("simulate"), "{shell}");
+    }
+}
+
+/// What `to_toml` writes into an FMU reads back as the same scene.
+#[test]
+fn a_scene_survives_being_written() {
+    use rocking_wall::scene::{Scene, to_toml};
+    for name in ["plain_parapet", "strip_between_floors", "quadrilinear_strip"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
+        let mut scene = Scene::read(&path).unwrap();
+        scene.excitation = None;
+        let written = to_toml(&scene, "");
+        let read = Scene::parse("written", &written, Path::new(".")).unwrap();
+        assert_eq!(read.parameters, scene.parameters, "{name}");
+        assert_eq!((read.inputs, read.stop_time), (scene.inputs, scene.stop_time), "{name}");
+        assert_eq!(read.title, scene.title);
+    }
+}
