@@ -9,3 +9,4 @@ mod command_line;
 mod description;
 mod ground_motion;
 mod properties;
+mod wiring;

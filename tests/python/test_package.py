@@ -1,0 +1,118 @@
+"""FMUs of one scene: only the variables they use, their motion inside, and no life without their scene."""
+
+import json
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+from conftest import ROOT
+from unit import Unit
+
+SCENES = sorted((ROOT / "scenes").glob("*.toml"))
+
+
+@pytest.fixture(scope="module")
+def packages(fmu, wall, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("packages")
+    made = {}
+    for scene in SCENES:
+        made[scene.stem] = folder / f"{scene.stem}.fmu"
+        command = [wall, "package", scene, "-o", made[scene.stem], "--base", fmu]
+        subprocess.run(command, check=True, capture_output=True)
+    return made
+
+
+@pytest.mark.parametrize("scene", [scene.stem for scene in SCENES])
+def test_package_is_valid_and_runs_as_the_scene(packages, wall, scene):
+    path = packages[scene]
+    assert validate_fmu(str(path)) == []
+    summary = json.loads(
+        subprocess.run([wall, "simulate", ROOT / f"scenes/{scene}.toml", "--json"], check=True, capture_output=True).stdout
+    )
+    experiment = read_model_description(str(path)).defaultExperiment
+    assert float(experiment.stopTime) == summary["end_time"]
+    # The motion is played inside: the importer's step does not matter but for rounding and the sensitivity of the scene.
+    for step in (None, 0.0137, 0.5):
+        result = simulate_fmu(str(path), output_interval=step)
+        # FMPy ends on a whole number of steps: the peak of these scenes lies well before
+        assert result["u_max"][-1] == pytest.approx(summary["u_max"], rel=1e-9, abs=1e-12), step
+
+
+def test_a_plain_parapet_lists_what_it_needs(packages):
+    names = {variable.name for variable in read_model_description(str(packages["plain_parapet"])).modelVariables}
+    assert names == {
+        # outputs of a parapet that sways and rocks
+        "u", "u_dot", "overturned", "u_ddot", "u_ratio", "restoring_force", "damping_force", "reaction_bottom",
+        "impulse_bottom", "overturn_time", "u_max",
+        # what it is made of
+        "height", "thickness", "width", "density", "gravity", "a1", "a3", "xi", "u_start", "u_dot_start",
+        # what follows
+        "mass", "effective_mass", "participation", "F0", "u_ins", "omega1", "xi_used",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("scene", "there", "absent"),
+    [
+        ("shaken_parapet", {"u"}, {"a_g", "a_bottom", "a_top", "drift", "overburden", "hinge_ratio", "d1", "mechanism"}),
+        ("strip_between_floors", {"a_bottom", "a_top", "drift", "hinge_ratio", "overburden", "d1"}, {"a_g", "xi", "c_bar"}),
+        ("rigid_block", {"restitution_used"}, {"a1", "d1", "xi", "c_bar", "damping_force", "omega1", "tolerance"}),
+        ("quadrilinear_strip", {"hinge_ratio", "xi"}, {"a1", "a3", "d1", "force_law", "restitution"}),
+    ],
+)
+def test_what_plays_no_part_is_not_there(packages, scene, there, absent):
+    names = {variable.name for variable in read_model_description(str(packages[scene])).modelVariables}
+    assert there <= names
+    assert not absent & names
+
+
+def test_starts_are_the_scenes(packages):
+    with Unit.unpack(packages["strip_between_floors"]) as unpacked, Unit(unpacked) as unit:
+        unit.start()
+        started = [v for v in unpacked.description.modelVariables if v.start is not None and v.type == "Real"]
+        assert {"hinge_ratio", "overburden", "a1"} <= {variable.name for variable in started}
+        for variable in started:
+            assert float(variable.start) == unit.get(variable.name), variable.name
+
+
+def without(path, target, *names):
+    """The archive without some of its files."""
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(target, "w") as new:
+        for item in old.infolist():
+            if item.filename not in names:
+                new.writestr(item, old.read(item))
+    return target
+
+
+@pytest.mark.parametrize("missing", ["resources/scene.toml", "resources/motion.csv"])
+def test_a_scene_does_not_run_without_its_resources(packages, tmp_path, missing):
+    broken = without(packages["shaken_parapet"], tmp_path / "broken.fmu", missing)
+    with Unit.unpack(broken) as unpacked, pytest.raises(Exception, match="instantiate"):
+        Unit(unpacked)
+
+
+def test_a_changed_scene_is_refused(packages, tmp_path):
+    with Unit.unpack(packages["shaken_parapet"]) as unpacked:
+        for name in ("scene.toml", "motion.csv"):
+            file = Path(unpacked.folder) / "resources" / name
+            original = file.read_text()
+            file.write_text(original.replace("0", "1", 1))
+            with pytest.raises(Exception, match="instantiate"):
+                Unit(unpacked)
+            file.write_text(original)
+        with Unit(unpacked) as unit:
+            unit.start()
+            assert unit.step(1.0).get("u_max") >= 0.0
+
+
+def test_packages_are_the_same_bytes(packages, fmu, wall, tmp_path):
+    again = tmp_path / "again.fmu"
+    shutil.copy(ROOT / "scenes/shaken_parapet.toml", tmp_path / "shaken_parapet.toml")
+    command = [wall, "package", tmp_path / "shaken_parapet.toml", "-o", again, "--base", fmu]
+    subprocess.run(command, check=True, capture_output=True)
+    assert again.read_bytes() == packages["shaken_parapet"].read_bytes()
