@@ -8,5 +8,6 @@ mod closed_forms;
 mod command_line;
 mod description;
 mod ground_motion;
+mod notices;
 mod properties;
 mod wiring;
