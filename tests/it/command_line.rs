@@ -52,14 +52,26 @@ const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
     ("nan", "[damping]\nxi = nan\n", &["line 2", "xi", "finite"]),
     ("infinite", "[geometry]\nheight = inf\n", &["line 2", "height", "finite"]),
     ("word", "[geometry]\nheight = \"tall\"\n", &["line 2", "height", "number"]),
-    ("item", "[force_law]\nforce_law = \"linear\"\n", &["line 2", "linear", "rigid_linear, bilinear, trilinear"]),
+    (
+        "item",
+        "[force_law]\nforce_law = \"linear\"\n",
+        &["line 2", "linear", "rigid_linear, bilinear, trilinear"],
+    ),
     ("a1_above_a3", "[force_law]\na1 = 0.95\na3 = 0.9\n", &["a1 = 0.95", "a3 = 0.9", "reduce a1"]),
     ("d1", "[force_law]\nforce_law = \"trilinear\"\nd1 = 0.98\n", &["d1 = 0.98", "0.97", "parallel"]),
-    ("rigid_ratio", "[force_law]\nforce_law = \"rigid_linear\"\n", &["constant_ratio", "free_standing_block"]),
+    (
+        "rigid_ratio",
+        "[force_law]\nforce_law = \"rigid_linear\"\n",
+        &["constant_ratio", "free_standing_block"],
+    ),
     ("exact_ratio", "[solver]\nsolver = \"exact\"\n", &["exact", "constant_ratio", "adaptive"]),
     ("eccentric", "[geometry]\noverburden = 1e6\noverburden_eccentricity = 0.3\n", &["F0", "overburden"]),
     ("far", "[start]\nu_start = 5\n", &["u_start = 5", "2 m"]),
-    ("points", "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.1, 1.0], [0.05, 0.0]]\n", &["point 2", "rise"]),
+    (
+        "points",
+        "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.1, 1.0], [0.05, 0.0]]\n",
+        &["point 2", "rise"],
+    ),
     ("no_points", "[force_law]\nforce_law = \"multilinear\"\n", &["line 2", "points"]),
     ("input", "inputs = [\"a_g\", \"wind\"]\n", &["line 1", "wind", "a_bottom"]),
     ("motion", "[motion]\ntail = 1\n", &["line 1", "record", "synthetic"]),
@@ -98,12 +110,7 @@ const BAD_RECORDS: [(&str, &str, &[&str], &[&str]); 7] = [
         &[],
         &["count.AT2", "4", "3"],
     ),
-    (
-        "no_unit.AT2",
-        "PEER\nevent\nACCELERATION TIME SERIES\nNPTS= 2, DT= .01 SEC\n .1 .2\n",
-        &[],
-        &["unit"],
-    ),
+    ("no_unit.AT2", "PEER\nevent\nACCELERATION TIME SERIES\nNPTS= 2, DT= .01 SEC\n .1 .2\n", &[], &["unit"]),
 ];
 
 #[test]
@@ -130,7 +137,11 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
     refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
     let plain = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/plain_parapet.toml");
-    refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "none.fmu"], &["none.fmu", "cargo xtask fmu"]);
+    refused(
+        &folder,
+        &["package", plain, "-o", "x.fmu", "--base", "none.fmu"],
+        &["none.fmu", "cargo xtask fmu"],
+    );
     std::fs::write(folder.join("broken.fmu"), "PK").unwrap();
     refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "broken.fmu"], &["broken.fmu"]);
 }
@@ -147,7 +158,8 @@ fn example_scenes() {
         assert!(output.status.success(), "{}: {}", scene.display(), text(&output.stderr));
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let history = std::fs::read_to_string(folder.join("out.csv")).unwrap();
-        let column = history.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
+        let column =
+            history.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
         let largest = column.fold(0.0_f64, |largest, u| largest.max(u.abs()));
         let peak = summary["u_max"].as_f64().unwrap();
         // the history has no sample at the turning point itself

@@ -10,7 +10,16 @@ fn every_linked_crate_is_named() {
     let output = Command::new(env!("CARGO"))
         .current_dir(root)
         .args(["tree", "--offline", "--locked", "--package", "rocking-wall", "--no-default-features"])
-        .args(["--features", "fmu", "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p} {l}"])
+        .args([
+            "--features",
+            "fmu",
+            "--edges",
+            "normal,no-proc-macro",
+            "--prefix",
+            "none",
+            "--format",
+            "{p} {l}",
+        ])
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -34,7 +34,15 @@ fn check_with(folder: &Path, xml: &str) -> (bool, String) {
     std::fs::write(folder.join(XML), xml).unwrap();
     let output = Command::new(env!("CARGO"))
         .current_dir(folder)
-        .args(["check", "--quiet", "--offline", "--lib", "--no-default-features", "--package", "rocking-wall"])
+        .args([
+            "check",
+            "--quiet",
+            "--offline",
+            "--lib",
+            "--no-default-features",
+            "--package",
+            "rocking-wall",
+        ])
         .env("CARGO_TARGET_DIR", folder.join("target"))
         .output()
         .unwrap();
