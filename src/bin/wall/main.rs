@@ -2,9 +2,11 @@
 
 mod args;
 mod describe;
+mod figure;
 mod motion;
 mod output;
 mod package;
+mod page;
 mod schema;
 mod simulate;
 

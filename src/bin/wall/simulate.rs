@@ -5,9 +5,10 @@ use std::fmt::Write;
 use anyhow::Result;
 use rocking_wall::response::{Response, Summary};
 use rocking_wall::scene::Scene;
+use rocking_wall::wall::Wall;
 
 use crate::args::SimulateArguments;
-use crate::output;
+use crate::{output, page};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
     let scene = arguments.scene()?;
@@ -20,6 +21,10 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
     }
     if let Some(path) = &arguments.csv {
         output::to_file(path, history(&response).as_bytes())?;
+    }
+    if let Some(path) = &arguments.html {
+        let page = page::render(&scene, &Wall::new(&scene.parameters)?, &response)?;
+        output::to_file(path, page.as_bytes())?;
     }
     let text = if arguments.json {
         json(&scene, &response.summary)?

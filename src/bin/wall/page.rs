@@ -1,0 +1,270 @@
+//! The first picture: one self-contained page with the rocking wall, its histories and its force.
+
+use std::fmt::Write;
+
+use anyhow::{Result, bail};
+use rocking_wall::response::{Response, Sample};
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::Wall;
+
+use crate::figure::{Color, Figure};
+
+const TEMPLATE: &str = include_str!("page.html");
+/// Frames the slider moves through.
+const MOST_FRAMES: usize = 1500;
+/// Exaggerations of the drawn rotation; the default is the largest that keeps it below this angle (rad).
+const FACTORS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
+const LARGEST_DRAWN: f64 = 0.3;
+
+/// The page of a run.
+///
+/// # Errors
+/// If the response is empty, or a number in it not finite.
+pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String> {
+    let Some(end) = response.samples.last().map(|sample| sample.time).filter(|&end| end > 0.0) else {
+        bail!("the response is empty: there is nothing to draw");
+    };
+    if response.samples.iter().any(|sample| !sample.outputs.displacement.is_finite()) {
+        bail!("the response holds numbers that are not finite: there is nothing to draw");
+    }
+    let frames = frames(&response.samples);
+    let u_ins = wall.body().instability;
+    let data = serde_json::json!({
+        "t": rounded(&frames, |sample| sample.time),
+        "u": rounded(&frames, |sample| sample.outputs.displacement),
+        "a": rounded(&frames, |sample| sample.support.bottom),
+        "f": rounded(&frames, |sample| sample.outputs.restoring_force),
+        "u_ins": [u_ins.positive, u_ins.negative],
+        "height": wall.body().height,
+        "thickness": scene.parameters.thickness,
+        "hinge": hinge(wall),
+        "overturned": response.summary.overturn_time,
+    });
+    let subtitle =
+        if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
+    let page = [
+        ("{{title}}", escaped(&scene.title)),
+        ("{{subtitle}}", escaped(&subtitle)),
+        ("{{wall}}", drawing(scene, wall, response)),
+        ("{{last_frame}}", (frames.len() - 1).to_string()),
+        ("{{factors}}", factors(wall, response)),
+        ("{{facts}}", facts(scene, wall, response)),
+        ("{{figures}}", figures(wall, response, end)),
+        // a closing tag inside the data would end the script
+        ("{{data}}", data.to_string().replace("</", "<\\/")),
+    ];
+    let mut html = String::with_capacity(200_000);
+    let mut rest = TEMPLATE;
+    while let Some(start) = rest.find("{{") {
+        let stop = rest[start..].find("}}").map_or(rest.len(), |length| start + length + 2);
+        html.push_str(&rest[..start]);
+        if let Some((_, content)) = page.iter().find(|(name, _)| *name == &rest[start..stop]) {
+            html.push_str(content);
+        }
+        rest = &rest[stop..];
+    }
+    html.push_str(rest);
+    Ok(html)
+}
+
+/// Evenly spaced samples, the last one among them.
+fn frames(samples: &[Sample]) -> Vec<&Sample> {
+    let every = samples.len().div_ceil(MOST_FRAMES).max(1);
+    let mut frames: Vec<_> = samples.iter().step_by(every).collect();
+    if let (Some(last), false) = (samples.last(), (samples.len() - 1).is_multiple_of(every)) {
+        frames.push(last);
+    }
+    frames
+}
+
+/// Numbers with five significant figures: a page is not a data file.
+fn rounded(frames: &[&Sample], pick: fn(&Sample) -> f64) -> Vec<f64> {
+    let round = |value: f64| format!("{value:.4e}").parse().unwrap_or(0.0);
+    frames.iter().map(|sample| round(pick(sample))).collect()
+}
+
+fn hinge(wall: &Wall) -> Option<f64> {
+    (wall.body().mechanism == Mechanism::VerticalSpanning).then_some(wall.body().hinge_height)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// The wall at rest, to scale, y upwards; the script turns its bodies.
+fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
+    let (h, b) = (wall.body().height, scene.parameters.thickness);
+    let fallen = response.summary.overturned;
+    let half = if fallen { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
+    let (top, bottom) = (0.12 * h, 0.1 * h);
+    let line = 0.004 * h.max(half);
+    // the ground goes on beyond the view box, which the window may widen
+    let far = 10.0 * half;
+    let mut svg = format!(
+        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">",
+        -half,
+        -(h + top),
+        2.0 * half,
+        h + top + bottom
+    );
+    let _ = write!(
+        svg,
+        "<g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\"><rect x=\"{:.4}\" y=\"{:.4}\" width=\"{:.4}\" \
+         height=\"{far:.4}\" fill=\"#e4e1dc\"/><line x1=\"{:.4}\" x2=\"{far:.4}\" y1=\"0\" y2=\"0\" \
+         stroke=\"#555\"/><line x1=\"0\" x2=\"0\" y1=\"0\" y2=\"{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>",
+        -far,
+        -far,
+        2.0 * far,
+        -far,
+        h + 0.6 * top,
+        0.02 * h
+    );
+    let body = |id: &str, from: f64, height: f64| {
+        format!(
+            "<rect id=\"{id}\" x=\"{:.4}\" y=\"{from:.4}\" width=\"{b:.4}\" height=\"{height:.4}\" fill=\"#c9a183\" \
+             stroke=\"#6b4a33\"/>",
+            -b / 2.0
+        )
+    };
+    match hinge(wall) {
+        None => svg.push_str(&body("lower", 0.0, h)),
+        Some(h1) => {
+            let _ = write!(
+                svg,
+                "<rect x=\"{:.4}\" y=\"{h:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#e4e1dc\" stroke=\"#555\"/>",
+                -0.6 * half,
+                1.2 * half,
+                0.05 * h
+            );
+            svg.push_str(&body("lower", 0.0, h1));
+            svg.push_str(&body("upper", h1, h - h1));
+        }
+    }
+    svg.push_str("</g></svg>");
+    svg
+}
+
+/// The choices of exaggeration, the default selected.
+fn factors(wall: &Wall, response: &Response) -> String {
+    let arm = hinge(wall).map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
+    let largest = response.summary.u_max / arm;
+    let fits = |factor: &&f64| largest * **factor <= LARGEST_DRAWN && !response.summary.overturned;
+    let default = FACTORS.iter().rev().find(fits).copied().unwrap_or(1.0);
+    let option = |factor: f64| {
+        let selected = if factor == default { " selected" } else { "" };
+        let name = if factor == 1.0 { "to scale".to_owned() } else { format!("{factor}× u") };
+        format!("<option value=\"{factor}\"{selected}>{name}</option>")
+    };
+    FACTORS.map(option).concat()
+}
+
+fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
+    let parameters = &scene.parameters;
+    let body = wall.body();
+    let summary = &response.summary;
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let overturned = match summary.overturn_time {
+        Some(time) => format!("at t = {time:.3} s"),
+        None => "no".to_owned(),
+    };
+    let rows = [
+        ("largest |u|", format!("{:.1} mm, {:.3} u_ins", 1000.0 * summary.u_max, summary.u_ratio_max)),
+        ("overturned", overturned),
+        (
+            "wall",
+            format!(
+                "{}, {} m × {} m",
+                parameters.mechanism.name().replace('_', " "),
+                body.height,
+                parameters.thickness
+            ),
+        ),
+        ("u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
+        ("F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
+        ("force law", format!("{}, ω1 = {:.2} rad/s", law.replace('_', " "), wall.omega1())),
+        (
+            "damping",
+            format!(
+                "{}, ξ = {:.2} %",
+                parameters.damping_model.name().replace('_', " "),
+                100.0 * wall.damping_ratio()
+            ),
+        ),
+        ("impact", format!("{}, e = {:.3}", parameters.impact.name(), wall.restitution())),
+    ];
+    let row = |(name, value): &(&str, String)| format!("<tr><td>{name}</td><td>{}</td></tr>", escaped(value));
+    rows.iter().map(row).collect::<Vec<_>>().concat()
+}
+
+fn figures(wall: &Wall, response: &Response, end: f64) -> String {
+    let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
+        response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
+    };
+    // after overturning the ratio runs away: the plot ends a little beyond 1
+    let ratio = column(&|sample| sample.outputs.ratio.clamp(-1.25, 1.25));
+    let motion = column(&|sample| sample.support.bottom);
+    let ratios = || response.samples.iter().map(|sample| sample.outputs.ratio);
+    let range = [ratios().fold(0.0, f64::min), ratios().fold(0.0, f64::max)];
+    let u_ins = wall.body().instability;
+    let backbone: Vec<_> =
+        wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
+    let overturned = response.summary.overturn_time;
+    [
+        plot(
+            "history",
+            "Displacement; dashed: static instability",
+            &Figure::history(&ratio, end, "u / u_ins", &[-1.0, 1.0], Color::Response),
+            overturned,
+        ),
+        plot(
+            "motion",
+            "Acceleration of the bottom support",
+            &Figure::history(&motion, end, "a_g (m/s²)", &[], Color::Motion),
+            None,
+        ),
+        plot(
+            "force",
+            "Restoring force on its backbone (dashed)",
+            &Figure::path_on_backbone(&backbone, range),
+            None,
+        ),
+    ]
+    .concat()
+}
+
+/// A plot with what moves over it: a cursor on histories, a dot on the force.
+fn plot(id: &str, caption: &str, figure: &Figure, overturned: Option<f64>) -> String {
+    let [left, right, top, bottom] = figure.area();
+    let [from, to, _, _] = figure.ranges();
+    let span = format!("top:{:.4}%;height:{:.4}%", 100.0 * top, 100.0 * (bottom - top));
+    let mut over = if id == "force" {
+        "<div class=\"dot\"></div>".to_owned()
+    } else {
+        format!("<div class=\"cursor\" style=\"{span}\"></div>")
+    };
+    if let Some(time) = overturned {
+        let part = (time - from) / (to - from);
+        let x = 100.0 * (left + (right - left) * part);
+        let late = if part > 0.7 { " late" } else { "" };
+        let _ = write!(
+            over,
+            "<div class=\"mark{late}\" style=\"left:{x:.4}%;{span}\"><span>overturned</span></div>"
+        );
+    }
+    format!(
+        "<figure><figcaption>{caption}</figcaption><div class=\"plot\" id=\"{id}\" data-area=\"{}\" \
+         data-ranges=\"{}\">{}{over}</div></figure>",
+        json(&figure.area()),
+        json(&figure.ranges()),
+        figure.svg
+    )
+}
+
+fn json(numbers: &[f64; 4]) -> String {
+    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(","))
+}
+
+#[cfg(test)]
+mod tests;

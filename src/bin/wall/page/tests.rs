@@ -1,0 +1,71 @@
+//! Tests of the page without a browser.
+
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::wall::Wall;
+
+use super::render;
+use crate::figure::{Color, Figure, WIDTH};
+
+fn page(change: impl Fn(&mut Scene)) -> String {
+    let mut scene = Scene::default();
+    change(&mut scene);
+    let response = Response::of(&scene).unwrap();
+    render(&scene, &Wall::new(&scene.parameters).unwrap(), &response).unwrap()
+}
+
+#[test]
+fn a_long_history_stays_small() {
+    let html = page(|scene| {
+        scene.stop_time = 100.0;
+        scene.output_step = 1e-3;
+    });
+    assert!(html.len() < 300_000, "{} bytes", html.len());
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere() {
+    let html = page(|_| {});
+    let links = html.replace("http://www.w3.org/2000/svg", "");
+    assert!(!links.contains("http"), "a link");
+    assert!(!html.contains("{{") && !html.contains("NaN"), "a gap");
+}
+
+#[test]
+fn titles_are_text() {
+    let html = page(|scene| scene.title = "<b>\"A\" & B</b></script>".into());
+    assert!(html.contains("&lt;b&gt;&quot;A&quot; &amp; B&lt;/b&gt;"));
+    assert!(!html.contains("<b>\"A\""));
+}
+
+#[test]
+fn an_empty_response_is_refused() {
+    let scene = Scene::default();
+    let mut response = Response::of(&scene).unwrap();
+    response.samples.clear();
+    let wall = Wall::new(&scene.parameters).unwrap();
+    assert!(render(&scene, &wall, &response).unwrap_err().to_string().contains("empty"));
+}
+
+/// The cursor's place is computed from margins that kuva was told: the first and last points of a line must lie there.
+#[test]
+fn the_cursor_lines_up_with_the_time_axis() {
+    let points: Vec<_> = (0..=10).map(|index| (f64::from(index), 0.1 * f64::from(index))).collect();
+    let figure = Figure::history(&points, 10.0, "u", &[-1.0, 1.0], Color::Response);
+    let path = figure.svg.split("<path").find(|part| part.contains("#1f5fa8")).expect("the line");
+    let data = path.split(" d=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("its path");
+    let numbers: Vec<f64> = data
+        .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let [left, right, top, bottom] = figure.area();
+    let [_, _, low, high] = figure.ranges();
+    let height = 250.0;
+    let expected_y = |value: f64| height * (bottom - (bottom - top) * (value - low) / (high - low));
+    // kuva writes hundredths of a pixel
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 0.02, "{found} for {expected}");
+    near(numbers[0], left * WIDTH);
+    near(numbers[1], expected_y(0.0));
+    near(numbers[numbers.len() - 2], right * WIDTH);
+    near(numbers[numbers.len() - 1], expected_y(1.0));
+}

@@ -1,0 +1,130 @@
+"""The page in a browser: it loads clean, its slider moves the wall and the cursors, and it fits narrow and wide windows."""
+
+import shutil
+import subprocess
+import time
+
+import pytest
+from selenium import webdriver
+from selenium.webdriver.common.by import By
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def browser():
+    binary = next((path for path in map(shutil.which, NAMES) if path), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("not run: no Chromium with its driver; install chromium and chromium-driver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield browser
+    browser.quit()
+
+
+def make(wall, path, *arguments):
+    subprocess.run([wall, "simulate", *arguments, "--html", path], check=True, capture_output=True)
+    return path
+
+
+@pytest.fixture(scope="module")
+def parapet(wall, tmp_path_factory):
+    return make(wall, tmp_path_factory.mktemp("page") / "parapet.html", "--synthetic", "--pga", "2.5")
+
+
+@pytest.fixture(scope="module")
+def strip(wall, tmp_path_factory):
+    settings = ["--set", "mechanism=vertical_spanning", "--set", "thickness=0.2", "--set", "u_start=0.15"]
+    return make(wall, tmp_path_factory.mktemp("page") / "strip.html", *settings)
+
+
+def move(browser, part):
+    """Puts the slider at a part of its way, as a hand does."""
+    browser.execute_script(
+        "const s = document.getElementById('time'); s.value = Math.round(arguments[0] * s.max);"
+        "s.dispatchEvent(new Event('input'));",
+        part,
+    )
+
+
+def transform(browser, body):
+    return browser.find_element(By.ID, body).get_attribute("transform")
+
+
+def test_the_page_loads_clean(browser, parapet):
+    browser.get_log("browser"), browser.get_log("performance")
+    browser.get(parapet.as_uri())
+    assert browser.get_log("browser") == []
+    requests = [entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]]
+    assert not [request for request in requests if '"url":"http' in request]
+    assert "parapet" in browser.title
+
+
+def test_the_slider_moves_the_wall_and_the_cursors(browser, parapet):
+    browser.get(parapet.as_uri())
+    seen = set()
+    for part in (0.0, 0.2, 0.215, 0.25):
+        move(browser, part)
+        cursor = browser.find_element(By.CSS_SELECTOR, "#history .cursor")
+        plot = browser.find_element(By.ID, "history")
+        seen.add(transform(browser, "lower"))
+        shown = float(browser.find_element(By.ID, "now_t").text)
+        # the plot area of the figure, and the time axis from 0 to 40 s
+        left, right, _, _ = browser.execute_script("return JSON.parse(arguments[0].dataset.area)", plot)
+        expected = plot.rect["x"] + plot.rect["width"] * (left + (right - left) * shown / 40.0)
+        assert abs(cursor.rect["x"] - expected) < 2.0, part
+    assert len(seen) == 4
+
+
+def test_both_bodies_of_a_strip_turn_against_each_other(browser, strip):
+    browser.get(strip.as_uri())
+    angles = []
+    for body in ("lower", "upper"):
+        text = transform(browser, body)
+        angles.append(float(text.split("rotate(")[1].split()[0]))
+    assert angles[0] * angles[1] < 0
+
+
+def test_play_moves_on_and_pauses(browser, parapet):
+    browser.get(parapet.as_uri())
+    button = browser.find_element(By.ID, "play")
+    button.click()
+    assert button.text == "Pause"
+    deadline = time.monotonic() + 20
+    while float(browser.find_element(By.ID, "now_t").text) < 0.3:
+        assert time.monotonic() < deadline, "nothing moves"
+        time.sleep(0.05)
+    button.click()
+    assert button.text == "Play"
+    now = browser.find_element(By.ID, "now_t").text
+    time.sleep(0.3)
+    assert browser.find_element(By.ID, "now_t").text == now
+
+
+@pytest.mark.parametrize("width", [420, 1600])
+def test_nothing_overflows(browser, parapet, width):
+    # a headless window has no frame, but may refuse to be narrow: the device metrics do not
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+    )
+    browser.get(parapet.as_uri())
+    inner, content = browser.execute_script("return [window.innerWidth, document.documentElement.scrollWidth]")
+    assert inner == width
+    assert content <= inner
+
+
+def test_overturning_is_marked(browser, wall, tmp_path):
+    browser.get(make(wall, tmp_path / "fallen.html", "--synthetic").as_uri())
+    assert browser.find_elements(By.CSS_SELECTOR, "#history .mark")
+    assert browser.find_element(By.ID, "overturned").text == ""
+    move(browser, 1.0)
+    assert browser.find_element(By.ID, "overturned").text.startswith("overturned at t = ")
