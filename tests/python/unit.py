@@ -2,9 +2,11 @@
 
 import contextlib
 import shutil
+from ctypes import byref
 
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.logging import addLoggerProxy
 
 
 class Unpacked:
@@ -28,6 +30,8 @@ class Unit:
         self._logger = fmi2CallbackLoggerTYPE(self._log)
         self.callbacks = fmi2CallbackFunctions()
         self.callbacks.logger = self._logger
+        # the unit logs as printf does; the proxy turns that into finished text
+        addLoggerProxy(byref(self.callbacks))
         self.slave = FMU2Slave(
             guid=self.description.guid,
             unzipDirectory=unpacked.folder,
@@ -90,9 +94,9 @@ class Unit:
                 values += self.slave.getInteger(reference)
         return values[0] if len(values) == 1 else values
 
-    def start(self, time=0.0, tolerance=None, stop=None, **values):
+    def start(self, time=0.0, importer_tolerance=None, stop=None, **values):
         """Sets values, then goes through initialisation."""
-        self.slave.setupExperiment(tolerance=tolerance, startTime=time, stopTime=stop)
+        self.slave.setupExperiment(tolerance=importer_tolerance, startTime=time, stopTime=stop)
         self.set(**values)
         self.slave.enterInitializationMode()
         self.slave.exitInitializationMode()

@@ -51,7 +51,7 @@ fn shake(unit: &Path, python: &Environment, wall: &Path, base: &Path, motion: &[
     let held =
         output(command("simulate").args(["--hold", "--json", "--stop-time", &stop]), "see its message")?;
     run_quietly(command("simulate").arg("--html").arg(&page))?;
-    println!("largest |u| of the FMU in FMPy:   {} m", in_fmpy.trim());
+    println!("largest |u| of the FMU in FMPy:   {} m", in_fmpy.lines().last().unwrap_or("?"));
     println!("the same on the command line:     {} m", number(&held, "u_max"));
     for path in [&history, &page] {
         println!("written {}", path.display());

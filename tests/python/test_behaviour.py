@@ -1,0 +1,563 @@
+"""How the FMU behaves between importer and wall: what importers do, what they may ask, and what they get."""
+
+import csv
+import ctypes
+import json
+import math
+import pickle
+import random
+import resource
+import shutil
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+
+from conftest import ROOT
+from unit import Unit
+
+SHAKEN = {"u_start": 0.0, "a1": 0.02, "damping_model": "constant_ratio"}
+STRIP = {"mechanism": "vertical_spanning", "thickness": 0.1, "height": 2.68, "hinge_ratio": 0.57, "overburden": 3000.0}
+NAMES = ["u", "u_dot", "u_ddot", "u_ratio", "restoring_force", "damping_force", "reaction_bottom", "reaction_top",
+         "impulse_bottom", "impulse_top", "overturn_time", "u_max", "overturned"]  # fmt: skip
+
+
+def shake(unit, steps, seed=1, step=0.01):
+    """Random accelerations, held in some steps and sloped in others."""
+    noise = random.Random(seed)
+    for _ in range(steps):
+        unit.set(a_bottom=noise.uniform(-3, 3), a_top=noise.uniform(-3, 3))
+        unit.rates(a_bottom=noise.uniform(-50, 50))
+        unit.step(step)
+    return unit
+
+
+def values(unit):
+    return unit.get(*NAMES)
+
+
+def refused(unit, call, *words):
+    """A call that fails, with an error in the log that holds every word."""
+    unit.messages.clear()
+    with pytest.raises(FMICallException) as caught:
+        call()
+    assert caught.value.status == 3, "fmi2Error"
+    errors = [text for status, category, text in unit.messages if category == "logStatusError"]
+    assert errors, "an error is always logged"
+    for word in words:
+        assert word in errors[-1], errors[-1]
+
+
+def test_a_wrong_guid_is_refused(unpacked):
+    slave = FMU2Slave(guid="{0}", unzipDirectory=unpacked.folder, modelIdentifier="wall", instanceName="wall")
+    with pytest.raises(Exception, match="instantiate"):
+        slave.instantiate()
+
+
+# --- limits and relations -------------------------------------------------------------------------------------------
+
+
+def test_every_limit_is_checked_and_named(unpacked):
+    checked = 0
+    for variable in unpacked.description.modelVariables:
+        if variable.type != "Real" or variable.causality != "parameter":
+            continue
+        low, high = (float(limit) for limit in (variable.min, variable.max))
+        for value in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf)):
+            with Unit(unpacked) as unit:
+                limit = low if value < low else high
+                refused(unit, lambda: unit.set(**{variable.name: value}), variable.name)
+                unit.slave.reset()
+                unit.set(**{variable.name: limit})
+        checked += 1
+    assert checked == 18
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_numbers_must_be_finite(unpacked, bad):
+    for variable in unpacked.description.modelVariables:
+        if variable.type == "Real" and variable.causality in ("parameter", "input"):
+            with Unit(unpacked) as unit:
+                refused(unit, lambda: unit.set(**{variable.name: bad}), variable.name)
+    for name in ("a_bottom", "a_top", "drift"):
+        with Unit(unpacked) as unit:
+            unit.start()
+            refused(unit, lambda: unit.rates(**{name: bad}))
+    with Unit(unpacked) as unit:
+        unit.start()
+        refused(unit, lambda: unit.step(bad))
+        unit.slave.reset()
+        unit.start()
+        refused(unit, lambda: unit.slave.doStep(bad, 0.01))
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"a1": 0.9, "a3": 0.8}, ("a1 = 0.9", "a3 = 0.8")),
+        ({"force_law": "trilinear", "d1": 0.98}, ("d1 = 0.98", "0.97")),
+        ({"overburden": 1e6, "overburden_eccentricity": 0.3}, ("F0", "overburden")),
+        ({"solver": "exact"}, ("exact", "constant_ratio", "adaptive")),
+        ({"force_law": "rigid_linear"}, ("rigid_linear", "free_standing_block")),
+        ({"u_start": 2.5}, ("u_start = 2.5", "2 m")),
+        ({"thickness": 6.0, "restitution_source": "analytic", "impact": "restitution"}, ("restitution", "squat")),
+    ],
+)
+def test_relations_are_checked_at_the_end_of_initialisation(unpacked, settings, words):
+    with Unit(unpacked) as unit:
+        refused(unit, lambda: unit.start(**settings), *words)
+        unit.slave.reset()
+        unit.start().step(0.01)
+
+
+def test_enumerations_take_their_items_only(unpacked):
+    for name in ("mechanism", "force_law", "damping_model", "solver"):
+        for value in (0, 99, -1):
+            with Unit(unpacked) as unit:
+                refused(unit, lambda: unit.slave.setInteger([unit.reference(name)], [value]), name, "automatic" if name == "solver" else "")
+
+
+def test_parameters_are_fixed(unit):
+    unit.start()
+    refused(unit, lambda: unit.set(height=3.0), "height")
+
+
+# --- time -----------------------------------------------------------------------------------------------------------
+
+
+def test_times_are_sums_of_rounded_steps(unpacked):
+    with Unit(unpacked) as unit, Unit(unpacked) as whole:
+        unit.start()
+        for _ in range(10_000):
+            unit.step(0.001)
+        whole.start()
+        for index in range(10_000):
+            whole.slave.doStep(index / 1000, 0.001)
+        # the clocks differ by the rounding of 10^4 sums, 1e-12 s
+        assert unit.get("u") == pytest.approx(whole.get("u"), abs=1e-11)
+
+
+def test_tiny_steps(unit):
+    unit.start(**SHAKEN)
+    shake(unit, 50)
+    before = values(unit)
+    unit.slave.doStep(unit.time, 1e-17)
+    # within 1e-17 s u changes by u_dot times that, below 1e-17 m
+    assert unit.get("u") == pytest.approx(before[0], abs=1e-16)
+    assert unit.get("u_dot") == pytest.approx(before[1], abs=1e-15)
+    unit.step(0.01)
+
+
+def test_a_wrong_point_and_the_stop_time_are_refused(unpacked):
+    with Unit(unpacked) as unit:
+        unit.start()
+        unit.step(0.01)
+        refused(unit, lambda: unit.slave.doStep(0.5, 0.01), "0.5", "0.01")
+    with Unit(unpacked) as unit:
+        unit.start(time=3.0, stop=4.0)
+        unit.step(1.0)
+        refused(unit, lambda: unit.step(0.1), "4")
+
+
+def test_the_clock_does_not_matter(unpacked):
+    with Unit(unpacked) as early, Unit(unpacked) as late:
+        early.start(**SHAKEN)
+        late.start(time=1000.0, **SHAKEN)
+        shake(early, 200)
+        shake(late, 200)
+        # steps differ by the rounding of 1000 s, 1e-13 s
+        assert early.get("u") == pytest.approx(late.get("u"), abs=1e-10)
+
+
+def test_overturning_is_an_ordinary_state(unit):
+    unit.start(u_start=0.15, u_dot_start=1.0)
+    for _ in range(600):
+        unit.step(0.01)
+    assert unit.get("overturned") is True
+    assert 0.0 < unit.get("overturn_time") < 1.0
+    assert unit.get("u") == pytest.approx(2.0), "at the end of its fall, h/2"
+    assert unit.get("u_dot", "u_ddot", "reaction_bottom", "impulse_bottom") == [0.0, 0.0, 0.0, 0.0]
+
+
+# --- states ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_state_resumes_bit_for_bit(unpacked):
+    with Unit(unpacked) as unit, Unit(unpacked, name="other") as other:
+        unit.start(**SHAKEN)
+        shake(unit, 300)
+        state = unit.slave.getFMUState()
+        saved = unit.slave.serializeFMUState(state)
+        assert unit.slave.serializeFMUState(state) == saved, "the same state gives the same bytes"
+        time = unit.time
+        shake(unit, 300, seed=2)
+        expected = values(unit)
+        unit.slave.setFMUState(state)
+        unit.time = time
+        shake(unit, 300, seed=2)
+        assert values(unit) == expected
+        unit.slave.freeFMUState(state)
+        other.start()
+        foreign = other.slave.deserializeFMUState(saved)
+        other.slave.setFMUState(foreign)
+        other.time = time
+        shake(other, 300, seed=2)
+        assert values(other) == expected
+
+
+RESUME = """
+import pickle, sys
+sys.path.insert(0, sys.argv[1])
+from test_behaviour import shake, values
+from unit import Unit
+saved, time = pickle.load(sys.stdin.buffer)
+with Unit.unpack(sys.argv[2]) as unpacked, Unit(unpacked) as unit:
+    unit.start()
+    unit.slave.setFMUState(unit.slave.deserializeFMUState(saved))
+    unit.time = time
+    shake(unit, 200, seed=3)
+    sys.stdout.buffer.write(pickle.dumps(values(unit)))
+"""
+
+
+def test_a_state_resumes_in_another_process(unpacked, fmu):
+    with Unit(unpacked) as unit:
+        unit.start(**STRIP, u_start=0.0)
+        shake(unit, 200)
+        saved = unit.slave.serializeFMUState(unit.slave.getFMUState())
+        sent = pickle.dumps((saved, unit.time))
+        shake(unit, 200, seed=3)
+        command = [sys.executable, "-c", RESUME, Path(__file__).parent, fmu]
+        answer = subprocess.run(command, input=sent, check=True, capture_output=True)
+        assert pickle.loads(answer.stdout) == values(unit)
+
+
+def test_damaged_states_are_refused(unpacked):
+    with Unit(unpacked) as unit:
+        unit.start(**SHAKEN)
+        shake(unit, 20)
+        saved = unit.slave.serializeFMUState(unit.slave.getFMUState())
+        before = values(unit)
+
+        def restore(damaged):
+            unit.slave.setFMUState(unit.slave.deserializeFMUState(damaged))
+
+        for damaged in (saved[:-1], saved[: len(saved) // 2], saved + b"\0", b"", b"nonsense"):
+            with pytest.raises(FMICallException):
+                restore(damaged)
+        for index in range(len(saved)):
+            damaged = bytearray(saved)
+            damaged[index] ^= 1 << (index % 8)
+            with pytest.raises(FMICallException):
+                restore(bytes(damaged))
+        assert values(unit) == before
+        unit.step(0.01)
+
+
+def test_reset_is_a_fresh_instance(unpacked):
+    with Unit(unpacked) as used, Unit(unpacked) as fresh:
+        used.start(**SHAKEN, force_law="trilinear", d1=0.5)
+        shake(used, 100)
+        used.slave.reset()
+        for unit in (used, fresh):
+            unit.start(u_start=0.1)
+            shake(unit, 100, seed=4)
+        assert values(used) == values(fresh)
+
+
+# --- inputs, outputs, derivatives -----------------------------------------------------------------------------------
+
+
+def test_input_derivatives(unit):
+    unit.start(u_start=0.0)
+    unit.set(a_bottom=0.5)
+    unit.rates(a_bottom=2.0)
+    unit.step(0.1)
+    assert unit.get("a_bottom") == pytest.approx(0.7, rel=1e-15), "extrapolated to the end of the step"
+    after = unit.get("a_bottom")
+    unit.step(0.1)
+    assert unit.get("a_bottom") == after, "the derivative held for one step"
+    unit.rates(a_bottom=2.0)
+    unit.set(a_bottom=0.5)
+    unit.step(0.1)
+    assert unit.get("a_bottom") == 0.5, "setting the input clears its derivative"
+    refused(unit, lambda: unit.rates(a_g=1.0), "a_g")
+    unit.slave.reset()
+    unit.start()
+    reference = [unit.reference("a_bottom")]
+    refused(unit, lambda: unit.slave.setRealInputDerivatives(reference, [2], [1.0]), "order")
+
+
+def test_feedthrough_without_a_step(unit):
+    unit.start(u_start=0.0)
+    unit.set(a_bottom=1.0)
+    # a parapet, elastic at u = 0: ü = −λ a, R = m (a + ü)
+    assert unit.get("u_ddot") == pytest.approx(-0.75, rel=1e-15)
+    assert unit.get("reaction_bottom") == pytest.approx(2880.0 * 0.25, rel=1e-15)
+    unit.set(a_g=1.0)
+    assert unit.get("u_ddot") == pytest.approx(-1.5, rel=1e-15), "a_g is added"
+
+
+@pytest.mark.parametrize("model", ["none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"])
+@pytest.mark.parametrize("shape", [{}, STRIP])
+def test_output_derivatives(unpacked, model, shape):
+    """First derivatives of the outputs against central differences of steps of 1e-4 s.
+
+    The difference quotient errs by h²/6 of the third derivative; on these walls (rates below 60/s) that is 1e-4 of the
+    derivative's own scale, and rounding of the outputs adds less.
+    """
+    names = ["u", "u_dot", "u_ddot", "reaction_bottom", "reaction_top"]
+    step = 1e-4
+    with Unit(unpacked) as unit:
+        u_ins = 0.1 if shape else 0.2
+        unit.start(**shape, damping_model=model, damping_source="given", xi=0.05, c_bar=0.1, u_start=0.3 * u_ins, u_dot_start=0.1)
+        unit.set(a_bottom=0.4, a_top=0.4)
+        history = []
+        for _ in range(3):
+            unit.rates(a_bottom=3.0, a_top=1.0)
+            unit.step(step)
+            found = unit.slave.getRealOutputDerivatives([unit.reference(name) for name in names], [1] * len(names))
+            history.append((unit.get(*names), list(found)))
+        for index, name in enumerate(names):
+            expected = (history[2][0][index] - history[0][0][index]) / (2 * step)
+            scale = max(abs(expected), 1e-3 * max(1.0, abs(history[1][0][index])))
+            assert history[1][1][index] == pytest.approx(expected, abs=1e-3 * scale), name
+
+
+STATES = [
+    {"u_start": 0.004, "u_dot_start": 0.1},
+    {"u_start": 0.08, "u_dot_start": 0.2},
+    {"u_start": -0.12, "u_dot_start": 0.1},
+    {"u_start": 0.03, "u_dot_start": -0.2, "force_law": "trilinear", "d1": 0.6},
+    {"u_start": 0.25, "u_dot_start": 0.1},
+]
+
+
+@pytest.mark.parametrize("model", ["none", "constant_coefficient", "constant_ratio", "stiffness_proportional"])
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("shape", [{}, STRIP | {"thickness": 0.2}])
+def test_directional_derivatives(unpacked, model, state, shape):
+    """Every Real output against every input and state, by central differences over 1e-6 of the known.
+
+    Outputs are linear in inputs and smooth in the states there: differences err by rounding, 1e-10 over 1e-6, and by 1e-12
+    of the curvature.
+    """
+    unknowns = [name for name in NAMES if name != "overturned"]
+    settings = {"damping_model": model, "damping_source": "given", "xi": 0.05} | shape | state
+
+    def outputs(**change):
+        with Unit(unpacked) as other:
+            other.start(**(settings | {"a_g": 0.1, "a_bottom": 0.2, "a_top": 0.3, "drift": 1e-3} | change))
+            return other.get(*unknowns)
+
+    with Unit(unpacked) as unit:
+        unit.start(**settings, a_g=0.1, a_bottom=0.2, a_top=0.3, drift=1e-3)
+        for known, start in [("a_g", 0.1), ("a_bottom", 0.2), ("a_top", 0.3), ("drift", 1e-3), ("u", state["u_start"]), ("u_dot", state["u_dot_start"])]:
+            name = {"u": "u_start", "u_dot": "u_dot_start"}.get(known, known)
+            above, below = outputs(**{name: start + 1e-6}), outputs(**{name: start - 1e-6})
+            for index, unknown in enumerate(unknowns):
+                found = unit.slave.getDirectionalDerivative([unit.reference(unknown)], [unit.reference(known)], [1.0])[0]
+                expected = (above[index] - below[index]) / 2e-6
+                if unknown == "u_max":
+                    expected = 0.0  # a memory: at a fixed past it does not move with the state
+                size = max(1.0, abs(expected), abs(above[index]))
+                assert found == pytest.approx(expected, abs=2e-6 * size), f"d {unknown} / d {known}"
+
+
+def test_the_tighter_tolerance_applies(unpacked):
+    def end(tolerance, parameter):
+        with Unit(unpacked) as unit:
+            unit.start(importer_tolerance=tolerance, **{**SHAKEN, "tolerance": parameter, "u_start": 0.15})
+            for _ in range(20):
+                unit.step(0.5)
+            return unit.get("u")
+
+    coarse, fine = end(None, 1e-3), end(None, 1e-12)
+    assert coarse != fine
+    assert end(1e-12, 1e-3) == fine
+    assert end(1e-3, 1e-12) == fine
+
+
+# --- log ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_clean_run_is_silent(unpacked):
+    with Unit(unpacked, logging=False) as unit:
+        unit.start()
+        shake(unit, 50)
+        assert unit.messages == []
+
+
+def test_a_parapet_says_once_that_it_has_no_top(unpacked):
+    with Unit(unpacked, logging=True) as unit:
+        unit.start(u_start=0.0)
+        shake(unit, 50)
+        told = [text for _, category, text in unit.messages if category == "logStatusWarning" and "a_top" in text]
+        assert len(told) == 1
+
+
+def test_log_of_starts_and_events(unpacked):
+    with Unit(unpacked, logging=True) as unit:
+        unit.start(u_start=0.15, u_dot_start=1.0)
+        assert any("wants u_start = 0" in text for _, category, text in unit.messages if category == "logAll")
+        for _ in range(200):
+            unit.step(0.01)
+        events = [text for _, category, text in unit.messages if category == "logEvents"]
+        assert any("overturned" in text for text in events) and any("supports" in text for text in events)
+
+
+@pytest.mark.parametrize(
+    ("settings", "word"),
+    [
+        ({"a1": 0.2}, "0.005"),
+        ({"impact": "restitution"}, "twice"),
+        ({"damping_model": "free_standing_block", "overburden": 1000.0}, "Eq. 23"),
+        ({"impact": "restitution", "restitution_source": "given", "restitution": 1.0, "damping_model": "none"}, "never"),
+    ],
+)
+def test_doubtful_choices_are_warned_of(unpacked, settings, word):
+    with Unit(unpacked, logging=True) as unit:
+        unit.start(**settings)
+        assert any(word in text for _, category, text in unit.messages if category == "logStatusWarning")
+
+
+# --- many instances -------------------------------------------------------------------------------------------------
+
+
+def test_eight_threads(unpacked):
+    results = [None] * 8
+
+    def run(index):
+        with Unit(unpacked, name=f"wall {index}") as unit:
+            unit.start(**SHAKEN)
+            results[index] = values(shake(unit, 500))
+
+    threads = [threading.Thread(target=run, args=(index,)) for index in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(result == results[0] for result in results) and results[0] is not None
+
+
+def test_an_instance_moves_between_threads(unpacked):
+    with Unit(unpacked) as unit, Unit(unpacked) as still:
+        unit.start(**SHAKEN)
+        for seed in range(4):
+            thread = threading.Thread(target=shake, args=(unit, 50, seed))
+            thread.start()
+            thread.join()
+        still.start(**SHAKEN)
+        for seed in range(4):
+            shake(still, 50, seed)
+        assert values(unit) == values(still)
+
+
+CYCLES = """
+import ctypes, resource, sys
+sys.path.insert(0, sys.argv[1])
+from unit import Unit
+with Unit.unpack(sys.argv[2]) as unpacked:
+    first = Unit(unpacked)
+    library, guid = first.slave.dll, unpacked.description.guid.encode()
+    instantiate, free = library.fmi2Instantiate, library.fmi2FreeInstance
+    instantiate.restype, free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
+    def cycle(count):
+        for _ in range(count):
+            instance = instantiate(b"wall", 1, guid, b"file:///none", None, 0, 0)
+            assert instance
+            free(instance)
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(cycle(2000), cycle(100_000))
+"""
+
+
+def test_instances_leave_nothing_behind(fmu):
+    command = [sys.executable, "-c", CYCLES, Path(__file__).parent, fmu]
+    answer = subprocess.run(command, check=True, capture_output=True, text=True)
+    before, after = map(int, answer.stdout.split())
+    # a leak of 10 bytes an instance would show as 1000 KiB
+    assert after - before < 1000, "KiB"
+
+
+@pytest.mark.parametrize(
+    "location",
+    [None, b"", b"file:///none", b"file:/p", b"file:///with%20blank/%C3%BCml%C3%A4ut/", b"/plain", b"C:\\windows", b"http://x/y",
+     b"file:///%zz%", b"file:///" + b"a/" * 5000],
+)  # fmt: skip
+def test_a_general_fmu_runs_with_any_resource_location(unpacked, location):
+    with Unit(unpacked) as unit:
+        library = unit.slave.dll
+        library.fmi2Instantiate.restype = ctypes.c_void_p
+        library.fmi2FreeInstance.argtypes = [ctypes.c_void_p]
+        guid = unpacked.description.guid.encode()
+        instance = library.fmi2Instantiate(b"wall", 1, guid, location, None, 0, 0)
+        assert instance
+        library.fmi2FreeInstance(instance)
+
+
+QUIET = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from test_behaviour import shake
+from unit import Unit
+with Unit.unpack(sys.argv[2]) as unpacked, Unit(unpacked, logging=True) as unit:
+    unit.start()
+    shake(unit, 100)
+    for bad in (lambda: unit.set(height=3.0), lambda: unit.step(float("nan"))):
+        try:
+            bad()
+        except Exception:
+            pass
+"""
+
+
+def test_nothing_is_printed(fmu):
+    answer = subprocess.run([sys.executable, "-c", QUIET, Path(__file__).parent, fmu], check=True, capture_output=True)
+    assert answer.stdout == b"" and answer.stderr == b""
+
+
+# --- the command line of FMPy ---------------------------------------------------------------------------------------
+
+
+def fmpy_command(*arguments):
+    program = shutil.which("fmpy", path=Path(sys.executable).parent)
+    return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True, cwd=ROOT)
+
+
+def columns(path):
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def test_a_bare_fmpy_simulate_rocks_to_rest(fmu, tmp_path):
+    out = tmp_path / "out.csv"
+    fmpy_command("simulate", fmu, "--output-file", out)
+    u = [float(value) for value in columns(out)["u"]]
+    assert u[0] == 0.18
+    crossings = sum(a * b < 0 for a, b in zip(u, u[1:]))
+    assert crossings > 20, "it rocks"
+    parts = [max(map(abs, u[start : start + 200])) for start in range(0, 1000, 200)]
+    assert all(later < earlier for earlier, later in zip(parts, parts[1:])), "it decays"
+    assert parts[-1] < 0.02 * parts[0], "to rest"
+    assert set(columns(out)["overturned"]) == {"False"}
+
+
+def test_an_input_file_gives_the_held_answer(fmu, wall, tmp_path):
+    record, out = tmp_path / "record.csv", tmp_path / "out.csv"
+    subprocess.run([wall, "motion", "--synthetic", "--pga", "2.5", "--csv", record], check=True, capture_output=True)
+    fmpy_command("simulate", fmu, "--input-file", record, "--stop-time", "30", "--start-values", "u_start", "0", "--output-file", out)
+    found = float(columns(out)["u_max"][-1])
+
+    def on_the_command_line(*extra):
+        command = [wall, "simulate", "--record", record, "--unit", "m/s2", "--stop-time", "30", "--json", *extra]
+        return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["u_max"]
+
+    assert found == pytest.approx(on_the_command_line("--hold"), abs=1e-6)
+    linear = on_the_command_line()
+    print(f"u_max {found:.8f} m held, {linear:.8f} m linear: {100 * (found / linear - 1):.3f} %")
