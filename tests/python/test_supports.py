@@ -240,5 +240,5 @@ def test_power_through_the_supports(unpacked, shape):
             exchanged += weights @ np.abs(powers)
             corners += (abs(places[0]) - law["a1"] * u_ins) * (abs(places[2]) - law["a1"] * u_ins) < 0
         change = energy(u, unit.get("u_dot")) - start
-        assert corners > 2 and dissipated > 0.0
+        assert corners >= 2 and dissipated > 0.0
         assert work == pytest.approx(change + dissipated, abs=1e-8 * (exchanged + dissipated))
