@@ -6,10 +6,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use fmi2_export::{Environment, Log, Model, Step};
 use rocking_wall::ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
-use rocking_wall::variables::{DampingModel, DampingSource};
+use rocking_wall::unit::Unit;
+use rocking_wall::variables::{DampingModel, DampingSource, RealVariable};
 use rocking_wall::wall::{Parameters, Support};
 
 const RUNS: usize = 25;
@@ -58,6 +60,31 @@ fn main() {
         });
         println!("{name:<46}{cost:>9.1} ns, {:>6.1} times the oscillator", cost / oscillator);
     }
+    let cost = do_step(record, motion.step());
+    println!(
+        "{:<46}{cost:>9.1} ns, {:>6.1} times the oscillator",
+        "elastic do_step of the unit",
+        cost / oscillator
+    );
+}
+
+/// An elastic communication step of the unit, its input set before each.
+fn do_step(record: &[f64], step: f64) -> f64 {
+    let environment = Environment { instance_name: "wall", resources: None, payload: None };
+    let mut log = Log::silent();
+    let mut start = Unit::instantiate(environment, &mut log).expect("the default wall");
+    start.set_real(RealVariable::UStart, 0.0);
+    start.initialize(&mut log).expect("the default wall");
+    least(record.len() - 1, || {
+        let mut unit = start.clone();
+        let mut from = 0.0;
+        for acceleration in &black_box(record)[1..] {
+            unit.set_real(RealVariable::AG, 0.05 * acceleration);
+            unit.do_step(Step { from, duration: step }, &mut log).expect("a bounded motion");
+            from += step;
+        }
+        unit.real(RealVariable::U)
+    })
 }
 
 /// Nanoseconds a step, the least of several runs after a warm-up.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::ground_motion::GroundMotion;
-use crate::solver::{Method, Motion, Phase, Segment, SolverError, State, Work};
+use crate::solver::{Memo, Method, Motion, Phase, Segment, SolverError, State, Work};
 use crate::variables::Mechanism;
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 
@@ -12,6 +12,7 @@ use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 pub struct Simulation {
     motion: Arc<Motion>,
     record: Progress,
+    memo: Memo,
 }
 
 /// All that changes during a simulation: plain data, copied to save it.
@@ -94,7 +95,7 @@ impl Simulation {
         let overturn_time = state.overturned.then_some(time);
         let drift = support.drift != 0.0;
         let record = Progress { time, state, overturn_time, drift, work: Work::default() };
-        Ok(Self { motion: Arc::new(motion), record })
+        Ok(Self { motion: Arc::new(motion), record, memo: Memo::default() })
     }
 
     /// The wall.
@@ -134,7 +135,7 @@ impl Simulation {
         let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
         let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
         let mut state = before.state;
-        let report = self.motion.advance(&mut state, segment, integral)?;
+        let report = self.motion.advance(&mut state, segment, integral, &mut self.memo)?;
         let mut step = Step {
             overturned: report.overturning.is_some(),
             departed: report.departure.is_some(),

@@ -164,6 +164,11 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
 }
 
 impl Piece for Series {
+    fn start(&self) -> Kinematics {
+        let [displacement, velocity, half_acceleration, ..] = self.coefficients;
+        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+    }
+
     fn horizon(&self) -> f64 {
         self.horizon
     }

@@ -43,6 +43,9 @@ impl Peaks {
 
 /// A smooth stretch of motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
+    /// The motion at the start of the piece.
+    fn start(&self) -> Kinematics;
+
     /// Length of time over which the piece holds \[s\].
     fn horizon(&self) -> f64;
 
@@ -64,6 +67,15 @@ pub(super) struct Exit {
     pub(super) upwards: bool,
 }
 
+/// How a piece of motion ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Ending {
+    /// At its horizon.
+    Horizon(Kinematics),
+    /// At a corner.
+    Exit(Exit),
+}
+
 /// A search stopped short of its bound on intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SearchExhausted;
@@ -81,30 +93,33 @@ struct Node {
     motion: Kinematics,
 }
 
-/// First time u passes `bounds` = \[lower, upper\] within the piece. Raises `peaks` to the extremes of u
+/// Follows a piece to its horizon or to the first time u passes `bounds` = \[lower, upper\]. Raises `peaks` to the extremes of u
 /// at turning points and ends before that.
 ///
 /// Works through intervals from left to right. An interval is settled when it is too short for u to reach anything
 /// (|ü| bound), when u̇ keeps its sign in it, or when ü does, so that u̇ has at most one zero; else it is halved.
-pub(super) fn first_exit<P: Piece>(
+pub(super) fn follow<P: Piece>(
     piece: &P,
-    start: Kinematics,
     bounds: [f64; 2],
     peaks: &mut Peaks,
-) -> Result<Option<Exit>, SearchExhausted> {
+) -> Result<Ending, SearchExhausted> {
     let horizon = piece.horizon();
     let search = Search { piece, bounds };
-    let left = Node { time: 0.0, motion: start };
+    let left = Node { time: 0.0, motion: piece.start() };
     let right = Node { time: horizon, motion: piece.at(horizon) };
     match search.settle(left, right, false, peaks) {
         // The ordinary step: nothing to look for.
         Verdict::Quiet => {
             peaks.include(right.motion.displacement);
-            Ok(None)
+            Ok(Ending::Horizon(right.motion))
         }
-        Verdict::Split => search.by_halves(left, right, peaks),
-        verdict => Ok(search.settled(left, right, &verdict, peaks)),
+        Verdict::Split => Ok(ending(search.by_halves(left, right, peaks)?, right)),
+        verdict => Ok(ending(search.settled(left, right, &verdict, peaks), right)),
     }
+}
+
+fn ending(exit: Option<Exit>, end: Node) -> Ending {
+    exit.map_or(Ending::Horizon(end.motion), Ending::Exit)
 }
 
 enum Verdict {

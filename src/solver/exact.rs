@@ -192,6 +192,34 @@ pub(super) struct ClosedForm {
     /// Rate of the forcing p₁ \[m/s³\].
     forcing_rate: f64,
     horizon: f64,
+    /// The motion at the horizon, where it is known already.
+    end: Option<Kinematics>,
+}
+
+/// The propagator of the last whole step on a branch: steps of one length need it but once.
+///
+/// Lengths that differ by the rounding of clocks share one: the length is rounded to 40 bits and the rest, 5e-13 of it, is
+/// made up by the Taylor series. What is remembered changes no bit of any result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memo {
+    branch: usize,
+    duration: f64,
+    propagator: Matrix3<f64>,
+}
+
+impl Default for Memo {
+    fn default() -> Self {
+        Self { branch: 0, duration: f64::NAN, propagator: Matrix3::zeros() }
+    }
+}
+
+/// Bits of a length that a rounded length leaves out.
+const ROUNDED_BITS: u32 = 12;
+
+/// A length rounded to 40 bits of its mantissa.
+fn rounded(duration: f64) -> f64 {
+    let half = 1_u64 << (ROUNDED_BITS - 1);
+    f64::from_bits((duration.to_bits() + half) & !((1 << ROUNDED_BITS) - 1))
 }
 
 impl ClosedForm {
@@ -204,11 +232,36 @@ impl ClosedForm {
         remaining: f64,
         quiet: &Quiet,
     ) -> Self {
-        let mut piece = Self { oscillator, start, forcing_rate, horizon: remaining };
+        let mut piece = Self { oscillator, start, forcing_rate, horizon: remaining, end: None };
         if remaining > oscillator.longest_piece() && !piece.stays_within(quiet) {
             piece.horizon = oscillator.longest_piece();
         }
         piece
+    }
+
+    /// The same piece, its end found with the remembered propagator.
+    pub(super) fn remembered(mut self, branch: usize, memo: &mut Memo) -> Self {
+        let duration = rounded(self.horizon);
+        if memo.duration != duration || memo.branch != branch {
+            *memo = Memo { branch, duration, propagator: self.oscillator.propagator(duration) };
+        }
+        let Kinematics { displacement, velocity, acceleration } = self.propagated(&memo.propagator);
+        let rest = self.horizon - duration;
+        let Oscillator { damping: c, stiffness: k, .. } = self.oscillator;
+        // d ü/dt = p₁ − c ü − k u̇
+        let jerk = self.forcing_rate - c * acceleration - k * velocity;
+        self.end = Some(Kinematics {
+            displacement: displacement + rest * velocity,
+            velocity: velocity + rest * acceleration,
+            acceleration: acceleration + rest * jerk,
+        });
+        self
+    }
+
+    fn propagated(&self, propagator: &Matrix3<f64>) -> Kinematics {
+        let Kinematics { displacement, velocity, acceleration } = self.start;
+        let change = propagator * Vector3::new(velocity, acceleration, self.forcing_rate);
+        Kinematics { displacement: displacement + change[0], velocity: change[1], acceleration: change[2] }
     }
 
     /// Whether the whole motion stays in the range: around the moving equilibrium by no more than the amplitude.
@@ -245,15 +298,19 @@ pub(super) struct Quiet {
 }
 
 impl Piece for ClosedForm {
+    fn start(&self) -> Kinematics {
+        self.start
+    }
+
     fn horizon(&self) -> f64 {
         self.horizon
     }
 
     fn at(&self, time: f64) -> Kinematics {
-        let Kinematics { displacement, velocity, acceleration } = self.start;
-        let change =
-            self.oscillator.propagator(time) * Vector3::new(velocity, acceleration, self.forcing_rate);
-        Kinematics { displacement: displacement + change[0], velocity: change[1], acceleration: change[2] }
+        match self.end {
+            Some(end) if time == self.horizon => end,
+            _ => self.propagated(&self.oscillator.propagator(time)),
+        }
     }
 
     fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64) {

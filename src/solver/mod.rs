@@ -13,7 +13,8 @@ use crate::wall::{BranchDamping, ParameterError, Parameters, Support, Wall};
 
 use adaptive::{Series, Tolerances};
 pub use event::Peaks;
-use event::{Exit, Kinematics, Piece, first_exit};
+use event::{Ending, Exit, Kinematics, Piece};
+pub use exact::Memo;
 use exact::{ClosedForm, Oscillator, Quiet};
 
 /// A stretch of support motion, linear in time: one record sample or one communication step.
@@ -242,7 +243,7 @@ impl Motion {
         state
     }
 
-    /// Moves `state` through a segment; `integral` asks for ∫u dt.
+    /// Moves `state` through a segment; `integral` asks for ∫u dt, `memo` remembers the propagator of a step.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was.
@@ -251,6 +252,7 @@ impl Motion {
         state: &mut State,
         segment: &Segment,
         integral: bool,
+        memo: &mut Memo,
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
@@ -262,6 +264,7 @@ impl Motion {
             forcing: from,
             rate: if segment.duration > 0.0 { (to - from) / segment.duration } else { 0.0 },
             integral,
+            memo,
             report: Report::default(),
         };
         run.finish()?;
@@ -291,6 +294,7 @@ struct Run<'a> {
     forcing: f64,
     rate: f64,
     integral: bool,
+    memo: &'a mut Memo,
     report: Report,
 }
 
@@ -350,8 +354,9 @@ impl Run<'_> {
     }
 
     /// The next piece of motion, from the current state.
-    fn piece(&self) -> AnyPiece {
-        let wall = &self.motion.wall;
+    fn piece(&mut self) -> AnyPiece {
+        let motion = self.motion;
+        let wall = &motion.wall;
         let State { displacement, velocity, branch: index, .. } = self.state;
         let branch = &wall.branches()[index];
         let forcing = self.forcing_now();
@@ -361,20 +366,17 @@ impl Run<'_> {
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
         let remaining = self.duration - self.time;
-        let closed = || {
-            let quiet = Quiet { lower: branch.lower, upper: branch.upper, peaks: self.state.peaks };
-            let oscillator = self.motion.oscillators[index];
-            AnyPiece::Closed(ClosedForm::new(oscillator, start, self.rate, remaining, &quiet))
-        };
-        match self.motion.method {
-            Method::Exact => closed(),
-            Method::Adaptive { .. } if branch.stiffness > 0.0 && is_constant(branch.damping) => closed(),
+        match motion.method {
+            Method::Exact => AnyPiece::Closed(self.closed_form(index, start, remaining)),
+            Method::Adaptive { .. } if branch.stiffness > 0.0 && is_constant(branch.damping) => {
+                AnyPiece::Closed(self.closed_form(index, start, remaining))
+            }
             Method::Adaptive { .. } => AnyPiece::Series(Series::new(
                 branch,
                 start,
                 [forcing, self.rate],
                 remaining,
-                self.motion.tolerances,
+                motion.tolerances,
             )),
             Method::Newmark { step } => {
                 // equal steps, none longer than asked for
@@ -385,26 +387,34 @@ impl Run<'_> {
         }
     }
 
+    fn closed_form(&mut self, index: usize, start: Kinematics, remaining: f64) -> ClosedForm {
+        let branch = &self.motion.wall.branches()[index];
+        let quiet = Quiet { lower: branch.lower, upper: branch.upper, peaks: self.state.peaks };
+        let piece = ClosedForm::new(self.motion.oscillators[index], start, self.rate, remaining, &quiet);
+        // only whole segments come again
+        if self.time == 0.0 && piece.horizon() == self.duration {
+            piece.remembered(index, self.memo)
+        } else {
+            piece
+        }
+    }
+
     /// Follows a piece to its end or to the first corner.
     fn follow<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
         let bounds = self.bounds();
-        let start = self.kinematics();
         let mut peaks = self.state.peaks;
-        let exit = first_exit(
-            piece,
-            start,
-            bounds.map(|index| self.motion.wall.corners()[index].displacement),
-            &mut peaks,
-        )
-        .map_err(|_| self.exhausted())?;
+        let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
+        let ending = event::follow(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
         self.state.peaks = peaks;
-        let length = exit.map_or(piece.horizon(), |exit| exit.time);
+        let length = match ending {
+            Ending::Horizon(_) => piece.horizon(),
+            Ending::Exit(exit) => exit.time,
+        };
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
         }
-        match exit {
-            None => {
-                let end = piece.at(length);
+        match ending {
+            Ending::Horizon(end) => {
                 let finished = self.time + length >= self.duration || length >= self.duration - self.time;
                 self.time = if finished { self.duration } else { self.time + length };
                 if length <= 0.0 {
@@ -416,7 +426,7 @@ impl Run<'_> {
                     self.state.branch = self.motion.wall.branch_of(end.displacement, end.velocity);
                 }
             }
-            Some(Exit { time, velocity, upwards }) => {
+            Ending::Exit(Exit { time, velocity, upwards }) => {
                 self.time += time;
                 self.state.velocity = velocity;
                 self.reach(bounds[usize::from(upwards)], upwards);
@@ -442,13 +452,6 @@ impl Run<'_> {
             }
         }
         [lower, upper]
-    }
-
-    fn kinematics(&self) -> Kinematics {
-        let State { displacement, velocity, branch, .. } = self.state;
-        let branch = &self.motion.wall.branches()[branch];
-        let acceleration = branch.acceleration(displacement, velocity, self.forcing_now());
-        Kinematics { displacement, velocity, acceleration }
     }
 
     /// Arrives at a corner and goes through it.
