@@ -1,5 +1,6 @@
 //! The wall as an FMI model.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -75,14 +76,14 @@ pub struct Unit {
     /// Initialisation is over.
     running: bool,
     impulses: Ends,
-    outputs: Outputs,
+    /// The outputs as they follow from state and inputs, once asked for.
+    outputs: Cell<Option<Outputs>>,
     top_ignored_told: bool,
 }
 
 impl Unit {
     fn new(parameters: Parameters, excitation: Option<Arc<Excitation>>) -> Result<Self, Failure> {
         let simulation = start(&parameters, Experiment::default(), Support::default())?;
-        let outputs = simulation.outputs(Support::default());
         let mut unit = Self {
             parameters,
             excitation,
@@ -91,7 +92,7 @@ impl Unit {
             simulation,
             running: false,
             impulses: Ends::default(),
-            outputs,
+            outputs: Cell::new(None),
             top_ignored_told: false,
         };
         unit.calculate()?;
@@ -109,8 +110,15 @@ impl Unit {
         self.inputs.support(self.own_support(), 0.0)
     }
 
+    fn outputs(&self) -> Outputs {
+        let outputs = self.outputs.get().unwrap_or_else(|| self.simulation.outputs(self.support()));
+        self.outputs.set(Some(outputs));
+        outputs
+    }
+
+    /// State or inputs have changed.
     fn refresh(&mut self) {
-        self.outputs = self.simulation.outputs(self.support());
+        self.outputs.set(None);
     }
 
     fn wall(&self) -> &Wall {
@@ -126,20 +134,38 @@ impl Unit {
         }
     }
 
-    /// One communication step on a copy, through the samples of the scene's own motion.
+    /// One communication step, through the samples of the scene's own motion; on an error all is as it was.
     fn advance(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
-        let mut simulation = self.simulation.clone();
-        simulation.set_time(step.from);
+        let before = *self.simulation.progress();
+        self.simulation.set_time(step.from);
+        match self.segments(step, log) {
+            Ok(impulses) => {
+                self.impulses = impulses;
+                self.simulation.set_time(step.from + step.duration);
+                for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
+                    input.pass(step.duration);
+                }
+                self.refresh();
+                Ok(())
+            }
+            Err(error) => {
+                self.simulation.restore(before);
+                Err(error)
+            }
+        }
+    }
+
+    /// Moves the wall through a step and returns the impulses of the supports.
+    fn segments(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<Ends, Failure> {
         let end = step.from + step.duration;
         let mut impulses = Ends::default();
         let mut done = 0.0;
         for _ in 0..MOST_SEGMENTS {
             let remaining = step.duration - done;
-            let segment = self.segment(&simulation, done, remaining);
-            let last = segment.duration >= remaining;
-            let outcome = simulation
-                .advance(&segment)
-                .map_err(|error| format!("at t = {} s: {error}", simulation.progress().time))?;
+            let segment = self.segment(done, remaining);
+            let time = self.simulation.progress().time;
+            let outcome =
+                self.simulation.advance(&segment).map_err(|error| format!("at t = {time} s: {error}"))?;
             impulses.bottom += outcome.impulses.bottom;
             impulses.top += outcome.impulses.top;
             done += segment.duration;
@@ -149,7 +175,7 @@ impl Unit {
                 ));
             }
             if outcome.overturned {
-                let time = simulation.progress().overturn_time.unwrap_or(end);
+                let time = self.simulation.progress().overturn_time.unwrap_or(end);
                 log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
             }
             if outcome.departed {
@@ -157,15 +183,8 @@ impl Unit {
                     "left the supports by t = {end} s: reactions and impulses are 0 from there on"
                 ));
             }
-            if last {
-                simulation.set_time(end);
-                self.simulation = simulation;
-                self.impulses = impulses;
-                for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
-                    input.pass(step.duration);
-                }
-                self.refresh();
-                return Ok(());
+            if segment.duration >= remaining {
+                return Ok(impulses);
             }
         }
         Err(format!(
@@ -176,9 +195,9 @@ impl Unit {
     }
 
     /// The next piece of a step over which the supports move linearly.
-    fn segment(&self, simulation: &Simulation, done: f64, remaining: f64) -> Segment {
+    fn segment(&self, done: f64, remaining: f64) -> Segment {
         let own = self.excitation.as_ref().map(|motion| {
-            let elapsed = simulation.progress().time - self.experiment.start;
+            let elapsed = self.simulation.progress().time - self.experiment.start;
             motion.stretch(elapsed, remaining)
         });
         let own =
@@ -231,21 +250,21 @@ impl Model for Unit {
 
     fn real(&self, variable: RealVariable) -> f64 {
         use RealVariable as V;
-        let (outputs, progress) = (&self.outputs, self.simulation.progress());
+        let progress = self.simulation.progress();
         let (wall, body) = (self.wall(), self.wall().body());
         match variable {
             V::AG => self.inputs.ground,
             V::ABottom => self.inputs.bottom.value,
             V::ATop => self.inputs.top.value,
             V::Drift => self.inputs.drift.value,
-            V::U => outputs.displacement,
-            V::UDot => outputs.velocity,
-            V::UDdot => outputs.acceleration,
-            V::URatio => outputs.ratio,
-            V::RestoringForce => outputs.restoring_force,
-            V::DampingForce => outputs.damping_force,
-            V::ReactionBottom => outputs.reactions.bottom,
-            V::ReactionTop => outputs.reactions.top,
+            V::U => self.outputs().displacement,
+            V::UDot => self.outputs().velocity,
+            V::UDdot => self.outputs().acceleration,
+            V::URatio => self.outputs().ratio,
+            V::RestoringForce => self.outputs().restoring_force,
+            V::DampingForce => self.outputs().damping_force,
+            V::ReactionBottom => self.outputs().reactions.bottom,
+            V::ReactionTop => self.outputs().reactions.top,
             V::ImpulseBottom => self.impulses.bottom,
             V::ImpulseTop => self.impulses.top,
             V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
@@ -286,9 +305,7 @@ impl Model for Unit {
         } else if let Some(parameter) = self.parameters.real_mut(variable) {
             *parameter = value;
         }
-        if self.running {
-            self.refresh();
-        }
+        self.refresh();
     }
 
     fn set_integer(&mut self, variable: IntegerVariable, value: i32) {
@@ -310,8 +327,8 @@ impl Model for Unit {
         let support_rate = self.inputs.rate(|input| input.last_rate);
         let rates = || self.simulation.rates(self.support(), support_rate);
         match variable {
-            RealVariable::U => Some(self.outputs.velocity),
-            RealVariable::UDot => Some(self.outputs.acceleration),
+            RealVariable::U => Some(self.outputs().velocity),
+            RealVariable::UDot => Some(self.outputs().acceleration),
             RealVariable::UDdot => Some(rates().acceleration),
             RealVariable::ReactionBottom => Some(rates().reactions.bottom),
             RealVariable::ReactionTop => Some(rates().reactions.top),
@@ -321,7 +338,7 @@ impl Model for Unit {
 
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
         use RealVariable as V;
-        let ratio = 1.0 / self.wall().body().instability.of(self.outputs.displacement);
+        let ratio = 1.0 / self.wall().body().instability.of(self.outputs().displacement);
         let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
         let (by_u, by_velocity, along) = match known {
             V::U => (1.0, 0.0, self.simulation.by_displacement()),
