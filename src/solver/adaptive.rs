@@ -13,9 +13,7 @@
 use crate::wall::{Branch, BranchDamping};
 
 use super::event::{Kinematics, Piece};
-
-/// Highest power of time in a series.
-pub(super) const HIGHEST_ORDER: usize = 26;
+use super::polynomial::{HIGHEST_ORDER, Polynomial};
 
 /// Scales against which a term is judged: the largest term in u \[m\] and in u̇ \[m/s\] that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +22,10 @@ pub(super) struct Tolerances {
     pub(super) velocity: f64,
 }
 
-/// A polynomial stretch of motion: u(t) = Σ uₙ tⁿ.
+/// A stretch of motion by its Taylor series.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Series {
-    coefficients: [f64; HIGHEST_ORDER + 1],
-    order: usize,
+    polynomial: Polynomial,
     horizon: f64,
 }
 
@@ -125,14 +122,15 @@ impl Series {
                 // forcing enters the first two terms, damping needs one more
                 && order > 3;
             if small && small_before {
-                return Self { coefficients: work.displacement, order, horizon: remaining };
+                let polynomial = Polynomial { coefficients: work.displacement, order };
+                return Self { polynomial, horizon: remaining };
             }
             small_before = small;
             power *= remaining;
         }
         let order = HIGHEST_ORDER;
         let horizon = longest_step(&work.displacement, tolerances).min(remaining);
-        Self { coefficients: work.displacement, order, horizon }
+        Self { polynomial: Polynomial { coefficients: work.displacement, order }, horizon }
     }
 
     /// A given polynomial, as other schemes make them.
@@ -142,11 +140,7 @@ impl Series {
         coefficients[1] = start.velocity;
         coefficients[2] = 0.5 * start.acceleration;
         coefficients[3] = acceleration_rate / 6.0;
-        Self { coefficients, order: 3, horizon }
-    }
-
-    fn used(&self) -> &[f64] {
-        &self.coefficients[..=self.order]
+        Self { polynomial: Polynomial { coefficients, order: 3 }, horizon }
     }
 }
 
@@ -165,8 +159,7 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
 
 impl Piece for Series {
     fn start(&self) -> Kinematics {
-        let [displacement, velocity, half_acceleration, ..] = self.coefficients;
-        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+        self.polynomial.start()
     }
 
     fn horizon(&self) -> f64 {
@@ -174,33 +167,15 @@ impl Piece for Series {
     }
 
     fn at(&self, time: f64) -> Kinematics {
-        let (mut displacement, mut velocity, mut half_acceleration) = (0.0, 0.0, 0.0);
-        for &coefficient in self.used().iter().rev() {
-            half_acceleration = half_acceleration * time + velocity;
-            velocity = velocity * time + displacement;
-            displacement = displacement * time + coefficient;
-        }
-        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+        self.polynomial.at(time)
     }
 
     fn bounds(&self, _from: Kinematics, _length: f64) -> (f64, f64) {
-        // over the whole piece, which is short: Σ n(n−1) |uₙ| Tⁿ⁻² and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³
-        let (mut acceleration, mut jerk) = (0.0, 0.0);
-        for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
-            let second = (n * (n - 1)) as f64 * coefficient.abs();
-            acceleration = acceleration * self.horizon + second;
-            if n > 2 {
-                jerk = jerk * self.horizon + second * (n - 2) as f64;
-            }
-        }
-        (acceleration, jerk)
+        // over the whole piece, which is short
+        self.polynomial.bounds(self.horizon)
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
-        let mut sum = 0.0;
-        for (n, coefficient) in self.used().iter().enumerate().rev() {
-            sum = sum * time + coefficient / (n + 1) as f64;
-        }
-        sum * time
+        self.polynomial.integral(time)
     }
 }

@@ -214,11 +214,15 @@ impl<P: Piece> Search<'_, P> {
 
     /// The one zero of u̇ in an interval.
     fn turning_point(&self, left: Node, right: Node) -> Node {
-        let time = root(left.time, right.time, left.motion.velocity, |time| {
+        let (from, to) = (left.motion, right.motion);
+        // the chord of u̇
+        let guess = left.time
+            + (right.time - left.time) * (from.velocity / (from.velocity - to.velocity)).clamp(0.0, 1.0);
+        let (time, motion) = root([left.time, right.time], guess, from.velocity < 0.0, |time| {
             let motion = self.piece.at(time);
-            (motion.velocity, motion.acceleration)
+            ([motion.velocity, motion.acceleration, 0.0], motion)
         });
-        Node { time, motion: self.piece.at(time) }
+        Node { time, motion }
     }
 
     /// The exit in an interval over which u is monotone.
@@ -231,52 +235,75 @@ impl<P: Piece> Search<'_, P> {
         if !leaves {
             return None;
         }
-        let time = root(left.time, right.time, left.motion.displacement - bound, |time| {
+        let Kinematics { displacement, velocity, acceleration } = left.motion;
+        let missing = displacement - bound;
+        if missing == 0.0 {
+            return Some(Exit { time: left.time, velocity, upwards });
+        }
+        let guess = left.time + newton([missing, velocity, acceleration]).abs();
+        let (time, at) = root([left.time, right.time], guess, upwards, |time| {
             let motion = self.piece.at(time);
-            (motion.displacement - bound, motion.velocity)
+            ([motion.displacement - bound, motion.velocity, motion.acceleration], motion)
         });
-        Some(Exit { time, velocity: self.piece.at(time).velocity, upwards })
+        // what the rounding of the time leaves to the bound, made up along the motion
+        let rest = (bound - at.displacement) / at.velocity;
+        let velocity = if rest.abs() <= TIME_ROUNDING * time {
+            at.velocity + rest * at.acceleration
+        } else {
+            at.velocity
+        };
+        Some(Exit { time, velocity, upwards })
     }
 }
 
-/// Root of a function with its derivative in a bracket, by Newton's method safeguarded with bisection; `first` is the
-/// value at `low`, whose sign differs from the one at `high`.
-fn root(low: f64, high: f64, first: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
-    if first == 0.0 {
-        return low;
+/// Roundings by which a root may miss the bound.
+const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Step to the zero of a parabola with `[value, slope, curvature]`, the one nearer in the direction of Newton's.
+fn newton([value, slope, curvature]: [f64; 3]) -> f64 {
+    let discriminant = slope * slope - 2.0 * curvature * value;
+    if discriminant > 0.0 {
+        // of the two forms of the root the one that does not cancel
+        -2.0 * value / (slope + slope.signum() * discriminant.sqrt())
+    } else {
+        -value / slope
     }
-    let (mut low, mut high) = (low, high);
-    let rising = first < 0.0;
-    let mut time = low;
-    let mut value = first;
-    let mut slope = function(low).1;
+}
+
+/// Root of a function in a bracket, by parabolas (of third order) safeguarded with bisection, from a first `guess`; `rising`
+/// tells the sign at the bracket's low end. The function gives its value, slope and curvature, and what to return.
+fn root<T>(bracket: [f64; 2], guess: f64, rising: bool, function: impl Fn(f64) -> ([f64; 3], T)) -> (f64, T) {
+    let [mut low, mut high] = bracket;
     let mut last_step = high - low;
+    let mut time = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
+    let (mut local, mut found) = function(time);
     for _ in 0..ROOT_STEPS {
-        let newton = time - value / slope;
-        // Newton must stay inside and at least halve its step every other time: bisection otherwise
-        let step = newton - time;
-        let next = if newton > low && newton < high && step.abs() < 0.75 * last_step.abs() {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        last_step = next - time;
-        if next == time || next <= low && time == low || next >= high && time == high {
+        if local[0] == 0.0 {
             break;
         }
-        time = next;
-        (value, slope) = function(time);
-        if value == 0.0 {
-            break;
-        }
-        if (value < 0.0) == rising {
+        if (local[0] < 0.0) == rising {
             low = time;
         } else {
             high = time;
         }
-        if high - low <= f64::EPSILON * high {
+        let step = newton(local);
+        // a step within the rounding of the time changes nothing
+        if step.abs() <= 0.5 * f64::EPSILON * time || high - low <= f64::EPSILON * high {
             break;
         }
+        // it must stay inside and shrink, else bisection
+        let ahead = time + step;
+        let next = if ahead > low && ahead < high && step.abs() < 0.75 * last_step.abs() {
+            ahead
+        } else {
+            0.5 * (low + high)
+        };
+        last_step = next - time;
+        if next == time {
+            break;
+        }
+        time = next;
+        (local, found) = function(time);
     }
-    time
+    (time, found)
 }

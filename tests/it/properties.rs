@@ -1,6 +1,7 @@
 //! Properties that hold for every wall: mirror, time shift, splitting, energy, rest, agreement of the solvers.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{
@@ -106,11 +107,33 @@ fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Rounding grows with each reversal near instability; forty segments amplify it by less than 1e5 in walls that stand.
-const TOLERANCE: f64 = 1e-9;
+/// The same cases every time, unless PROPTEST_RNG_SEED names others (or `random` ones) and PROPTEST_CASES how many.
+pub(crate) fn configuration() -> ProptestConfig {
+    let mut configuration = ProptestConfig { cases: 200, ..ProptestConfig::default() };
+    match std::env::var("PROPTEST_RNG_SEED") {
+        Ok(_) => configuration.cases = ProptestConfig::default().cases,
+        Err(_) => configuration.rng_seed = RngSeed::Fixed(1),
+    }
+    configuration.max_global_rejects = 10 * configuration.cases;
+    configuration
+}
+
+/// Relative change of the motion that shows how much the wall amplifies.
+const PROBE: f64 = 1e-8;
+
+/// What rounding may make of a history: 100 roundings, amplified as the wall amplifies a change of its motion, on top of
+/// the adaptive solver's 1e-13 amplified likewise. Beyond an amplification of 1e5 (the limit of the reference cases too) no
+/// comparison means anything.
+fn allowed(run: &Run, motion: &[f64]) -> Option<f64> {
+    let probed: Vec<_> = motion.iter().map(|a| a * (1.0 + PROBE)).collect();
+    let probed = Run::new(run.parameters.clone(), &probed);
+    let difference = apart(&run.history(0.0, 1), &probed.history(0.0, 1), run.scale(), 1.0);
+    let amplification = 1.0 + difference / PROBE;
+    (amplification < 1e5).then(|| amplification * (100.0 * f64::EPSILON + 1e-13))
+}
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(configuration())]
 
     /// Mirrored motion moves a symmetric wall to the mirrored displacements.
     #[test]
@@ -135,8 +158,10 @@ proptest! {
     #[test]
     fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
         let run = Run::new(parameters, &motion);
+        let allowed = allowed(&run, &motion);
+        prop_assume!(allowed.is_some());
         let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
-        prop_assert!(difference < TOLERANCE, "differs by {difference}");
+        prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
     }
 
     /// Where the exact solver is exact, the adaptive one agrees.
@@ -145,9 +170,11 @@ proptest! {
         let wall = Wall::new(&parameters).expect("a valid wall");
         prop_assume!(wall.has_constant_damping());
         let exact = Run::new(Parameters { solver: Solver::Exact, ..parameters.clone() }, &motion);
+        let allowed = allowed(&exact, &motion);
+        prop_assume!(allowed.is_some());
         let adaptive = Run::new(Parameters { solver: Solver::Adaptive, ..parameters }, &motion);
         let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
-        prop_assert!(difference < TOLERANCE, "differs by {difference}");
+        prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
     }
 
     /// Without motion nothing moves.
@@ -168,17 +195,18 @@ proptest! {
         let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
         let still = Support::default();
         let scale = energy(&wall, wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
-        let mut before = f64::INFINITY;
+        let (mut before, mut pieces) = (f64::INFINITY, 0);
         for _ in 0..200 {
             simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
-            let state = simulation.progress().state;
+            let Progress { state, work, .. } = *simulation.progress();
             if state.overturned {
                 break;
             }
             let now = energy(&wall, state.displacement, state.velocity);
-            // 64 roundings of the potential's parts
-            prop_assert!(now <= before + 64.0 * f64::EPSILON * scale, "grew by {:e}", (now - before) / scale);
-            before = now;
+            // each piece of motion, and the potential's parts, round some dozen quantities of this size
+            let rounding = 32.0 * f64::EPSILON * (1 + work.pieces - pieces) as f64 * scale;
+            prop_assert!(now <= before + rounding, "grew by {:e}", (now - before) / rounding);
+            (before, pieces) = (now, work.pieces);
         }
     }
 }
