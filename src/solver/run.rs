@@ -1,0 +1,286 @@
+//! A segment under way: pieces of motion between the places where something happens.
+
+use super::adaptive::Series;
+use super::event::{self, Ending, Exit, Kinematics, Piece};
+use super::exact::{ClosedForm, Memo, Quiet};
+use super::{Method, Motion, Phase, Report, SolverError, State, newmark};
+use crate::wall::BranchDamping;
+
+/// Impacts in one segment, after which a wall that could rest is put to rest.
+const MOST_IMPACTS: u64 = 1_000_000;
+/// Pieces of motion in one segment.
+const MOST_PIECES: u32 = 4_000_000;
+/// A segment under way.
+pub(super) struct Run<'a> {
+    motion: &'a Motion,
+    state: State,
+    time: f64,
+    duration: f64,
+    /// Forcing at the start of the segment \[m/s²\] and its rate \[m/s³\].
+    forcing: f64,
+    rate: f64,
+    integral: bool,
+    memo: &'a mut Memo,
+    report: Report,
+}
+
+/// A piece of motion of one of the methods.
+enum AnyPiece {
+    Closed(ClosedForm),
+    Series(Series),
+}
+
+impl<'a> Run<'a> {
+    /// A segment of `duration` over which the forcing goes linearly between `forcing` \[m/s²\].
+    pub(super) fn new(
+        motion: &'a Motion,
+        state: State,
+        duration: f64,
+        [from, to]: [f64; 2],
+        integral: bool,
+        memo: &'a mut Memo,
+    ) -> Self {
+        let rate = if duration > 0.0 { (to - from) / duration } else { 0.0 };
+        Self {
+            motion,
+            state,
+            time: 0.0,
+            duration,
+            forcing: from,
+            rate,
+            integral,
+            memo,
+            report: Report::default(),
+        }
+    }
+
+    /// Moves to the end of the segment.
+    pub(super) fn finish(mut self) -> Result<(State, Report), SolverError> {
+        for _ in 0..MOST_PIECES {
+            if self.time >= self.duration {
+                self.check()?;
+                return Ok((self.state, self.report));
+            }
+            match self.state.phase {
+                Phase::Landed => self.time = self.duration,
+                Phase::Resting => self.rest(),
+                Phase::Moving => {
+                    self.report.work.pieces += 1;
+                    match self.piece() {
+                        AnyPiece::Closed(piece) => self.follow(&piece)?,
+                        AnyPiece::Series(piece) => self.follow(&piece)?,
+                    }
+                }
+            }
+        }
+        Err(self.exhausted())
+    }
+
+    fn forcing_now(&self) -> f64 {
+        self.forcing + self.rate * self.time
+    }
+
+    /// Rest until the forcing leaves the band.
+    fn rest(&mut self) {
+        let [lowest, highest] = self.motion.rest_band;
+        let now = self.forcing_now();
+        // a rounding later than the edge of the band, so that the forcing there has left it
+        let until = |edge: f64| ((edge - now).abs() + 2.0 * f64::EPSILON * edge.abs()) / self.rate.abs();
+        let mut leaving = f64::INFINITY;
+        if now > highest || now < lowest {
+            leaving = self.time;
+        } else if self.rate > 0.0 {
+            leaving = self.time + until(highest);
+        } else if self.rate < 0.0 {
+            leaving = self.time + until(lowest);
+        }
+        if leaving >= self.duration {
+            self.time = self.duration;
+            return;
+        }
+        self.time = leaving.max(self.time);
+        self.state.phase = Phase::Moving;
+        let upwards = now > highest || (now >= lowest && self.rate > 0.0);
+        self.state.branch = self.motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
+    }
+
+    /// The next piece of motion, from the current state.
+    fn piece(&mut self) -> AnyPiece {
+        let motion = self.motion;
+        let wall = &motion.wall;
+        let State { displacement, velocity, branch: index, .. } = self.state;
+        let branch = &wall.branches()[index];
+        let forcing = self.forcing_now();
+        let start = Kinematics {
+            displacement,
+            velocity,
+            acceleration: branch.acceleration(displacement, velocity, forcing),
+        };
+        let remaining = self.duration - self.time;
+        match motion.method {
+            Method::Exact => AnyPiece::Closed(self.closed_form(index, start, remaining)),
+            Method::Adaptive { .. } if branch.stiffness > 0.0 && is_constant(branch.damping) => {
+                AnyPiece::Closed(self.closed_form(index, start, remaining))
+            }
+            Method::Adaptive { .. } => AnyPiece::Series(Series::new(
+                branch,
+                start,
+                [forcing, self.rate],
+                remaining,
+                motion.tolerances,
+            )),
+            Method::Newmark { step } => {
+                // equal steps, none longer than asked for
+                let steps = (remaining / step - 1e-9).ceil().max(1.0);
+                let step = remaining / steps;
+                AnyPiece::Series(newmark::step(branch, start, self.rate * step, step))
+            }
+        }
+    }
+
+    fn closed_form(&mut self, index: usize, start: Kinematics, remaining: f64) -> ClosedForm {
+        let branch = &self.motion.wall.branches()[index];
+        let quiet = Quiet { lower: branch.lower, upper: branch.upper, peaks: self.state.peaks };
+        let piece = ClosedForm::new(self.motion.oscillators[index], start, self.rate, remaining, &quiet);
+        // only whole segments come again
+        let whole = self.time == 0.0 && piece.horizon() == self.duration;
+        if whole && !self.motion.oscillators[index].is_spread(self.duration) {
+            piece.remembered(index, self.memo)
+        } else {
+            piece
+        }
+    }
+
+    /// Follows a piece to its end or to the first corner.
+    fn follow<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
+        let bounds = self.bounds();
+        let mut peaks = self.state.peaks;
+        let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
+        let ending = event::follow(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
+        self.state.peaks = peaks;
+        let length = match ending {
+            Ending::Horizon(_) => piece.horizon(),
+            Ending::Exit(exit) => exit.time,
+        };
+        if self.integral && !self.state.departed {
+            self.report.displacement_integral += piece.displacement_integral(length);
+        }
+        match ending {
+            Ending::Horizon(end) => {
+                let finished = self.time + length >= self.duration || length >= self.duration - self.time;
+                self.time = if finished { self.duration } else { self.time + length };
+                if length <= 0.0 {
+                    return Err(self.exhausted());
+                }
+                self.state.displacement = end.displacement;
+                self.state.velocity = end.velocity;
+                if let Method::Newmark { .. } = self.motion.method {
+                    self.state.branch = self.motion.wall.branch_of(end.displacement, end.velocity);
+                }
+            }
+            Ending::Exit(Exit { time, velocity, upwards }) => {
+                self.time += time;
+                self.state.velocity = velocity;
+                self.reach(bounds[usize::from(upwards)], upwards);
+            }
+        }
+        if self.state.displacement.is_finite() && self.state.velocity.is_finite() {
+            Ok(())
+        } else {
+            Err(self.not_finite())
+        }
+    }
+
+    /// The corners between which the piece holds: those of the branch, for Newmark the next ones where something happens.
+    fn bounds(&self) -> [usize; 2] {
+        let (mut lower, mut upper) = (self.state.branch, self.state.branch + 1);
+        if let Method::Newmark { .. } = self.motion.method {
+            let corners = self.motion.wall.corners();
+            while !corners[lower].is_marked() {
+                lower -= 1;
+            }
+            while !corners[upper].is_marked() {
+                upper += 1;
+            }
+        }
+        [lower, upper]
+    }
+
+    /// Arrives at a corner and goes through it.
+    fn reach(&mut self, index: usize, upwards: bool) {
+        let wall = &self.motion.wall;
+        let corner = wall.corners()[index];
+        self.state.displacement = corner.displacement;
+        self.state.peaks.include(corner.displacement);
+        self.report.work.corners += 1;
+        let outwards = upwards == (corner.displacement > 0.0);
+        if corner.overturning && outwards && !self.state.overturned {
+            self.state.overturned = true;
+            self.report.overturning = Some(self.time);
+        }
+        if corner.departure && outwards && !self.state.departed {
+            self.state.departed = true;
+            self.report.departure = Some([self.time, self.state.velocity]);
+        }
+        if corner.landing {
+            self.state.velocity = 0.0;
+            self.state.phase = Phase::Landed;
+            return;
+        }
+        // branch i lies between corners i and i + 1
+        self.state.branch = if upwards { index } else { index - 1 };
+        if corner.passage {
+            self.pass_zero();
+        }
+    }
+
+    /// A passage of u = 0: restitution, and rest for a rigid wall.
+    fn pass_zero(&mut self) {
+        let motion = self.motion;
+        self.state.velocity *= motion.wall.passage_factor();
+        self.report.work.impacts += 1;
+        let forcing = self.forcing_now();
+        if motion.wall.is_rigid() {
+            let [lowest, highest] = motion.rest_band;
+            let in_band = (lowest..=highest).contains(&forcing);
+            let too_many = self.report.work.impacts >= MOST_IMPACTS && in_band;
+            if self.state.velocity.abs() < motion.rest_speed || too_many {
+                self.report.stilled |= too_many;
+                motion.settle(&mut self.state, forcing, self.rate);
+            }
+        } else if self.state.velocity == 0.0 {
+            // e = 0: it stops here and leaves with the forcing
+            let direction = if forcing == 0.0 { self.rate } else { forcing };
+            self.state.branch = motion.wall.branch_of(0.0, direction);
+        }
+    }
+
+    fn check(&self) -> Result<(), SolverError> {
+        let State { displacement, velocity, .. } = self.state;
+        if displacement.is_finite() && velocity.is_finite() { Ok(()) } else { Err(self.not_finite()) }
+    }
+
+    fn not_finite(&self) -> SolverError {
+        SolverError::NotFinite {
+            reached: self.time,
+            duration: self.duration,
+            displacement: self.state.displacement,
+            velocity: self.state.velocity,
+            forcing: self.forcing_now(),
+        }
+    }
+
+    fn exhausted(&self) -> SolverError {
+        SolverError::TooManyPieces {
+            reached: self.time,
+            duration: self.duration,
+            limit: MOST_PIECES,
+            displacement: self.state.displacement,
+            velocity: self.state.velocity,
+        }
+    }
+}
+
+fn is_constant(damping: BranchDamping) -> bool {
+    matches!(damping, BranchDamping::Constant(_))
+}
