@@ -84,8 +84,9 @@ impl<'a> Run<'a> {
     fn rest(&mut self) {
         let [lowest, highest] = self.motion.rest_band;
         let now = self.forcing_now();
-        // a rounding later than the edge of the band, so that the forcing there has left it
-        let until = |edge: f64| ((edge - now).abs() + 2.0 * f64::EPSILON * edge.abs()) / self.rate.abs();
+        // later than the edge of the band by the rounding of the forcing, so that there it has left the band
+        let largest = self.forcing.abs() + self.rate.abs() * self.duration;
+        let until = |edge: f64| ((edge - now).abs() + 2.0 * f64::EPSILON * largest) / self.rate.abs();
         let mut leaving = f64::INFINITY;
         if now > highest || now < lowest {
             leaving = self.time;

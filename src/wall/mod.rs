@@ -245,8 +245,8 @@ impl Wall {
     /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
     #[must_use]
     pub fn rest_band(&self) -> [f64; 2] {
-        let at_zero = |side: &Side| side.lines[0].at(0.0) / self.body.effective_mass;
-        [at_zero(&self.force.negative), at_zero(&self.force.positive)]
+        // of the branches themselves, so that a wall beyond the band is accelerated away from it bit for bit
+        [-1.0, 1.0].map(|direction| self.branches[self.branch_of(0.0, direction)].restoring(0.0))
     }
 
     /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
