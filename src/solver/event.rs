@@ -122,14 +122,46 @@ fn ending(exit: Option<Exit>, end: Node) -> Ending {
     exit.map_or(Ending::Horizon(end.motion), Ending::Exit)
 }
 
-enum Verdict {
+pub(super) enum Verdict {
     /// Nothing can happen inside.
     Quiet,
     /// u̇ keeps its sign.
     Monotone,
     /// u̇ changes its sign once.
     Turning,
+    /// Too long to tell.
     Split,
+}
+
+/// What can happen between two instants `length` apart, given bounds on |ü| and on the jerk between them.
+#[inline]
+pub(super) fn settle(
+    [from, to]: [Kinematics; 2],
+    length: f64,
+    (most_acceleration, most_jerk): (f64, f64),
+    [lower, upper]: [f64; 2],
+    peaks: &Peaks,
+) -> Verdict {
+    // |u(t) − chord| ≤ L²/8 max|ü|
+    let sag = 0.125 * length * length * most_acceleration;
+    let highest = from.displacement.max(to.displacement) + sag;
+    let lowest = from.displacement.min(to.displacement) - sag;
+    if highest <= upper && lowest >= lower && peaks.cover(lowest, highest) {
+        return Verdict::Quiet;
+    }
+    let (v0, v1) = (from.velocity, to.velocity);
+    let apart = v0 * v1 < 0.0;
+    // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero between two values larger together than max|ü| L
+    if !apart && v0.abs() + v1.abs() > most_acceleration * length {
+        return Verdict::Monotone;
+    }
+    let (a0, a1) = (from.acceleration, to.acceleration);
+    let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
+    match (steady, apart) {
+        (true, true) => Verdict::Turning,
+        (true, false) => Verdict::Monotone,
+        (false, _) => Verdict::Split,
+    }
 }
 
 struct Search<'a, P> {
@@ -188,41 +220,34 @@ impl<P: Piece> Search<'_, P> {
     }
 
     fn settle(&self, left: Node, right: Node, deepest: bool, peaks: &Peaks) -> Verdict {
-        let (from, to) = (left.motion, right.motion);
         let length = right.time - left.time;
-        let (most_acceleration, most_jerk) = self.piece.bounds(from, length);
-        // |u(t) − chord| ≤ L²/8 max|ü|
-        let sag = 0.125 * length * length * most_acceleration;
-        let highest = from.displacement.max(to.displacement) + sag;
-        let lowest = from.displacement.min(to.displacement) - sag;
-        if highest <= self.bounds[1] && lowest >= self.bounds[0] && peaks.cover(lowest, highest) {
-            return Verdict::Quiet;
+        let bounds = self.piece.bounds(left.motion, length);
+        match settle([left.motion, right.motion], length, bounds, self.bounds, peaks) {
+            Verdict::Split if deepest && left.motion.velocity * right.motion.velocity < 0.0 => {
+                Verdict::Turning
+            }
+            Verdict::Split if deepest => Verdict::Monotone,
+            verdict => verdict,
         }
-        let (v0, v1) = (from.velocity, to.velocity);
-        let apart = v0 * v1 < 0.0;
-        // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero between two values larger together than max|ü| L
-        if !apart && v0.abs() + v1.abs() > most_acceleration * length {
-            return Verdict::Monotone;
-        }
-        let (a0, a1) = (from.acceleration, to.acceleration);
-        let steady = a0 * a1 >= 0.0 && a0.abs() + a1.abs() > most_jerk * length;
-        if steady || deepest {
-            return if apart { Verdict::Turning } else { Verdict::Monotone };
-        }
-        Verdict::Split
     }
 
     /// The one zero of u̇ in an interval.
     fn turning_point(&self, left: Node, right: Node) -> Node {
         let (from, to) = (left.motion, right.motion);
         // the chord of u̇
-        let guess = left.time
-            + (right.time - left.time) * (from.velocity / (from.velocity - to.velocity)).clamp(0.0, 1.0);
-        let (time, motion) = root([left.time, right.time], guess, from.velocity < 0.0, |time| {
+        let share = (from.velocity / (from.velocity - to.velocity)).clamp(0.0, 1.0);
+        let guess = left.time + (right.time - left.time) * share;
+        let jerk = self.piece.bounds(from, right.time - left.time).1;
+        root([left.time, right.time], guess, from.velocity < 0.0, |time| {
             let motion = self.piece.at(time);
-            ([motion.velocity, motion.acceleration, 0.0], motion)
-        });
-        Node { time, motion }
+            let Kinematics { velocity, acceleration, .. } = motion;
+            let step = -velocity / acceleration;
+            // Newton leaves jerk δ²/(2ü) of time, and half its square times ü of u
+            let left = 0.5 * jerk * step * step / acceleration.abs();
+            let settled =
+                0.5 * acceleration.abs() * left * left <= 0.25 * f64::EPSILON * motion.displacement.abs();
+            Trial { value: velocity, step, settled, node: Node { time, motion } }
+        })
     }
 
     /// The exit in an interval over which u is monotone.
@@ -235,32 +260,39 @@ impl<P: Piece> Search<'_, P> {
         if !leaves {
             return None;
         }
-        let Kinematics { displacement, velocity, acceleration } = left.motion;
-        let missing = displacement - bound;
-        if missing == 0.0 {
-            return Some(Exit { time: left.time, velocity, upwards });
+        if left.motion.displacement == bound {
+            return Some(Exit { time: left.time, velocity: left.motion.velocity, upwards });
         }
-        let guess = left.time + newton([missing, velocity, acceleration]).abs();
-        let (time, at) = root([left.time, right.time], guess, upwards, |time| {
+        let length = right.time - left.time;
+        let guess = left.time + length * crossing([left.motion, right.motion], length, bound);
+        let jerk = self.piece.bounds(left.motion, length).1;
+        let exit = root([left.time, right.time], guess, upwards, |time| {
             let motion = self.piece.at(time);
-            ([motion.displacement - bound, motion.velocity, motion.acceleration], motion)
+            let Kinematics { displacement, velocity, acceleration } = motion;
+            let value = displacement - bound;
+            let step = parabola([value, velocity, acceleration]);
+            // the parabola leaves jerk δ³/6 of u, that over u̇ of time, and jerk δ²/2 of u̇
+            let speed = velocity.abs();
+            let left = 0.5 * jerk * step * step / speed;
+            let settled = left <= 0.25 * f64::EPSILON && left * step.abs() <= 0.75 * f64::EPSILON * time;
+            Trial { value, step, settled, node: Node { time, motion } }
         });
-        // what the rounding of the time leaves to the bound, made up along the motion
-        let rest = (bound - at.displacement) / at.velocity;
-        let velocity = if rest.abs() <= TIME_ROUNDING * time {
-            at.velocity + rest * at.acceleration
-        } else {
-            at.velocity
-        };
-        Some(Exit { time, velocity, upwards })
+        Some(Exit { time: exit.time, velocity: exit.motion.velocity, upwards })
     }
 }
 
-/// Roundings by which a root may miss the bound.
-const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// One evaluation on the way to a root.
+struct Trial {
+    value: f64,
+    /// Step to the root.
+    step: f64,
+    /// After that step the error is below rounding.
+    settled: bool,
+    node: Node,
+}
 
 /// Step to the zero of a parabola with `[value, slope, curvature]`, the one nearer in the direction of Newton's.
-fn newton([value, slope, curvature]: [f64; 3]) -> f64 {
+fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     let discriminant = slope * slope - 2.0 * curvature * value;
     if discriminant > 0.0 {
         // of the two forms of the root the one that does not cancel
@@ -270,40 +302,69 @@ fn newton([value, slope, curvature]: [f64; 3]) -> f64 {
     }
 }
 
-/// Root of a function in a bracket, by parabolas (of third order) safeguarded with bisection, from a first `guess`; `rising`
-/// tells the sign at the bracket's low end. The function gives its value, slope and curvature, and what to return.
-fn root<T>(bracket: [f64; 2], guess: f64, rising: bool, function: impl Fn(f64) -> ([f64; 3], T)) -> (f64, T) {
+/// Where, as a fraction of an interval, the quintic through the motion at both ends passes `bound`.
+fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64) -> f64 {
+    let (v0, v1) = (from.velocity * length, to.velocity * length);
+    let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
+    let start = from.displacement - bound;
+    // what the parabola from the left misses at the right: u, u̇ and half of ü
+    let (du, dv, da) = (to.displacement - from.displacement - v0 - a0, v1 - v0 - 2.0 * a0, a1 - a0);
+    let (c3, c4, c5) =
+        (10.0 * du - 4.0 * dv + da, -15.0 * du + 7.0 * dv - 2.0 * da, 6.0 * du - 3.0 * dv + da);
+    let mut x = parabola([start, v0, 2.0 * a0]).abs().min(1.0);
+    for _ in 0..2 {
+        let value = start + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))));
+        let slope = v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
+        x = (x - value / slope).clamp(0.0, 1.0);
+    }
+    x
+}
+
+/// Root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection; `rising` tells the sign at the
+/// bracket's low end. The last step is made along the motion itself.
+fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Trial) -> Node {
     let [mut low, mut high] = bracket;
     let mut last_step = high - low;
-    let mut time = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
-    let (mut local, mut found) = function(time);
+    let time = if guess > low && guess < high { guess } else { 0.5 * (low + high) };
+    let mut now = trial(time);
     for _ in 0..ROOT_STEPS {
-        if local[0] == 0.0 {
+        let time = now.node.time;
+        if now.value == 0.0 {
             break;
         }
-        if (local[0] < 0.0) == rising {
+        if (now.value < 0.0) == rising {
             low = time;
         } else {
             high = time;
         }
-        let step = newton(local);
-        // a step within the rounding of the time changes nothing
-        if step.abs() <= 0.5 * f64::EPSILON * time || high - low <= f64::EPSILON * high {
+        let ahead = time + now.step;
+        let inside = ahead >= low && ahead <= high;
+        if now.settled && inside {
+            return now.node.shifted(now.step);
+        }
+        if high - low <= f64::EPSILON * high {
             break;
         }
-        // it must stay inside and shrink, else bisection
-        let ahead = time + step;
-        let next = if ahead > low && ahead < high && step.abs() < 0.75 * last_step.abs() {
-            ahead
-        } else {
-            0.5 * (low + high)
-        };
+        // a step must stay inside and shrink, else bisection
+        let next = if inside && now.step.abs() < 0.75 * last_step.abs() { ahead } else { 0.5 * (low + high) };
         last_step = next - time;
         if next == time {
             break;
         }
-        time = next;
-        (local, found) = function(time);
+        now = trial(next);
     }
-    (time, found)
+    now.node
+}
+
+impl Node {
+    /// The motion a little later, as far as ü tells.
+    fn shifted(self, step: f64) -> Self {
+        let Kinematics { displacement, velocity, acceleration } = self.motion;
+        let motion = Kinematics {
+            displacement: displacement + step * (velocity + 0.5 * step * acceleration),
+            velocity: velocity + step * acceleration,
+            acceleration,
+        };
+        Self { time: self.time + step, motion }
+    }
 }

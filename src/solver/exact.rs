@@ -66,6 +66,12 @@ impl ClosedForm {
         piece
     }
 
+    /// The same piece, its end known.
+    pub(super) fn ending_at(mut self, end: Kinematics) -> Self {
+        self.end = Some(end);
+        self
+    }
+
     /// The same piece, its end found with the remembered propagator.
     pub(super) fn remembered(mut self, branch: usize, memo: &mut Memo) -> Self {
         let duration = rounded(self.horizon);
@@ -136,6 +142,10 @@ impl Piece for ClosedForm {
     fn at(&self, time: f64) -> Kinematics {
         match self.end {
             Some(end) if time == self.horizon => end,
+            _ if time == self.horizon => self
+                .oscillator
+                .series_at(self.start, self.forcing_rate, time)
+                .unwrap_or_else(|| self.oscillator.propagate(self.start, self.forcing_rate, time)),
             _ => match self.series() {
                 Some(series) => series.at(time),
                 None => self.oscillator.propagate(self.start, self.forcing_rate, time),
@@ -144,22 +154,7 @@ impl Piece for ClosedForm {
     }
 
     fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64) {
-        let Oscillator { damping: c, stiffness: k, .. } = self.oscillator;
-        let acceleration = from.acceleration.abs();
-        // ü obeys the free equation, starting from ü and the jerk p₁ − c ü − k u̇
-        let jerk = (self.forcing_rate - c * from.acceleration - k * from.velocity).abs();
-        if k > 0.0 {
-            // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
-            let root = k.sqrt();
-            let most = acceleration + jerk / root;
-            (most, most * root)
-        } else {
-            // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
-            let rate = (-k).sqrt();
-            let growth = (rate * length).cosh();
-            let most = (acceleration + jerk * length) * growth;
-            (most, jerk * growth + rate * rate * length * most)
-        }
+        self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {

@@ -9,6 +9,7 @@ mod exact;
 mod newmark;
 mod oscillator;
 mod polynomial;
+pub mod record;
 mod run;
 
 use crate::variables::Solver;
@@ -271,4 +272,8 @@ impl Motion {
         state.phase = if leaves_up || leaves_down { Phase::Moving } else { Phase::Resting };
         state.branch = self.wall.branch_of(0.0, if leaves_down { -1.0 } else { 1.0 });
     }
+}
+
+fn is_constant(damping: BranchDamping) -> bool {
+    matches!(damping, BranchDamping::Constant(_))
 }

@@ -48,10 +48,10 @@ pub(super) enum Regime {
 }
 
 /// 1/n! for n = 1, 2, …: for |k| t² + c t ≤ 1 no γₙ exceeds 1, and 1/20! = 4e-19 is the first term left out.
-const INVERSE_FACTORIALS: [f64; 22] = {
-    let mut inverse = [1.0; 22];
+const INVERSE_FACTORIALS: [f64; HIGHEST_ORDER] = {
+    let mut inverse = [1.0; HIGHEST_ORDER];
     let mut n = 1;
-    while n < 22 {
+    while n < HIGHEST_ORDER {
         inverse[n] = inverse[n - 1] / (n as f64 + 1.0);
         n += 1;
     }
@@ -60,6 +60,17 @@ const INVERSE_FACTORIALS: [f64; 22] = {
 
 /// Difference of the exponents from which the two modes are followed on their own.
 pub(super) const SEPARATE: f64 = 0.5;
+
+/// 1/n for n = 0 (unused), 1, 2, …
+const RECIPROCALS: [f64; HIGHEST_ORDER + 1] = {
+    let mut reciprocals = [0.0; HIGHEST_ORDER + 1];
+    let mut n = 1;
+    while n <= HIGHEST_ORDER {
+        reciprocals[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    reciprocals
+};
 
 /// c t + |k| t² up to which series serve.
 const SHORT: f64 = 1.0;
@@ -160,7 +171,7 @@ impl Oscillator {
 
     /// The Taylor series of the motion from `start`, for times up to `time`; `None` where it converges too slowly.
     ///
-    /// uₙ₊₂ (n+1)(n+2) = p₁ₙ − c (n+1) uₙ₊₁ − k uₙ
+    /// From ü and the jerk on each derivative follows from the two before, u⁽ⁿ⁺²⁾ = −c u⁽ⁿ⁺¹⁾ − k u⁽ⁿ⁾.
     pub(super) fn series_from(&self, start: Kinematics, forcing_rate: f64, time: f64) -> Option<Polynomial> {
         let (c, k) = (self.damping, self.stiffness);
         let reach = k.abs() * time * time + c * time;
@@ -168,24 +179,53 @@ impl Oscillator {
             return None;
         }
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
+        let (mut before, mut derivative) =
+            (start.acceleration, forcing_rate - c * start.acceleration - k * start.velocity);
         coefficients[0] = start.displacement;
         coefficients[1] = start.velocity;
-        coefficients[2] = 0.5 * start.acceleration;
-        coefficients[3] = (forcing_rate - c * start.acceleration - k * start.velocity) / 6.0;
+        coefficients[2] = 0.5 * before;
+        coefficients[3] = derivative / 6.0;
         // terms of ü fall at least like those of e^x with x = c t + √|k| t, from the larger of ü and the jerk on
-        let ratio = c * time + (k.abs()).sqrt() * time;
-        let (mut order, mut size) = (3, ratio.max(f64::MIN_POSITIVE));
-        while order < HIGHEST_ORDER {
-            let n = (order + 1) as f64;
-            coefficients[order + 1] =
-                -(c * order as f64 * coefficients[order] + k * coefficients[order - 1]) / (n * order as f64);
+        let ratio = c * time + k.abs().sqrt() * time;
+        let (mut order, mut size) = (3, ratio);
+        while order < HIGHEST_ORDER && size >= NEGLIGIBLE {
+            (before, derivative) = (derivative, -(c * derivative + k * before));
+            size *= ratio * RECIPROCALS[order - 1];
             order += 1;
-            size *= ratio / (n - 2.0);
+            coefficients[order] = derivative * INVERSE_FACTORIALS[order - 1];
+        }
+        Some(Polynomial { coefficients, order })
+    }
+
+    /// [`Self::series_from`] summed at `time` at once.
+    pub(super) fn series_at(&self, start: Kinematics, forcing_rate: f64, time: f64) -> Option<Kinematics> {
+        let (c, k) = (self.damping, self.stiffness);
+        if k.abs() * time * time + c * time > SHORT {
+            return None;
+        }
+        let (mut before, mut derivative) =
+            (start.acceleration, forcing_rate - c * start.acceleration - k * start.velocity);
+        let (mut du, mut dv, mut da) = (0.5 * before, before, 0.0);
+        let ratio = c * time + k.abs().sqrt() * time;
+        let (mut power, mut size) = (time, ratio);
+        for n in 1..HIGHEST_ORDER - 1 {
+            let [first, second, third] = [n - 1, n, n + 1].map(|order| INVERSE_FACTORIALS[order]);
+            let term = derivative * power;
+            da += term * first;
+            dv += term * second;
+            du += term * third;
             if size < NEGLIGIBLE {
                 break;
             }
+            (before, derivative) = (derivative, -(c * derivative + k * before));
+            power *= time;
+            size *= ratio * RECIPROCALS[n + 1];
         }
-        Some(Polynomial { coefficients, order })
+        Some(Kinematics {
+            displacement: start.displacement + time * (start.velocity + time * du),
+            velocity: start.velocity + time * dv,
+            acceleration: start.acceleration + da,
+        })
     }
 
     /// The motion `time` after `start` under a forcing that changes at the rate `forcing_rate`.
@@ -207,6 +247,28 @@ impl Oscillator {
                 }
             }
             _ => propagated(&self.propagator(time), start, forcing_rate),
+        }
+    }
+
+    /// Bounds on |ü| and on the jerk for `length` seconds after an instant under a forcing that changes at `forcing_rate`.
+    #[inline]
+    pub(super) fn bounds(&self, from: Kinematics, forcing_rate: f64, length: f64) -> (f64, f64) {
+        let (c, k) = (self.damping, self.stiffness);
+        let acceleration = from.acceleration.abs();
+        // ü obeys the free equation, starting from ü and the jerk p₁ − c ü − k u̇
+        let jerk = (forcing_rate - c * from.acceleration - k * from.velocity).abs();
+        if k > 0.0 {
+            // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
+            let root = k.sqrt();
+            let most = acceleration + jerk / root;
+            (most, most * root)
+        } else {
+            // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
+            let (rate, x) = ((-k).sqrt(), -k * length * length);
+            // cosh x − 1 ≤ 0.5431 x² for x ≤ 1
+            let growth = if x <= 1.0 { 1.0 + 0.5431 * x } else { x.sqrt().cosh() };
+            let most = (acceleration + jerk * length) * growth;
+            (most, jerk * growth + rate * rate * length * most)
         }
     }
 

@@ -3,8 +3,7 @@
 use super::adaptive::Series;
 use super::event::{self, Ending, Exit, Kinematics, Piece};
 use super::exact::{ClosedForm, Memo, Quiet};
-use super::{Method, Motion, Phase, Report, SolverError, State, newmark};
-use crate::wall::BranchDamping;
+use super::{Method, Motion, Phase, Report, SolverError, State, is_constant, newmark};
 
 /// Impacts in one segment, after which a wall that could rest is put to rest.
 const MOST_IMPACTS: u64 = 1_000_000;
@@ -21,13 +20,9 @@ pub(super) struct Run<'a> {
     rate: f64,
     integral: bool,
     memo: &'a mut Memo,
+    /// The end of the first piece, where it is known.
+    first_end: Option<Kinematics>,
     report: Report,
-}
-
-/// A piece of motion of one of the methods.
-enum AnyPiece {
-    Closed(ClosedForm),
-    Series(Series),
 }
 
 impl<'a> Run<'a> {
@@ -50,8 +45,15 @@ impl<'a> Run<'a> {
             rate,
             integral,
             memo,
+            first_end: None,
             report: Report::default(),
         }
+    }
+
+    /// The same, the motion at the end of the segment being known if nothing happens before.
+    pub(super) fn ending_at(mut self, end: Option<Kinematics>) -> Self {
+        self.first_end = end;
+        self
     }
 
     /// Moves to the end of the segment.
@@ -66,10 +68,7 @@ impl<'a> Run<'a> {
                 Phase::Resting => self.rest(),
                 Phase::Moving => {
                     self.report.work.pieces += 1;
-                    match self.piece() {
-                        AnyPiece::Closed(piece) => self.follow(&piece)?,
-                        AnyPiece::Series(piece) => self.follow(&piece)?,
-                    }
+                    self.move_on()?;
                 }
             }
         }
@@ -105,12 +104,11 @@ impl<'a> Run<'a> {
         self.state.branch = self.motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
     }
 
-    /// The next piece of motion, from the current state.
-    fn piece(&mut self) -> AnyPiece {
+    /// Makes the next piece of motion from the current state, and follows it.
+    fn move_on(&mut self) -> Result<(), SolverError> {
         let motion = self.motion;
-        let wall = &motion.wall;
         let State { displacement, velocity, branch: index, .. } = self.state;
-        let branch = &wall.branches()[index];
+        let branch = &motion.wall.branches()[index];
         let forcing = self.forcing_now();
         let start = Kinematics {
             displacement,
@@ -119,22 +117,18 @@ impl<'a> Run<'a> {
         };
         let remaining = self.duration - self.time;
         match motion.method {
-            Method::Exact => AnyPiece::Closed(self.closed_form(index, start, remaining)),
-            Method::Adaptive { .. } if branch.stiffness > 0.0 && is_constant(branch.damping) => {
-                AnyPiece::Closed(self.closed_form(index, start, remaining))
+            Method::Adaptive { .. } if branch.stiffness <= 0.0 || !is_constant(branch.damping) => {
+                self.follow(&Series::new(branch, start, [forcing, self.rate], remaining, motion.tolerances))
             }
-            Method::Adaptive { .. } => AnyPiece::Series(Series::new(
-                branch,
-                start,
-                [forcing, self.rate],
-                remaining,
-                motion.tolerances,
-            )),
+            Method::Exact | Method::Adaptive { .. } => {
+                let piece = self.closed_form(index, start, remaining);
+                self.follow(&piece)
+            }
             Method::Newmark { step } => {
                 // equal steps, none longer than asked for
                 let steps = (remaining / step - 1e-9).ceil().max(1.0);
                 let step = remaining / steps;
-                AnyPiece::Series(newmark::step(branch, start, self.rate * step, step))
+                self.follow(&newmark::step(branch, start, self.rate * step, step))
             }
         }
     }
@@ -145,6 +139,9 @@ impl<'a> Run<'a> {
         let piece = ClosedForm::new(self.motion.oscillators[index], start, self.rate, remaining, &quiet);
         // only whole segments come again
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
+        if let (true, Some(end)) = (whole, self.first_end) {
+            return piece.ending_at(end);
+        }
         if whole && !self.motion.oscillators[index].is_spread(self.duration) {
             piece.remembered(index, self.memo)
         } else {
@@ -280,8 +277,4 @@ impl<'a> Run<'a> {
             velocity: self.state.velocity,
         }
     }
-}
-
-fn is_constant(damping: BranchDamping) -> bool {
-    matches!(damping, BranchDamping::Constant(_))
 }

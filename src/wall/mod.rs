@@ -24,7 +24,7 @@ pub use parameters::Parameters;
 pub use supports::{Ends, Support};
 
 use damping::Damping;
-use force_law::{RestoringForce, Side};
+use force_law::RestoringForce;
 
 use crate::variables::{DampingModel, DampingSource, Impact, Mechanism};
 

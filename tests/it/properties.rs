@@ -121,10 +121,10 @@ pub(crate) fn configuration() -> ProptestConfig {
 /// Relative change of the motion that shows how much the wall amplifies.
 const PROBE: f64 = 1e-8;
 
-/// What rounding may make of a history: 4000 roundings (forty segments in six parts, some sixteen quantities each), amplified
-/// as the wall amplifies a change of its motion, on top of the adaptive solver's 1e-13 amplified likewise. Beyond an amplification of 1e5 (the limit of the reference cases too) no
-/// comparison means anything.
-fn allowed(run: &Run, motion: &[f64]) -> Option<f64> {
+/// What rounding may make of a history in so many parts a segment: sixteen roundings for each piece of motion, amplified as the
+/// wall amplifies a change of its motion, on top of the adaptive solver's 1e-13 amplified likewise. Beyond an
+/// amplification of 1e5 (the limit of the reference cases too) no comparison means anything.
+fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     let history = run.history(0.0, 1);
     // one change alone may cancel out: all samples alike, and every other one
     let changes: [fn(usize) -> f64; 2] = [|_| PROBE, |index| if index % 2 == 0 { PROBE } else { -PROBE }];
@@ -133,7 +133,9 @@ fn allowed(run: &Run, motion: &[f64]) -> Option<f64> {
         apart(&history, &Run::new(run.parameters.clone(), &probed).history(0.0, 1), run.scale(), 1.0)
     };
     let amplification = 1.0 + changes.iter().map(difference).sum::<f64>() / PROBE;
-    (amplification < 1e5).then_some(amplification * (4000.0 * f64::EPSILON + 1e-13))
+    let pieces =
+        history.last().map_or(0, |progress| progress.work.pieces) + motion.len() as u64 * u64::from(parts);
+    (amplification < 1e5).then_some(amplification * (16.0 * f64::EPSILON * pieces as f64 + 1e-13))
 }
 
 proptest! {
@@ -162,7 +164,7 @@ proptest! {
     #[test]
     fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
         let run = Run::new(parameters, &motion);
-        let allowed = allowed(&run, &motion);
+        let allowed = allowed(&run, &motion, parts);
         prop_assume!(allowed.is_some());
         let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
         prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
@@ -174,7 +176,7 @@ proptest! {
         let wall = Wall::new(&parameters).expect("a valid wall");
         prop_assume!(wall.has_constant_damping());
         let exact = Run::new(Parameters { solver: Solver::Exact, ..parameters.clone() }, &motion);
-        let allowed = allowed(&exact, &motion);
+        let allowed = allowed(&exact, &motion, 1);
         prop_assume!(allowed.is_some());
         let adaptive = Run::new(Parameters { solver: Solver::Adaptive, ..parameters }, &motion);
         let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);

@@ -68,7 +68,7 @@ fn workspace_copy() -> PathBuf {
         copy(&root().join(part), &folder.join(part));
     }
     // the manifest names these; empty ones will do
-    for file in ["tests/it/main.rs", "tests/allocation.rs", "benches/step.rs"] {
+    for file in ["tests/it/main.rs", "tests/allocation.rs", "benches/step.rs", "benches/record.rs"] {
         std::fs::create_dir_all(folder.join(file).parent().unwrap()).unwrap();
         std::fs::write(folder.join(file), "").unwrap();
     }

@@ -1,0 +1,108 @@
+//! What a sample of a record costs: `cargo bench --bench record [-- RECORD.AT2]`. Walls 2, 5 and 6 of Table 5 of the paper under the
+//! first 30 s of the record (the embedded motion without one), beside the bare recurrence of a linear oscillator timed in the
+//! same run.
+
+#![allow(clippy::print_stdout, reason = "a benchmark prints")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use rocking_wall::ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
+use rocking_wall::solver::record::{RecordSolver, Scaled};
+use rocking_wall::solver::{Method, Motion};
+use rocking_wall::variables::DampingModel;
+use rocking_wall::wall::{Parameters, Support, Wall};
+
+const RUNS: usize = 200;
+const LANES: usize = 8;
+
+fn main() {
+    let record = match std::env::args().skip(1).find(|argument| !argument.starts_with("--")) {
+        Some(path) => {
+            rocking_wall::ground_motion::read(path, &ReadOptions::default()).expect("a record").motion
+        }
+        None => SyntheticMotion::default().motion().expect("the default motion"),
+    };
+    let record = record.trimmed(0.0, record.duration().min(30.0)).expect("30 s");
+    let samples = record.samples().len() - 1;
+    let bare = least(samples, || oscillator(black_box(record.samples())));
+    println!("{:<44}{bare:>8.2} ns a sample", "bare linear oscillator");
+    for (number, height, thickness, a1) in
+        [(6, 6.0, 0.6, 0.018), (5, 3.0, 0.6, 0.0024), (2, 1.5, 0.3, 0.0012)]
+    {
+        for model in [
+            DampingModel::ConstantCoefficient,
+            DampingModel::ConstantRatio,
+            DampingModel::StiffnessProportional,
+        ] {
+            for scale in [0.8, 1.2, 1.3] {
+                wall(&record, bare, number, [height, thickness, a1], model, scale);
+            }
+        }
+    }
+}
+
+fn wall(
+    record: &GroundMotion,
+    bare: f64,
+    number: u32,
+    [height, thickness, a1]: [f64; 3],
+    model: DampingModel,
+    scale: f64,
+) {
+    let parameters =
+        Parameters { height, thickness, a1, damping_model: model, u_start: 0.0, ..Parameters::default() };
+    let wall = Wall::new(&parameters).expect("a valid wall");
+    let participation = wall.body().forcing(Support::rigid(1.0));
+    let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
+    let motion = Motion::new(wall, method);
+    let (samples, largest) = (record.samples(), record.peak());
+    let count = samples.len() - 1;
+    let solver = RecordSolver::new(&motion, record.step());
+    let start = motion.start(0.0, 0.0, Support::default());
+    let run = |factor: f64| {
+        let forcing = Scaled::new(black_box(samples), [factor * participation], largest);
+        solver.run([start], &forcing, false, |_, _, _| {}).expect("a bounded motion")[0]
+    };
+    let passage = run(scale);
+    let one = least(count, || run(scale).state.displacement);
+    let spread: [f64; LANES] = std::array::from_fn(|i| scale * (0.65 + 0.05 * i as f64) * participation);
+    let many = least(count * LANES, || {
+        let forcing = Scaled::new(black_box(samples), spread, largest);
+        let passages = solver.run([start; LANES], &forcing, false, |_, _, _| {}).expect("a bounded motion");
+        passages[0].state.displacement
+    });
+    println!(
+        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {LANES} at once {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
+        model.name(),
+        one / bare,
+        passage.work.corners,
+        passage.state.peaks.largest() / motion.wall().displacement_scale(),
+        if passage.overturning.is_some() { ", overturned" } else { "" },
+    );
+}
+
+/// uₙ₊₁ = A uₙ + b₀ aₙ + b₁ aₙ₊₁, the piecewise-exact recurrence.
+fn oscillator(record: &[f64]) -> f64 {
+    let (mut u, mut v) = (1e-4_f64, 0.0_f64);
+    for ends in record.windows(2) {
+        let (from, to) = (ends[0], ends[1]);
+        (u, v) = (
+            0.9986 * u + 0.004_99 * v - 1.2e-5 * from - 4e-6 * to,
+            -0.55 * u + 0.9986 * v - 2.5e-3 * (from + to),
+        );
+    }
+    u + v
+}
+
+/// Nanoseconds per unit, the least of several runs after a warm-up.
+fn least(units: usize, mut run: impl FnMut() -> f64) -> f64 {
+    black_box(run());
+    let mut least = f64::INFINITY;
+    for _ in 0..RUNS {
+        let start = Instant::now();
+        black_box(run());
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e9 / units as f64
+}

@@ -1,0 +1,413 @@
+//! Motion over a record: many steps of one length, for several runs of one wall side by side.
+//!
+//! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made once for each
+//! branch. A *plain* step applies the map and checks that u stayed so far from the corners and from the extremes seen
+//! before that nothing can have happened in between. Everything else goes through [`Motion::advance`]'s own search.
+//!
+//! The distance that suffices: let |p| ≤ P over the record, |f| ≤ f̂ between the corners, and |u̇| ≤ V at both ends of a
+//! step h. With A = max|ü| in the step, |u̇| ≤ V + A h/2 and u leaves its chord, and hence the branch, by no more than
+//! A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8, and the margin A h²/8 follows.
+
+use super::event::{Kinematics, Verdict, settle};
+use super::oscillator::Oscillator;
+use super::run::Run;
+use super::{Memo, Method, Motion, Phase, Report, SolverError, State, Work, is_constant};
+
+/// Forcing p of `N` runs at the samples of a record \[m/s²\].
+pub trait Forcing<const N: usize> {
+    /// Number of samples.
+    fn count(&self) -> usize;
+    /// The forcing of each run at a sample.
+    fn at(&self, index: usize) -> [f64; N];
+    /// Largest |p| of each run.
+    fn largest(&self) -> [f64; N];
+}
+
+/// One record, scaled differently for each run.
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<'a, const N: usize> {
+    samples: &'a [f64],
+    factors: [f64; N],
+    largest: f64,
+}
+
+impl<'a, const N: usize> Scaled<'a, N> {
+    /// `samples` \[m/s²\] times each of `factors`; `largest` is the largest |sample|.
+    #[must_use]
+    pub fn new(samples: &'a [f64], factors: [f64; N], largest: f64) -> Self {
+        Self { samples, factors, largest }
+    }
+}
+
+impl<const N: usize> Forcing<N> for Scaled<'_, N> {
+    fn count(&self) -> usize {
+        self.samples.len()
+    }
+
+    fn at(&self, index: usize) -> [f64; N] {
+        let sample = self.samples[index];
+        self.factors.map(|factor| factor * sample)
+    }
+
+    fn largest(&self) -> [f64; N] {
+        self.factors.map(|factor| factor.abs() * self.largest)
+    }
+}
+
+/// What became of one run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// The state at the end of the record, or where the run stopped.
+    pub state: State,
+    /// Time of overturning from the start of the record \[s\].
+    pub overturning: Option<f64>,
+    /// Work done.
+    pub work: Work,
+    /// The bound on impacts was reached and the wall put to rest.
+    pub stilled: bool,
+}
+
+/// A motion prepared for steps of one length.
+#[derive(Clone, Debug)]
+pub struct RecordSolver<'a> {
+    motion: &'a Motion,
+    step: f64,
+    /// For each branch, unless its steps are no affine maps.
+    maps: Vec<Option<StepMap>>,
+}
+
+/// A step on one branch:
+/// Δu = `u[0]` u + `u[1]` u̇ + `u[2]` p₀ + `u[3]` p₁ + `u[4]`, and Δu̇ likewise.
+#[derive(Clone, Copy, Debug)]
+struct StepMap {
+    u: [f64; 5],
+    v: [f64; 5],
+    /// Corners of the branch.
+    corners: [f64; 2],
+    /// f̂ \[m/s²\].
+    force: f64,
+    damping: f64,
+    /// A = `growth` (P + c V + f̂); infinite where the step is too long for the argument.
+    growth: f64,
+    oscillator: Oscillator,
+    /// Force at u = 0 of the branch's line \[m/s²\].
+    force_at_zero: f64,
+}
+
+impl StepMap {
+    fn new(branch: &crate::wall::Branch, oscillator: Oscillator, step: f64) -> Self {
+        let (c, k) = (oscillator.damping, oscillator.stiffness);
+        let green = oscillator.green(step);
+        let (g, h, j) = (green.g, green.h, green.j / step);
+        let force_at_zero = branch.restoring(0.0);
+        let slack = 1.0 - 0.5 * c * step - 0.125 * k.abs() * step * step;
+        Self {
+            u: [-k * h, g, h - j, j, -h * force_at_zero],
+            v: [-k * g, -(k * h + c * g), g - h / step, h / step, -g * force_at_zero],
+            corners: [branch.lower, branch.upper],
+            force: branch.restoring(branch.lower).abs().max(branch.restoring(branch.upper).abs()),
+            damping: c,
+            growth: if slack > 0.0 { 1.0 / slack } else { f64::INFINITY },
+            oscillator,
+            force_at_zero,
+        }
+    }
+}
+
+impl<'a> RecordSolver<'a> {
+    /// Prepares steps of `step` \[s\].
+    #[must_use]
+    pub fn new(motion: &'a Motion, step: f64) -> Self {
+        let maps = motion.wall.branches().iter().zip(&motion.oscillators).map(|(branch, &oscillator)| {
+            let affine = match motion.method {
+                Method::Exact => true,
+                Method::Adaptive { .. } => branch.stiffness > 0.0 && is_constant(branch.damping),
+                Method::Newmark { .. } => false,
+            };
+            (affine && !oscillator.is_spread(step)).then(|| StepMap::new(branch, oscillator, step))
+        });
+        Self { motion, step, maps: maps.collect() }
+    }
+
+    /// Moves `N` walls from their states through a record; `until_overturning` stops each when it overturns. `observe` is
+    /// shown u and u̇ of all runs at each sample after the first.
+    ///
+    /// # Errors
+    /// [`SolverError`] of the first run that could not be followed.
+    pub fn run<const N: usize, F: Forcing<N>>(
+        &self,
+        states: [State; N],
+        forcing: &F,
+        until_overturning: bool,
+        mut observe: impl FnMut(usize, &[f64; N], &[f64; N]),
+    ) -> Result<[Passage; N], SolverError> {
+        let mut lanes = Lanes::new(self, states, forcing.largest(), until_overturning);
+        if forcing.count() == 0 {
+            return Ok(lanes.passages(0));
+        }
+        let mut index = 0;
+        while index + 1 < forcing.count() && lanes.running > 0 {
+            if lanes.all_inside {
+                index = lanes.plain_steps(index, forcing, &mut observe);
+            }
+            if index + 1 < forcing.count() {
+                lanes.step(index, forcing)?;
+                index += 1;
+                observe(index, &lanes.u, &lanes.v);
+            }
+        }
+        Ok(lanes.passages(forcing.count() as u64 - 1))
+    }
+}
+
+/// Runs side by side.
+struct Lanes<'a, const N: usize> {
+    solver: &'a RecordSolver<'a>,
+    u: [f64; N],
+    v: [f64; N],
+    /// Coefficients of the step of each lane's branch.
+    to_u: [[f64; N]; 5],
+    to_v: [[f64; N]; 5],
+    /// Range of u and of |u̇| within which a step is plain.
+    low: [f64; N],
+    high: [f64; N],
+    fastest: [f64; N],
+    /// Whether the present state is within that range.
+    inside: [bool; N],
+    all_inside: bool,
+    rest: [Lane; N],
+    running: usize,
+    until_overturning: bool,
+}
+
+/// What a plain step does not touch.
+#[derive(Clone, Copy)]
+struct Lane {
+    state: State,
+    largest_forcing: f64,
+    overturning: Option<f64>,
+    /// Work of the steps that were not plain, and their number.
+    work: Work,
+    searched: u64,
+    stilled: bool,
+    stopped: bool,
+    memo: Memo,
+}
+
+impl<'a, const N: usize> Lanes<'a, N> {
+    fn new(
+        solver: &'a RecordSolver<'a>,
+        states: [State; N],
+        largest: [f64; N],
+        until_overturning: bool,
+    ) -> Self {
+        let lane = |index: usize| Lane {
+            state: states[index],
+            largest_forcing: largest[index],
+            overturning: states[index].overturned.then_some(0.0),
+            work: Work::default(),
+            searched: 0,
+            stilled: false,
+            stopped: false,
+            memo: Memo::default(),
+        };
+        let mut lanes = Self {
+            solver,
+            u: [0.0; N],
+            v: [0.0; N],
+            to_u: [[0.0; N]; 5],
+            to_v: [[0.0; N]; 5],
+            low: [0.0; N],
+            high: [0.0; N],
+            fastest: [0.0; N],
+            inside: [false; N],
+            all_inside: false,
+            rest: std::array::from_fn(lane),
+            running: N,
+            until_overturning,
+        };
+        for index in 0..N {
+            lanes.load(index);
+        }
+        lanes.all_inside = lanes.inside.iter().all(|&inside| inside);
+        lanes
+    }
+
+    /// The plain step of each lane: its end, and whether it is plain as far as the end tells.
+    #[allow(clippy::needless_bitwise_bool, reason = "no branches, so that lanes go side by side")]
+    #[inline]
+    fn mapped(
+        &self,
+        [u0, v0]: [&[f64; N]; 2],
+        [from, to]: [&[f64; N]; 2],
+    ) -> ([f64; N], [f64; N], [bool; N]) {
+        let (mut u, mut v, mut plain) = ([0.0; N], [0.0; N], [false; N]);
+        for i in 0..N {
+            // the products with the state last: they are what the next step waits for
+            let given = |c: &[[f64; N]; 5]| c[2][i] * from[i] + c[3][i] * to[i] + c[4][i];
+            let own = |c: &[[f64; N]; 5]| c[0][i] * u0[i] + c[1][i] * v0[i];
+            u[i] = (u0[i] + given(&self.to_u)) + own(&self.to_u);
+            v[i] = (v0[i] + given(&self.to_v)) + own(&self.to_v);
+            plain[i] = (u[i] >= self.low[i]) & (u[i] <= self.high[i]) & (v[i].abs() <= self.fastest[i]);
+        }
+        (u, v, plain)
+    }
+
+    /// Steps from `index` on as long as they are plain in all lanes; returns the sample reached.
+    #[inline]
+    fn plain_steps<F: Forcing<N>>(
+        &mut self,
+        start: usize,
+        forcing: &F,
+        observe: &mut impl FnMut(usize, &[f64; N], &[f64; N]),
+    ) -> usize {
+        let (mut u, mut v, mut from) = (self.u, self.v, forcing.at(start));
+        let mut reached = forcing.count() - 1;
+        for index in start + 1..forcing.count() {
+            let to = forcing.at(index);
+            let (next_u, next_v, plain) = self.mapped([&u, &v], [&from, &to]);
+            if !plain.iter().fold(true, |all, &one| all & one) {
+                reached = index - 1;
+                break;
+            }
+            (u, v, from) = (next_u, next_v, to);
+            observe(index, &u, &v);
+        }
+        (self.u, self.v) = (u, v);
+        reached
+    }
+
+    /// One step of all lanes, plain or not.
+    fn step<F: Forcing<N>>(&mut self, index: usize, forcing: &F) -> Result<(), SolverError> {
+        let (from, to) = (forcing.at(index), forcing.at(index + 1));
+        let (u, v, plain) = self.mapped([&self.u, &self.v], [&from, &to]);
+        for i in 0..N {
+            if plain[i] & self.inside[i] {
+                (self.u[i], self.v[i]) = (u[i], v[i]);
+            } else {
+                self.careful(i, index, [from[i], to[i]], [u[i], v[i]])?;
+            }
+        }
+        self.all_inside = self.inside.iter().all(|&inside| inside);
+        Ok(())
+    }
+
+    /// A step that may reach a corner or a new extreme.
+    fn careful(
+        &mut self,
+        i: usize,
+        index: usize,
+        forcing: [f64; 2],
+        end: [f64; 2],
+    ) -> Result<(), SolverError> {
+        let lane = &mut self.rest[i];
+        if lane.stopped {
+            return Ok(());
+        }
+        let mut known_end = None;
+        let map = if lane.state.phase == Phase::Moving { self.solver.maps[lane.state.branch] } else { None };
+        if let Some(map) = map {
+            let kinematics = |[displacement, velocity]: [f64; 2], forcing: f64| Kinematics {
+                displacement,
+                velocity,
+                acceleration: forcing
+                    - map.damping * velocity
+                    - (map.force_at_zero + map.oscillator.stiffness * displacement),
+            };
+            let (from, to) = (kinematics([self.u[i], self.v[i]], forcing[0]), kinematics(end, forcing[1]));
+            let rate = (forcing[1] - forcing[0]) / self.solver.step;
+            let bounds = map.oscillator.bounds(from, rate, self.solver.step);
+            let verdict = settle([from, to], self.solver.step, bounds, map.corners, &lane.state.peaks);
+            let within = end[0] > map.corners[0] && end[0] < map.corners[1];
+            if matches!(verdict, Verdict::Quiet | Verdict::Monotone) && within {
+                lane.state.peaks.include(end[0]);
+                [self.u[i], self.v[i]] = end;
+                self.bound(i);
+                return Ok(());
+            }
+            known_end = Some(to);
+        }
+        self.search(i, index, forcing, known_end)
+    }
+
+    /// A step through the search for events.
+    #[cold]
+    fn search(
+        &mut self,
+        i: usize,
+        index: usize,
+        forcing: [f64; 2],
+        known_end: Option<Kinematics>,
+    ) -> Result<(), SolverError> {
+        let (motion, step) = (self.solver.motion, self.solver.step);
+        let lane = &mut self.rest[i];
+        (lane.state.displacement, lane.state.velocity) = (self.u[i], self.v[i]);
+        let run = Run::new(motion, lane.state, step, forcing, false, &mut lane.memo);
+        let (state, report) = run.ending_at(known_end).finish()?;
+        let Report { overturning, work, stilled, .. } = report;
+        lane.state = state;
+        lane.work.add(work);
+        lane.searched += 1;
+        lane.stilled |= stilled;
+        if let (Some(offset), None) = (overturning, lane.overturning) {
+            lane.overturning = Some(index as f64 * step + offset);
+            if self.until_overturning {
+                lane.stopped = true;
+                self.running -= 1;
+            }
+        }
+        self.load(i);
+        Ok(())
+    }
+
+    /// Takes up the state and the branch of a lane.
+    fn load(&mut self, i: usize) {
+        let Lane { state, stopped, .. } = self.rest[i];
+        (self.u[i], self.v[i]) = (state.displacement, state.velocity);
+        let still = stopped || state.phase == Phase::Landed;
+        let map = if still || state.phase != Phase::Moving { None } else { self.solver.maps[state.branch] };
+        for term in 0..5 {
+            self.to_u[term][i] = map.map_or(0.0, |map| map.u[term]);
+            self.to_v[term][i] = map.map_or(0.0, |map| map.v[term]);
+        }
+        if still {
+            (self.low[i], self.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
+            (self.fastest[i], self.inside[i]) = (f64::INFINITY, true);
+        } else {
+            self.bound(i);
+        }
+    }
+
+    /// The range of plain steps on the present branch with the present extremes.
+    fn bound(&mut self, i: usize) {
+        let Lane { state, largest_forcing, .. } = self.rest[i];
+        let Some(map) = self.solver.maps[state.branch].filter(|_| state.phase == Phase::Moving) else {
+            (self.low[i], self.high[i], self.inside[i]) = (f64::INFINITY, f64::NEG_INFINITY, false);
+            return;
+        };
+        let fastest = 2.0 * (largest_forcing + map.force) / map.damping;
+        let braking = if map.damping > 0.0 { map.damping * fastest } else { 0.0 };
+        let margin = 0.125
+            * self.solver.step
+            * self.solver.step
+            * map.growth
+            * (largest_forcing + map.force + braking);
+        self.low[i] = map.corners[0].max(-state.peaks.negative) + margin;
+        self.high[i] = map.corners[1].min(state.peaks.positive) - margin;
+        self.fastest[i] = fastest;
+        let (u, v) = (self.u[i], self.v[i]);
+        self.inside[i] = u >= self.low[i] && u <= self.high[i] && v.abs() <= fastest;
+    }
+
+    fn passages(&self, steps: u64) -> [Passage; N] {
+        std::array::from_fn(|i| {
+            let Lane { mut state, overturning, mut work, searched, stilled, stopped, .. } = self.rest[i];
+            if !stopped {
+                (state.displacement, state.velocity) = (self.u[i], self.v[i]);
+                // a plain step is one piece of motion
+                work.pieces += steps - searched;
+            }
+            Passage { state, overturning, work, stilled }
+        })
+    }
+}
