@@ -218,6 +218,12 @@ impl Motion {
     /// The state at the start, under the supports' motion at that instant.
     #[must_use]
     pub fn start(&self, displacement: f64, velocity: f64, support: Support) -> State {
+        self.start_under(displacement, velocity, self.wall.body().forcing(support))
+    }
+
+    /// The state at the start, under a forcing p \[m/s²\].
+    #[must_use]
+    pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
         let overturned = displacement.abs() > wall.body().instability.of(displacement);
         let departed = displacement.abs() > wall.body().departure.of(displacement);
@@ -230,7 +236,6 @@ impl Motion {
             departed,
             peaks: Peaks::at(displacement),
         };
-        let forcing = wall.body().forcing(support);
         if wall.is_rigid() && displacement == 0.0 && velocity == 0.0 {
             self.settle(&mut state, forcing, 0.0);
         } else {

@@ -98,8 +98,8 @@ impl Oscillator {
         match self.regime {
             // a little more than a period; without stiffness and damping there is no limit
             Regime::Oscillating(omega) => 7.0 / omega,
-            // a softening branch grows by e²⁰ at most
-            Regime::Exponential(slow, _) if slow > 0.0 => 20.0 / slow,
+            // a softening branch grows by e³⁶ at most, 1/ε: no displacement lies closer to its equilibrium
+            Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow,
             Regime::Exponential(..) => f64::INFINITY,
         }
     }

@@ -54,6 +54,27 @@ impl<const N: usize> Forcing<N> for Scaled<'_, N> {
     }
 }
 
+/// No motion at all.
+#[derive(Clone, Copy, Debug)]
+pub struct Still(
+    /// Number of samples.
+    pub usize,
+);
+
+impl<const N: usize> Forcing<N> for Still {
+    fn count(&self) -> usize {
+        self.0
+    }
+
+    fn at(&self, _index: usize) -> [f64; N] {
+        [0.0; N]
+    }
+
+    fn largest(&self) -> [f64; N] {
+        [0.0; N]
+    }
+}
+
 /// What became of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
@@ -190,7 +211,8 @@ struct Lane {
     work: Work,
     searched: u64,
     stilled: bool,
-    stopped: bool,
+    /// The sample at which the run stopped.
+    stopped: Option<usize>,
     memo: Memo,
 }
 
@@ -208,7 +230,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             work: Work::default(),
             searched: 0,
             stilled: false,
-            stopped: false,
+            stopped: None,
             memo: Memo::default(),
         };
         let mut lanes = Self {
@@ -301,7 +323,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
         end: [f64; 2],
     ) -> Result<(), SolverError> {
         let lane = &mut self.rest[i];
-        if lane.stopped {
+        if lane.stopped.is_some() {
             return Ok(());
         }
         let mut known_end = None;
@@ -352,7 +374,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
         if let (Some(offset), None) = (overturning, lane.overturning) {
             lane.overturning = Some(index as f64 * step + offset);
             if self.until_overturning {
-                lane.stopped = true;
+                lane.stopped = Some(index + 1);
                 self.running -= 1;
             }
         }
@@ -364,7 +386,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
     fn load(&mut self, i: usize) {
         let Lane { state, stopped, .. } = self.rest[i];
         (self.u[i], self.v[i]) = (state.displacement, state.velocity);
-        let still = stopped || state.phase == Phase::Landed;
+        let still = stopped.is_some() || state.phase == Phase::Landed;
         let map = if still || state.phase != Phase::Moving { None } else { self.solver.maps[state.branch] };
         for term in 0..5 {
             self.to_u[term][i] = map.map_or(0.0, |map| map.u[term]);
@@ -402,11 +424,11 @@ impl<'a, const N: usize> Lanes<'a, N> {
     fn passages(&self, steps: u64) -> [Passage; N] {
         std::array::from_fn(|i| {
             let Lane { mut state, overturning, mut work, searched, stilled, stopped, .. } = self.rest[i];
-            if !stopped {
+            if stopped.is_none() {
                 (state.displacement, state.velocity) = (self.u[i], self.v[i]);
-                // a plain step is one piece of motion
-                work.pieces += steps - searched;
             }
+            // a plain step is one piece of motion
+            work.pieces += stopped.map_or(steps, |index| index as u64) - searched;
             Passage { state, overturning, work, stilled }
         })
     }

@@ -261,6 +261,19 @@ impl Wall {
         (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
     }
 
+    /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip twice the physical one, as Eq. (12) is.
+    #[must_use]
+    pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
+        let (low, high) = (displacement.min(0.0), displacement.max(0.0));
+        // trapezoids are exact on straight lines
+        let part = |branch: &Branch| {
+            let (from, to) = (branch.lower.max(low), branch.upper.min(high));
+            if from < to { 0.5 * (branch.restoring(from) + branch.restoring(to)) * (to - from) } else { 0.0 }
+        };
+        let potential: f64 = self.branches.iter().map(part).sum();
+        0.5 * velocity * velocity + if displacement < 0.0 { -potential } else { potential }
+    }
+
     /// The larger `u_ins`, to which errors and tolerances refer \[m\].
     #[must_use]
     pub fn displacement_scale(&self) -> f64 {

@@ -7,6 +7,7 @@ mod cases;
 mod closed_forms;
 mod command_line;
 mod description;
+mod extremes;
 mod ground_motion;
 mod notices;
 mod properties;

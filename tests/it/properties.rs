@@ -200,7 +200,7 @@ proptest! {
         let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
         let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
         let still = Support::default();
-        let scale = energy(&wall, wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
+        let scale = wall.energy(wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
         let (mut before, mut pieces) = (f64::INFINITY, 0);
         for _ in 0..200 {
             simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
@@ -208,26 +208,11 @@ proptest! {
             if state.overturned {
                 break;
             }
-            let now = energy(&wall, state.displacement, state.velocity);
+            let now = wall.energy(state.displacement, state.velocity);
             // each piece of motion, and the potential's parts, round some dozen quantities of this size
             let rounding = 32.0 * f64::EPSILON * (1 + work.pieces - pieces) as f64 * scale;
             prop_assert!(now <= before + rounding, "grew by {:e}", (now - before) / rounding);
             (before, pieces) = (now, work.pieces);
         }
     }
-}
-
-/// Energy per unit effective mass.
-fn energy(wall: &Wall, displacement: f64, velocity: f64) -> f64 {
-    let potential: f64 = wall
-        .branches()
-        .iter()
-        .map(|branch| {
-            // ∫F du over the part of the branch between 0 and u: trapezoids are exact on straight lines
-            let (low, high) = (displacement.min(0.0), displacement.max(0.0));
-            let (from, to) = (branch.lower.max(low), branch.upper.min(high));
-            if from < to { 0.5 * (branch.restoring(from) + branch.restoring(to)) * (to - from) } else { 0.0 }
-        })
-        .sum();
-    0.5 * velocity * velocity + if displacement < 0.0 { -potential } else { potential }
 }

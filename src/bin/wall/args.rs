@@ -28,6 +28,11 @@ pub(crate) enum Command {
     /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
     #[command(allow_negative_numbers = true)]
     Motion(MotionArguments),
+    /// Measure the error of each solver against its run time
+    #[command(allow_negative_numbers = true)]
+    Accuracy(AccuracyArguments),
+    /// Map the stability of each solver, and run the extremes
+    Stability(StabilityArguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Print a completion script for a shell
@@ -133,6 +138,36 @@ pub(crate) struct MotionArguments {
     /// The CSV file to write, with the columns time (s) and `a_g` (m/s2)
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct AccuracyArguments {
+    /// Scene files (TOML); without any a set from mild to very stiff
+    pub(crate) scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) record: RecordArguments,
+    /// Write the measurements as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with work-precision plots
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+    /// Time to spend on timing each setting in s
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.05)]
+    pub(crate) budget: f64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StabilityArguments {
+    /// Values of a1 from 1e-6 to 0.1
+    #[arg(long, value_name = "COUNT", default_value_t = 11, value_parser = clap::value_parser!(u32).range(2..=101))]
+    pub(crate) columns: u32,
+    /// Write the cells as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with heat maps
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
 }
 
 impl SceneArguments {

@@ -87,7 +87,7 @@ impl Figure {
             layout = layout.with_reference_line(reference);
         }
         let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
-        Self { svg: fluid(&svg, height), height, x_range, y_range }
+        Self { svg: fluid(&svg, WIDTH, height), height, x_range, y_range }
     }
 
     /// Where the plot area lies, as parts of the width and height: left, right, top, bottom.
@@ -158,9 +158,14 @@ fn clipped(line: &[(f64, f64)], [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
 }
 
 /// An SVG that takes the width of its place: instead of a size it has a view box.
-fn fluid(svg: &str, height: f64) -> String {
-    let sized = format!("width=\"{WIDTH}\" height=\"{height}\"");
-    let view = format!("viewBox=\"0 0 {WIDTH} {height}\"");
+pub(crate) fn fluid(svg: &str, width: f64, height: f64) -> String {
+    let sized = format!("width=\"{width}\" height=\"{height}\"");
+    let view = format!("viewBox=\"0 0 {width} {height}\"");
     assert!(svg.contains(&sized), "kuva writes the size as {sized}");
     svg.replacen(&sized, &view, 1)
+}
+
+/// Text for markup.
+pub(crate) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,14 +1,18 @@
 //! `wall`: the command line of rocking-wall.
 
+mod accuracy;
 mod args;
 mod describe;
 mod figure;
+mod heat_map;
 mod motion;
 mod output;
 mod package;
 mod page;
 mod schema;
 mod simulate;
+mod stability;
+mod work_precision;
 
 use std::process::ExitCode;
 
@@ -24,6 +28,8 @@ fn main() -> ExitCode {
         Command::Package(arguments) => package::run(&arguments),
         Command::Describe(arguments) => describe::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
+        Command::Accuracy(arguments) => accuracy::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

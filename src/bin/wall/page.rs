@@ -8,7 +8,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
-use crate::figure::{Color, Figure};
+use crate::figure::{Color, Figure, escaped};
 
 const TEMPLATE: &str = include_str!("page.html");
 /// Frames the slider moves through.
@@ -86,10 +86,6 @@ fn rounded(frames: &[&Sample], pick: fn(&Sample) -> f64) -> Vec<f64> {
 
 fn hinge(wall: &Wall) -> Option<f64> {
     (wall.body().mechanism == Mechanism::VerticalSpanning).then_some(wall.body().hinge_height)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The wall at rest, to scale, y upwards; the script turns its bodies.
