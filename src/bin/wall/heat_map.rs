@@ -126,7 +126,11 @@ fn words(cell: &Cell) -> String {
 
 /// Short numbers for axes.
 fn number(value: f64) -> String {
-    if value != 0.0 && value < 0.01 { format!("{value:.0e}") } else { format!("{value}") }
+    match value {
+        0.01..0.1 => format!("{value:.2}"),
+        _ if value > 0.0 && value < 0.01 => format!("{value:.0e}"),
+        _ => format!("{value}"),
+    }
 }
 
 /// From dark blue (small) over pale to dark red (large), as exponents go.
