@@ -235,8 +235,11 @@ impl Runner<'_> {
             }
         })?;
         if let Some(time) = passage.overturning {
-            let standing = (time / self.problem.step) as usize;
-            displacements[(standing + 1).min(self.problem.forcing.len())..].fill(f64::NAN);
+            for (index, displacement) in displacements.iter_mut().enumerate() {
+                if index as f64 * self.problem.step > time {
+                    *displacement = f64::NAN;
+                }
+            }
         }
         Ok(History { displacements, passage })
     }

@@ -303,7 +303,7 @@ fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
 }
 
 /// Where, as a fraction of an interval, the quintic through the motion at both ends passes `bound`.
-fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64) -> f64 {
+pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64) -> f64 {
     let (v0, v1) = (from.velocity * length, to.velocity * length);
     let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
     let start = from.displacement - bound;

@@ -250,6 +250,12 @@ impl Oscillator {
         }
     }
 
+    /// d ü/dt = p₁ − c ü − k u̇
+    #[inline]
+    pub(super) fn jerk(&self, at: Kinematics, forcing_rate: f64) -> f64 {
+        forcing_rate - self.damping * at.acceleration - self.stiffness * at.velocity
+    }
+
     /// Bounds on |ü| and on the jerk for `length` seconds after an instant under a forcing that changes at `forcing_rate`.
     #[inline]
     pub(super) fn bounds(&self, from: Kinematics, forcing_rate: f64, length: f64) -> (f64, f64) {

@@ -8,7 +8,7 @@
 //! step h. With A = max|ü| in the step, |u̇| ≤ V + A h/2 and u leaves its chord, and hence the branch, by no more than
 //! A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8, and the margin A h²/8 follows.
 
-use super::event::{Kinematics, Verdict, settle};
+use super::event::{Kinematics, Verdict, crossing, settle};
 use super::oscillator::Oscillator;
 use super::run::Run;
 use super::{Memo, Method, Motion, Phase, Report, SolverError, State, Work, is_constant};
@@ -201,6 +201,9 @@ struct Lanes<'a, const N: usize> {
     until_overturning: bool,
 }
 
+/// Largest correction of a corner's first guess, over the step: beyond, the general search takes over.
+const SMALL_SHIFT: f64 = 1e-4;
+
 /// What a plain step does not touch.
 #[derive(Clone, Copy)]
 struct Lane {
@@ -347,9 +350,63 @@ impl<'a, const N: usize> Lanes<'a, N> {
                 self.bound(i);
                 return Ok(());
             }
+            if matches!(verdict, Verdict::Monotone) && self.cross(i, [from, to], rate) {
+                return Ok(());
+            }
             known_end = Some(to);
         }
         self.search(i, index, forcing, known_end)
+    }
+
+    /// A step on which u, monotone, leaves the branch through a corner where nothing but the stiffness changes, and stays on
+    /// the next one: the ordinary case of a corner, without the general search. Tells whether it was that.
+    fn cross(&mut self, i: usize, [from, to]: [Kinematics; 2], rate: f64) -> bool {
+        let (motion, step) = (self.solver.motion, self.solver.step);
+        let branch = self.rest[i].state.branch;
+        let upwards = to.displacement > from.displacement;
+        let corner = motion.wall.corners()[branch + usize::from(upwards)];
+        let next = if upwards { branch + 1 } else { branch.wrapping_sub(1) };
+        let Some(Some(map)) = self.solver.maps.get(next) else { return false };
+        if corner.is_marked() || from.displacement == corner.displacement {
+            return false;
+        }
+        let oscillator = motion.oscillators[branch];
+        let guess = step * crossing([from, to], step, corner.displacement);
+        let Some(near) = oscillator.series_at(from, rate, guess) else { return false };
+        let Kinematics { velocity, acceleration, .. } = near;
+        let jerk = oscillator.jerk(near, rate);
+        // u(δ) = corner, from the value on by the derivatives there; δ is some 1e-6 of the step, and δ⁴ nothing
+        let first = (corner.displacement - near.displacement) / velocity;
+        let shift = first * (1.0 - 0.5 * acceleration * first / velocity);
+        let time = guess + shift;
+        if shift.abs() > SMALL_SHIFT * step || !(0.0..step).contains(&time) {
+            return false;
+        }
+        let velocity = velocity + shift * (acceleration + 0.5 * shift * jerk);
+        let acceleration = acceleration + shift * jerk;
+        let start = Kinematics { displacement: corner.displacement, velocity, acceleration };
+        let remaining = step - time;
+        let Some(end) = map.oscillator.series_at(start, rate, remaining) else { return false };
+        let bounds = map.oscillator.bounds(start, rate, remaining);
+        let lane = &mut self.rest[i];
+        let within = end.displacement > map.corners[0] && end.displacement < map.corners[1];
+        if !within
+            || !matches!(
+                settle([start, end], remaining, bounds, map.corners, &lane.state.peaks),
+                Verdict::Quiet | Verdict::Monotone
+            )
+        {
+            return false;
+        }
+        lane.searched += 1;
+        lane.work.add(Work { pieces: 2, corners: 1, impacts: 0 });
+        let state = &mut lane.state;
+        state.branch = next;
+        (state.displacement, state.velocity) = (end.displacement, end.velocity);
+        state.peaks.include(corner.displacement);
+        state.peaks.include(end.displacement);
+        self.load(i);
+        true
     }
 
     /// A step through the search for events.

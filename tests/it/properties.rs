@@ -11,7 +11,7 @@ use rocking_wall::variables::{
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 /// A random valid wall at rest.
-fn walls() -> impl Strategy<Value = Parameters> {
+pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
     let shape = (0.5_f64..10.0, 0.03_f64..0.2, 0.2_f64..0.8, 0.0_f64..2.0, -0.2_f64..0.2);
     let law = (0..3_i32, 0.005_f64..0.1, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
     let damping = (0..5_i32, 0.0_f64..0.1, any::<bool>(), 0.7_f64..0.99, any::<[bool; 2]>());
@@ -57,7 +57,7 @@ fn walls() -> impl Strategy<Value = Parameters> {
 }
 
 /// Accelerations of a random broken line, in units of the wall's own strength.
-fn motions() -> impl Strategy<Value = Vec<f64>> {
+pub(crate) fn motions() -> impl Strategy<Value = Vec<f64>> {
     proptest::collection::vec(-1.8_f64..1.8, 8..40)
 }
 

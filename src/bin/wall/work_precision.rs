@@ -37,9 +37,9 @@ pub(crate) fn page(studies: &[Study]) -> String {
             None => format!("u<sub>max</sub>/u<sub>ins</sub> = {:.3}", study.peak),
         };
         let reference = if study.exact { "exact" } else { "adaptive at 10<sup>−13</sup>" };
-        let _ = write!(
+        let _ = writeln!(
             figures,
-            "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>\n",
+            "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
             figure::escaped(&study.name),
             plot(study)
         );

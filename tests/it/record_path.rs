@@ -1,0 +1,121 @@
+//! The path over records against the path over segments, which the FMU takes.
+
+use proptest::prelude::*;
+use rocking_wall::simulation::{Progress, Simulation};
+use rocking_wall::solver::record::{Forcing, Passage, RecordSolver, Scaled};
+use rocking_wall::solver::{Method, Motion, Segment};
+use rocking_wall::variables::{DampingModel, ForceLaw};
+use rocking_wall::wall::{Parameters, Support, Wall};
+
+use crate::properties::{configuration, motions, walls};
+
+/// Histories of u and what became of each run, for factors 1, 0.9, 0.8 … on one motion of forcing.
+fn together<const N: usize>(
+    parameters: &Parameters,
+    forcing: &[f64],
+    step: f64,
+) -> (Vec<[f64; N]>, [Passage; N]) {
+    let wall = Wall::new(parameters).unwrap();
+    let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
+    let motion = Motion::new(wall, method);
+    let largest = forcing.iter().fold(0.0, |largest: f64, p| largest.max(p.abs()));
+    let scaled = Scaled::<N>::new(forcing, std::array::from_fn(|i| 1.0 - 0.1 * i as f64), largest);
+    let starts = scaled.at(0).map(|first| motion.start_under(0.0, 0.0, first));
+    let mut history = vec![[0.0; N]];
+    let solver = RecordSolver::new(&motion, step);
+    let passages = solver.run(starts, &scaled, false, |_, u, _| history.push(*u)).unwrap();
+    (history, passages)
+}
+
+proptest! {
+    #![proptest_config(configuration())]
+
+    /// A run gives the same bits alone and beside others.
+    #[test]
+    fn lanes_do_not_disturb_each_other(parameters in walls(), motion in motions()) {
+        let wall = Wall::new(&parameters).unwrap();
+        let onset = wall.body().strength.positive / wall.body().effective_mass;
+        let forcing: Vec<f64> = motion.iter().map(|p| p * onset).collect();
+        let step = 0.3 / wall.rocking_rate();
+        let (alone, [one]) = together::<1>(&parameters, &forcing, step);
+        let (beside, many) = together::<8>(&parameters, &forcing, step);
+        prop_assert!(alone.iter().zip(&beside).all(|(a, b)| a[0].to_bits() == b[0].to_bits()));
+        prop_assert_eq!(one, many[0]);
+    }
+
+    /// Steps over a record and segments one by one agree to rounding: in u, in the extremes, in what happened.
+    #[test]
+    fn records_and_segments_agree(parameters in walls(), motion in motions(), refinement in 1_u32..40) {
+        let wall = Wall::new(&parameters).unwrap();
+        let body = wall.body();
+        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        // fine steps are plain ones, coarse ones are searched
+        let mut accelerations = Vec::new();
+        for ends in motion.windows(2) {
+            let at = |part: u32| ends[0] + (ends[1] - ends[0]) * f64::from(part) / f64::from(refinement);
+            accelerations.extend((0..refinement).map(|part| onset * at(part)));
+        }
+        let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
+        let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
+        let (history, [passage]) = together::<1>(&parameters, &forcing, step);
+        let reference = segments(&parameters, &accelerations, step);
+        let probe = 1e-8;
+        let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
+        let changed = segments(&parameters, &changed, step);
+        let scale = wall.displacement_scale();
+        let standing = reference.iter().zip(&changed).take_while(|(a, b)| !a.state.overturned && !b.state.overturned).count();
+        let apart = |other: &dyn Fn(usize) -> f64| {
+            (0..standing).map(|i| (reference[i].state.displacement - other(i)).abs() / scale).fold(0.0, f64::max)
+        };
+        let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
+        prop_assume!(amplification < 1e5);
+        // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13 likewise
+        let end = reference[standing - 1];
+        let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
+        let difference = apart(&|i| history[i][0]);
+        prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
+        if standing == reference.len() {
+            let peaks = passage.state.peaks.largest() - end.state.peaks.largest();
+            prop_assert!(peaks.abs() / scale <= allowed, "peaks differ by {peaks:e} m");
+            prop_assert_eq!(passage.overturning, None);
+        }
+    }
+}
+
+fn segments(parameters: &Parameters, accelerations: &[f64], step: f64) -> Vec<Progress> {
+    let mut simulation = Simulation::new(parameters, None, 0.0, Support::rigid(accelerations[0])).unwrap();
+    let mut history = vec![*simulation.progress()];
+    for ends in accelerations.windows(2) {
+        let (from, to) = (Support::rigid(ends[0]), Support::rigid(ends[1]));
+        simulation.advance(&Segment { duration: step, from, to }).unwrap();
+        history.push(*simulation.progress());
+    }
+    history
+}
+
+/// Corners, overturning and work of a run that goes through all of them.
+#[test]
+fn a_run_counts_what_happened() {
+    let parameters = Parameters {
+        force_law: ForceLaw::Trilinear,
+        a1: 0.05,
+        a3: 0.95,
+        d1: 0.6,
+        damping_model: DampingModel::ConstantCoefficient,
+        u_start: 0.0,
+        ..Parameters::default()
+    };
+    let wall = Wall::new(&parameters).unwrap();
+    let onset = wall.body().strength.positive / wall.body().effective_mass;
+    let forcing: Vec<f64> =
+        (0..2000_u32).map(|i| onset * (f64::from(i) / 1500.0) * libm::sin(0.02 * f64::from(i))).collect();
+    let (_, [passage]) = together::<1>(&parameters, &forcing, 0.01);
+    let accelerations: Vec<f64> =
+        forcing.iter().map(|p| p / wall.body().forcing(Support::rigid(1.0))).collect();
+    let reference = segments(&parameters, &accelerations, 0.01);
+    let end = reference.last().unwrap();
+    assert!(passage.state.overturned && end.state.overturned);
+    assert_eq!((passage.work.corners, passage.work.impacts), (end.work.corners, end.work.impacts));
+    let (ours, theirs) = (passage.overturning.unwrap(), end.overturn_time.unwrap());
+    assert!((ours - theirs).abs() < 1e-10, "{ours} {theirs}");
+}
