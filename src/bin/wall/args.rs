@@ -55,7 +55,7 @@ pub(crate) struct SceneArguments {
 /// A record file and how to read it.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
-    /// Accelerogram that replaces the scene's motion: PEER AT2 or CSV
+    /// Accelerogram that replaces the scene's motion, in any format `wall record` reads
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g; an AT2 file states its own
@@ -67,7 +67,10 @@ pub(crate) struct RecordArguments {
     /// Column of a CSV table
     #[arg(long, requires = "record")]
     pub(crate) column: Option<String>,
-    /// Format of the record (at2, csv), if its content does not tell
+    /// Channel of a record with several, by its number; `wall record` lists them
+    #[arg(long, requires = "record")]
+    pub(crate) channel: Option<String>,
+    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
     #[arg(long, requires = "record")]
     pub(crate) format: Option<String>,
     /// Shake with the project's synthetic motion
@@ -217,6 +220,7 @@ impl RecordArguments {
             unit: self.unit.as_deref().map(str::parse::<Unit>).transpose()?,
             step: self.record_step,
             column: self.column.clone(),
+            channel: self.channel.clone(),
             format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
         };
         let record = read(path, &options)?;
