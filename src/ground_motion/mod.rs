@@ -10,6 +10,7 @@
 //! where a file is read and nowhere else.
 
 mod at2;
+mod check;
 mod cosmos;
 mod csmip;
 mod csv;
@@ -27,6 +28,7 @@ mod unit;
 
 use std::sync::Arc;
 
+pub use check::{Check, Finding};
 pub use error::GroundMotionError;
 pub use format::Format;
 pub use pulse::{Pulse, Shape};
