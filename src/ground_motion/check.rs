@@ -87,7 +87,11 @@ impl fmt::Display for Finding {
                 Ok(())
             }
             Self::MissingStart { part } => {
-                write!(f, "start: the first sample has {:.0} % of the peak; is the onset missing?", 100.0 * part)
+                write!(
+                    f,
+                    "start: the first sample has {:.0} % of the peak; is the onset missing?",
+                    100.0 * part
+                )
             }
             Self::MissingTail { part } => {
                 write!(f, "tail: the last second has {:.0} % of the peak; is the end missing?", 100.0 * part)
@@ -122,7 +126,8 @@ impl Record {
         }
         if !is_credible(peak) {
             let raw = peak / self.unit.to_si(1.0);
-            let others = Unit::ALL.into_iter().filter(|unit| *unit != self.unit && is_credible(unit.to_si(raw)));
+            let others =
+                Unit::ALL.into_iter().filter(|unit| *unit != self.unit && is_credible(unit.to_si(raw)));
             let peak = peak / STANDARD_GRAVITY;
             findings.push(Finding::Unit { peak, unit: self.unit, others: others.collect() });
         }

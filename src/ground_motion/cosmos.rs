@@ -17,7 +17,7 @@
 use std::iter::Peekable;
 
 use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, Layout, Line, after, find, leading_number, leading_real};
+use super::fields::{CUT_SHORT, DAMAGED, Layout, Line, after, find, leading_number, leading_real};
 use super::record::{Parsed, ReadOptions, check_stated_step, notes, untrimmed_lines};
 use super::{Unit, index_as_f64};
 
@@ -49,7 +49,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     let mut channels: Vec<Parsed> = Vec::new();
     let mut channel = Channel::default();
     let mut last = (1, "an empty file");
-    let mut other = None;
+    let (mut other, mut open) = (None, false);
     while let Some((number, line)) = rest.next() {
         last = (number, line);
         if line.starts_with('|') {
@@ -57,6 +57,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
         } else if find(line, "REAL-HEADER VALUES FOLLOW").is_some() {
             channel.read_reals((number, line), &mut rest)?;
         } else if find(line, " PTS,").is_some() && find(line, "FORMAT=").is_some() {
+            open = true;
             match channel.read_data((number, line), &mut rest, options)? {
                 Some(mut parsed) => {
                     parsed.channel = Some(channel.label(channels.len()));
@@ -66,6 +67,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
             }
         } else if find(line, "END-OF-DATA") == Some(0) {
             channel = Channel::default();
+            open = false;
         } else {
             channel.take(line.trim());
         }
@@ -80,6 +82,10 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
         let expected =
             "acceleration data, `42000 acceleration pts, approx 210 secs, units=cm/sec2(04),Format=(1E15.6)`";
         return Err(Fault::new(number, expected, found, "use the whole acceleration file of this record"));
+    }
+    if open {
+        let expected = "the closing line `End-of-data` of the last channel";
+        return Err(Fault::new(last.0, expected, "the end of the file", CUT_SHORT));
     }
     Ok(channels)
 }

@@ -20,7 +20,7 @@ use std::iter::Peekable;
 
 use super::Unit;
 use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, Layout, Line, after, find, leading_number, leading_real, real};
+use super::fields::{CUT_SHORT, DAMAGED, Layout, Line, after, find, leading_number, leading_real, real};
 use super::record::{Parsed, ReadOptions, check_stated_step, notes, untrimmed_lines};
 use super::unit::unit_word;
 
@@ -48,9 +48,11 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     let mut channels = Vec::new();
     let mut preamble = Preamble::default();
     let mut last = (1, "an empty file");
+    let mut open = false;
     while let Some((number, line)) = rest.next() {
         last = (number, line);
         if is_heading(line) {
+            open = true;
             let block = Block::read((number, line), &mut rest, options)?;
             if let Some(mut parsed) = block {
                 let label = preamble.label(channels.len());
@@ -61,6 +63,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
             }
         } else if line.starts_with("/&") {
             preamble = Preamble::default();
+            open = false;
         } else {
             preamble.take(line.trim());
         }
@@ -69,6 +72,10 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
         let (line, text) = last;
         let found = if line == 1 { excerpt(text.trim()) } else { "none up to the end".to_owned() };
         return Err(Fault::new(line, HEADING, found, "use the corrected data (volume 2) of this record"));
+    }
+    if open {
+        let expected = "the closing line `/& End of data for channel` of the last channel";
+        return Err(Fault::new(last.0, expected, "the end of the file", CUT_SHORT));
     }
     Ok(channels)
 }

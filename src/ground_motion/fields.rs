@@ -47,8 +47,7 @@ pub(super) fn check_count(
         return Ok(());
     }
     let expected = format!("{stated} samples, as {stated_by} says");
-    let remedy = "the file is cut short or damaged: fetch it again";
-    Err(Fault::new(last_line, expected, format!("{found} up to the end"), remedy))
+    Err(Fault::new(last_line, expected, format!("{found} up to the end"), CUT_SHORT))
 }
 
 /// A Fortran format of numbers, `(8F10.6)`: so many a line, each so wide; neighbours may touch.
@@ -148,3 +147,6 @@ impl Layout {
 
 /// The remedy for a file whose numbers are not where they should be.
 pub(super) const DAMAGED: &str = "correct the file or fetch it again";
+
+/// The remedy for a file that ends too early.
+pub(super) const CUT_SHORT: &str = "the file is cut short or damaged: fetch it again";

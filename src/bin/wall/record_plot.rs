@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Result, anyhow, bail};
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
+use kuva::plot::{LegendPosition, LinePlot};
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
@@ -36,25 +36,28 @@ pub(crate) fn draw(path: &Path, records: &[(String, &GroundMotion)], spectrum: S
     }
     let spectra: Vec<Vec<(f64, f64)>> =
         records.iter().map(|(_, motion)| points(motion, spectrum)).collect::<Result<_>>()?;
+    let longest = records.iter().map(|(_, motion)| motion.duration()).fold(0.0, f64::max);
     let mut panels = Vec::new();
     let mut layouts = Vec::new();
     if records.len() <= COLORS.len() {
         for ((name, motion), color) in records.iter().zip(COLORS) {
             let panel = vec![Plot::Line(history(motion).with_color(color).with_stroke_width(0.9))];
-            layouts.push(layout(&panel, ["time (s)", "a (g)"]).with_title(name.as_str()).with_title_size(14));
+            let layout = layout(&panel, ["time (s)", "a (g)"], longest);
+            layouts.push(layout.with_title(name.as_str()).with_title_size(14));
             panels.push(panel);
         }
     }
     let panel = spectrum_lines(records, spectra);
-    layouts.push(layout(&panel, ["period T (s)", "Sa (g)"]));
+    let layout = layout(&panel, ["period T (s)", "Sa (g)"], LONGEST);
+    layouts.push(layout.with_legend_position(LegendPosition::InsideTopRight));
     panels.push(panel);
     let rows = panels.len();
-    let mut figure = Figure::new(rows, 1)
+    let figure = Figure::new(rows, 1)
         .with_plots(panels)
         .with_layouts(layouts)
         .with_cell_size(WIDTH, HISTORY)
-        .with_row_height(rows - 1, SPECTRA);
-    figure = figure.with_spacing(4.0);
+        .with_row_height(rows - 1, SPECTRA)
+        .with_spacing(4.0);
     let scene = figure.render();
     match ending.as_str() {
         "svg" => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
@@ -113,11 +116,12 @@ fn median(spectra: &[Vec<(f64, f64)>]) -> Vec<(f64, f64)> {
     first.iter().enumerate().map(|(index, &(period, _))| (period, at(index))).collect()
 }
 
-fn layout(panel: &[Plot], [x_label, y_label]: [&str; 2]) -> Layout {
+fn layout(panel: &[Plot], [x_label, y_label]: [&str; 2], end: f64) -> Layout {
     Layout::auto_from_plots(panel)
         .with_x_label(x_label)
         .with_y_label(y_label)
         .with_x_axis_min(0.0)
+        .with_x_axis_max(end)
         .with_label_size(14)
         .with_tick_size(12)
         .with_font_family("system-ui, sans-serif")
