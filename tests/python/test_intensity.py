@@ -92,8 +92,10 @@ def test_agrees_with_eqsig_at_equal_refinement(wall, sample):
     folder, step, samples = sample
     record = intensity(wall, folder, step, samples, "--at-samples")
     assert record["pga_g"] == pytest.approx(np.abs(samples).max(), rel=1e-12)
-    # Both are exact between samples. eqsig's closed forms lose digits as (ω step)⁻³ 1e-16: 1e-9 at 3 s and 5 ms.
-    assert record["sa_g"] == pytest.approx(by_eqsig(step, samples, PERIODS), rel=1e-6)
+    # Both are exact between samples; eqsig has 2π to 1e-9 and loses digits as 1e-16 (ω step)⁻³, 1e-10 at 3 s and 5 ms.
+    expected = by_eqsig(step, samples, PERIODS)
+    print(f"Sa: largest deviation from eqsig {np.abs(record['sa_g'] / expected - 1).max():.1e}")
+    assert record["sa_g"] == pytest.approx(expected, rel=1e-6)
     assert record["average_sa_g"] == pytest.approx(geometric_mean(by_eqsig(step, samples, AVERAGE)), rel=1e-6)
 
 
@@ -106,7 +108,8 @@ def test_true_maxima_are_the_limit_of_refinement(wall, sample):
     # Samples miss a maximum by up to (ω step)² / 8 of it, a few times that where the ground turns it faster.
     missed = 3 * (2 * np.pi / PERIODS[2:7] * step / parts) ** 2 / 8
     found = np.array(record["sa_g"])[2:7]
-    assert np.all(found >= sampled * (1 - 1e-9))
+    # eqsig's closed forms lose digits as 1e-16 (ω step)⁻³, 3e-8 at 1 s and 0.25 ms.
+    assert np.all(found >= sampled * (1 - 1e-7))
     assert np.all(found <= sampled * (1 + missed))
 
 

@@ -218,12 +218,7 @@ fn damage_is_named_with_its_line() {
         ),
         (csmip(&SAMPLES), "   -60.500", " *********", &["line 29", "8 of 11, as line 28", "`*********`"]),
         (smc(&SAMPLES), "         2\n", "         3\n", &["line 30", "3 comment lines"]),
-        (
-            smc(&SAMPLES),
-            "         2        11",
-            "         2      1100",
-            &["line 31", "1100 samples", "found 11"],
-        ),
+        (smc(&SAMPLES), "\n        11", "\n      1100", &["line 31", "1100 samples", "found 11"]),
     ];
     for (text, from, to, fragments) in cases {
         assert!(text.contains(from), "{from:?} is not in\n{text}");
