@@ -54,7 +54,8 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
         last = (number, line);
         if line.starts_with('|') {
             continue;
-        } else if find(line, "REAL-HEADER VALUES FOLLOW").is_some() {
+        }
+        if find(line, "REAL-HEADER VALUES FOLLOW").is_some() {
             channel.read_reals((number, line), &mut rest)?;
         } else if find(line, " PTS,").is_some() && find(line, "FORMAT=").is_some() {
             open = true;

@@ -66,16 +66,18 @@ impl Layout {
 
     fn of(format: &str) -> Option<Self> {
         const LARGEST: usize = 1000;
-        let (count, rest) =
-            format.trim().split_once(|c: char| matches!(c, 'E' | 'e' | 'F' | 'f' | 'I' | 'i'))?;
+        let (count, rest) = format.trim().split_once(['E', 'e', 'F', 'f', 'I', 'i'])?;
+        // `1P8E10.3`: a scale, which does not change how numbers with an exponent are read.
+        let count = count.rsplit(['P', 'p']).next().unwrap_or_default();
         let width = rest.split('.').next().unwrap_or_default().trim();
         let (per_line, width) = (count.trim().parse().ok()?, width.parse().ok()?);
-        let is_sound = |value: &usize| (1..=LARGEST).contains(value);
-        (is_sound(&per_line) && is_sound(&width)).then_some(Self { per_line, width })
+        // One character holds no number with a sign.
+        let is_sound = (1..=LARGEST).contains(&per_line) && (2..=LARGEST).contains(&width);
+        is_sound.then_some(Self { per_line, width })
     }
 
     /// The fields of a line without its trailing blanks, trimmed. A line that is too long ends in one long field.
-    fn fields<'a>(self, line: &'a str) -> impl Iterator<Item = &'a str> {
+    fn fields(self, line: &str) -> impl Iterator<Item = &str> {
         let line = line.trim_end();
         let fields = line.len().div_ceil(self.width).min(self.per_line);
         (0..fields).map(move |index| {

@@ -29,6 +29,9 @@ pub enum Format {
     Csv,
 }
 
+/// Whether the first lines that are not blank are those of a format.
+type Recognises = fn(&[&str]) -> bool;
+
 impl Format {
     /// Every format.
     pub const ALL: [Self; 7] =
@@ -67,7 +70,7 @@ impl Format {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by one word
         // anywhere in its header, comes last.
-        let known: [(Self, fn(&[&str]) -> bool); 6] = [
+        let known: [(Self, Recognises); 6] = [
             (Self::Esm, esm::recognises),
             (Self::Knet, knet::recognises),
             (Self::Cosmos, cosmos::recognises),

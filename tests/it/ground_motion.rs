@@ -6,7 +6,7 @@ mod record_csv;
 mod record_file;
 mod record_formats;
 mod record_real;
-mod specimen;
+pub(crate) mod specimen;
 mod spectrum;
 mod synthetic;
 

@@ -11,4 +11,5 @@ mod extremes;
 mod ground_motion;
 mod notices;
 mod properties;
+mod record_command;
 mod wiring;

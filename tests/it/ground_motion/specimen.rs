@@ -6,16 +6,16 @@ use rocking_wall::ground_motion::{Format, ReadOptions, Unit};
 
 /// Samples with three decimals and five digits, so that every format holds them to the digit, and without a mean; an odd number, so
 /// that every format has a short last line.
-pub(super) const SAMPLES: [f64; 11] =
+pub(crate) const SAMPLES: [f64; 11] =
     [0.125, -1.5, 22.75, -103.25, 87.5, -0.001, 44.25, -60.5, 12.0, -1.25, -0.124];
 
-pub(super) const STEP: f64 = 0.01;
+pub(crate) const STEP: f64 = 0.01;
 
 /// What a writer makes of samples.
-pub(super) type Writer = fn(&[f64]) -> String;
+pub(crate) type Writer = fn(&[f64]) -> String;
 
 /// Every format with a writer.
-pub(super) const ALL: [(Format, Writer); 7] = [
+pub(crate) const ALL: [(Format, Writer); 7] = [
     (Format::At2, at2),
     (Format::Esm, esm),
     (Format::Knet, knet),
@@ -26,7 +26,7 @@ pub(super) const ALL: [(Format, Writer); 7] = [
 ];
 
 /// What has to be stated to read a format.
-pub(super) fn options(format: Format) -> ReadOptions {
+pub(crate) fn options(format: Format) -> ReadOptions {
     let unit = (format == Format::Csv).then_some(Unit::CentimetrePerSecondSquared);
     ReadOptions { unit, ..ReadOptions::default() }
 }
@@ -42,7 +42,7 @@ fn peak(samples: &[f64]) -> f64 {
     samples.iter().copied().fold(0.0, |peak: f64, a| if a.abs() > peak.abs() { a } else { peak })
 }
 
-pub(super) fn at2(samples: &[f64]) -> String {
+pub(crate) fn at2(samples: &[f64]) -> String {
     format!(
         "PEER DATABASE, A TEST\nNowhere, 1/1/2001, Test hill, 90\nACCELERATION TIME SERIES IN UNITS OF CM/S2\n\
          NPTS=  {:5}, DT=   .0100 SEC,\n{}",
@@ -51,7 +51,7 @@ pub(super) fn at2(samples: &[f64]) -> String {
     )
 }
 
-pub(super) fn esm(samples: &[f64]) -> String {
+pub(crate) fn esm(samples: &[f64]) -> String {
     let mut text = String::new();
     let stated = [
         ("EVENT_NAME", "A TEST".to_owned()),
@@ -75,7 +75,7 @@ pub(super) fn esm(samples: &[f64]) -> String {
 }
 
 /// Counts of 0.001 cm/s² about an offset of −12 000.
-pub(super) fn knet(samples: &[f64]) -> String {
+pub(crate) fn knet(samples: &[f64]) -> String {
     let labels = [
         ("Origin Time", "2001/01/01 00:00:00".to_owned()),
         ("Lat.", "1.0".to_owned()),
@@ -95,11 +95,11 @@ pub(super) fn knet(samples: &[f64]) -> String {
         ("Last Correction", "2001/01/01 00:00:15".to_owned()),
         ("Memo.", String::new()),
     ];
-    let header: String = labels.iter().map(|(label, value)| format!("{label:<18}{value}\n")).collect();
-    header + &columns(samples, 8, |a| format!("{:8.0} ", (1000.0 * a).round() - 12_000.0))
+    let header: Vec<_> = labels.iter().map(|(label, value)| format!("{label:<18}{value}\n")).collect();
+    header.concat() + &columns(samples, 8, |a| format!("{:8.0} ", (1000.0 * a).round() - 12_000.0))
 }
 
-pub(super) fn cosmos(samples: &[f64]) -> String {
+pub(crate) fn cosmos(samples: &[f64]) -> String {
     let mut reals = [-999.0; 100];
     reals[61] = 10.0;
     reals[63] = peak(samples);
@@ -118,11 +118,11 @@ pub(super) fn cosmos(samples: &[f64]) -> String {
     )
 }
 
-pub(super) fn csmip(samples: &[f64]) -> String {
+pub(crate) fn csmip(samples: &[f64]) -> String {
     csmip_channels(&[(1, " 90 Deg", samples)])
 }
 
-pub(super) fn csmip_channels(channels: &[(u32, &str, &[f64])]) -> String {
+pub(crate) fn csmip_channels(channels: &[(u32, &str, &[f64])]) -> String {
     let mut text = String::new();
     for &(number, direction, samples) in channels {
         let count = samples.len();
@@ -150,7 +150,7 @@ pub(super) fn csmip_channels(channels: &[(u32, &str, &[f64])]) -> String {
     text
 }
 
-pub(super) fn smc(samples: &[f64]) -> String {
+pub(crate) fn smc(samples: &[f64]) -> String {
     let mut integers = [-32_768.0; 48];
     integers[15] = 2.0;
     integers[16] = samples.len() as f64;
@@ -167,7 +167,7 @@ pub(super) fn smc(samples: &[f64]) -> String {
     )
 }
 
-pub(super) fn csv(samples: &[f64]) -> String {
+pub(crate) fn csv(samples: &[f64]) -> String {
     let row = |(index, a): (usize, &f64)| format!("{:.3},{a}\n", index as f64 * STEP);
     "time,a_g\n".to_owned() + &samples.iter().enumerate().map(row).collect::<String>()
 }

@@ -136,9 +136,9 @@ fn the_check_finds_what_is_wrong_with_a_record() {
         300.0 * envelope * f64::sin(TAU * time)
     };
     let findings = |unit: Unit, samples: Vec<f64>| {
-        let text: String = samples.iter().map(|a| format!("{a}\n")).collect();
+        let lines: Vec<_> = samples.iter().map(ToString::to_string).collect();
         let options = ReadOptions { unit: Some(unit), step: Some(0.01), ..ReadOptions::default() };
-        parse("x.csv", text.into_bytes(), &options).unwrap().check()
+        parse("x.csv", lines.join("\n").into_bytes(), &options).unwrap().check()
     };
     let samples: Vec<f64> = (0..=2000).map(sound).collect();
     let gal = Unit::CentimetrePerSecondSquared;
