@@ -48,7 +48,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     let mut rest = untrimmed_lines(text).peekable();
     let mut channels: Vec<Parsed> = Vec::new();
     let mut channel = Channel::default();
-    let mut last = (1, "an empty file");
+    let mut last = (1, "");
     let (mut other, mut open) = (None, false);
     while let Some((number, line)) = rest.next() {
         last = (number, line);
@@ -75,10 +75,10 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     }
     if channels.is_empty() {
         let (number, line) = other.unwrap_or(last);
-        let found = if number == last.0 && number > 1 {
-            "none up to the end".to_owned()
-        } else {
-            excerpt(line.trim())
+        let found = match line.trim() {
+            "" => "an empty file".to_owned(),
+            line if number == 1 || other.is_some() => excerpt(line),
+            _ => "none up to the end".to_owned(),
         };
         let expected =
             "acceleration data, `42000 acceleration pts, approx 210 secs, units=cm/sec2(04),Format=(1E15.6)`";

@@ -47,7 +47,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     let mut rest = untrimmed_lines(text).peekable();
     let mut channels = Vec::new();
     let mut preamble = Preamble::default();
-    let mut last = (1, "an empty file");
+    let mut last = (1, "");
     let mut open = false;
     while let Some((number, line)) = rest.next() {
         last = (number, line);
@@ -70,7 +70,11 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Vec<Parsed>, Fa
     }
     if channels.is_empty() {
         let (line, text) = last;
-        let found = if line == 1 { excerpt(text.trim()) } else { "none up to the end".to_owned() };
+        let found = match text.trim() {
+            "" => "an empty file".to_owned(),
+            text if line == 1 => excerpt(text),
+            _ => "none up to the end".to_owned(),
+        };
         return Err(Fault::new(line, HEADING, found, "use the corrected data (volume 2) of this record"));
     }
     if open {

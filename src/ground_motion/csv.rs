@@ -18,8 +18,7 @@ use super::{Unit, index_as_f64};
 /// Largest deviation of a time from the uniform grid, in steps. Times are often written with few digits.
 const TIME_TOLERANCE: f64 = 0.01;
 
-const FORMS: &str =
-    "a header line `time,a_g` and rows of numbers, or one column of numbers (or an AT2 header with NPTS)";
+const FORMS: &str = "a header line `time,a_g` and rows of numbers, or one column of numbers (or the header of another format)";
 
 /// Reads the text of a CSV file.
 pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {

@@ -67,8 +67,12 @@ impl Layout {
     fn of(format: &str) -> Option<Self> {
         const LARGEST: usize = 1000;
         let (count, rest) = format.trim().split_once(['E', 'e', 'F', 'f', 'I', 'i'])?;
-        // `1P8E10.3`: a scale, which does not change how numbers with an exponent are read.
-        let count = count.rsplit(['P', 'p']).next().unwrap_or_default();
+        // `1P8E10.3`: the scale does not change how a number with an exponent is read, but one without.
+        let has_exponent = format.contains(['E', 'e']);
+        let count = match count.rsplit_once(['P', 'p']) {
+            Some((_, count)) if has_exponent => count,
+            _ => count,
+        };
         let width = rest.split('.').next().unwrap_or_default().trim();
         let (per_line, width) = (count.trim().parse().ok()?, width.parse().ok()?);
         // One character holds no number with a sign.

@@ -6,6 +6,8 @@
 //! seed ── synthetic ──────────┘
 //! ```
 //!
+//! [`Spectrum`] makes intensities of a motion, [`Record::check`] looks for what is wrong with a record.
+//!
 //! A [`GroundMotion`] that exists is valid: a positive step, at least two samples, all finite. Units are converted
 //! where a file is read and nowhere else.
 
