@@ -1,4 +1,5 @@
-//! A step allocates nothing: rocking through corners and impacts, at rest, overturning, with any solver.
+//! A step allocates nothing: rocking through corners and impacts, at rest, overturning, with any solver. Reading a record
+//! takes a small multiple of the file, whatever the file says.
 
 #![allow(unsafe_code, reason = "a counting allocator")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -7,6 +8,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use fmi2_export::{Environment, Log, Model, Step};
+use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable, Solver,
@@ -16,17 +18,23 @@ struct Counting;
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
+    /// Bytes held by this thread, and the most since the peak was last reset.
+    static HELD: Cell<usize> = const { Cell::new(0) };
+    static PEAK: Cell<usize> = const { Cell::new(0) };
 }
 
 // SAFETY: passes every call on to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.with(|count| count.set(count.get() + 1));
+        HELD.with(|held| held.set(held.get().wrapping_add(layout.size())));
+        PEAK.with(|peak| peak.set(peak.get().max(HELD.with(Cell::get))));
         // SAFETY: the caller's promises are passed on.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        HELD.with(|held| held.set(held.get().wrapping_sub(layout.size())));
         // SAFETY: as above.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -79,5 +87,65 @@ fn a_step_allocates_nothing() {
         let allocations = COUNT.with(Cell::get) - before;
         assert!((unit.real(RealVariable::U) - 0.18).abs() > 1e-3, "{name}: the wall has moved");
         assert_eq!(allocations, 0, "{name}: 4000 steps allocated {allocations} times");
+    }
+}
+
+/// The most bytes held while a text is read, beyond those held before; the text counts.
+fn peak_of_reading(text: &[u8], format: Format) -> usize {
+    let options = ReadOptions {
+        format: Some(format),
+        unit: Some(RecordUnit::CentimetrePerSecondSquared),
+        step: Some(0.01),
+        ..ReadOptions::default()
+    };
+    let before = HELD.with(Cell::get);
+    PEAK.with(|peak| peak.set(before));
+    let outcome = parse_channels("x", text.to_vec(), &options);
+    let peak = PEAK.with(Cell::get) - before;
+    drop(outcome);
+    peak
+}
+
+/// The densest samples take two bytes and become eight; a vector that grows holds its old and its doubled new place, and
+/// the finished motion is a copy: 4 · 3 + 1 for the text. 64 kB are for messages and headers.
+#[test]
+fn reading_takes_a_small_multiple_of_the_file() {
+    const MULTIPLE: usize = 16;
+    const SIZE: usize = 1 << 20;
+    let row = |index: usize| format!("{index},1\n");
+    let at2 = |count: usize| format!("units of cm/s2\nNPTS= {count}, DT= .01 SEC\n");
+    let knet = "Sampling Freq(Hz) 100Hz\nDuration Time(s)  9e15\nScale Factor      1(gal)/1\n";
+    let knet = knet.to_owned() + &"Memo.\n".repeat(14);
+    let csmip = "9999999999 points of accel data equally spaced at .01 sec, in cm/sec2. (100f2.0)\n";
+    let cosmos = "100 Real-header values follow on 1 lines, Format= (100F2.0)\n".to_owned()
+        + &"10".repeat(100)
+        + "\n9999999999 acceleration pts, units=cm/sec2(04),Format=(1000F2.0)\n";
+    let smc = "2 CORRECTED ACCELEROGRAM\n".to_owned()
+        + &"*\n".repeat(10)
+        + &(format!("{:10}", 2_147_483_647).repeat(8) + "\n").repeat(6)
+        + &(format!("{:15}", 100).repeat(5) + "\n").repeat(10);
+    let digits = "1".repeat(SIZE);
+    let lines: String = digits.as_bytes().chunks(100).map(|_| "1".repeat(100) + "\n").collect();
+    let esm = "SAMPLING_INTERVAL_S: 0.01\nNDATA: 9\nUNITS: cm/s^2\n".to_owned() + &"A:\n".repeat(61);
+    let texts: [(Format, String); 9] = [
+        (Format::At2, at2(SIZE / 2) + &"1 ".repeat(SIZE / 2)),
+        (Format::At2, at2(usize::MAX) + "1 1 1\n"),
+        (Format::Csv, "1\n".repeat(SIZE / 2)),
+        (Format::Csv, "time,a\n".to_owned() + &(0..SIZE / 8).map(row).collect::<String>()),
+        (Format::Knet, knet + &"1 ".repeat(SIZE / 2)),
+        (Format::Csmip, csmip.to_owned() + &lines),
+        (Format::Cosmos, cosmos + &digits),
+        (Format::Smc, smc + &"|\n".repeat(SIZE / 2)),
+        (Format::Esm, esm + &"1\n".repeat(SIZE / 2)),
+    ];
+    for (format, text) in texts {
+        let peak = peak_of_reading(text.as_bytes(), format);
+        assert!(peak <= MULTIPLE * text.len() + (1 << 16), "{format:?}: {peak} bytes for {}", text.len());
+    }
+    for format in Format::ALL {
+        for byte in [b' ', b'\n', b'1', b'*', b'|', b':', 0xff] {
+            let peak = peak_of_reading(&vec![byte; SIZE], format);
+            assert!(peak <= MULTIPLE * SIZE, "{format:?}: {peak} bytes for {SIZE} times 0x{byte:02x}");
+        }
     }
 }

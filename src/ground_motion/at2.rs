@@ -14,16 +14,18 @@
 
 use super::Unit;
 use super::error::{Fault, excerpt};
-use super::record::{Parsed, ReadOptions, lines, notes};
+use super::fields::{DAMAGED, check_count, find, leading_number, real};
+use super::record::{Parsed, ReadOptions, check_stated_step, lines, notes};
+use super::unit::{REMEDY, unit_word};
 
 /// The line with NPTS is looked for among this many lines that are not blank.
 const HEADER_LINES: usize = 50;
 
 const COUNT_AND_STEP: &str = "the number of samples and the step, `NPTS= 7999, DT= .0050 SEC`";
 
-/// Whether the text has the line that states NPTS.
-pub(super) fn recognises(text: &str) -> bool {
-    lines(text).take(HEADER_LINES).any(|(_, line)| find(line, "NPTS").is_some())
+/// Whether the first lines have the one that states NPTS.
+pub(super) fn recognises(head: &[&str]) -> bool {
+    head.iter().take(HEADER_LINES).any(|line| find(line, "NPTS").is_some())
 }
 
 /// Reads the text of an AT2 file.
@@ -46,21 +48,14 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> 
     for (number, line) in rest {
         last_line = number;
         for word in line.split_ascii_whitespace().flat_map(|word| Touching { rest: word }) {
-            samples.push(sample(word, number, unit)?);
+            let value =
+                real(word).ok_or_else(|| Fault::new(number, "a finite number", excerpt(word), DAMAGED))?;
+            samples.push(unit.checked_to_si(value, number, word)?);
         }
     }
-    if samples.len() != count {
-        let expected = format!("{count} samples, as NPTS on line {count_line} says");
-        let remedy = "the file is cut short or damaged: fetch it again";
-        return Err(Fault::new(last_line, expected, format!("{} up to the end", samples.len()), remedy));
-    }
+    check_count(samples.len(), count, &format!("NPTS on line {count_line}"), last_line)?;
     let notes = notes(header().map(|(_, line)| line));
-    Ok(Parsed { step, samples, unit, first_time: 0.0, notes, last_line })
-}
-
-/// Position of an upper-case ASCII word, in any case.
-fn find(line: &str, word: &str) -> Option<usize> {
-    line.as_bytes().windows(word.len()).position(|window| window.eq_ignore_ascii_case(word.as_bytes()))
+    Ok(Parsed::new(step, samples, unit, last_line, notes))
 }
 
 /// NPTS and DT from their line.
@@ -87,30 +82,6 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
     Ok((count, step))
 }
 
-/// The number a text starts with, after blanks, commas and an equals sign or colon, and what follows it.
-fn leading_number(text: &str) -> (&str, &str) {
-    let text = text.trim_start_matches(|c: char| c.is_ascii_whitespace() || matches!(c, '=' | ':' | ','));
-    let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'E' | 'e' | 'D' | 'd');
-    // A word such as `DT` also starts with such a letter, a number does not.
-    if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        return ("", text);
-    }
-    text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
-}
-
-/// A step stated beside the file's own must be the same.
-pub(super) fn check_stated_step(stated: Option<f64>, step: f64, line: usize) -> Result<(), Fault> {
-    // Either may be rounded in the fourth digit: 0.0029 for 1/350.
-    const TOLERANCE: f64 = 1e-3;
-    match stated {
-        Some(stated) if (stated - step).abs() > TOLERANCE * step => {
-            let expected = format!("the stated step of {stated} s");
-            Err(Fault::new(line, expected, format!("{step} s"), "state no step: the file has its own"))
-        }
-        _ => Ok(()),
-    }
-}
-
 /// The unit the header states, or the one the user states; never a guess.
 fn unit<'a>(
     header: impl Iterator<Item = (usize, &'a str)>,
@@ -129,33 +100,14 @@ fn unit<'a>(
             stated = unit_word(line).map(|word| (number, word));
         }
     }
-    let remedy = "state the unit of the record (m/s2, cm/s2, mm/s2 or g)";
     match (stated, given) {
         (None, None) => {
             let expected = "a unit in the header, `IN UNITS OF G`";
-            Err(Fault::new(count_line, expected, "none before this line", remedy))
+            Err(Fault::new(count_line, expected, "none before this line", REMEDY))
         }
         (None, Some(given)) => Ok(given),
-        (Some((number, word)), given) => match (word.parse::<Unit>(), given) {
-            (Ok(unit), Some(given)) if unit != given => {
-                let expected = format!("the stated unit {given}");
-                Err(Fault::new(number, expected, unit.name(), "state no unit: the file has its own"))
-            }
-            (Ok(unit), _) => Ok(unit),
-            (Err(_), Some(given)) => Ok(given),
-            (Err(_), None) => Err(Fault::new(number, "a unit of acceleration", excerpt(word), remedy)),
-        },
+        (Some((number, word)), given) => Unit::settled(word, number, given),
     }
-}
-
-/// The word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
-fn unit_word(line: &str) -> Option<&str> {
-    let after = find(line, "UNITS")? + "UNITS".len();
-    let is_edge = |c: char| matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
-    let words = line[after..].split_ascii_whitespace().map(|word| word.trim_matches(is_edge));
-    let is_filler =
-        |word: &str| ["of", "are", "is", "in", ""].iter().any(|filler| word.eq_ignore_ascii_case(filler));
-    words.into_iter().find(|word| !is_filler(word))
 }
 
 /// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
@@ -178,17 +130,4 @@ impl<'a> Iterator for Touching<'a> {
         self.rest = rest;
         Some(number)
     }
-}
-
-/// A number as Fortran writes it: the exponent's letter may be D.
-fn real(word: &str) -> Option<f64> {
-    word.parse().ok().or_else(|| word.replace(['D', 'd'], "E").parse().ok())
-}
-
-/// One sample in m/s².
-fn sample(word: &str, line: usize, unit: Unit) -> Result<f64, Fault> {
-    let value = real(word).map(|value| unit.to_si(value)).filter(|value| value.is_finite());
-    value.ok_or_else(|| {
-        Fault::new(line, "a finite number", excerpt(word), "correct the file or fetch it again")
-    })
 }

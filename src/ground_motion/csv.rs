@@ -11,16 +11,14 @@
 //! Or one column of samples, with the step stated beside it; a first line that names the column and lines that start
 //! with `#` are passed over. Neither form has a place for the unit, so the unit has to be stated.
 
-use super::at2::check_stated_step;
 use super::error::{Fault, excerpt};
-use super::record::{Parsed, ReadOptions, lines, notes};
+use super::record::{Parsed, ReadOptions, check_stated_step, lines, notes};
 use super::{Unit, index_as_f64};
 
 /// Largest deviation of a time from the uniform grid, in steps. Times are often written with few digits.
 const TIME_TOLERANCE: f64 = 0.01;
 
-const FORMS: &str =
-    "a header line `time,a_g` and rows of numbers, or one column of numbers (or an AT2 header with NPTS)";
+const FORMS: &str = "a header line `time,a_g` and rows of numbers, or one column of numbers (or the header of another format)";
 
 /// Reads the text of a CSV file.
 pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
@@ -74,7 +72,7 @@ fn column(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
     };
     let comments = lines(text).map_while(|(_, line)| line.strip_prefix('#')).map(str::trim);
     let notes = notes(comments.chain(name.map(|(_, name)| name)));
-    Ok(Parsed { step, samples, unit, first_time: 0.0, notes, last_line })
+    Ok(Parsed::new(step, samples, unit, last_line, notes))
 }
 
 /// A table: a header line, then rows that start with the time.
@@ -112,7 +110,9 @@ fn table(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
         return Err(Fault::new(last_line, "at least two rows", found, "check that the file is complete"));
     };
     check_stated_step(options.step, step, header_line)?;
-    Ok(Parsed { step, samples, unit, first_time, notes: notes([header].into_iter()), last_line })
+    let mut parsed = Parsed::new(step, samples, unit, last_line, notes([header].into_iter()));
+    parsed.first_time = first_time;
+    Ok(parsed)
 }
 
 /// Index of the column to read; column 0 is the time.

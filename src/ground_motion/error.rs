@@ -92,7 +92,7 @@ pub enum GroundMotionError {
         found: String,
     },
     /// A record format that is not known.
-    #[error("unknown record format `{found}`; use one of at2, csv")]
+    #[error("unknown record format `{found}`; use one of at2, esm, knet, cosmos, csmip, smc, csv")]
     Format {
         /// What was given.
         found: String,
@@ -112,6 +112,26 @@ pub enum GroundMotionError {
         file: String,
         /// What it is.
         found: &'static str,
+    },
+    /// Several channels, and none was asked for.
+    #[error("{file}: expected one channel, found {found}; state the number of the one to read")]
+    Channels {
+        /// Name of the file.
+        file: String,
+        /// The channels there are.
+        found: String,
+    },
+    /// A channel that the file does not have, or more than once.
+    #[error(
+        "{file}: expected one channel {wanted}, found {found}; state one of these, or none if there is only one"
+    )]
+    Channel {
+        /// Name of the file.
+        file: String,
+        /// The channel asked for.
+        wanted: String,
+        /// The channels there are.
+        found: String,
     },
     /// More bytes than any record has.
     #[error(

@@ -1,27 +1,41 @@
 //! Ground motions: acceleration histories that shake a wall.
 //!
 //! ```text
-//! file ── record (at2, csv) ──┐
+//! file ── record (a format) ──┐
 //! pulse, harmonic ── pulse ───┼──► GroundMotion: uniform step, m/s², linear between samples, zero outside
 //! seed ── synthetic ──────────┘
 //! ```
+//!
+//! [`Spectrum`] makes intensities of a motion, [`Record::check`] looks for what is wrong with a record.
 //!
 //! A [`GroundMotion`] that exists is valid: a positive step, at least two samples, all finite. Units are converted
 //! where a file is read and nowhere else.
 
 mod at2;
+mod check;
+mod cosmos;
+mod csmip;
 mod csv;
 mod error;
+mod esm;
+mod fields;
+mod format;
+mod knet;
 mod pulse;
 mod record;
+mod smc;
+pub mod spectrum;
 mod synthetic;
 mod unit;
 
 use std::sync::Arc;
 
+pub use check::{Check, Finding};
 pub use error::GroundMotionError;
+pub use format::Format;
 pub use pulse::{Pulse, Shape};
-pub use record::{Format, MAX_FILE_BYTES, ReadOptions, Record, parse, read};
+pub use record::{MAX_FILE_BYTES, ReadOptions, Record, parse, parse_channels, read, read_channels};
+pub use spectrum::{Peaks, Spectrum};
 pub use synthetic::SyntheticMotion;
 pub use unit::{STANDARD_GRAVITY, Unit};
 

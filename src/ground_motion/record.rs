@@ -1,15 +1,14 @@
 //! Record files: finding the format, reading within bounds.
 //!
 //! A format is one module with `parse(text, options) -> Result<Parsed, Fault>`, a variant of [`Format`] and, if its
-//! content gives it away, a line in [`Format::of`].
+//! content gives it away, `recognises(head)` with a line in [`Format::of`].
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
-use std::str::FromStr;
 
-use super::error::Fault;
-use super::{GroundMotion, GroundMotionError, Unit, at2, csv};
+use super::error::{Fault, excerpt};
+use super::{Format, GroundMotion, GroundMotionError, Unit};
 
 /// Largest file that is read: about four million samples in AT2, hours of shaking.
 pub const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -17,53 +16,6 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 /// How many lines of a header are kept as notes, and how many characters of each.
 const NOTE_LINES: usize = 4;
 const NOTE_CHARACTERS: usize = 200;
-
-/// Format of a record file.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
-pub enum Format {
-    /// PEER AT2.
-    At2,
-    /// Comma-separated values: `time,…` with a header line, or one column.
-    Csv,
-}
-
-impl Format {
-    /// Every format.
-    pub const ALL: [Self; 2] = [Self::At2, Self::Csv];
-
-    /// The format's short name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::At2 => "at2",
-            Self::Csv => "csv",
-        }
-    }
-
-    /// What the format is, in words.
-    #[must_use]
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::At2 => "PEER AT2",
-            Self::Csv => "CSV",
-        }
-    }
-
-    /// The format of a text: by its content, and where that says nothing by the ending of the file's name.
-    fn of(name: &str, text: &str) -> Self {
-        let ending = Path::new(name).extension().unwrap_or_default();
-        if at2::recognises(text) || ending.eq_ignore_ascii_case("at2") { Self::At2 } else { Self::Csv }
-    }
-}
-
-impl FromStr for Format {
-    type Err = GroundMotionError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let known = Self::ALL.into_iter().find(|format| text.trim().eq_ignore_ascii_case(format.name()));
-        known.ok_or_else(|| GroundMotionError::Format { found: text.chars().take(40).collect() })
-    }
-}
 
 /// What the user states about a record file.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -74,6 +26,8 @@ pub struct ReadOptions {
     pub step: Option<f64>,
     /// Name of the column to read, for tables with several.
     pub column: Option<String>,
+    /// Channel to read, by its number or its whole name; needed where a file has several.
+    pub channel: Option<String>,
     /// Format of the file; found from its content if none is given.
     pub format: Option<Format>,
 }
@@ -89,6 +43,10 @@ pub struct Record {
     pub unit: Unit,
     /// Time the file gives its first sample (s); the motion itself starts at zero.
     pub first_time: f64,
+    /// Number and name of the channel, in formats that have several in a file.
+    pub channel: Option<String>,
+    /// Peak acceleration the file itself states (m/s²).
+    pub stated_peak: Option<f64>,
     /// First lines of the header.
     pub notes: Vec<String>,
 }
@@ -99,23 +57,64 @@ pub(super) struct Parsed {
     pub(super) samples: Vec<f64>,
     pub(super) unit: Unit,
     pub(super) first_time: f64,
+    pub(super) channel: Option<String>,
+    pub(super) stated_peak: Option<f64>,
     pub(super) notes: Vec<String>,
     pub(super) last_line: usize,
 }
 
-/// Reads a record file.
+impl Parsed {
+    /// One channel without a name that starts at time zero.
+    pub(super) fn new(
+        step: f64,
+        samples: Vec<f64>,
+        unit: Unit,
+        last_line: usize,
+        notes: Vec<String>,
+    ) -> Self {
+        Self { step, samples, unit, first_time: 0.0, channel: None, stated_peak: None, notes, last_line }
+    }
+
+    fn into_record(self, name: &str, format: Format) -> Result<Record, GroundMotionError> {
+        let Self { step, samples, unit, first_time, channel, stated_peak, notes, last_line } = self;
+        if samples.len() < 2 {
+            let found = samples.len().to_string();
+            let fault =
+                Fault::new(last_line, "at least two samples", found, "check that the file is complete");
+            return Err(fault.in_file(name));
+        }
+        let motion = GroundMotion::new(step, samples).map_err(|error| {
+            Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file").in_file(name)
+        })?;
+        Ok(Record { motion, format, unit, first_time, channel, stated_peak, notes })
+    }
+}
+
+/// Reads a record file: its only channel, or the one that is asked for.
 ///
 /// Only regular files of at most [`MAX_FILE_BYTES`] are read; reading stops at the first byte that no text has, and
 /// memory stays within a small multiple of the file.
 ///
 /// # Errors
-/// If the file cannot be read or is not a record; the message names the file, the line, what was expected, what was
-/// found and the remedy.
+/// If the file cannot be read or is not a record, or if it has several channels and none of them is asked for; the
+/// message names the file, the line, what was expected, what was found and the remedy.
 pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    let bytes = read_bounded(path, &name)?;
-    parse(&name, bytes, options)
+    parse(&name, read_bounded(path, &name)?, options)
+}
+
+/// Reads every channel of a record file, or the one that is asked for.
+///
+/// # Errors
+/// As [`read`], but for several channels.
+pub fn read_channels(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<Vec<Record>, GroundMotionError> {
+    let path = path.as_ref();
+    let name = path.display().to_string();
+    parse_channels(&name, read_bounded(path, &name)?, options)
 }
 
 /// Reads a record from the bytes of a file; `name` stands for the file in messages.
@@ -123,34 +122,91 @@ pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, Gro
 /// # Errors
 /// As [`read`].
 pub fn parse(name: &str, bytes: Vec<u8>, options: &ReadOptions) -> Result<Record, GroundMotionError> {
+    let mut records = parse_channels(name, bytes, options)?;
+    let channels: Vec<_> = records.iter().map(|record| record.channel.clone().unwrap_or_default()).collect();
+    match records.pop() {
+        Some(record) if records.is_empty() => Ok(record),
+        _ => Err(GroundMotionError::Channels { file: name.to_owned(), found: listed(&channels) }),
+    }
+}
+
+/// Reads every channel from the bytes of a file, or the one that is asked for; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_channels`].
+pub fn parse_channels(
+    name: &str,
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+) -> Result<Vec<Record>, GroundMotionError> {
     if let Some(step) = options.step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(GroundMotionError::Step { step });
     }
     check_is_text(&bytes, 1).map_err(|fault| fault.in_file(name))?;
     let decoded = decode(bytes);
-    let text = decoded.trim_start_matches('\u{feff}');
+    let text = sound_part(&decoded).map_err(|fault| fault.in_file(name))?;
     let format = options.format.unwrap_or_else(|| Format::of(name, text));
-    let parsed = match format {
-        Format::At2 => at2::parse(text, options),
-        Format::Csv => csv::parse(text, options),
-    };
-    let parsed = parsed.map_err(|fault| fault.in_file(name))?;
-    if parsed.samples.len() < 2 {
-        let found = parsed.samples.len().to_string();
-        let fault =
-            Fault::new(parsed.last_line, "at least two samples", found, "check that the file is complete");
-        return Err(fault.in_file(name));
+    let mut parsed = format.parse(text, options).map_err(|fault| fault.in_file(name))?;
+    if let Some(wanted) = &options.channel {
+        parsed = vec![chosen(parsed, wanted, name)?];
     }
-    let Parsed { step, samples, unit, first_time, notes, last_line } = parsed;
-    let motion = GroundMotion::new(step, samples).map_err(|error| {
-        Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file").in_file(name)
-    })?;
-    Ok(Record { motion, format, unit, first_time, notes })
+    parsed.into_iter().map(|parsed| parsed.into_record(name, format)).collect()
+}
+
+/// The channel with a number or name.
+fn chosen(parsed: Vec<Parsed>, wanted: &str, name: &str) -> Result<Parsed, GroundMotionError> {
+    let wanted = wanted.trim();
+    let is_wanted = |label: &str| {
+        let number = label.split_once(':').map_or(label, |(number, _)| number);
+        number.trim() == wanted || label.eq_ignore_ascii_case(wanted)
+    };
+    let channels: Vec<_> = parsed.iter().map(|parsed| parsed.channel.clone().unwrap_or_default()).collect();
+    let mut matches = parsed.into_iter().filter(|parsed| parsed.channel.as_deref().is_some_and(is_wanted));
+    match (matches.next(), matches.next()) {
+        (Some(parsed), None) => Ok(parsed),
+        _ => Err(GroundMotionError::Channel {
+            file: name.to_owned(),
+            wanted: excerpt(wanted),
+            found: listed(&channels),
+        }),
+    }
+}
+
+/// The channels of a file for a message.
+fn listed(channels: &[String]) -> String {
+    const LONGEST: usize = 12;
+    let mut names: Vec<_> = channels.iter().take(LONGEST).map(|label| excerpt(label)).collect();
+    if channels == [String::new()] {
+        return "one without a name".to_owned();
+    }
+    if channels.len() > LONGEST {
+        names.push("…".to_owned());
+    }
+    names.join(", ")
+}
+
+/// A step stated beside the file's own must be the same.
+pub(super) fn check_stated_step(stated: Option<f64>, step: f64, line: usize) -> Result<(), Fault> {
+    // Either may be rounded in the fourth digit: 0.0029 for 1/350.
+    const TOLERANCE: f64 = 1e-3;
+    match stated {
+        Some(stated) if (stated - step).abs() > TOLERANCE * step => {
+            let expected = format!("the stated step of {stated} s");
+            Err(Fault::new(line, expected, format!("{step} s"), "state no step: the file has its own"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or `\r\r\n`.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
     let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim()));
+    numbered.filter(|(_, line)| !line.is_empty())
+}
+
+/// The lines that are not blank, with their numbers from 1 and the blanks they start with.
+pub(super) fn untrimmed_lines(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
+    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
 }
 
@@ -193,12 +249,29 @@ fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
     Ok(bytes)
 }
 
+/// What DOS put at the end of texts.
+const END_OF_FILE: u8 = 0x1a;
+
+/// A text without its byte order mark and without what DOS put at its end.
+fn sound_part(text: &str) -> Result<&str, Fault> {
+    let mark = char::from(END_OF_FILE);
+    let text = text.trim_start_matches('\u{feff}');
+    let text = text.trim_end_matches(|c: char| c == mark || c.is_whitespace());
+    match text.split_once(mark) {
+        None => Ok(text),
+        Some((before, _)) => {
+            let line = before.matches('\n').count() + 1;
+            Err(Fault::new(line, "text", "the byte 0x1a, the end of a file", "keep one record in the file"))
+        }
+    }
+}
+
 /// Refuses bytes that no text file has; counts lines on from `line`.
 fn check_is_text(bytes: &[u8], mut line: usize) -> Result<usize, Fault> {
     for &byte in bytes {
         match byte {
             b'\n' => line += 1,
-            b'\t' | b'\r' | 0x0c | 0x20..=0x7e | 0x80.. => {}
+            b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80.. => {}
             _ => {
                 let found = format!("the byte 0x{byte:02x}");
                 let remedy = "binary and UTF-16 files are not read: save the record as plain text (UTF-8)";

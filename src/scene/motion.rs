@@ -18,7 +18,7 @@ use super::{DEFAULT_TAIL, SceneError};
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct MotionTable {
-    /// Record file, beside the scene file: PEER AT2 or CSV.
+    /// Record file, beside the scene file: in any format the library reads.
     pub record: Option<PathBuf>,
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
     pub unit: Option<String>,
@@ -26,6 +26,8 @@ pub struct MotionTable {
     pub step: Option<f64>,
     /// Column of a CSV table.
     pub column: Option<String>,
+    /// Channel of a record with several, by its number.
+    pub channel: Option<String>,
     /// Format of the record, found from its content if none is given.
     pub format: Option<String>,
     /// Ricker pulse.
@@ -64,6 +66,8 @@ pub struct TopTable {
     pub unit: Option<String>,
     pub step: Option<f64>,
     pub column: Option<String>,
+    /// Channel of a record with several, by its number.
+    pub channel: Option<String>,
     pub format: Option<String>,
     pub scale: Option<f64>,
     pub pga: Option<f64>,
@@ -136,6 +140,7 @@ struct RecordSpec<'a> {
     unit: Option<&'a str>,
     step: Option<f64>,
     column: Option<&'a str>,
+    channel: Option<&'a str>,
     format: Option<&'a str>,
     fingerprint: Option<&'a str>,
 }
@@ -168,6 +173,7 @@ pub(super) fn load(
                 unit: top.unit.as_deref(),
                 step: top.step,
                 column: top.column.as_deref(),
+                channel: top.channel.as_deref(),
                 format: top.format.as_deref(),
                 fingerprint: top.fingerprint.as_deref(),
             };
@@ -215,13 +221,15 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
             unit: spec.unit.as_deref(),
             step: spec.step,
             column: spec.column.as_deref(),
+            channel: spec.channel.as_deref(),
             format: spec.format.as_deref(),
             fingerprint: spec.fingerprint.as_deref(),
         };
         found.push(("record", read_record(&record, folder, notes)));
-    } else if spec.unit.is_some() || spec.step.is_some() || spec.column.is_some() || spec.format.is_some() {
-        let message =
-            "unit, step, column and format belong to a record; add record = \"FILE\" or leave them out";
+    } else if [&spec.unit, &spec.column, &spec.channel, &spec.format].into_iter().any(Option::is_some)
+        || spec.step.is_some()
+    {
+        let message = "unit, step, column, channel and format belong to a record; add record = \"FILE\" or leave them out";
         return Err(Problem::Table(message.into()));
     }
     if let Some(&RickerTable { amplitude, frequency, centre }) = spec.ricker.as_ref() {
@@ -270,7 +278,13 @@ fn read_record(
 ) -> Result<GroundMotion, Problem> {
     let unit = spec.unit.map(str::parse::<Unit>).transpose()?;
     let format = spec.format.map(str::parse::<Format>).transpose()?;
-    let options = ReadOptions { unit, step: spec.step, column: spec.column.map(str::to_owned), format };
+    let options = ReadOptions {
+        unit,
+        step: spec.step,
+        column: spec.column.map(str::to_owned),
+        channel: spec.channel.map(str::to_owned),
+        format,
+    };
     let path = folder.join(spec.path);
     let record = read(&path, &options)?;
     if let Some(expected) = spec.fingerprint {

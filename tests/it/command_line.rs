@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// An empty folder of the test's own.
-fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {
         std::fs::remove_dir_all(&folder).unwrap();
@@ -13,16 +13,16 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-fn wall(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn wall(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_wall")).current_dir(folder).args(arguments).output().unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
+pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// Runs `arguments` and expects one line on stderr that holds every one of `words`, exit code 2, and no new file.
-fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     let names = || {
         let mut names: Vec<_> =
             std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();

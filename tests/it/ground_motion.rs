@@ -4,7 +4,10 @@ mod pulse;
 mod record_at2;
 mod record_csv;
 mod record_file;
+mod record_formats;
 mod record_real;
+pub(crate) mod specimen;
+mod spectrum;
 mod synthetic;
 
 use proptest::prelude::*;

@@ -11,5 +11,6 @@ mod extremes;
 mod ground_motion;
 mod notices;
 mod properties;
+mod record_command;
 mod record_path;
 mod wiring;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::{Args, Parser, Subcommand};
+use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
@@ -33,6 +34,8 @@ pub(crate) enum Command {
     Accuracy(AccuracyArguments),
     /// Map the stability of each solver, and run the extremes
     Stability(StabilityArguments),
+    /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
+    Record(RecordFilesArguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Print a completion script for a shell
@@ -55,7 +58,7 @@ pub(crate) struct SceneArguments {
 /// A record file and how to read it.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
-    /// Accelerogram that replaces the scene's motion: PEER AT2 or CSV
+    /// Accelerogram that replaces the scene's motion, in any format `wall record` reads
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g; an AT2 file states its own
@@ -67,7 +70,10 @@ pub(crate) struct RecordArguments {
     /// Column of a CSV table
     #[arg(long, requires = "record")]
     pub(crate) column: Option<String>,
-    /// Format of the record (at2, csv), if its content does not tell
+    /// Channel of a record with several, by its number; `wall record` lists them
+    #[arg(long, requires = "record")]
+    pub(crate) channel: Option<String>,
+    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
     #[arg(long, requires = "record")]
     pub(crate) format: Option<String>,
     /// Shake with the project's synthetic motion
@@ -170,6 +176,49 @@ pub(crate) struct StabilityArguments {
     pub(crate) html: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct RecordFilesArguments {
+    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Unit of the records: m/s2, cm/s2, mm/s2 or g; needed where a file does not state its own
+    #[arg(long)]
+    pub(crate) unit: Option<String>,
+    /// Time between samples in s, for records that do not state it
+    #[arg(long, value_name = "SECONDS")]
+    pub(crate) record_step: Option<f64>,
+    /// Column of a CSV table
+    #[arg(long)]
+    pub(crate) column: Option<String>,
+    /// Channel to show, by its number; otherwise all
+    #[arg(long)]
+    pub(crate) channel: Option<String>,
+    /// Format (at2, esm, knet, cosmos, csmip, smc, csv), if the content does not tell
+    #[arg(long)]
+    pub(crate) format: Option<String>,
+    /// Periods in s to show Sa at
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = [0.2, 0.5, 1.0, 2.0])]
+    pub(crate) periods: Vec<f64>,
+    /// Periods in s whose geometric mean of Sa is AvgSA
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = AVERAGE_PERIODS)]
+    pub(crate) average: Vec<f64>,
+    /// Damping ratio of the oscillators
+    #[arg(long, value_name = "RATIO", default_value_t = DAMPING)]
+    pub(crate) damping: f64,
+    /// Take the maxima at the samples only, as many programs do, instead of wherever they lie
+    #[arg(long)]
+    pub(crate) at_samples: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Write the table as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Draw the histories and the spectra, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
+}
+
 impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self) -> Result<Scene> {
@@ -217,6 +266,7 @@ impl RecordArguments {
             unit: self.unit.as_deref().map(str::parse::<Unit>).transpose()?,
             step: self.record_step,
             column: self.column.clone(),
+            channel: self.channel.clone(),
             format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
         };
         let record = read(path, &options)?;

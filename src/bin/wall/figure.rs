@@ -126,7 +126,7 @@ fn padded(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// The extremes of each pixel column, in order of time: what a line of all points would look like.
-fn decimated(points: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
+pub(crate) fn decimated(points: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
     if points.len() <= 2 * COLUMNS {
         return points.to_vec();
     }

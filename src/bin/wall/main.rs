@@ -9,6 +9,8 @@ mod motion;
 mod output;
 mod package;
 mod page;
+mod record;
+mod record_plot;
 mod schema;
 mod simulate;
 mod stability;
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
+        Command::Record(arguments) => record::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

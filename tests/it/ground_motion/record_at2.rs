@@ -149,6 +149,8 @@ fn refuses_damaged_files() {
 }
 
 proptest! {
+    #![proptest_config(crate::properties::configuration())]
+
     #[test]
     fn reads_what_was_written(samples in prop::collection::vec(-1.0..1.0, 2..100), width in 1_usize..9) {
         let mut text = format!("{HEADER}{UNITS}NPTS= {}, DT= .0050 SEC\n", samples.len());

@@ -153,6 +153,8 @@ fn refuses_what_is_no_csv() {
 }
 
 proptest! {
+    #![proptest_config(crate::properties::configuration())]
+
     #[test]
     fn reads_what_was_written(step in 1_u32..50, samples in prop::collection::vec(-30.0..30.0, 2..300)) {
         let step = f64::from(step) / 1000.0;

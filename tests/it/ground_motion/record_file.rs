@@ -79,6 +79,8 @@ fn shortens_what_it_quotes() {
 }
 
 proptest! {
+    #![proptest_config(crate::properties::configuration())]
+
     #[test]
     fn never_panics_on_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         for format in [None, Some(Format::At2), Some(Format::Csv)] {

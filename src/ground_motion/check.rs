@@ -1,0 +1,167 @@
+//! A quick check of a record: baseline, unit, missing start and tail.
+
+use std::fmt;
+
+use super::{GroundMotion, Record, STANDARD_GRAVITY, Unit, floor_index, index_as_f64};
+
+/// Largest part of its peak velocity that the ground may have at the end; processed records have less than 0.1 %.
+const FINAL_VELOCITY: f64 = 0.05;
+
+/// Largest part of the peak acceleration that the first sample and the last second may have; processed records have up
+/// to 2 % and 6 %.
+const AT_THE_ENDS: f64 = 0.1;
+
+/// Peaks (g) beyond which a unit is doubted; the strongest records have about 4 g, few have more than 2 g.
+const CREDIBLE_PEAK: [f64; 2] = [1e-4, 3.0];
+
+/// Largest difference from the peak that the file itself states, as part of it.
+const STATED_PEAK: f64 = 0.01;
+
+/// What a quick check of a record measures, and what it doubts.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Check {
+    /// Mean acceleration (m/s²).
+    pub mean: f64,
+    /// Largest velocity of the ground (m/s), from rest.
+    pub peak_velocity: f64,
+    /// Velocity of the ground at the end (m/s).
+    pub final_velocity: f64,
+    /// What should be looked at before the record is used.
+    pub findings: Vec<Finding>,
+}
+
+/// Something that a sound record has not.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Finding {
+    /// Every sample is zero.
+    NoMotion,
+    /// The ground still moves at the end.
+    Baseline {
+        /// Velocity at the end (m/s).
+        last: f64,
+        /// Largest velocity (m/s).
+        peak: f64,
+    },
+    /// No earthquake has had such a peak.
+    Unit {
+        /// Peak acceleration (g).
+        peak: f64,
+        /// The unit it was read in.
+        unit: Unit,
+        /// Units that would give a credible peak.
+        others: Vec<Unit>,
+    },
+    /// The record starts in the middle of the shaking.
+    MissingStart {
+        /// The first sample as part of the peak.
+        part: f64,
+    },
+    /// The record ends in the middle of the shaking.
+    MissingTail {
+        /// The largest sample of the last second as part of the peak.
+        part: f64,
+    },
+    /// The file states another peak.
+    StatedPeak {
+        /// Largest sample (m/s²).
+        peak: f64,
+        /// Peak the file states (m/s²).
+        stated: f64,
+    },
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoMotion => write!(f, "every sample is 0"),
+            Self::Baseline { last, peak } => write!(
+                f,
+                "baseline: the ground ends at {last:.3} m/s, its peak velocity is {peak:.3} m/s; correct the baseline"
+            ),
+            Self::Unit { peak, unit, others } => {
+                write!(f, "unit: a peak of {peak:.3e} g is not credible; are the samples really in {unit}?")?;
+                for (index, other) in others.iter().enumerate() {
+                    write!(f, "{} {other}", if index == 0 { " Credible would be" } else { " or" })?;
+                }
+                Ok(())
+            }
+            Self::MissingStart { part } => {
+                write!(
+                    f,
+                    "start: the first sample has {:.0} % of the peak; is the onset missing?",
+                    100.0 * part
+                )
+            }
+            Self::MissingTail { part } => {
+                write!(f, "tail: the last second has {:.0} % of the peak; is the end missing?", 100.0 * part)
+            }
+            Self::StatedPeak { peak, stated } => {
+                write!(f, "peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")
+            }
+        }
+    }
+}
+
+impl Record {
+    /// A quick check: whether the ground comes to rest, the peak is credible and the one stated, and the shaking is all there.
+    #[must_use]
+    pub fn check(&self) -> Check {
+        let motion = &self.motion;
+        let velocities = velocities(motion);
+        let [peak_velocity, final_velocity] = velocities;
+        let samples = motion.samples();
+        let mean = samples.iter().sum::<f64>() / index_as_f64(samples.len());
+        let mut findings = Vec::new();
+        let peak = motion.peak();
+        if peak == 0.0 {
+            findings.push(Finding::NoMotion);
+            return Check { mean, peak_velocity, final_velocity, findings };
+        }
+        if final_velocity.abs() > FINAL_VELOCITY * peak_velocity {
+            findings.push(Finding::Baseline { last: final_velocity, peak: peak_velocity });
+        }
+        if let Some(stated) = self.stated_peak.filter(|stated| (peak - stated).abs() > STATED_PEAK * stated) {
+            findings.push(Finding::StatedPeak { peak, stated });
+        }
+        if !is_credible(peak) {
+            let raw = peak / self.unit.to_si(1.0);
+            let others =
+                Unit::ALL.into_iter().filter(|unit| *unit != self.unit && is_credible(unit.to_si(raw)));
+            let peak = peak / STANDARD_GRAVITY;
+            findings.push(Finding::Unit { peak, unit: self.unit, others: others.collect() });
+        }
+        let start = samples[0].abs() / peak;
+        if start > AT_THE_ENDS {
+            findings.push(Finding::MissingStart { part: start });
+        }
+        let tail = tail(motion) / peak;
+        if tail > AT_THE_ENDS {
+            findings.push(Finding::MissingTail { part: tail });
+        }
+        Check { mean, peak_velocity, final_velocity, findings }
+    }
+}
+
+fn is_credible(peak: f64) -> bool {
+    let [low, high] = CREDIBLE_PEAK;
+    (low..=high).contains(&(peak / STANDARD_GRAVITY))
+}
+
+/// Largest and last velocity (m/s) of ground at rest at time zero; exact at the samples.
+fn velocities(motion: &GroundMotion) -> [f64; 2] {
+    let (mut velocity, mut largest): (f64, f64) = (0.0, 0.0);
+    for pair in motion.samples().windows(2) {
+        velocity += motion.step() * (pair[0] + pair[1]) / 2.0;
+        largest = largest.max(velocity.abs());
+    }
+    [largest, velocity]
+}
+
+/// Largest acceleration of the last second, or of the last twentieth of a record shorter than 20 s.
+fn tail(motion: &GroundMotion) -> f64 {
+    let samples = motion.samples();
+    let length = f64::min(1.0, motion.duration() / 20.0) / motion.step();
+    let count = floor_index(length).clamp(1, samples.len());
+    samples[samples.len() - count..].iter().fold(0.0, |peak, a| a.abs().max(peak))
+}

@@ -1,0 +1,158 @@
+//! Numbers in the lines of a record: free form, and the fixed widths Fortran wrote.
+
+use super::error::{Fault, excerpt};
+
+/// A line and its number, from 1.
+pub(super) type Line<'a> = (usize, &'a str);
+
+/// Position of an ASCII word, in any case.
+pub(super) fn find(line: &str, word: &str) -> Option<usize> {
+    line.as_bytes().windows(word.len()).position(|window| window.eq_ignore_ascii_case(word.as_bytes()))
+}
+
+/// What follows an ASCII word, in any case.
+pub(super) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
+    find(line, word).map(|at| &line[at + word.len()..])
+}
+
+/// A number as Fortran writes it: the exponent's letter may be D. Not necessarily finite.
+pub(super) fn real(word: &str) -> Option<f64> {
+    word.parse().ok().or_else(|| word.replace(['D', 'd'], "E").parse().ok())
+}
+
+/// The number a text starts with, after blanks, commas and an equals sign or colon, and what follows it.
+pub(super) fn leading_number(text: &str) -> (&str, &str) {
+    let text = text.trim_start_matches(|c: char| c.is_ascii_whitespace() || matches!(c, '=' | ':' | ','));
+    let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'E' | 'e' | 'D' | 'd');
+    // A word such as `DT` also starts with such a letter, a number does not.
+    if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return ("", text);
+    }
+    text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
+}
+
+/// The leading number of a text, if it is finite.
+pub(super) fn leading_real(text: &str) -> Option<f64> {
+    real(leading_number(text).0).filter(|value| value.is_finite())
+}
+
+/// Refuses a number of samples that is not the stated one.
+pub(super) fn check_count(
+    found: usize,
+    stated: usize,
+    stated_by: &str,
+    last_line: usize,
+) -> Result<(), Fault> {
+    if found == stated {
+        return Ok(());
+    }
+    let expected = format!("{stated} samples, as {stated_by} says");
+    Err(Fault::new(last_line, expected, format!("{found} up to the end"), CUT_SHORT))
+}
+
+/// A Fortran format of numbers, `(8F10.6)`: so many a line, each so wide; neighbours may touch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Layout {
+    pub(super) per_line: usize,
+    pub(super) width: usize,
+}
+
+impl Layout {
+    /// The last format of one kind of numbers that a line states in parentheses.
+    pub(super) fn stated_in(line: &str) -> Option<Self> {
+        let candidates = line.rsplit('(').filter_map(|text| text.split_once(')')).map(|(format, _)| format);
+        candidates.into_iter().find_map(Self::of)
+    }
+
+    fn of(format: &str) -> Option<Self> {
+        const LARGEST: usize = 1000;
+        let (count, rest) = format.trim().split_once(['E', 'e', 'F', 'f', 'I', 'i'])?;
+        // `1P8E10.3`: the scale does not change how a number with an exponent is read, but one without.
+        let has_exponent = format.contains(['E', 'e']);
+        let count = match count.rsplit_once(['P', 'p']) {
+            Some((_, count)) if has_exponent => count,
+            _ => count,
+        };
+        let width = rest.split('.').next().unwrap_or_default().trim();
+        let (per_line, width) = (count.trim().parse().ok()?, width.parse().ok()?);
+        // One character holds no number with a sign.
+        let is_sound = (1..=LARGEST).contains(&per_line) && (2..=LARGEST).contains(&width);
+        is_sound.then_some(Self { per_line, width })
+    }
+
+    /// The fields of a line without its trailing blanks, trimmed. A line that is too long ends in one long field.
+    fn fields(self, line: &str) -> impl Iterator<Item = &str> {
+        let line = line.trim_end();
+        let fields = line.len().div_ceil(self.width).min(self.per_line);
+        (0..fields).map(move |index| {
+            let start = index * self.width;
+            let end =
+                if index + 1 == self.per_line { line.len() } else { line.len().min(start + self.width) };
+            // A cut through a letter that is not ASCII leaves no number either way.
+            line.get(start..end).unwrap_or(line).trim()
+        })
+    }
+
+    /// Reads `count` numbers from the lines that follow and returns the last line's number; `stated` is the line that
+    /// says how many.
+    pub(super) fn read<'a>(
+        self,
+        lines: &mut impl Iterator<Item = Line<'a>>,
+        count: usize,
+        stated: usize,
+        mut take: impl FnMut(f64, usize, &'a str) -> Result<(), Fault>,
+    ) -> Result<usize, Fault> {
+        let (mut taken, mut last_line) = (0, stated);
+        while taken < count {
+            let Some((number, line)) = lines.next() else {
+                check_count(taken, count, &format!("line {stated}"), last_line)?;
+                break;
+            };
+            last_line = number;
+            for field in self.fields(line) {
+                if taken == count {
+                    let expected = format!("an end after {count} numbers, as line {stated} says");
+                    return Err(Fault::new(number, expected, excerpt(field), DAMAGED));
+                }
+                let Some(value) = real(field).filter(|value| value.is_finite()) else {
+                    return Err(self.no_number(number, field, [taken, count, stated]));
+                };
+                take(value, number, field)?;
+                taken += 1;
+            }
+        }
+        Ok(last_line)
+    }
+
+    fn no_number(self, line: usize, field: &str, [taken, count, stated]: [usize; 3]) -> Fault {
+        let Self { per_line, width } = self;
+        let expected = format!(
+            "a finite number ({} of {count}, as line {stated} says; {per_line} a line, {width} characters each)",
+            taken + 1
+        );
+        Fault::new(line, expected, excerpt(field), DAMAGED)
+    }
+
+    /// Refuses more numbers where a block should have ended.
+    pub(super) fn check_ended(
+        self,
+        next: Option<Line<'_>>,
+        count: usize,
+        stated: usize,
+    ) -> Result<(), Fault> {
+        let Some((number, line)) = next else { return Ok(()) };
+        match self.fields(line).next() {
+            Some(field) if real(field).is_some() => {
+                let expected = format!("an end after {count} numbers, as line {stated} says");
+                Err(Fault::new(number, expected, excerpt(line.trim()), DAMAGED))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The remedy for a file whose numbers are not where they should be.
+pub(super) const DAMAGED: &str = "correct the file or fetch it again";
+
+/// The remedy for a file that ends too early.
+pub(super) const CUT_SHORT: &str = "the file is cut short or damaged: fetch it again";

@@ -1,0 +1,113 @@
+//! K-NET and KiK-net records (`.EW`, `.NS`, `.UD`, `.EW1` …).
+//!
+//! 17 header lines whose labels fill 18 characters, then counts of the recorder, eight a line:
+//!
+//! ```text
+//! Origin Time       2000/01/01 00:00:00
+//! …
+//! Sampling Freq(Hz) 100Hz
+//! Duration Time(s)  60
+//! Dir.              E-W
+//! Scale Factor      3920(gal)/6182761
+//! Max. Acc. (gal)   12.345
+//! Last Correction   2000/01/01 00:00:15
+//! Memo.
+//!   -12085   -12085   -12070   -12060   -12068   -12083   -12085   -12077
+//! ```
+//!
+//! The recorder has a large offset: acceleration = (count − mean count) · scale factor.
+
+use super::error::{Fault, excerpt};
+use super::fields::{DAMAGED, Line, check_count, leading_number, real};
+use super::record::{Parsed, ReadOptions, check_stated_step, lines, notes};
+use super::{Unit, index_as_f64};
+
+const HEADER_LINES: usize = 17;
+
+/// Whether the first lines are such a header.
+pub(super) fn recognises(head: &[&str]) -> bool {
+    let starts = |label: &str| head.iter().take(HEADER_LINES).any(|line| line.starts_with(label));
+    starts("Origin Time") || (starts("Sampling Freq(Hz)") && starts("Scale Factor"))
+}
+
+/// Reads the text of a K-NET or KiK-net file.
+pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
+    let header: Vec<Line<'_>> = lines(text).take(HEADER_LINES).collect();
+    let (frequency_line, frequency) = number(&header, "Sampling Freq(Hz)")?;
+    let step = 1.0 / frequency;
+    check_stated_step(options.step, step, frequency_line)?;
+    let (duration_line, duration) = number(&header, "Duration Time(s)")?;
+    let (factor_line, factor) = field(&header, "Scale Factor")?;
+    let Some((numerator, unit, denominator)) = scale(factor) else {
+        let expected = "a scale factor `3920(gal)/6182761`";
+        return Err(Fault::new(factor_line, expected, excerpt(factor), "correct the header"));
+    };
+    let unit = Unit::settled(unit, factor_line, options.unit)?;
+
+    let mut counts: Vec<i32> = Vec::new();
+    let mut last_line = header.last().map_or(1, |(number, _)| *number);
+    for (number, line) in lines(text).skip(HEADER_LINES) {
+        last_line = number;
+        for word in line.split_ascii_whitespace() {
+            let count = word.parse();
+            counts.push(count.map_err(|_| Fault::new(number, "a whole number", excerpt(word), DAMAGED))?);
+        }
+    }
+    check_duration(counts.len(), [duration, frequency], duration_line, last_line)?;
+    let sum: i64 = counts.iter().copied().map(i64::from).sum();
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "2^24 counts of 2^31 stay below 2^56; a rounding is no matter"
+    )]
+    let mean = sum as f64 / index_as_f64(counts.len().max(1));
+    let samples = counts.iter().map(|&count| unit.to_si((f64::from(count) - mean) * numerator / denominator));
+    let mut parsed =
+        Parsed::new(step, samples.collect(), unit, last_line, notes(header.iter().map(|(_, line)| *line)));
+    parsed.stated_peak =
+        number(&header, "Max. Acc. (gal)").ok().map(|(_, peak)| Unit::CentimetrePerSecondSquared.to_si(peak));
+    Ok(parsed)
+}
+
+/// The number of counts must be the stated duration times the frequency.
+fn check_duration(
+    found: usize,
+    [duration, frequency]: [f64; 2],
+    duration_line: usize,
+    last_line: usize,
+) -> Result<(), Fault> {
+    let stated = (duration * frequency).round();
+    if (index_as_f64(found) - stated).abs() < 0.5 {
+        return Ok(());
+    }
+    // More than a file can hold: any other number than the one found says so as well.
+    let stated_by = format!("Duration Time(s) on line {duration_line}, {duration} s at {frequency} Hz,");
+    check_count(found, super::floor_index(stated), &stated_by, last_line)
+}
+
+/// The value after a label.
+fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
+    let found = header.iter().find_map(|&(number, line)| Some((number, line.strip_prefix(label)?.trim())));
+    found.filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
+        let (line, text) = header.last().copied().unwrap_or((1, ""));
+        let found = if header.is_empty() { "an empty file".to_owned() } else { excerpt(text) };
+        let expected = format!("a value for `{label}` among the first {HEADER_LINES} lines");
+        Fault::new(line, expected, found, "check that this is a K-NET or KiK-net file")
+    })
+}
+
+/// The positive number after a label; a unit may follow.
+fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
+    let (line, value) = field(header, label)?;
+    let number = real(leading_number(value).0).filter(|value| value.is_finite() && *value > 0.0);
+    number.map(|number| (line, number)).ok_or_else(|| {
+        Fault::new(line, format!("a positive number for `{label}`"), excerpt(value), "correct the header")
+    })
+}
+
+/// Numerator, unit and denominator of `3920(gal)/6182761`.
+fn scale(text: &str) -> Option<(f64, &str, f64)> {
+    let (numerator, rest) = text.split_once('(')?;
+    let (unit, denominator) = rest.split_once(')')?;
+    let positive = |text: &str| real(text.trim()).filter(|value| value.is_finite() && *value > 0.0);
+    Some((positive(numerator)?, unit, positive(denominator.trim().strip_prefix('/')?)?))
+}

@@ -1,0 +1,238 @@
+//! Response spectra of ground motions and the intensities made of them.
+//!
+//! An elastic oscillator with period T and damping ratio ξ, at rest at time zero, answers
+//!
+//! ```text
+//! ü + 2 ξ ω u̇ + ω² u = −a(t),      ω = 2π / T,      Sa(T) = ω² max |u|
+//! ```
+//!
+//! The acceleration is linear between samples, so the recursion from step to step is exact (N. C. Nigam, P. C. Jennings:
+//! Calculation of response spectra from strong-motion earthquake records. Bulletin of the Seismological Society of America
+//! 59(2), 1969, 909–922). Its coefficients are summed here as power series over pieces of at most a twentieth of the period:
+//! the printed closed forms lose digits to cancellation where ω · step is small.
+
+use std::f64::consts::TAU;
+
+use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64};
+
+/// Damping ratio of the spectra of seismic engineering.
+pub const DAMPING: f64 = 0.05;
+
+/// Periods whose geometric mean of Sa is AvgSA unless others are stated (s).
+pub const AVERAGE_PERIODS: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4];
+
+/// Shortest and longest period of an oscillator (s); 0 stands for the ground itself.
+pub const PERIOD_LIMITS: [f64; 2] = [1e-3, 100.0];
+
+/// Pieces of a period, in each of which one turning point is looked for.
+const PIECES_PER_PERIOD: f64 = 20.0;
+
+/// Most pieces of a step.
+const PIECES_PER_STEP: f64 = 1e4;
+
+/// Terms of the power series: (2π / 20)^k / k! is below 1e-19 from there.
+const TERMS: usize = 15;
+
+/// Largest velocity at a turning point, as part of those around it; the displacement's error is of the square of it.
+const STILL: f64 = 1e-9;
+
+/// Bound on the steps towards a turning point; few are needed where the velocity is nearly a straight line.
+const SEARCH_STEPS: usize = 40;
+
+/// Where the largest displacement is looked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, Default)]
+pub enum Peaks {
+    /// At the turning points wherever they lie, in the free vibration after the motion too: the true maximum.
+    #[default]
+    Everywhere,
+    /// At the samples of the motion only, as many programs do: up to (ω · step)² / 8 too low.
+    AtSamples,
+}
+
+/// How spectra are computed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Spectrum {
+    damping: f64,
+    peaks: Peaks,
+}
+
+impl Default for Spectrum {
+    /// 5 % damping, true maxima.
+    fn default() -> Self {
+        Self { damping: DAMPING, peaks: Peaks::Everywhere }
+    }
+}
+
+impl Spectrum {
+    /// Spectra of oscillators with a damping ratio (-).
+    ///
+    /// # Errors
+    /// If the damping ratio is not from 0 to below 1.
+    pub fn new(damping: f64, peaks: Peaks) -> Result<Self, GroundMotionError> {
+        if !(0.0..1.0).contains(&damping) {
+            let limit = "from 0 to below 1";
+            return Err(GroundMotionError::Parameter { name: "damping ratio", value: damping, limit });
+        }
+        Ok(Self { damping, peaks })
+    }
+
+    /// Pseudo-spectral acceleration Sa (m/s²) at a period (s); at the period 0 the peak ground acceleration.
+    ///
+    /// The largest displacement is looked for at the samples and at the turning points between: each piece of at most a
+    /// twentieth of the period is searched where the velocity changes its sign. After the motion the acceleration is zero,
+    /// as [`GroundMotion::at`] says; the free vibration is followed for one period.
+    ///
+    /// # Errors
+    /// If the period is outside [`PERIOD_LIMITS`], or so short that a step of the motion spans more than 500 of it.
+    pub fn acceleration(&self, motion: &GroundMotion, period: f64) -> Result<f64, GroundMotionError> {
+        if period == 0.0 {
+            return Ok(motion.peak());
+        }
+        let [shortest, longest] = PERIOD_LIMITS;
+        if !(shortest..=longest).contains(&period) {
+            let limit = "0 or from 0.001 to 100 s";
+            return Err(GroundMotionError::Parameter { name: "period", value: period, limit });
+        }
+        let omega = TAU / period;
+        let pieces = (motion.step() / period * PIECES_PER_PERIOD).ceil().max(1.0);
+        if pieces > PIECES_PER_STEP {
+            let limit = "at most 500 periods of the oscillator";
+            return Err(GroundMotionError::Parameter { name: "time step in s", value: motion.step(), limit });
+        }
+        let mut piece = Piece::new(omega, self.damping, motion.step() / pieces);
+        let mut search = Search { state: [0.0; 2], largest: 0.0 };
+        for pair in motion.samples().windows(2) {
+            let slope = (pair[1] - pair[0]) / pieces;
+            let at = |index: usize| pair[0] + slope * index_as_f64(index);
+            for index in 0..floor_index(pieces) {
+                search.pass(&piece, [at(index), at(index + 1)], self.peaks);
+            }
+            search.largest = search.largest.max(search.state[0].abs());
+        }
+        if self.peaks == Peaks::Everywhere {
+            piece = Piece::new(omega, self.damping, period / PIECES_PER_PERIOD);
+            for _ in 0..floor_index(PIECES_PER_PERIOD) {
+                search.pass(&piece, [0.0; 2], self.peaks);
+            }
+        }
+        Ok(omega * omega * search.largest)
+    }
+
+    /// Sa (m/s²) at each period (s).
+    ///
+    /// # Errors
+    /// As [`acceleration`](Self::acceleration).
+    pub fn accelerations(
+        &self,
+        motion: &GroundMotion,
+        periods: &[f64],
+    ) -> Result<Vec<f64>, GroundMotionError> {
+        periods.iter().map(|&period| self.acceleration(motion, period)).collect()
+    }
+
+    /// AvgSA (m/s²): the geometric mean of Sa over the periods (s), commonly [`AVERAGE_PERIODS`].
+    ///
+    /// # Errors
+    /// As [`acceleration`](Self::acceleration), and if there is no period.
+    pub fn average(&self, motion: &GroundMotion, periods: &[f64]) -> Result<f64, GroundMotionError> {
+        if periods.is_empty() {
+            let limit = "1 or more";
+            return Err(GroundMotionError::Parameter {
+                name: "number of periods of AvgSA",
+                value: 0.0,
+                limit,
+            });
+        }
+        let logarithms = self.accelerations(motion, periods)?.into_iter().map(libm::log).sum::<f64>();
+        Ok(libm::exp(logarithms / index_as_f64(periods.len())))
+    }
+}
+
+/// The way of an oscillator and its largest displacement (m).
+struct Search {
+    state: [f64; 2],
+    largest: f64,
+}
+
+impl Search {
+    /// Goes through one piece whose ground acceleration (m/s²) is linear between the ends given.
+    fn pass(&mut self, piece: &Piece, ground: [f64; 2], peaks: Peaks) {
+        let (start, end) = (self.state, piece.advance(self.state, ground));
+        self.state = end;
+        if peaks == Peaks::AtSamples || start[1] * end[1] >= 0.0 {
+            return;
+        }
+        // Twice what a velocity that turns evenly would add: most turning points are lower than the largest by far.
+        let reach = piece.duration * (start[1].abs() + end[1].abs());
+        if start[0].abs().max(end[0].abs()) + reach > self.largest {
+            self.largest = self.largest.max(piece.turning_point(start, end, ground).abs());
+        }
+    }
+}
+
+/// The recursion over a short time: a state (u, u̇) and the ground acceleration at both ends give the next state.
+struct Piece {
+    omega: f64,
+    damping: f64,
+    /// Duration (s).
+    duration: f64,
+    /// For u and u̇ at the end, the factors of u and u̇ at the start and of the ground acceleration at both ends.
+    factors: [[f64; 4]; 2],
+}
+
+impl Piece {
+    fn new(omega: f64, damping: f64, duration: f64) -> Self {
+        let mut piece = Self { omega, damping, duration, factors: [[0.0; 4]; 2] };
+        // The answer is linear in each of the four.
+        for column in 0..4 {
+            let unit: [f64; 4] = std::array::from_fn(|index| if index == column { 1.0 } else { 0.0 });
+            let answer = piece.after(duration, [unit[0], unit[1]], [unit[2], unit[3]]);
+            (piece.factors[0][column], piece.factors[1][column]) = (answer[0], answer[1]);
+        }
+        piece
+    }
+
+    fn advance(&self, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
+        self.factors.map(|[from_u, from_v, from_a, from_b]| from_u * u + from_v * v + from_a * a + from_b * b)
+    }
+
+    /// The state after a time within the piece, as a power series of it: the equation of motion gives each coefficient of u
+    /// from the two before.
+    fn after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
+        let (stiffness, damping) = (self.omega * self.omega, 2.0 * self.damping * self.omega);
+        let mut ground = [a, (b - a) / self.duration].into_iter();
+        let (mut coefficient, mut next) = (u, v);
+        let (mut displacement, mut velocity, mut power) = (u, 0.0, 1.0);
+        for order in 1..=TERMS {
+            let order = index_as_f64(order);
+            // `next` is the coefficient of time^order, `power` is time^(order − 1).
+            velocity += order * next * power;
+            power *= time;
+            displacement += next * power;
+            let force = ground.next().unwrap_or(0.0);
+            let following =
+                -(force + stiffness * coefficient + damping * order * next) / (order * (order + 1.0));
+            (coefficient, next) = (next, following);
+        }
+        [displacement, velocity]
+    }
+
+    /// The displacement where the velocity, of another sign at the end than at the start, passes zero.
+    fn turning_point(&self, start: [f64; 2], end: [f64; 2], ground: [f64; 2]) -> f64 {
+        let ((mut low, mut at_low), (mut high, mut at_high)) = ((0.0, start[1]), (self.duration, end[1]));
+        let still = STILL * (at_low.abs() + at_high.abs());
+        let mut displacement = start[0];
+        for _ in 0..SEARCH_STEPS {
+            // The chord's zero, kept off the ends so that each step shortens the bracket.
+            let (chord, room) = (low + (high - low) * (at_low / (at_low - at_high)), 0.01 * (high - low));
+            let time = chord.clamp(low + room, high - room);
+            let [u, v] = self.after(time, start, ground);
+            displacement = u;
+            if v.abs() <= still {
+                break;
+            }
+            if (v < 0.0) == (at_low < 0.0) { (low, at_low) = (time, v) } else { (high, at_high) = (time, v) }
+        }
+        displacement
+    }
+}

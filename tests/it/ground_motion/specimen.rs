@@ -1,0 +1,173 @@
+//! Small records of the project's own in every format, with samples in cm/s² (g in AT2) and a step of 0.01 s.
+
+use std::fmt::Write;
+
+use rocking_wall::ground_motion::{Format, ReadOptions, Unit};
+
+/// Samples with three decimals and five digits, so that every format holds them to the digit, and without a mean; an odd number, so
+/// that every format has a short last line.
+pub(crate) const SAMPLES: [f64; 11] =
+    [0.125, -1.5, 22.75, -103.25, 87.5, -0.001, 44.25, -60.5, 12.0, -1.25, -0.124];
+
+pub(crate) const STEP: f64 = 0.01;
+
+/// What a writer makes of samples.
+pub(crate) type Writer = fn(&[f64]) -> String;
+
+/// Every format with a writer.
+pub(crate) const ALL: [(Format, Writer); 7] = [
+    (Format::At2, at2),
+    (Format::Esm, esm),
+    (Format::Knet, knet),
+    (Format::Cosmos, cosmos),
+    (Format::Csmip, csmip),
+    (Format::Smc, smc),
+    (Format::Csv, csv),
+];
+
+/// What has to be stated to read a format.
+pub(crate) fn options(format: Format) -> ReadOptions {
+    let unit = (format == Format::Csv).then_some(Unit::CentimetrePerSecondSquared);
+    ReadOptions { unit, ..ReadOptions::default() }
+}
+
+/// Numbers in fixed columns, so many a line.
+fn columns(values: &[f64], per_line: usize, number: impl Fn(f64) -> String) -> String {
+    let line = |values: &[f64]| values.iter().map(|&value| number(value)).collect::<String>() + "\n";
+    values.chunks(per_line).map(line).collect()
+}
+
+/// The sample of the largest size.
+fn peak(samples: &[f64]) -> f64 {
+    samples.iter().copied().fold(0.0, |peak: f64, a| if a.abs() > peak.abs() { a } else { peak })
+}
+
+pub(crate) fn at2(samples: &[f64]) -> String {
+    format!(
+        "PEER DATABASE, A TEST\nNowhere, 1/1/2001, Test hill, 90\nACCELERATION TIME SERIES IN UNITS OF CM/S2\n\
+         NPTS=  {:5}, DT=   .0100 SEC,\n{}",
+        samples.len(),
+        columns(samples, 5, |a| format!("{a:15.6E}"))
+    )
+}
+
+pub(crate) fn esm(samples: &[f64]) -> String {
+    let mut text = String::new();
+    let stated = [
+        ("EVENT_NAME", "A TEST".to_owned()),
+        ("EVENT_DATE_YYYYMMDD", "20010101".to_owned()),
+        ("STATION_NAME", "Test hill: the top".to_owned()),
+        ("VS30_M/S", String::new()),
+        ("SAMPLING_INTERVAL_S", "0.010000".to_owned()),
+        ("NDATA", samples.len().to_string()),
+        ("STREAM", "HNE".to_owned()),
+        ("UNITS", "cm/s^2".to_owned()),
+        ("PGA_CM/S^2", format!("{:.6}", peak(samples))),
+        ("DATA_TYPE", "ACCELERATION".to_owned()),
+    ];
+    for (key, value) in &stated {
+        let _ = writeln!(text, "{key}: {value}");
+    }
+    for index in stated.len()..64 {
+        let _ = writeln!(text, "USER{index}: ");
+    }
+    text + &columns(samples, 1, |a| format!("{a:.6}"))
+}
+
+/// Counts of 0.001 cm/s² about an offset of −12 000.
+pub(crate) fn knet(samples: &[f64]) -> String {
+    let labels = [
+        ("Origin Time", "2001/01/01 00:00:00".to_owned()),
+        ("Lat.", "1.0".to_owned()),
+        ("Long.", "2.0".to_owned()),
+        ("Depth. (km)", "10".to_owned()),
+        ("Mag.", "5.0".to_owned()),
+        ("Station Code", "TST001".to_owned()),
+        ("Station Lat.", "1.1".to_owned()),
+        ("Station Long.", "2.1".to_owned()),
+        ("Station Height(m)", "7".to_owned()),
+        ("Record Time", "2001/01/01 00:00:15".to_owned()),
+        ("Sampling Freq(Hz)", "100Hz".to_owned()),
+        ("Duration Time(s)", (samples.len() as f64 / 100.0).to_string()),
+        ("Dir.", "E-W".to_owned()),
+        ("Scale Factor", "2000(gal)/2000000".to_owned()),
+        ("Max. Acc. (gal)", format!("{:.3}", peak(samples).abs())),
+        ("Last Correction", "2001/01/01 00:00:15".to_owned()),
+        ("Memo.", String::new()),
+    ];
+    let header: Vec<_> = labels.iter().map(|(label, value)| format!("{label:<18}{value}\n")).collect();
+    header.concat() + &columns(samples, 8, |a| format!("{:8.0} ", (1000.0 * a).round() - 12_000.0))
+}
+
+pub(crate) fn cosmos(samples: &[f64]) -> String {
+    let mut reals = [-999.0; 100];
+    reals[61] = 10.0;
+    reals[63] = peak(samples);
+    format!(
+        "Corrected acceleration    (Format v01.20 with 3 text lines)\nA test on a hill\n\
+         Sta Chan   2: 90 Deg (Rcrdr Chan  2) Location: the top\n \
+         100 Integer-header values follow on  10 lines, Format= (10I8)\n{} \
+         100 Real-header values follow on  20 lines, Format= (5F15.6)\n{}   \
+         1 Comment line(s) follow, each starting with a \"|\":\n| 7 pts, Format=(1F2) is but a comment\n{:8} \
+         acceleration pts, approx {:4.0} secs, units=cm/sec2(04),Format=(8F10.3)\n{}End-of-data for Chan 2 acceleration\n",
+        columns(&[-999.0; 100], 10, |value| format!("{value:8.0}")),
+        columns(&reals, 5, |value| format!("{value:15.6}")),
+        samples.len(),
+        samples.len() as f64 * STEP,
+        columns(samples, 8, |a| format!("{a:10.3}"))
+    )
+}
+
+pub(crate) fn csmip(samples: &[f64]) -> String {
+    csmip_channels(&[(1, " 90 Deg", samples)])
+}
+
+pub(crate) fn csmip_channels(channels: &[(u32, &str, &[f64])]) -> String {
+    let mut text = String::new();
+    for &(number, direction, samples) in channels {
+        let count = samples.len();
+        let block = |quantity: &str, unit: &str| {
+            let data = columns(samples, 8, |a| format!("{a:10.3}"));
+            format!(
+                "{count:6} points of {quantity} data equally spaced at  .010 sec, in {unit}. (8f10.3)\n{data}"
+            )
+        };
+        let _ = write!(
+            text,
+            "Corrected accelerogram   A test\nUncorrected Accelerogram Data\n\nChan {number:2}:{direction}\n\
+             {count:6} points of instrument- and baseline-corrected accel, veloc and displ data\n\
+             At equally-spaced intervals of .010 sec.\n\
+             Peak acceleration = {:9.3}    cm/sec/sec  at    0.030   sec.\n{}{}{}{}{}\
+             /&  ----------  End of data for channel {number:2}  ----------\n",
+            peak(samples),
+            columns(&[0.0; 100], 16, |value| format!("{value:5.0}")),
+            columns(&[0.0; 100], 8, |value| format!("{value:10.3}")),
+            block("accel", "cm/sec2"),
+            block("veloc", "cm/sec"),
+            block("displ", "cm"),
+        );
+    }
+    text
+}
+
+pub(crate) fn smc(samples: &[f64]) -> String {
+    let mut integers = [-32_768.0; 48];
+    integers[15] = 2.0;
+    integers[16] = samples.len() as f64;
+    let mut reals = [1.7e38; 50];
+    reals[1] = 100.0;
+    reals[29] = samples.iter().copied().fold(0.0, f64::max);
+    reals[31] = samples.iter().copied().fold(0.0, f64::min);
+    format!(
+        "2 CORRECTED ACCELEROGRAM\n{}{}{}|\n|a test\n{}",
+        "*\n".repeat(10),
+        columns(&integers, 8, |value| format!("{value:10.0}")),
+        columns(&reals, 5, |value| format!("{value:15.7E}")),
+        columns(samples, 8, |a| format!("{a:10.4E}"))
+    )
+}
+
+pub(crate) fn csv(samples: &[f64]) -> String {
+    let row = |(index, a): (usize, &f64)| format!("{:.3},{a}\n", index as f64 * STEP);
+    "time,a_g\n".to_owned() + &samples.iter().enumerate().map(row).collect::<String>()
+}
