@@ -93,7 +93,9 @@ fn solve(
         .map_err(words)?;
     match method {
         Method::Tsit45 => follow(problem.tsit45().map_err(words)?, equation, &line, stops, history),
-        Method::TrBdf2 => follow(problem.tr_bdf2::<Linear>().map_err(words)?, equation, &line, stops, history),
+        Method::TrBdf2 => {
+            follow(problem.tr_bdf2::<Linear>().map_err(words)?, equation, &line, stops, history)
+        }
         Method::Bdf => follow(problem.bdf::<Linear>().map_err(words)?, equation, &line, stops, history),
     }
 }
