@@ -95,6 +95,10 @@ fn whole(equation: &Equation, method: Method, tolerance: f64, history: &mut Vec<
     let states = method(equation, [0.0, end], Vector2::zeros(), tolerance, OutputType::Dense)?;
     history.clear();
     history.extend(states.iter().take(count).map(|state| state[0]));
+    if let Some(first) = history.first_mut() {
+        // version 0.6.2 puts the end of its first step here
+        *first = 0.0;
+    }
     Ok(())
 }
 

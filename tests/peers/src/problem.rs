@@ -139,7 +139,10 @@ impl Problem {
             let path = folder.join(name);
             std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
         };
-        let lines = |values: &[f64]| values.iter().map(|value| format!("{value:e}\n")).collect::<String>();
+        let lines = |values: &[f64]| {
+            let words: Vec<String> = values.iter().map(|value| format!("{value:e}")).collect();
+            words.join("\n") + "\n"
+        };
         write(&format!("{stem}.json"), text)?;
         write(&samples_file, lines(self.motion.samples()))?;
         write(&reference_file, lines(&self.reference))

@@ -130,17 +130,13 @@ where
             solver.interpolate_inplace(time_of(history.len()), &mut state).map_err(words)?;
             history.push(state.get_index(0));
         }
-        match reason {
-            OdeSolverStopReason::InternalTimestep => {}
-            OdeSolverStopReason::RootFound(time, side) => {
-                solver.state_mut_back(time).map_err(words)?;
-                cross(&mut solver, equation, line, side);
-                // a corner within a rounding of the stop is at the stop
-                if time_of(aim) - time <= SAME_TIME * equation.step && history.len() == aim {
-                    history.push(solver.state().y.get_index(0));
-                }
+        if let OdeSolverStopReason::RootFound(time, side) = reason {
+            solver.state_mut_back(time).map_err(words)?;
+            cross(&mut solver, equation, line, side);
+            // a corner within a rounding of the stop is at the stop
+            if time_of(aim) - time <= SAME_TIME * equation.step && history.len() == aim {
+                history.push(solver.state().y.get_index(0));
             }
-            OdeSolverStopReason::TstopReached => {}
         }
         if history.len() == count {
             return Ok(());
