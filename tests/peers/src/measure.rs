@@ -29,6 +29,18 @@ impl Rows {
         problem: &Problem,
         tool: &str,
         setting: &str,
+        run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
+    ) {
+        self.measure_many(problem, tool, setting, 1, run);
+    }
+
+    /// As [`Rows::measure`], where `run` makes `count` runs at once and the row has the time of one.
+    pub(crate) fn measure_many(
+        &mut self,
+        problem: &Problem,
+        tool: &str,
+        setting: &str,
+        count: usize,
         mut run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
     ) {
         let mut history = Vec::with_capacity(problem.reference.len());
@@ -47,14 +59,15 @@ impl Rows {
         let Errors { max, rms, peak, overturned } = Errors::of(&history, problem);
         let began = Instant::now();
         let mut least = f64::INFINITY;
-        for count in 0..RUNS {
-            if count >= FEWEST_RUNS && began.elapsed() > PATIENCE {
+        for repetition in 0..RUNS {
+            if repetition >= FEWEST_RUNS && began.elapsed() > PATIENCE {
                 break;
             }
             let start = Instant::now();
             let _ = black_box(run(&mut history));
             least = least.min(start.elapsed().as_secs_f64());
         }
+        let least = least / count as f64;
         row(format!(",{least:.4e},{max:.4e},{rms:.4e},{peak:.4e},{overturned}"));
     }
 }
