@@ -88,6 +88,12 @@ def repeat(prepare, timed):
     return least
 
 
+def in_short(value, digits):
+    """As Rust writes it: 5.000e-3."""
+    mantissa, exponent = f"{value:.{digits}e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
 def one_line(error):
     return str(error).replace(",", ";").replace("\n", " ")
 
@@ -138,7 +144,7 @@ def opensees(writer, problem):
                 if call(1, step) != 0:
                     raise RuntimeError(f"no convergence at {ops.getTime()} s")
 
-        setting = f"newmark {step:.3e} s"
+        setting = f"newmark {in_short(step, 3)} s"
         measure(writer, problem, "OpenSeesPy", setting, history, lambda: opensees_model(ops, problem), step_loop)
     ops.wipe()
 
@@ -185,7 +191,7 @@ def scipy(writer, problem):
     from scipy.integrate import solve_ivp
 
     for method, tolerance in SCIPY_SETTINGS:
-        setting = f"{method} {tolerance:.0e} events"
+        setting = f"{method} {in_short(tolerance, 0)} events"
         measure(writer, problem, "SciPy", setting, lambda: scipy_run(solve_ivp, problem, method, tolerance))
 
 
@@ -267,7 +273,9 @@ RK4_SUBSTEPS = (1, 4, 16, 64, 256)
 NEWMARK_SUBSTEPS = (1, 4, 16, 64)
 
 
-def numba(writer, problem):
+@functools.cache
+def numba_loops():
+    """The two loops, compiled at their first call."""
     import numba as compiler
     import numpy as np
 
@@ -339,16 +347,28 @@ def numba(writer, problem):
             history[sample + 1] = u
         return history
 
+    return rk4, newmark
+
+
+def numba(writer, problem):
+    import numpy as np
+
+    rk4, newmark = numba_loops()
     forcing = np.array(problem.forcing)
     corners, table = np.array(problem.corners), np.array(problem.lines)
     damping = (2 * problem.xi, problem.elastic_damping, problem.constant, problem.elastic_line)
-    for count in RK4_SUBSTEPS:
-        setting = f"rk4 {problem.step / count:.3e} s"
-        measure(writer, problem, "numba", setting, lambda: rk4(forcing, problem.step, count, corners, table, damping))
-    for count in NEWMARK_SUBSTEPS:
-        setting = f"newmark {problem.step / count:.3e} s"
-        run = functools.partial(newmark, forcing, problem.step, count, corners, table, damping)
-        measure(writer, problem, "numba", setting, lambda: run(1e-12 * problem.u_ins))
+
+    def rk4_run(count):
+        return rk4(forcing, problem.step, count, corners, table, damping)
+
+    def newmark_run(count):
+        return newmark(forcing, problem.step, count, corners, table, damping, 1e-12 * problem.u_ins)
+
+    for name, loop, substeps in (("rk4", rk4_run, RK4_SUBSTEPS), ("newmark", newmark_run, NEWMARK_SUBSTEPS)):
+        loop(1)
+        for count in substeps:
+            run = functools.partial(loop, count)
+            measure(writer, problem, "numba", f"{name} {in_short(problem.step / count, 3)} s", run)
 
 
 TOOLS = {"opensees": ("OpenSeesPy", opensees), "scipy": ("SciPy", scipy), "numba": ("numba", numba)}
