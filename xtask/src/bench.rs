@@ -141,15 +141,13 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
             .filter_map(|row| row.figures.map(|figures| (row.setting, figures)))
             .filter(|(setting, figures)| figures.error <= GOOD && is_single(setting))
             .min_by(|(_, one), (_, other)| one.seconds.total_cmp(&other.seconds));
-        match good {
-            Some((setting, figures)) => write_row(text, tool, setting, figures, base)?,
-            None => {
-                // a tool without any figures says why
-                let mut of_tool = rows.iter().filter(|row| row.tool == tool);
-                let reason =
-                    of_tool.clone().all(|row| row.figures.is_none()).then(|| of_tool.next()).flatten();
-                writeln!(text, "{tool:<14}{}", reason.map_or("none", |row| row.setting))?;
-            }
+        if let Some((setting, figures)) = good {
+            write_row(text, tool, setting, figures, base)?;
+        } else {
+            // a tool without any figures says why
+            let mut of_tool = rows.iter().filter(|row| row.tool == tool);
+            let reason = of_tool.clone().all(|row| row.figures.is_none()).then(|| of_tool.next()).flatten();
+            writeln!(text, "{tool:<14}{}", reason.map_or("none", |row| row.setting))?;
         }
     }
     // its first row is at the record's step

@@ -64,7 +64,7 @@ fn solve(
 ) -> Result<(), String> {
     let line = Cell::new(equation.line_of(0.0));
     let words = |error: diffsol::error::DiffsolError| error.to_string();
-    let problem = OdeBuilder::<Matrix>::new()
+    let mut problem = OdeBuilder::<Matrix>::new()
         .rtol(tolerance)
         .atol([tolerance * equation.u_ins, tolerance * equation.u_ins])
         .h0(equation.step)
@@ -91,6 +91,8 @@ fn solve(
         )
         .build()
         .map_err(words)?;
+    // the default is 50 in a run, and each corner may cost one
+    problem.ode_options.max_nonlinear_solver_failures = MOST_STEPS;
     match method {
         Method::Tsit45 => follow(problem.tsit45().map_err(words)?, equation, &line, stops, history),
         Method::TrBdf2 => {
