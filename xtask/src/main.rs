@@ -28,7 +28,7 @@ The jobs of the project.
   cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
   cargo xtask bench --peers [RECORD.AT2]
                                    error against run time beside OpenSeesPy, SciPy, numba, diffsol and ode_solvers, under
-                                   the first 30 s of a record or the embedded motion; fmu_out/peers.csv
+                                   the first 30 s of a record or a synthetic motion; fmu_out/peers.csv
 ";
 
 fn main() -> ExitCode {
