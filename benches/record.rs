@@ -8,8 +8,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rocking_wall::ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
+use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::record::{RecordSolver, Scaled};
-use rocking_wall::solver::{Method, Motion};
+use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -17,7 +18,14 @@ const RUNS: usize = 200;
 const LANES: usize = 8;
 
 fn main() {
-    let record = match std::env::args().skip(1).find(|argument| !argument.starts_with("--")) {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    if let [flag, path, runs] = arguments.as_slice()
+        && flag == "--count"
+    {
+        println!("{}", count(path, runs.parse().expect("a number of runs")));
+        return;
+    }
+    let record = match arguments.first() {
         Some(path) => {
             rocking_wall::ground_motion::read(path, &ReadOptions::default()).expect("a record").motion
         }
@@ -105,4 +113,57 @@ fn least(units: usize, mut run: impl FnMut() -> f64) -> f64 {
         least = least.min(start.elapsed().as_secs_f64());
     }
     least * 1e9 / units as f64
+}
+
+/// So many runs of one path, for counting its instructions; returns the samples run through.
+fn count(path: &str, runs: u32) -> u64 {
+    let record = SyntheticMotion::default().motion().expect("the default motion");
+    let damping_model = match path {
+        "adaptive" => DampingModel::ConstantRatio,
+        _ => DampingModel::ConstantCoefficient,
+    };
+    let parameters = Parameters {
+        height: 3.0,
+        thickness: 0.6,
+        a1: 0.0024,
+        damping_model,
+        u_start: 0.0,
+        ..Parameters::default()
+    };
+    let wall = Wall::new(&parameters).expect("a valid wall");
+    let participation = wall.body().forcing(Support::rigid(1.0));
+    let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
+    let motion = Motion::new(wall, method);
+    let solver = RecordSolver::new(&motion, record.step());
+    let start = motion.start(0.0, 0.0, Support::default());
+    let largest = record.peak();
+    for _ in 0..runs {
+        let samples = black_box(record.samples());
+        match path {
+            "segments" => {
+                let mut simulation =
+                    Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
+                for ends in samples.windows(2) {
+                    let [from, to] = [ends[0], ends[1]].map(Support::rigid);
+                    let segment = Segment { duration: record.step(), from, to };
+                    simulation.advance(&segment).expect("a bounded motion");
+                }
+                black_box(simulation.progress().state);
+            }
+            "record" | "adaptive" => {
+                let forcing = Scaled::new(samples, [participation], largest);
+                black_box(solver.run([start], &forcing, false, |_, _, _| {}).expect("a bounded motion"));
+            }
+            "eight" => {
+                let factors: [f64; LANES] = std::array::from_fn(|i| (0.65 + 0.05 * i as f64) * participation);
+                let forcing = Scaled::new(samples, factors, largest);
+                black_box(
+                    solver.run([start; LANES], &forcing, false, |_, _, _| {}).expect("a bounded motion"),
+                );
+            }
+            other => panic!("no path {other}: segments, record, eight, adaptive"),
+        }
+    }
+    let lanes = if path == "eight" { LANES } else { 1 };
+    (record.samples().len() - 1) as u64 * u64::from(runs) * lanes as u64
 }

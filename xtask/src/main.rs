@@ -1,10 +1,11 @@
-//! The jobs of the project: `cargo xtask fmu | demo | test`.
+//! The jobs of the project: `cargo xtask fmu | demo | test | bench`.
 //!
 //! No dependencies: this program builds in a second on a fresh machine. The Python packages a job needs it installs
 //! itself under the target folder, pinned by hash.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
+mod bench;
 mod command;
 mod demo;
 mod fmu;
@@ -25,6 +26,10 @@ The jobs of the project.
   cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
                                    (PEER AT2, or CSV with its unit), write histories and pages to fmu_out/
   cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
+  cargo xtask bench [RECORD.AT2]   ns a sample of each path, and instructions where valgrind is installed
+  cargo xtask bench --peers [RECORD.AT2]
+                                   error against run time beside OpenSeesPy, SciPy, numba, diffsol and ode_solvers, under
+                                   the first 30 s of a record or a synthetic motion; fmu_out/peers.csv
 ";
 
 fn main() -> ExitCode {
@@ -35,6 +40,10 @@ fn main() -> ExitCode {
         ["fmu", "--portable"] => fmu::build(fmu::Linker::Zig).map(|path| println!("{}", path.display())),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["test"] => test::run(),
+        ["bench"] => bench::paths(None),
+        ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
+        ["bench", "--peers"] => bench::peers(None),
+        ["bench", "--peers", record] => bench::peers(Some(record)),
         [] | ["help" | "-h" | "--help", ..] => {
             print!("{HELP}");
             Ok(())

@@ -1,0 +1,103 @@
+//! Time and error of a run.
+
+use std::fmt::Write as _;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use crate::problem::Problem;
+
+/// Runs after the warm-up, unless they take longer than [`PATIENCE`].
+const RUNS: usize = 25;
+const FEWEST_RUNS: usize = 3;
+const PATIENCE: Duration = Duration::from_millis(800);
+
+/// The rows of the comparison, one for each tool and setting.
+pub(crate) struct Rows(String);
+
+impl Rows {
+    pub(crate) fn new() -> Self {
+        Self("scene,tool,setting,seconds,error_max,error_rms,error_peak,overturned\n".to_owned())
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.0
+    }
+
+    /// Times `run`, which writes the displacement at each sample, and adds a row; a run that fails is named in it.
+    pub(crate) fn measure(
+        &mut self,
+        problem: &Problem,
+        tool: &str,
+        setting: &str,
+        run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
+    ) {
+        self.measure_many(problem, tool, setting, 1, run);
+    }
+
+    /// As [`Rows::measure`], where `run` makes `count` runs at once and the row has the time of one.
+    pub(crate) fn measure_many(
+        &mut self,
+        problem: &Problem,
+        tool: &str,
+        setting: &str,
+        count: usize,
+        mut run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
+    ) {
+        let mut history = Vec::with_capacity(problem.reference.len());
+        let mut row = |text: String| {
+            // writing to a string does not fail
+            let _ = writeln!(self.0, "{},{tool},{setting}{text}", problem.scene);
+        };
+        if let Err(reason) = run(&mut history) {
+            row(format!(": failed: {},,,,,", reason.replace([',', '\n', '"'], ";")));
+            return;
+        }
+        if history.len() != problem.reference.len() {
+            row(format!(": failed: {} of {} samples,,,,,", history.len(), problem.reference.len()));
+            return;
+        }
+        let Errors { max, rms, peak, overturned } = Errors::of(&history, problem);
+        let began = Instant::now();
+        let mut least = f64::INFINITY;
+        for repetition in 0..RUNS {
+            if repetition >= FEWEST_RUNS && began.elapsed() > PATIENCE {
+                break;
+            }
+            let start = Instant::now();
+            let _ = black_box(run(&mut history));
+            least = least.min(start.elapsed().as_secs_f64());
+        }
+        let least = least / count as f64;
+        row(format!(",{least:.4e},{max:.4e},{rms:.4e},{peak:.4e},{overturned}"));
+    }
+}
+
+/// Errors at the samples over `u_ins` \[-\].
+struct Errors {
+    max: f64,
+    rms: f64,
+    /// Of the largest |u|.
+    peak: f64,
+    overturned: bool,
+}
+
+impl Errors {
+    fn of(history: &[f64], problem: &Problem) -> Self {
+        let u_ins = problem.equation.u_ins;
+        let (mut max, mut squares, mut peak, mut reference_peak) = (0.0_f64, 0.0, 0.0_f64, 0.0_f64);
+        for (u, reference) in history.iter().zip(&problem.reference) {
+            let error = (u - reference).abs() / u_ins;
+            // f64::max would drop a NaN
+            max = if error.is_nan() { f64::INFINITY } else { max.max(error) };
+            squares += error * error;
+            peak = peak.max(u.abs());
+            reference_peak = reference_peak.max(reference.abs());
+        }
+        Self {
+            max,
+            rms: (squares / history.len() as f64).sqrt(),
+            peak: (peak - reference_peak).abs() / u_ins,
+            overturned: peak > u_ins,
+        }
+    }
+}
