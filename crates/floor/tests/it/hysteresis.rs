@@ -172,3 +172,54 @@ fn a_spring_that_yields_needs_stiffness() {
     let error = Floor::new(&soft).unwrap_err().to_string();
     assert!(error.contains("stiffness = 0") && error.contains("hysteresis = none"), "{error}");
 }
+
+/// Any floor, any load: the same in one step and in pieces, never outside the law, never out of energy.
+#[test]
+fn whatever_happens_the_law_is_kept() {
+    let mut seed = 12_345_u64;
+    // xorshift: evenly spread between two limits
+    let mut between = |low: f64, high: f64| {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        low + (high - low) * (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut corners = 0;
+    for case in 0..300 {
+        let hardening = if case % 3 == 0 { 0.0 } else { between(0.0, 0.99) };
+        let damping = if case % 4 == 0 { 0.0 } else { between(0.0, 3.0).powi(3) };
+        let floor = Floor::new(&parameters(hardening, damping)).unwrap();
+        let (position, velocity) = (between(-3.0, 3.0) * LIMIT, between(-1.0, 1.0));
+        let mut whole = State::new(&floor, position, velocity, Load::default());
+        let mut pieces = whole;
+        let mut farthest = 3.0 * LIMIT;
+        for _ in 0..30 {
+            let duration = 10.0_f64.powf(between(-9.0, 0.5));
+            let value = if between(0.0, 1.0) < 0.1 { 0.0 } else { between(-6.0, 6.0) };
+            let rate = if between(0.0, 1.0) < 0.3 { 0.0 } else { between(-6.0, 6.0) / duration };
+            let lost = whole.damping_energy + whole.hysteretic_energy;
+            corners += whole.advance(&floor, Load { value, rate }, duration).unwrap();
+            assert!(whole.damping_energy + whole.hysteretic_energy >= lost);
+            let stretch = (whole.displacement - whole.plastic).abs();
+            assert!(stretch <= LIMIT + 4.0 * f64::EPSILON * (LIMIT + whole.displacement.abs()), "{whole:?}");
+            for share in [0.0, 0.21, 0.7] {
+                let length = duration
+                    * (if share == 0.7 {
+                        0.3
+                    } else if share == 0.0 {
+                        0.21
+                    } else {
+                        0.49
+                    });
+                let load = Load { value: value + rate * duration * share, rate };
+                pieces.advance(&floor, load, length).unwrap();
+            }
+            farthest = farthest.max(whole.displacement.abs());
+            // rounding of the loads, of up to 12 m/s², over the time they have acted
+            let tolerance = 1e-11 * farthest.max(duration * duration);
+            assert_close(pieces.displacement, whole.displacement, tolerance);
+            assert_close(pieces.plastic, whole.plastic, tolerance);
+        }
+    }
+    assert!(corners > 3000, "{corners} corners");
+}
