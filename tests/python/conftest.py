@@ -38,3 +38,18 @@ def unit(unpacked):
     """A fresh instance of the general FMU, not initialised."""
     with Unit(unpacked) as instance:
         yield instance
+
+
+@pytest.fixture(scope="session")
+def floor_fmu():
+    """Path of the floor's FMU."""
+    path = Path(os.environ.get("ROCKING_FLOOR_FMU", ROOT / "fmu_out/floor.fmu"))
+    assert path.is_file(), f"{path} is missing: run `cargo xtask fmu`"
+    return path
+
+
+@pytest.fixture(scope="session")
+def unpacked_floor(floor_fmu):
+    """The floor's FMU, unpacked once."""
+    with Unit.unpack(floor_fmu) as unpacked:
+        yield unpacked

@@ -13,7 +13,7 @@ use crate::{Result, root};
 /// # Errors
 /// If a step of it fails.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
-    let unit = fmu::build(Linker::System)?;
+    let unit = fmu::build(fmu::WALL, Linker::System)?;
     let python = Environment::of("tests", "tests/python/requirements.lock")?;
     let wall = wall_binary()?;
     let out = root().join("fmu_out");

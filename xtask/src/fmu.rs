@@ -19,27 +19,60 @@ pub(crate) enum Linker {
 /// The oldest C library a portable FMU runs on.
 const PORTABLE_TARGET: &str = "x86_64-unknown-linux-gnu.2.17";
 
-/// Builds `fmu_out/wall.fmu` and returns its path.
+/// An FMU of this workspace.
+#[derive(Clone, Copy)]
+pub(crate) struct Unit {
+    /// The package whose library it holds.
+    package: &'static str,
+    /// Its file under `fmu_out/`.
+    file: &'static str,
+    /// The folder of its `modelDescription.xml` and `documentation/`.
+    description: &'static str,
+}
+
+/// The rocking wall.
+pub(crate) const WALL: Unit =
+    Unit { package: "rocking-wall", file: "wall.fmu", description: "modelDescription" };
+
+/// The floor that walls couple with.
+pub(crate) const FLOOR: Unit =
+    Unit { package: "rocking-floor", file: "floor.fmu", description: "crates/floor/modelDescription" };
+
+/// Every FMU.
+pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
+
+/// Builds an FMU into `fmu_out/` and returns its path.
 ///
 /// # Errors
 /// If the library does not build or the archive cannot be written.
-pub(crate) fn build(linker: Linker) -> Result<PathBuf> {
-    let library = library(linker)?;
-    let output = root().join("fmu_out/wall.fmu");
-    pack(&library, &output)?;
+pub(crate) fn build(unit: Unit, linker: Linker) -> Result<PathBuf> {
+    let library = library(unit, linker)?;
+    let output = root().join("fmu_out").join(unit.file);
+    pack(unit, &library, &output)?;
     Ok(output)
+}
+
+/// Builds every FMU and shows where it is.
+///
+/// # Errors
+/// As [`build`].
+pub(crate) fn build_all(linker: Linker) -> Result<()> {
+    for unit in UNITS {
+        println!("{}", build(unit, linker)?.display());
+    }
+    Ok(())
 }
 
 /// Builds the portable library alone and returns its path.
 ///
 /// # Errors
 /// As [`build`].
-pub(crate) fn portable_library() -> Result<PathBuf> {
-    library(Linker::Zig)
+pub(crate) fn portable_library(unit: Unit) -> Result<PathBuf> {
+    library(unit, Linker::Zig)
 }
 
 /// Builds the library without the command line's crates.
-fn library(linker: Linker) -> Result<PathBuf> {
+fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let mut build = cargo();
     match linker {
@@ -58,7 +91,7 @@ fn library(linker: Linker) -> Result<PathBuf> {
             build.env("PATH", path);
         }
     }
-    build.args(["--release", "--locked", "--package", "rocking-wall", "--lib", "--crate-type", "cdylib"]);
+    build.args(["--release", "--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
     build.args(["--no-default-features", "--features", "fmu"]);
     build.env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build);
@@ -68,7 +101,7 @@ fn library(linker: Linker) -> Result<PathBuf> {
         built.push(PORTABLE_TARGET.trim_end_matches(".2.17"));
     }
     built.push("release");
-    built.push(library_name());
+    built.push(library_name(unit));
     Ok(built)
 }
 
@@ -89,12 +122,13 @@ fn reproducible(build: &mut Command) {
 }
 
 /// Zips the FMU.
-fn pack(library: &Path, output: &Path) -> Result<()> {
+fn pack(unit: Unit, library: &Path, output: &Path) -> Result<()> {
     let mut pack = cargo();
     pack.args(["run", "--quiet", "--locked", "--package", "fmi2-export-build", "--features", "archive"]);
     pack.args(["--bin", "fmi2-pack", "--"]);
-    pack.args(["--description", "modelDescription/modelDescription.xml"]);
-    pack.args(["--documentation", "modelDescription/documentation"]);
+    let description = Path::new(unit.description);
+    pack.arg("--description").arg(description.join("modelDescription.xml"));
+    pack.arg("--documentation").arg(description.join("documentation"));
     pack.arg("--binary").arg(library).args(["--platform", platform()]);
     pack.arg("--output").arg(output);
     succeed(&mut pack, "see its message above")
@@ -111,6 +145,7 @@ fn platform() -> &'static str {
     }
 }
 
-fn library_name() -> String {
-    format!("{}rocking_wall{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
+fn library_name(unit: Unit) -> String {
+    let name = unit.package.replace('-', "_");
+    format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
 }

@@ -21,7 +21,7 @@ pub(crate) type Result<T> = std::result::Result<T, String>;
 const HELP: &str = "\
 The jobs of the project.
 
-  cargo xtask fmu [--portable]     build the library and zip fmu_out/wall.fmu
+  cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
                                    --portable: with zig, for Linux machines as old as glibc 2.17
   cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
                                    (PEER AT2, or CSV with its unit), write histories and pages to fmu_out/
@@ -36,8 +36,8 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
-        ["fmu"] => fmu::build(fmu::Linker::System).map(|path| println!("{}", path.display())),
-        ["fmu", "--portable"] => fmu::build(fmu::Linker::Zig).map(|path| println!("{}", path.display())),
+        ["fmu"] => fmu::build_all(fmu::Linker::System),
+        ["fmu", "--portable"] => fmu::build_all(fmu::Linker::Zig),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["test"] => test::run(),
         ["bench"] => bench::paths(None),

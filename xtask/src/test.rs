@@ -103,30 +103,35 @@ pub(crate) fn wall_binary() -> Result<PathBuf> {
 }
 
 fn python() -> Result<()> {
-    let unit = fmu::build(Linker::System)?;
+    let unit = fmu::build(fmu::WALL, Linker::System)?;
+    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
     let wall = wall_binary()?;
     let python = Environment::of("tests", "tests/python/requirements.lock")?;
     let mut pytest = python.program("python");
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
-    pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
+    pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     succeed(&mut pytest, "see the failures above")
 }
 
-/// Builds the portable FMU and reads its symbol table.
+/// Builds the portable libraries and reads their symbol tables.
 fn portable() -> Result<()> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         println!("not run: the portable FMU is made on x86-64 Linux");
         return Ok(());
     }
-    let library = fmu::portable_library()?;
     let python = Environment::of("tests", "tests/python/requirements.lock")?;
-    let mut check = python.program("python");
-    check.arg("tests/python/check_symbols.py").arg(library);
-    succeed(&mut check, "see its message above")
+    for unit in fmu::UNITS {
+        let library = fmu::portable_library(unit)?;
+        let mut check = python.program("python");
+        check.arg("tests/python/check_symbols.py").arg(library);
+        succeed(&mut check, "see its message above")?;
+    }
+    Ok(())
 }
 
 fn conformance() -> Result<()> {
-    let unit = fmu::build(Linker::System)?;
+    let unit = fmu::build(fmu::WALL, Linker::System)?;
     let clang = Environment::of("clang", "xtask/locks/clang.lock")?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;

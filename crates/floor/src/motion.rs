@@ -1,0 +1,209 @@
+//! A floor in time: from corner to corner in closed form.
+
+use crate::floor::{Branch, Floor, Yielding};
+use crate::oscillator::Motion;
+
+/// State of a floor: plain data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Displacement relative to the base \[m\].
+    pub displacement: f64,
+    /// Velocity relative to the base \[m/s\].
+    pub velocity: f64,
+    /// Displacement at which the elasto-plastic element is free of force \[m\].
+    pub plastic: f64,
+    /// Branch of the spring's law.
+    pub branch: Branch,
+    /// Energy lost by damping \[J\].
+    pub damping_energy: f64,
+    /// Energy lost by yielding \[J\].
+    pub hysteretic_energy: f64,
+}
+
+/// Acceleration that the load alone gives the mass, linear in time: −`a_g` − Σ rᵢ/M.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// At the start \[m/s²\].
+    pub value: f64,
+    /// \[m/s³\]
+    pub rate: f64,
+}
+
+/// A step that cannot be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MotionError {
+    /// Too much happens in one step.
+    #[error(
+        "more than {MOST_CORNERS} corners of the hysteresis in one step of {duration} s; use smaller steps"
+    )]
+    Corners {
+        /// \[s\]
+        duration: f64,
+    },
+    /// The floor has left all bounds.
+    #[error(
+        "the motion is no longer finite; the inputs are too large for mass = {mass} kg: reduce them or the step"
+    )]
+    NotFinite {
+        /// \[kg\]
+        mass: f64,
+    },
+}
+
+/// Corners of the hysteresis, and spans searched for them, in one step.
+const MOST_CORNERS: usize = 1_000_000;
+
+impl State {
+    /// A floor at a displacement \[m\] that it has reached by monotonic loading, with a velocity \[m/s\], under a load.
+    #[must_use]
+    pub fn new(floor: &Floor, displacement: f64, velocity: f64, load: Load) -> Self {
+        let plastic = floor.yielding.map_or(0.0, |yielding| {
+            displacement - displacement.clamp(-yielding.displacement, yielding.displacement)
+        });
+        let branch = Branch::Elastic;
+        let mut state =
+            Self { displacement, velocity, plastic, branch, damping_energy: 0.0, hysteretic_energy: 0.0 };
+        state.branch = state.branch_ahead(floor, load);
+        state
+    }
+
+    /// Acceleration relative to the base \[m/s²\].
+    #[must_use]
+    pub fn acceleration(&self, floor: &Floor, load: f64) -> f64 {
+        load - (self.spring_force(floor) + floor.damping * self.velocity) / floor.mass
+    }
+
+    /// Rate of the acceleration \[m/s³\] under a load of this rate.
+    #[must_use]
+    pub fn jerk(&self, floor: &Floor, load: Load) -> f64 {
+        let acceleration = self.acceleration(floor, load.value);
+        load.rate - (floor.tangent(self.branch) * self.velocity + floor.damping * acceleration) / floor.mass
+    }
+
+    /// Force of the spring \[N\], positive towards −x.
+    #[must_use]
+    pub fn spring_force(&self, floor: &Floor) -> f64 {
+        floor.spring_force(self.displacement, self.plastic, self.branch)
+    }
+
+    /// Moves through a step and returns the number of corners passed.
+    ///
+    /// # Errors
+    /// When the step has too many corners or the result is not finite; the state is then unusable.
+    pub fn advance(&mut self, floor: &Floor, load: Load, duration: f64) -> Result<usize, MotionError> {
+        let mut done = 0.0;
+        // inputs may have changed since the last step
+        self.branch = self.branch_ahead(floor, load);
+        for corners in 0..MOST_CORNERS {
+            let now = Load { value: load.value + load.rate * done, rate: load.rate };
+            let remaining = duration - done;
+            let motion = self.motion(floor, now);
+            let corner = self.corner(floor, &motion, remaining)?;
+            let length = corner.map_or(remaining, |corner| corner.after);
+            self.follow(floor, &motion, length);
+            let Some(Corner { branch, .. }) = corner else {
+                let finite = self.displacement.is_finite() && self.velocity.is_finite();
+                return if finite { Ok(corners) } else { Err(MotionError::NotFinite { mass: floor.mass }) };
+            };
+            if branch == Branch::Elastic {
+                // unloading starts where the velocity is zero, here up to rounding
+                self.velocity = 0.0;
+            }
+            self.branch = branch;
+            done += length;
+        }
+        Err(MotionError::Corners { duration })
+    }
+
+    fn motion(&self, floor: &Floor, load: Load) -> Motion {
+        Motion {
+            oscillator: floor.oscillator(self.branch),
+            velocity: self.velocity,
+            acceleration: self.acceleration(floor, load.value),
+            forcing_rate: load.rate,
+        }
+    }
+
+    /// Moves along one branch.
+    fn follow(&mut self, floor: &Floor, motion: &Motion, length: f64) {
+        let (point, loss) = motion.with_loss(length);
+        self.displacement += point.displacement;
+        self.velocity = point.velocity;
+        self.damping_energy += floor.mass * loss;
+        if let (Some(yielding), true) = (floor.yielding, self.branch != Branch::Elastic) {
+            self.hysteretic_energy += yielding.force * point.displacement.abs();
+            self.plastic = self.displacement - self.branch.sign() * yielding.displacement;
+        }
+    }
+
+    /// The branch on which the motion goes on: at the yield force it depends on where it is heading.
+    fn branch_ahead(&self, floor: &Floor, load: Load) -> Branch {
+        let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Branch::Elastic };
+        let stretch = self.displacement - self.plastic;
+        let sign = match self.branch {
+            Branch::Elastic if stretch >= limit => 1.0,
+            Branch::Elastic if stretch <= -limit => -1.0,
+            Branch::Elastic => return Branch::Elastic,
+            yielding => yielding.sign(),
+        };
+        // the first of velocity, acceleration, jerk that is not zero; the branches agree on them where the velocity is zero
+        let heading = [self.velocity, self.acceleration(floor, load.value), self.jerk(floor, load)];
+        match heading.into_iter().map(|rate| sign * rate).find(|rate| *rate != 0.0) {
+            Some(outward) if outward > 0.0 && sign > 0.0 => Branch::YieldingUp,
+            Some(outward) if outward > 0.0 => Branch::YieldingDown,
+            _ => Branch::Elastic,
+        }
+    }
+
+    /// The first corner within `remaining`, if there is one.
+    fn corner(&self, floor: &Floor, motion: &Motion, remaining: f64) -> Result<Option<Corner>, MotionError> {
+        let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Ok(None) };
+        // A start within rounding beyond the limit that moves inwards has not crossed it.
+        let upper = (self.plastic + limit - self.displacement).max(0.0);
+        let lower = (self.plastic - limit - self.displacement).min(0.0);
+        let (mut from, mut velocity) = (0.0, motion.velocity);
+        for (count, to) in motion.monotonic_until(remaining).enumerate() {
+            if count >= MOST_CORNERS {
+                return Err(MotionError::Corners { duration: remaining });
+            }
+            let at_end = motion.at(to).velocity;
+            let turns = velocity * at_end < 0.0;
+            if self.branch == Branch::Elastic {
+                let turn = if turns { motion.crossing(from, to, |point| point.velocity) } else { to };
+                for (start, end) in [(from, turn), (turn, to)] {
+                    if let Some(corner) = yield_point(motion, start, end, lower, upper) {
+                        return Ok(Some(corner));
+                    }
+                }
+            } else if self.branch.sign() * at_end < 0.0 {
+                let after = if turns { motion.crossing(from, to, |point| point.velocity) } else { from };
+                return Ok(Some(Corner { after, branch: Branch::Elastic }));
+            }
+            (from, velocity) = (to, at_end);
+        }
+        Ok(None)
+    }
+}
+
+/// A corner of the hysteresis.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    /// Time to it \[s\].
+    after: f64,
+    /// The branch behind it.
+    branch: Branch,
+}
+
+/// The corner at which a monotonic stretch of an elastic motion leaves the elastic range.
+fn yield_point(motion: &Motion, start: f64, end: f64, lower: f64, upper: f64) -> Option<Corner> {
+    let reached = motion.at(end).displacement;
+    if reached > upper {
+        let after = motion.crossing(start, end, |point| point.displacement - upper);
+        return Some(Corner { after, branch: Branch::YieldingUp });
+    }
+    if reached < lower {
+        let after = motion.crossing(start, end, |point| point.displacement - lower);
+        return Some(Corner { after, branch: Branch::YieldingDown });
+    }
+    None
+}

@@ -1,0 +1,383 @@
+"""The floor: its description, its answers against scipy, and the same floor by another exporter."""
+
+import math
+import random
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from fmpy.validation import validate_fmu
+from lxml import etree
+from scipy.integrate import solve_ivp
+
+from check_symbols import problems
+from conftest import ROOT
+from unit import Unit
+
+BILINEAR = {"hysteresis": "bilinear", "yield_force": 6e4, "hardening_ratio": 0.1}
+WALLS = 8
+INPUTS = ["a_g", *(f"reaction_{i + 1}" for i in range(WALLS)), *(f"impulse_{i + 1}" for i in range(WALLS))]
+
+
+@pytest.fixture
+def floor(unpacked_floor):
+    with Unit(unpacked_floor, "floor") as instance:
+        yield instance
+
+
+def reals(unit, causality=None):
+    """Names of the Real variables."""
+    return [
+        variable.name
+        for variable in unit.description.modelVariables
+        if variable.type == "Real" and causality in (None, variable.causality)
+    ]
+
+
+def everything(unit):
+    return [unit.get(variable.name) for variable in unit.description.modelVariables]
+
+
+# --- the description and the archive
+
+
+def test_fmpy_finds_nothing(floor_fmu):
+    assert validate_fmu(str(floor_fmu)) == []
+
+
+def test_the_archive_is_complete(floor_fmu, tmp_path):
+    with zipfile.ZipFile(floor_fmu) as archive:
+        names = archive.namelist()
+        xml = etree.fromstring(archive.read("modelDescription.xml"))
+        library = archive.extract("binaries/linux64/floor.so", tmp_path)
+    assert names == sorted(names)
+    assert {"modelDescription.xml", "model.png", "documentation/index.html"} <= set(names)
+    assert "documentation/licenses/notices.txt" in names
+    assert re.fullmatch(r"\{[0-9a-f]{32}\}", xml.get("guid"))
+    assert problems(library, portable=False) == []
+
+
+def test_starts_are_the_binarys_own(floor):
+    floor.start()
+    for variable in floor.description.modelVariables:
+        if variable.start is not None:
+            assert floor.get(variable.name) == float(variable.start), variable.name
+
+
+def test_dependencies_are_true(unpacked_floor, floor_fmu):
+    """What the structure denies never reacts; what it lists reacts in some state."""
+    with zipfile.ZipFile(floor_fmu) as archive:
+        xml = etree.fromstring(archive.read("modelDescription.xml"))
+    names = [variable.get("name") for variable in xml.findall("ModelVariables/ScalarVariable")]
+    listed = {
+        names[int(unknown.get("index")) - 1]: {names[int(index) - 1] for index in unknown.get("dependencies").split()}
+        for unknown in xml.findall("ModelStructure/Outputs/Unknown")
+    }
+    reacts = {name: set() for name in listed}
+    for coupling in ("reactions", "impulses"):
+        with Unit(unpacked_floor) as unit:
+            unit.start(coupling=coupling, velocity_start=0.1).step(0.01)
+            for name in set(listed) & set(reals(unit)):
+                for known in ["displacement", "velocity", *INPUTS]:
+                    reference = [unit.reference(known)]
+                    if unit.slave.getDirectionalDerivative([unit.reference(name)], reference, [1.0])[0] != 0.0:
+                        reacts[name].add(known)
+    for name in set(listed) - {"yielding"}:
+        assert reacts[name] == listed[name], name
+    assert listed["yielding"] == set()
+
+
+def test_a_bare_simulation_rests(floor_fmu):
+    result = simulate_fmu(str(floor_fmu))
+    assert np.all(result["displacement"] == 0.0)
+    moved = simulate_fmu(str(floor_fmu), start_values={"displacement_start": 0.01}, stop_time=1.0)
+    # 5 % of critical at 31.6 rad/s: the last period, 0.2 s, starts with e^{-1.26} of the release
+    assert 0.001 < np.abs(moved["displacement"][-20:]).max() < 0.01 * math.exp(-1.26)
+
+
+# --- answers
+
+
+def reference(parameters, load, stop, times):
+    """The floor by scipy, restarted at corners of the hysteresis and of the load; `load` is -a_g - sum r/M, by time."""
+    mass, stiffness = parameters["mass"], parameters["stiffness"]
+    damping = 2 * parameters["damping_ratio"] * math.sqrt(mass * stiffness)
+    bilinear = parameters.get("hysteresis") == "bilinear"
+    limit = parameters["yield_force"] / stiffness if bilinear else math.inf
+    ratio = parameters["hardening_ratio"] if bilinear else 1.0
+    plastic, sign = 0.0, 0
+    state, now = np.array([parameters["displacement_start"], parameters["velocity_start"]]), 0.0
+    found = []
+
+    def rates(t, y):
+        stretch = y[0] - plastic if sign == 0 else sign * limit
+        force = ratio * stiffness * y[0] + (1 - ratio) * stiffness * stretch if bilinear else stiffness * y[0]
+        return [y[1], load(t) - (force + damping * y[1]) / mass]
+
+    def up(t, y):
+        return y[0] - plastic - limit
+
+    def down(t, y):
+        return y[0] - plastic + limit
+
+    def turn(t, y):
+        return y[1]
+
+    up.direction, down.direction = 1, -1
+    for event in (up, down, turn):
+        event.terminal = True
+    for _ in range(1000):
+        turn.direction = -sign
+        events = ([up, down] if sign == 0 else [turn]) if bilinear else None
+        ahead = times[(times > now) & (times <= stop)]
+        piece = solve_ivp(rates, (now, stop), state, "DOP853", t_eval=ahead, events=events, rtol=1e-13, atol=1e-15, max_step=0.01)
+        found += list(piece.y.T)
+        if piece.status == 0:
+            return np.array(found)
+        which = next(index for index, hits in enumerate(piece.t_events) if len(hits))
+        now, state = piece.t_events[which][0], piece.y_events[which][0]
+        if sign == 0:
+            sign = 1 if which == 0 else -1
+        else:
+            plastic, sign = state[0] - sign * limit, 0
+    raise AssertionError("too many corners")
+
+
+@pytest.mark.parametrize("hysteresis", [{}, BILINEAR])
+@pytest.mark.parametrize("ratio", [0.0, 0.05, 1.3])
+def test_the_answer_is_scipys(floor, hysteresis, ratio):
+    parameters = {"mass": 2e4, "stiffness": 2e7, "damping_ratio": ratio, "displacement_start": 0.001, "velocity_start": 0.05}
+    parameters |= hysteresis
+    slope_g, slope_r = -6.0, 3e4
+    floor.start(a_g=5.0, reaction_2=-2e4, **parameters)
+    step, count = 0.02, 60
+
+    def load(t):
+        return -(5.0 + slope_g * t) - (-2e4 + slope_r * t) / 2e4
+
+    found = []
+    for _ in range(count):
+        floor.rates(a_g=slope_g, reaction_2=slope_r)
+        found.append(floor.step(step).get("displacement", "velocity"))
+    found = np.array(found)
+    times = step * np.arange(1, count + 1)
+    wanted = reference(parameters, load, times[-1] + 1e-9, times)
+    # scipy's own error at these tolerances; corners are where its events find them
+    assert np.abs(found - wanted).max(axis=0) == pytest.approx([0, 0], abs=1e-10)
+    assert (floor.get("energy_hysteretic") > 1.0) == bool(hysteresis)
+
+
+@pytest.mark.parametrize("hysteresis", [{}, BILINEAR])
+def test_steps_do_not_matter_where_inputs_are_linear(unpacked_floor, hysteresis):
+    ends = []
+    for count in (1, 2, 37, 1000):
+        with Unit(unpacked_floor) as unit:
+            unit.start(a_g=4.0, reaction_1=1e4, velocity_start=0.2, **hysteresis)
+            for _ in range(count):
+                unit.rates(a_g=-3.0, reaction_1=4e4)
+                unit.step(1.2 / count)
+            ends.append(unit.get("displacement", "velocity", "acceleration", "energy_damping", "energy_hysteretic"))
+    size = np.array([0.01, 0.3, 10.0, 1e3, 1e3])
+    # a thousand steps of a few rounding errors
+    assert np.abs((np.array(ends) - ends[0]) / size).max() < 1e-11
+
+
+def test_input_derivatives_are_for_one_step(unpacked_floor):
+    with Unit(unpacked_floor) as unit:
+        unit.start(a_g=1.0)
+        unit.rates(a_g=10.0)
+        assert unit.step(0.1).get("a_g") == pytest.approx(2.0, rel=1e-15)
+        assert unit.step(0.1).get("a_g") == pytest.approx(2.0, rel=1e-15)
+        with pytest.raises(Exception, match="fmi2SetRealInputDerivatives"):
+            unit.rates(impulse_1=1.0)
+
+
+@pytest.mark.parametrize("coupling", ["reactions", "impulses"])
+@pytest.mark.parametrize("yields", [False, True])
+def test_directional_derivatives(unpacked_floor, coupling, yields):
+    """By inputs against differences, by states against the start values that set them."""
+    settings = {"coupling": coupling} | (BILINEAR if yields else {})
+    start = {"displacement_start": 0.01, "velocity_start": 0.2}
+
+    def outputs(**changes):
+        with Unit(unpacked_floor) as unit:
+            unit.start(**(settings | start | changes))
+            return np.array(unit.get(*[name for name in reals(unit, "output")]))
+
+    with Unit(unpacked_floor) as unit:
+        unit.start(**(settings | start))
+        assert unit.get("yielding") == yields
+        names = reals(unit, "output")
+        unknowns = [unit.reference(name) for name in names]
+        changes = [("a_g", "a_g", 1.0), ("reaction_1", "reaction_1", 1e4), ("impulse_8", "impulse_8", 1e3)]
+        changes += [("velocity", "velocity_start", 0.01)]
+        if not yields:  # a displacement beyond yielding also sets what is plastic
+            changes += [("displacement", "displacement_start", 0.001)]
+        for known, name, size in changes:
+            before = start.get(name, 0.0)
+            difference = (outputs(**{name: before + size}) - outputs(**{name: before - size})) / (2 * size)
+            slopes = unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0])
+            for found, wanted, unknown in zip(slopes, difference, names):
+                assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12), f"{unknown} by {known}"
+        # the feedthrough a master has to know of
+        found = unit.slave.getDirectionalDerivative([unit.reference("acceleration")], [unit.reference("reaction_1")], [1.0])[0]
+        assert found == (-1 / 20000 if coupling == "reactions" else 0.0)
+
+
+def test_output_derivatives(floor):
+    floor.start(velocity_start=0.1, a_g=1.0)
+    floor.rates(a_g=20.0)
+    before = floor.step(0.01).get("displacement", "velocity", "acceleration")
+    names = ("displacement", "velocity", "acceleration")
+    slopes = [floor.slave.getRealOutputDerivatives([floor.reference(name)], [1])[0] for name in names]
+    tiny = 1e-7
+    floor.rates(a_g=20.0)
+    after = floor.step(tiny).get(*names)
+    # first order in the tiny step, and rounding over it
+    assert (np.array(after) - before) / tiny == pytest.approx(slopes, rel=1e-4)
+
+
+# --- states, errors
+
+
+def shaken(unit, steps, seed):
+    source = random.Random(seed)
+    for _ in range(steps):
+        unit.set(a_g=source.uniform(-8, 8), reaction_4=source.uniform(-1e5, 1e5))
+        unit.rates(a_g=source.uniform(-100, 100))
+        unit.step(source.choice([1e-3, 0.01, 0.0371]))
+    return unit
+
+
+def test_a_state_resumes_bit_for_bit(unpacked_floor):
+    with Unit(unpacked_floor) as unit, Unit(unpacked_floor) as other:
+        shaken(unit.start(**BILINEAR), 50, 1)
+        assert unit.get("energy_hysteretic") > 0
+        state, time = unit.slave.getFMUState(), unit.time
+        data = unit.slave.serializeFMUState(state)
+        wanted = everything(shaken(unit, 50, 2))
+        unit.slave.setFMUState(state)
+        unit.time = time
+        assert unit.slave.serializeFMUState(unit.slave.getFMUState()) == data
+        assert everything(shaken(unit, 50, 2)) == wanted
+        other.slave.setFMUState(other.slave.deserializeFMUState(data))
+        other.time = time
+        assert everything(shaken(other, 50, 2)) == wanted
+        unit.slave.reset()
+        unit.time = 0.0
+        fresh = everything(shaken(unit.start(), 20, 3))
+        with Unit(unpacked_floor) as third:
+            assert everything(shaken(third.start(), 20, 3)) == fresh
+
+
+def test_bad_values_are_named(unpacked_floor):
+    for settings, words in [
+        ({"mass": 0.0}, ["mass", "0.001"]),
+        ({"hardening_ratio": 1.0}, ["hardening_ratio", "0.99"]),
+        ({"a_g": math.nan}, ["a_g"]),
+        ({"hysteresis": "bilinear", "stiffness": 0.0}, ["stiffness", "hysteresis"]),
+    ]:
+        with Unit(unpacked_floor) as unit:
+            with pytest.raises(Exception, match="fmi2"):
+                unit.start(**settings)
+            message = " ".join(text for _, category, text in unit.messages if category == "logStatusError")
+            assert all(word in message for word in words), message
+
+
+def test_the_log(unpacked_floor):
+    with Unit(unpacked_floor, logging=False) as unit:
+        shaken(unit.start(**BILINEAR), 20, 5)
+        assert unit.messages == []
+    with Unit(unpacked_floor, logging=True) as unit:
+        unit.start(stiffness=0.0, impulse_1=1.0).step(0.1)
+        warnings = [text for _, category, text in unit.messages if category == "logStatusWarning"]
+        assert len(warnings) == 2 and "damping_coefficient" in warnings[0] and "coupling" in warnings[1]
+    with Unit(unpacked_floor, logging=True) as unit:
+        unit.start(velocity_start=1.0, **BILINEAR).step(1.0)
+        assert any(category == "logEvents" and "corners" in text for _, category, text in unit.messages)
+
+
+# --- with others
+
+
+def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor):
+    """A rocking parapet with impacts on a floor on rollers: what the floor has lost is what the wall was given a step ago."""
+    mass, step = 3000.0, 0.002
+    with Unit(unpacked) as wall, Unit(unpacked_floor) as floor:
+        wall.start(u_start=0.05, impact="restitution", damping_model="none", force_law="rigid_linear")
+        floor.start(mass=mass, stiffness=0.0, damping_ratio=0.0, coupling="impulses")
+        given, largest = 0.0, 0.0
+        for _ in range(2000):
+            impulse = wall.get("impulse_bottom")
+            wall.set(a_bottom=floor.get("acceleration_absolute"))
+            floor.set(impulse_1=impulse)
+            wall.step(step)
+            floor.step(step)
+            given += impulse
+            momentum = mass * floor.get("velocity")
+            largest = max(largest, abs(momentum))
+            # 2000 additions
+            assert abs(momentum + given) <= 1e-12 * max(1.0, largest)
+        assert largest > 10.0
+        assert wall.get("u_max") == pytest.approx(0.05)
+
+
+def test_storeys_stack(unpacked_floor):
+    """Two floors, coupled by impulses and small steps, approach the two-mass building."""
+    mass, stiffness, stop = 2e4, 2e7, 0.3
+    matrix = np.array([[2.0, -1.0], [-1.0, 1.0]]) * stiffness / mass
+
+    def rates(_, y):
+        return [*y[2:], *(-matrix @ y[:2])]
+
+    wanted = solve_ivp(rates, (0, stop), [0.01, 0.01, 0, 0], "DOP853", rtol=1e-12, atol=1e-14).y[:2, -1]
+    errors = []
+    for count in (600, 1200):
+        step = stop / count
+        with Unit(unpacked_floor) as low, Unit(unpacked_floor) as high:
+            low.start(displacement_start=0.01, damping_ratio=0.0, coupling="impulses")
+            high.start(damping_ratio=0.0, coupling="impulses")
+            for _ in range(count):
+                low.set(impulse_1=high.get("impulse_bottom"))
+                low.step(step)
+                # the mean acceleration of the step just taken by the storey below
+                high.set(a_g=low.get("acceleration_absolute"))
+                high.step(step)
+            errors.append(abs(low.get("displacement") - wanted[0]))
+    # first order: what is a step late
+    assert errors[0] < 1e-3 and 1.7 < errors[0] / errors[1] < 2.3, errors
+
+
+@pytest.fixture(scope="module")
+def partner_fmu(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("partner")
+    source = shutil.copy(ROOT / "tests/python/partner_floor.py", folder / "partner_floor.py")
+    subprocess.run([sys.executable, "-m", "pythonfmu", "build", "-f", source, "-d", folder], check=True, capture_output=True)
+    return folder / "PartnerFloor.fmu"
+
+
+@pytest.mark.parametrize("coupling", ["reactions", "impulses"])
+def test_another_exporters_floor_gives_the_same_answer(partner_fmu, unpacked_floor, coupling):
+    parameters = {"displacement_start": 0.004, "velocity_start": -0.1, "damping_ratio": 0.03, "mass": 1.5e4}
+    source = random.Random(11)
+    push = {"reactions": ("reaction_1", 5e4), "impulses": ("impulse_1", 5e2)}[coupling]
+    with Unit.unpack(partner_fmu) as unpacked, Unit(unpacked) as partner, Unit(unpacked_floor) as floor:
+        floor.start(coupling=coupling, **parameters)
+        partner.start(**parameters)
+        largest, apart = 0.0, 0.0
+        for _ in range(500):
+            inputs = {"a_g": source.uniform(-5, 5), push[0]: push[1] * source.uniform(-1, 1)}
+            for unit in (partner, floor):
+                unit.set(**inputs).step(0.01)
+            names = ("displacement", "velocity", "acceleration", "acceleration_absolute")
+            ours, theirs = floor.get(*names), partner.get(*names)
+            largest = max(largest, abs(ours[0]))
+            apart = max(apart, abs(ours[0] - theirs[0]))
+            # the matrix exponential is good to some 1e-14 of each step
+            assert ours == pytest.approx(theirs, rel=1e-9, abs=1e-9)
+        assert apart < 1e-12 * 500 * largest
