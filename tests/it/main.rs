@@ -10,6 +10,7 @@ mod description;
 mod extremes;
 mod ground_motion;
 mod notices;
+mod numerics;
 mod properties;
 mod record_command;
 mod record_path;
