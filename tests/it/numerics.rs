@@ -124,7 +124,8 @@ fn located_corners_keep_the_order_of_the_motion() {
     let across = Forced { strength: 0.3, rate: 2.0, duration: 1.5, start: 0.2 };
     let ratio = Parameters { damping_model: DampingModel::ConstantRatio, ..parapet() };
     let impact = Parameters { impact: Impact::Restitution, ..parapet() };
-    for (name, parameters, best) in [("CDC", &parapet(), 4.0), ("CDR", &ratio, 4.0), ("impact", &impact, 3.0)] {
+    for (name, parameters, best) in [("CDC", &parapet(), 4.0), ("CDR", &ratio, 4.0), ("impact", &impact, 3.0)]
+    {
         for (corrected, theory) in [(false, 2.0), (true, best)] {
             let observed = observed(parameters, &across, Some(1e-14), corrected, 16);
             assert!((observed - theory).abs() < 0.2, "{name}, corrected {corrected}: order {observed}");

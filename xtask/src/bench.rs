@@ -83,9 +83,11 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own motion.
 ///
+/// Returns the table it prints.
+///
 /// # Errors
 /// If our own part fails; a peer that cannot be installed or fails is named in the table.
-pub(crate) fn peers(record: Option<&str>) -> Result<()> {
+pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     if folder.exists() {
         std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -108,12 +110,13 @@ pub(crate) fn peers(record: Option<&str>) -> Result<()> {
     let path = folder.join("rows.csv");
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
-    print!("{}", report(&rows, &missing));
+    let table = report(&rows, &missing);
+    print!("{table}");
     let output = root().join("fmu_out/peers.csv");
     std::fs::write(&output, with_missing(text, &missing))
         .map_err(|error| format!("{}: {error}", output.display()))?;
     println!("written {}", output.display());
-    Ok(())
+    Ok(table)
 }
 
 fn in_python(name: &str, lock: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {

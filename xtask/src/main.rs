@@ -8,6 +8,7 @@
 mod bench;
 mod command;
 mod demo;
+mod figures;
 mod fmu;
 mod python;
 mod test;
@@ -25,6 +26,7 @@ The jobs of the project.
                                    --portable: with zig, for Linux machines as old as glibc 2.17
   cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
                                    (PEER AT2, or CSV with its unit), write histories and pages to fmu_out/
+  cargo xtask figures [RECORD.AT2] measure accuracy, stability and the peers; write docs/accuracy.md and the pages
   cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
   cargo xtask bench [RECORD.AT2]   ns a sample of each path, and instructions where valgrind is installed
   cargo xtask bench --peers [RECORD.AT2]
@@ -39,11 +41,13 @@ fn main() -> ExitCode {
         ["fmu"] => fmu::build_all(fmu::Linker::System),
         ["fmu", "--portable"] => fmu::build_all(fmu::Linker::Zig),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
+        ["figures"] => figures::run(None),
+        ["figures", record] => figures::run(Some(record)),
         ["test"] => test::run(),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
-        ["bench", "--peers"] => bench::peers(None),
-        ["bench", "--peers", record] => bench::peers(Some(record)),
+        ["bench", "--peers"] => bench::peers(None).map(drop),
+        ["bench", "--peers", record] => bench::peers(Some(record)).map(drop),
         [] | ["help" | "-h" | "--help", ..] => {
             print!("{HELP}");
             Ok(())

@@ -1,0 +1,111 @@
+//! `cargo xtask figures`: measures accuracy, stability and the peers, and writes the figures into `docs/accuracy.md`.
+
+use std::fmt::Write as _;
+
+use crate::command::{cargo, output};
+use crate::{Result, bench, root};
+
+const DOCUMENT: &str = "docs/accuracy.md";
+
+/// Measures and writes everything; `record` goes under the walls of Table 5.
+///
+/// # Errors
+/// If a program fails, or the document lacks a mark.
+pub(crate) fn run(record: Option<&str>) -> Result<()> {
+    let mut accuracy = vec!["accuracy", "--csv", "fmu_out/accuracy.csv", "--html", "fmu_out/accuracy.html"];
+    let path = record.map(std::path::absolute).transpose().map_err(|error| format!("the record: {error}"))?;
+    let path = path.map(|path| path.display().to_string());
+    if let Some(path) = &path {
+        accuracy.extend(["--record", path]);
+    }
+    wall(&accuracy)?;
+    let stability =
+        wall(&["stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
+    let peers = bench::peers(record)?;
+    let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
+        .map_err(|error| format!("fmu_out/accuracy.csv: {error}"))?;
+    let document = root().join(DOCUMENT);
+    let mut text = std::fs::read_to_string(&document).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    let fenced = |text: &str| format!("```text\n{}\n```\n", text.trim_matches('\n'));
+    for (mark, figures) in [
+        ("accuracy", condensed(&csv)),
+        ("stability", fenced(&stability)),
+        ("peers", fenced(&outlined(&peers))),
+    ] {
+        text = replaced(&text, mark, &figures)?;
+    }
+    std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
+    Ok(())
+}
+
+fn wall(arguments: &[&str]) -> Result<String> {
+    let mut run = cargo();
+    run.args(["run", "--release", "--locked", "--quiet", "--bin", "wall", "--"]).args(arguments);
+    output(&mut run, "see its message above")
+}
+
+/// What stands between `<!-- mark -->` and `<!-- end mark -->`, replaced.
+fn replaced(text: &str, mark: &str, figures: &str) -> Result<String> {
+    let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end {mark} -->"));
+    let missing = || format!("{DOCUMENT}: expected the marks `{}` and `{end}`", begin.trim_end());
+    let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    Ok(format!("{before}{begin}{figures}{end}{after}"))
+}
+
+/// Of each scene our own run over the record, OpenSeesPy at the record's step, and the cheapest good setting of each tool.
+fn outlined(table: &str) -> String {
+    let mut text = String::new();
+    for scene in table.split("\n\n") {
+        let scene = scene.trim_matches('\n');
+        let (rows, cheapest) = scene.split_once("cheapest").unwrap_or((scene, ""));
+        let first = |tool: &str| rows.lines().find(|line| line.starts_with(tool)).into_iter();
+        let lines = rows.lines().take(2).chain(first("rocking-wall")).chain(first("OpenSeesPy"));
+        for line in lines {
+            let _ = writeln!(text, "{line}");
+        }
+        if !cheapest.is_empty() {
+            let _ = writeln!(text, "cheapest{cheapest}\n");
+        }
+    }
+    text
+}
+
+/// One row for each scene: the solver `automatic` takes, and Newmark at the record's step and at its finest.
+fn condensed(csv: &str) -> String {
+    let mut table = String::from(
+        "| scene | solver | time ms | max error/u_ins | Newmark, record's step | time ms | Newmark, 1/300 of it | time ms |\n\
+         |---|---|---|---|---|---|---|---|\n",
+    );
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).filter_map(fields).collect();
+    for scene in rows.chunk_by(|a, b| a[0] == b[0]) {
+        let of = |solver: &'static str| scene.iter().filter(move |row| row[1] == solver);
+        let own = of("exact").next().or_else(|| of("adaptive").find(|row| row[2] == "tolerance 1e-8"));
+        let (Some(own), Some(coarse), Some(fine)) = (own, of("newmark").next(), of("newmark").next_back())
+        else {
+            continue;
+        };
+        let milliseconds = |row: &[&str]| row[3].parse::<f64>().map_or(f64::NAN, |seconds| seconds * 1e3);
+        let error = |row: &[&str]| row[4].parse::<f64>().unwrap_or(f64::NAN);
+        let setting = if own[1] == "exact" { "exact" } else { "adaptive, 1e-8" };
+        let _ = writeln!(
+            table,
+            "| {} | {setting} | {:.3} | {:.0e} | {:.0e} | {:.2} | {:.0e} | {:.0} |",
+            scene[0][0],
+            milliseconds(own),
+            error(own),
+            error(coarse),
+            milliseconds(coarse),
+            error(fine),
+            milliseconds(fine)
+        );
+    }
+    table
+}
+
+/// The fields of a line whose first one is quoted.
+fn fields(line: &str) -> Option<Vec<&str>> {
+    let (scene, rest) = line.strip_prefix('"')?.split_once("\",")?;
+    Some(std::iter::once(scene).chain(rest.split(',')).collect())
+}
