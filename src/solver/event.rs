@@ -264,7 +264,7 @@ impl<P: Piece> Search<'_, P> {
             return Some(Exit { time: left.time, velocity: left.motion.velocity, upwards });
         }
         let length = right.time - left.time;
-        let guess = left.time + length * crossing([left.motion, right.motion], length, bound);
+        let guess = left.time + length * crossing([left.motion, right.motion], length, bound, 2);
         let jerk = self.piece.bounds(left.motion, length).1;
         let exit = root([left.time, right.time], guess, upwards, |time| {
             let motion = self.piece.at(time);
@@ -302,8 +302,9 @@ fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     }
 }
 
-/// Where, as a fraction of an interval, the quintic through the motion at both ends passes `bound`.
-pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64) -> f64 {
+/// Where, as a fraction of an interval, the quintic through the motion at both ends passes `bound`: a parabola's root improved
+/// by so many steps of Newton's.
+pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64, improvements: u32) -> f64 {
     let (v0, v1) = (from.velocity * length, to.velocity * length);
     let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
     let start = from.displacement - bound;
@@ -312,7 +313,7 @@ pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64) -> 
     let (c3, c4, c5) =
         (10.0 * du - 4.0 * dv + da, -15.0 * du + 7.0 * dv - 2.0 * da, 6.0 * du - 3.0 * dv + da);
     let mut x = parabola([start, v0, 2.0 * a0]).abs().min(1.0);
-    for _ in 0..2 {
+    for _ in 0..improvements {
         let value = start + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))));
         let slope = v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
         x = (x - value / slope).clamp(0.0, 1.0);

@@ -99,7 +99,7 @@ impl ClosedForm {
 
     /// Whether the whole motion stays in the range: around the moving equilibrium by no more than the amplitude.
     fn stays_within(&self, quiet: &Quiet) -> bool {
-        let Oscillator { damping: c, stiffness: k, regime } = self.oscillator;
+        let Oscillator { damping: c, stiffness: k, regime, .. } = self.oscillator;
         let Regime::Oscillating(omega) = regime else { return false };
         if k <= 0.0 || omega == 0.0 {
             return false;

@@ -37,6 +37,9 @@ pub(super) struct Oscillator {
     pub(super) damping: f64,
     pub(super) stiffness: f64,
     pub(super) regime: Regime,
+    /// √|k| and its inverse.
+    root: f64,
+    inverse_root: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +93,8 @@ impl Oscillator {
             let fast = -(half + root);
             Regime::Exponential(stiffness / fast, fast)
         };
-        Self { damping, stiffness, regime }
+        let root = stiffness.abs().sqrt();
+        Self { damping, stiffness, regime, root, inverse_root: 1.0 / root }
     }
 
     /// Time over which the closed form neither overflows nor hides an unbounded number of turning points \[s\].
@@ -186,7 +190,7 @@ impl Oscillator {
         coefficients[2] = 0.5 * before;
         coefficients[3] = derivative / 6.0;
         // terms of ü fall at least like those of e^x with x = c t + √|k| t, from the larger of ü and the jerk on
-        let ratio = c * time + k.abs().sqrt() * time;
+        let ratio = c * time + self.root * time;
         let (mut order, mut size) = (3, ratio);
         while order < HIGHEST_ORDER && size >= NEGLIGIBLE {
             (before, derivative) = (derivative, -(c * derivative + k * before));
@@ -206,7 +210,7 @@ impl Oscillator {
         let (mut before, mut derivative) =
             (start.acceleration, forcing_rate - c * start.acceleration - k * start.velocity);
         let (mut du, mut dv, mut da) = (0.5 * before, before, 0.0);
-        let ratio = c * time + k.abs().sqrt() * time;
+        let ratio = c * time + self.root * time;
         let (mut power, mut size) = (time, ratio);
         for n in 1..HIGHEST_ORDER - 1 {
             let [first, second, third] = [n - 1, n, n + 1].map(|order| INVERSE_FACTORIALS[order]);
@@ -265,12 +269,11 @@ impl Oscillator {
         let jerk = (forcing_rate - c * from.acceleration - k * from.velocity).abs();
         if k > 0.0 {
             // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
-            let root = k.sqrt();
-            let most = acceleration + jerk / root;
-            (most, most * root)
+            let most = acceleration + jerk * self.inverse_root;
+            (most, most * self.root)
         } else {
             // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
-            let (rate, x) = ((-k).sqrt(), -k * length * length);
+            let (rate, x) = (self.root, -k * length * length);
             // cosh x − 1 ≤ 0.5431 x² for x ≤ 1
             let growth = if x <= 1.0 { 1.0 + 0.5431 * x } else { x.sqrt().cosh() };
             let most = (acceleration + jerk * length) * growth;

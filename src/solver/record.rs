@@ -193,6 +193,7 @@ struct Lanes<'a, const N: usize> {
     low: [f64; N],
     high: [f64; N],
     fastest: [f64; N],
+    margin: [f64; N],
     /// Whether the present state is within that range.
     inside: [bool; N],
     all_inside: bool,
@@ -245,6 +246,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             low: [0.0; N],
             high: [0.0; N],
             fastest: [0.0; N],
+            margin: [0.0; N],
             inside: [false; N],
             all_inside: false,
             rest: std::array::from_fn(lane),
@@ -330,7 +332,9 @@ impl<'a, const N: usize> Lanes<'a, N> {
             return Ok(());
         }
         let mut known_end = None;
-        let map = if lane.state.phase == Phase::Moving { self.solver.maps[lane.state.branch] } else { None };
+        let solver = self.solver;
+        let moving = lane.state.phase == Phase::Moving;
+        let map = if moving { solver.maps[lane.state.branch].as_ref() } else { None };
         if let Some(map) = map {
             let kinematics = |[displacement, velocity]: [f64; 2], forcing: f64| Kinematics {
                 displacement,
@@ -347,7 +351,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             if matches!(verdict, Verdict::Quiet | Verdict::Monotone) && within {
                 lane.state.peaks.include(end[0]);
                 [self.u[i], self.v[i]] = end;
-                self.bound(i);
+                self.bound(i, map);
                 return Ok(());
             }
             if matches!(verdict, Verdict::Monotone) && self.cross(i, [from, to], rate) {
@@ -371,11 +375,11 @@ impl<'a, const N: usize> Lanes<'a, N> {
             return false;
         }
         let oscillator = motion.oscillators[branch];
-        let guess = step * crossing([from, to], step, corner.displacement);
+        let guess = step * crossing([from, to], step, corner.displacement, 1);
         let Some(near) = oscillator.series_at(from, rate, guess) else { return false };
         let Kinematics { velocity, acceleration, .. } = near;
         let jerk = oscillator.jerk(near, rate);
-        // u(δ) = corner, from the value on by the derivatives there; δ is some 1e-6 of the step, and δ⁴ nothing
+        // u(δ) = corner, from the value on by the derivatives there; δ is some 1e-5 of the step, and δ⁴ nothing
         let first = (corner.displacement - near.displacement) / velocity;
         let shift = first * (1.0 - 0.5 * acceleration * first / velocity);
         let time = guess + shift;
@@ -444,38 +448,42 @@ impl<'a, const N: usize> Lanes<'a, N> {
         let Lane { state, stopped, .. } = self.rest[i];
         (self.u[i], self.v[i]) = (state.displacement, state.velocity);
         let still = stopped.is_some() || state.phase == Phase::Landed;
-        let map = if still || state.phase != Phase::Moving { None } else { self.solver.maps[state.branch] };
+        let solver = self.solver;
+        let moving = !still && state.phase == Phase::Moving;
+        let map = if moving { solver.maps[state.branch].as_ref() } else { None };
         for term in 0..5 {
             self.to_u[term][i] = map.map_or(0.0, |map| map.u[term]);
             self.to_v[term][i] = map.map_or(0.0, |map| map.v[term]);
         }
-        if still {
+        if let Some(map) = map {
+            self.measure(i, map);
+        } else if still {
             (self.low[i], self.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
             (self.fastest[i], self.inside[i]) = (f64::INFINITY, true);
         } else {
-            self.bound(i);
+            (self.low[i], self.high[i], self.inside[i]) = (f64::INFINITY, f64::NEG_INFINITY, false);
         }
     }
 
-    /// The range of plain steps on the present branch with the present extremes.
-    fn bound(&mut self, i: usize) {
-        let Lane { state, largest_forcing, .. } = self.rest[i];
-        let Some(map) = self.solver.maps[state.branch].filter(|_| state.phase == Phase::Moving) else {
-            (self.low[i], self.high[i], self.inside[i]) = (f64::INFINITY, f64::NEG_INFINITY, false);
-            return;
-        };
+    /// The margin of plain steps on the present branch, and their range.
+    fn measure(&mut self, i: usize, map: &StepMap) {
+        let largest_forcing = self.rest[i].largest_forcing;
         let fastest = 2.0 * (largest_forcing + map.force) / map.damping;
         let braking = if map.damping > 0.0 { map.damping * fastest } else { 0.0 };
-        let margin = 0.125
-            * self.solver.step
-            * self.solver.step
-            * map.growth
-            * (largest_forcing + map.force + braking);
-        self.low[i] = map.corners[0].max(-state.peaks.negative) + margin;
-        self.high[i] = map.corners[1].min(state.peaks.positive) - margin;
+        let step = self.solver.step;
+        self.margin[i] = 0.125 * step * step * map.growth * (largest_forcing + map.force + braking);
         self.fastest[i] = fastest;
+        self.bound(i, map);
+    }
+
+    /// The range of plain steps with the present extremes.
+    #[inline]
+    fn bound(&mut self, i: usize, map: &StepMap) {
+        let peaks = self.rest[i].state.peaks;
+        self.low[i] = map.corners[0].max(-peaks.negative) + self.margin[i];
+        self.high[i] = map.corners[1].min(peaks.positive) - self.margin[i];
         let (u, v) = (self.u[i], self.v[i]);
-        self.inside[i] = u >= self.low[i] && u <= self.high[i] && v.abs() <= fastest;
+        self.inside[i] = u >= self.low[i] && u <= self.high[i] && v.abs() <= self.fastest[i];
     }
 
     fn passages(&self, steps: u64) -> [Passage; N] {

@@ -54,7 +54,7 @@ fn replaced(text: &str, mark: &str, figures: &str) -> Result<String> {
     Ok(format!("{before}{begin}{figures}{end}{after}"))
 }
 
-/// Of each scene our own run over the record, OpenSeesPy at the record's step, and the cheapest good setting of each tool.
+/// Of each scene our own run over the record, `OpenSeesPy` at the record's step, and the cheapest good setting of each tool.
 fn outlined(table: &str) -> String {
     let mut text = String::new();
     for scene in table.split("\n\n") {
