@@ -25,7 +25,7 @@ The jobs of the project.
   cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
                                    --portable: with zig, for Linux machines as old as glibc 2.17
   cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
-                                   (PEER AT2, or CSV with its unit), write histories and pages to fmu_out/
+                                   (with its unit, if it states none), write histories and pages to fmu_out/
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and the peers; write docs/accuracy.md and the pages
   cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
   cargo xtask bench [RECORD.AT2]   ns a sample of each path, and instructions where valgrind is installed

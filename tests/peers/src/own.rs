@@ -52,9 +52,9 @@ fn over_record<const N: usize>(problem: &Problem, rows: &mut Rows, setting: &str
         let forcing = Scaled::<N>::new(problem.motion.samples(), factors, problem.peak);
         let states = [motion.start(0.0, 0.0, Support::default()); N];
         history.clear();
-        history.push(0.0);
+        history.resize(problem.motion.samples().len(), 0.0);
         RecordSolver::new(motion, problem.motion.step())
-            .run(states, &forcing, false, |_, u, _| history.push(u[0]))
+            .run(states, &forcing, false, |index, u, _| history[index] = u[0])
             .map(drop)
             .map_err(|error| error.to_string())
     });
