@@ -228,7 +228,7 @@ impl Runner<'_> {
         let forcing = refined(&self.problem.forcing, parts);
         let parts = parts as usize;
         let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
-        displacements[0] = self.problem.parameters.u_start;
+        displacements[0] = factor * self.problem.parameters.u_start;
         let passage = self.run(&motion, &forcing, parts, factor, |index, u| {
             if index % parts == 0 {
                 displacements[index / parts] = u;

@@ -12,7 +12,9 @@ const DOCUMENT: &str = "docs/accuracy.md";
 /// # Errors
 /// If a program fails, or the document lacks a mark.
 pub(crate) fn run(record: Option<&str>) -> Result<()> {
+    let peers = bench::peers(record)?;
     let mut accuracy = vec!["accuracy", "--csv", "fmu_out/accuracy.csv", "--html", "fmu_out/accuracy.html"];
+    accuracy.extend(["--peers", "fmu_out/peers.csv"]);
     let path = record.map(std::path::absolute).transpose().map_err(|error| format!("the record: {error}"))?;
     let path = path.map(|path| path.display().to_string());
     if let Some(path) = &path {
@@ -21,7 +23,6 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     wall(&accuracy)?;
     let stability =
         wall(&["stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
-    let peers = bench::peers(record)?;
     let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
         .map_err(|error| format!("fmu_out/accuracy.csv: {error}"))?;
     let document = root().join(DOCUMENT);

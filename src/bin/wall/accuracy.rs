@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use rocking_wall::accuracy::{Measurement, Problem, Study, defaults, measure};
 use rocking_wall::scene::Scene;
 
@@ -17,6 +17,12 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
         let read = |path: &std::path::PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
         arguments.scenes.iter().map(read).collect::<Result<_>>()?
     };
+    let peers = match &arguments.peers {
+        Some(path) => Some(
+            std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?,
+        ),
+        None => None,
+    };
     let mut studies = Vec::with_capacity(problems.len());
     for problem in &problems {
         let study = measure(problem, arguments.budget)?;
@@ -27,7 +33,7 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
         output::to_file(path, csv(&studies).as_bytes())?;
     }
     if let Some(path) = &arguments.html {
-        output::to_file(path, work_precision::page(&studies).as_bytes())?;
+        output::to_file(path, work_precision::page(&studies, peers.as_deref()).as_bytes())?;
     }
     Ok(())
 }

@@ -158,6 +158,9 @@ pub(crate) struct AccuracyArguments {
     /// Write a page with work-precision plots
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    /// Measurements of other tools to show on the page, the CSV of `cargo xtask bench --peers`
+    #[arg(long, value_name = "FILE", requires = "html")]
+    pub(crate) peers: Option<PathBuf>,
     /// Time to spend on timing each setting in s
     #[arg(long, value_name = "SECONDS", default_value_t = 0.05)]
     pub(crate) budget: f64,

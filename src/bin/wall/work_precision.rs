@@ -1,5 +1,6 @@
 //! The page of `wall accuracy`: for each problem error against run time, on logarithmic axes.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -20,6 +21,15 @@ const SOLVERS: [(&str, &str, MarkerShape); 3] = [
     ("adaptive", "#2e7d32", MarkerShape::Square),
     ("newmark", "#b3371e", MarkerShape::Triangle),
 ];
+/// Colours and marks of the tools a comparison may name.
+const TOOLS: [(&str, &str, MarkerShape); 6] = [
+    ("rocking-wall", "#1f5fa8", MarkerShape::Circle),
+    ("ode_solvers", "#2e7d32", MarkerShape::Square),
+    ("diffsol", "#7b1fa2", MarkerShape::Diamond),
+    ("numba", "#e08a00", MarkerShape::Cross),
+    ("OpenSeesPy", "#b3371e", MarkerShape::Triangle),
+    ("SciPy", "#616161", MarkerShape::Plus),
+];
 const WIDTH: f64 = 440.0;
 const HEIGHT: f64 = 290.0;
 /// Below this no error is told from rounding; also keeps logarithms finite.
@@ -29,7 +39,8 @@ fn exponent(error: f64) -> f64 {
     error.max(FLOOR).log10()
 }
 
-pub(crate) fn page(studies: &[Study]) -> String {
+/// The page; `peers_csv` is what `cargo xtask bench --peers` wrote.
+pub(crate) fn page(studies: &[Study], peers_csv: Option<&str>) -> String {
     let mut figures = String::new();
     for study in studies {
         let fate = match study.overturning {
@@ -44,33 +55,110 @@ pub(crate) fn page(studies: &[Study]) -> String {
             plot(study)
         );
     }
-    include_str!("work_precision.html").replace("{{figures}}", &figures)
+    include_str!("work_precision.html")
+        .replace("{{figures}}", &figures)
+        .replace("{{peers}}", &peers_csv.map_or_else(String::new, peers))
+}
+
+/// Points of one solver or tool: run time \[ms\], error, and words for each.
+struct Series {
+    color: &'static str,
+    marker: MarkerShape,
+    points: Vec<(f64, f64)>,
+    words: Vec<String>,
+    /// Points that follow from one another, joined by a line.
+    joined: bool,
 }
 
 fn plot(study: &Study) -> String {
-    let mut plots: Vec<Plot> = Vec::new();
-    for (name, color, marker) in SOLVERS {
+    let series = SOLVERS.map(|(name, color, marker)| {
         let rows: Vec<&Measurement> =
             study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
-        let points: Vec<(f64, f64)> =
-            rows.iter().map(|row| (row.seconds * 1e3, exponent(row.error_max))).collect();
-        let words = rows.iter().map(|row| hover(study, row));
-        plots.push(Plot::Line(
-            LinePlot::new().with_data(points.clone()).with_color(color).with_stroke_width(1.2),
-        ));
+        let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
+        let words = rows.iter().map(|row| hover(study, row)).collect();
+        Series { color, marker, points, words, joined: true }
+    });
+    drawing(&series, Some(study.rounding()))
+}
+
+/// The plot of a scene of the peers.
+fn peer_plot(rows: &[&PeerRow<'_>]) -> String {
+    let series = TOOLS.map(|(name, color, marker)| {
+        let rows = rows.iter().filter(|row| row.tool == name);
+        let points = rows.clone().map(|row| (row.seconds * 1e3, row.error)).collect();
+        let words = rows
+            .map(|row| {
+                format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
+            })
+            .collect();
+        Series { color, marker, points, words, joined: false }
+    });
+    drawing(&series, None)
+}
+
+/// A line of the CSV that `cargo xtask bench --peers` writes.
+struct PeerRow<'a> {
+    scene: &'a str,
+    tool: &'a str,
+    setting: &'a str,
+    seconds: f64,
+    error: f64,
+}
+
+impl<'a> PeerRow<'a> {
+    /// `None` for the header and for what a tool does not offer.
+    fn parse(line: &'a str) -> Option<Self> {
+        let mut fields = line.split(',');
+        let (scene, tool, setting) = (fields.next()?, fields.next()?, fields.next()?);
+        let (seconds, error) = (fields.next()?.parse().ok()?, fields.next()?.parse().ok()?);
+        Some(Self { scene, tool, setting, seconds, error })
+    }
+}
+
+/// The section on other tools.
+fn peers(csv: &str) -> String {
+    let rows: Vec<PeerRow<'_>> = csv.lines().filter_map(PeerRow::parse).collect();
+    let mut section = String::from("<h2>Beside other tools</h2>\n<p class=\"key\">");
+    for (name, color, _) in TOOLS {
+        let _ = write!(section, "<span><i style=\"background:{color}\"></i>{name}</span>");
+    }
+    section.push_str("</p>\n<main>\n");
+    for scene in rows.chunk_by(|a, b| a.scene == b.scene).map(|rows| rows[0].scene).collect::<BTreeSet<_>>() {
+        let rows: Vec<_> = rows.iter().filter(|row| row.scene == scene && row.error.is_finite()).collect();
+        let _ = writeln!(
+            section,
+            "<figure><figcaption><b>Table 5, {}</b></figcaption>{}</figure>",
+            figure::escaped(scene),
+            peer_plot(&rows)
+        );
+    }
+    section + "</main>\n"
+}
+
+fn drawing(series: &[Series], limit: Option<f64>) -> String {
+    let mut plots: Vec<Plot> = Vec::new();
+    for Series { color, marker, points, words, joined } in
+        series.iter().filter(|series| !series.points.is_empty())
+    {
+        let drawn: Vec<(f64, f64)> = points.iter().map(|&(time, error)| (time, exponent(error))).collect();
+        if *joined {
+            plots.push(Plot::Line(
+                LinePlot::new().with_data(drawn.clone()).with_color(*color).with_stroke_width(1.2),
+            ));
+        }
         plots.push(Plot::Scatter(
             ScatterPlot::new()
-                .with_data(points)
-                .with_color(color)
-                .with_marker(marker)
+                .with_data(drawn)
+                .with_color(*color)
+                .with_marker(*marker)
                 .with_size(4.5)
                 .with_tooltips()
-                .with_tooltip_labels(words),
+                .with_tooltip_labels(words.clone()),
         ));
     }
-    let seconds = study.measurements.iter().map(|row| row.seconds * 1e3);
-    let (low, high) = seconds.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
-    let layout = Layout::auto_from_plots(&plots)
+    let times = series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
+    let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+    let mut layout = Layout::auto_from_plots(&plots)
         .with_width(WIDTH)
         .with_height(HEIGHT)
         .with_log_x()
@@ -86,8 +174,10 @@ fn plot(study: &Study) -> String {
         .with_y_label("max error / u_ins")
         .with_label_size(14)
         .with_tick_size(13)
-        .with_font_family("system-ui, sans-serif")
-        .with_reference_line(ReferenceLine::horizontal(exponent(study.rounding())).with_color("#777"));
+        .with_font_family("system-ui, sans-serif");
+    if let Some(limit) = limit {
+        layout = layout.with_reference_line(ReferenceLine::horizontal(exponent(limit)).with_color("#777"));
+    }
     let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
     figure::fluid(&svg, WIDTH, HEIGHT)
 }
