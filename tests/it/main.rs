@@ -9,6 +9,7 @@ mod command_line;
 mod description;
 mod extremes;
 mod ground_motion;
+mod measure_command;
 mod notices;
 mod numerics;
 mod properties;

@@ -1,0 +1,67 @@
+//! `wall accuracy` and `wall stability`.
+
+use std::path::Path;
+
+use crate::command_line::{folder, refused, text, wall};
+
+fn scene() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/plain_parapet.toml").display().to_string()
+}
+
+/// The lines of a CSV after its header, split; the first field may be quoted.
+fn rows(path: &Path) -> Vec<Vec<String>> {
+    let content = std::fs::read_to_string(path).unwrap();
+    let split = |line: &str| line.split(',').map(str::to_owned).collect();
+    content.lines().skip(1).map(split).collect()
+}
+
+#[test]
+fn accuracy_measures_a_scene() {
+    let folder = folder("accuracy");
+    let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
+    std::fs::write(folder.join("peers.csv"), peers).unwrap();
+    let arguments = ["accuracy", &scene(), "--budget", "0", "--csv", "a.csv", "--html", "a.html"];
+    let output = wall(&folder, &[&arguments[..], &["--peers", "peers.csv"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let rows = rows(&folder.join("a.csv"));
+    let errors = |solver: &str| -> Vec<f64> {
+        rows.iter().filter(|row| row[1] == solver).map(|row| row[4].parse().unwrap()).collect()
+    };
+    let (exact, adaptive, newmark) = (errors("exact"), errors("adaptive"), errors("newmark"));
+    assert_eq!([exact.len(), adaptive.len(), newmark.len()], [3, 6, 6]);
+    // 100 ε S: a free motion from two thirds of u_ins is amplified some ten times
+    assert!(exact.iter().all(|&error| error < 1e-12), "{exact:?}");
+    assert!(adaptive[5] < 1e-12 && adaptive[0] > adaptive[5], "{adaptive:?}");
+    assert!(newmark[0] > 1e-3 && newmark[5] < 1e-4, "{newmark:?}");
+    let page = std::fs::read_to_string(folder.join("a.html")).unwrap();
+    assert_eq!(page.matches("<figure>").count(), 2, "the scene and the peers");
+    assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
+    assert!(page.contains("Beside other tools") && page.contains("exact, step"), "no words at the marks");
+}
+
+#[test]
+fn stability_maps_every_solver() {
+    let folder = folder("stability");
+    let output = wall(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let rows = rows(&folder.join("s.csv"));
+    assert_eq!(rows.len(), 14 * 9 * 2);
+    let of = |solver: &'static str| rows.iter().filter(move |row| row[0] == solver);
+    for row in of("automatic") {
+        let error: f64 = row[6].parse().unwrap();
+        assert!(row[5] == "true" && error <= 1e-7, "{row:?}");
+    }
+    assert!(of("newmark").any(|row| row[5] == "false"), "a scheme that is known to blow up does");
+    let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
+    assert_eq!(page.matches("<figure>").count(), 14);
+    assert!(!page.contains("{{") && !page.contains("NaN") && !text(&output.stdout).contains("BROKEN"));
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_is_measured() {
+    let folder = folder("accuracy_refused");
+    refused(&folder, &["accuracy", "none.toml"], &["none.toml"]);
+    refused(&folder, &["accuracy", &scene(), "--html", "a.html", "--peers", "none.csv"], &["none.csv"]);
+    std::fs::write(folder.join("bad.toml"), "[geometry]\nheight = -3\n").unwrap();
+    refused(&folder, &["accuracy", &scene(), "bad.toml"], &["bad.toml", "line 2", "-3"]);
+}
