@@ -126,20 +126,29 @@ struct History {
     passage: Passage,
 }
 
-/// Measures a problem; each setting is timed for about `budget` \[s\].
+/// Measures a problem at every setting of the default set; each is timed for about `budget` \[s\].
 ///
 /// # Errors
 /// [`AccuracyError`].
 pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
-    let wall = Wall::new(&problem.parameters)?;
-    let exact = wall.has_constant_damping();
-    let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
-    let runner = Runner { problem, wall };
+    let exact = Wall::new(&problem.parameters)?.has_constant_damping();
     let settings: Vec<Setting> = std::iter::empty()
         .chain(EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| exact))
         .chain(ADAPTIVE.map(Setting::Adaptive))
         .chain(NEWMARK_PARTS.map(Setting::Newmark))
         .collect();
+    measure_at(problem, &settings, budget)
+}
+
+/// Measures a problem at some settings.
+///
+/// # Errors
+/// [`AccuracyError`].
+pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Result<Study, AccuracyError> {
+    let wall = Wall::new(&problem.parameters)?;
+    let exact = wall.has_constant_damping();
+    let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
+    let runner = Runner { problem, wall };
     let best = [Setting::Exact(1), Setting::Adaptive(TIGHTEST)];
     let reference = runner.history(if exact { best[0] } else { best[1] }, 1.0).map_err(failed)?;
     let other = if exact { Some(runner.history(best[1], 1.0).map_err(failed)?) } else { None };
@@ -147,7 +156,7 @@ pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
     let scale = runner.wall.displacement_scale();
     let amplification = 1.0 + largest_difference(&reference, &probed, scale) / PROBE;
     let mut measurements = Vec::with_capacity(settings.len());
-    for setting in settings {
+    for &setting in settings {
         let history = runner.history(setting, 1.0).map_err(failed)?;
         let against = match (setting, &other) {
             (Setting::Exact(_), Some(other)) => other,

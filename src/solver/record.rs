@@ -202,8 +202,9 @@ struct Lanes<'a, const N: usize> {
     until_overturning: bool,
 }
 
-/// Largest correction of a corner's first guess, over the step: beyond, the general search takes over.
-const SMALL_SHIFT: f64 = 1e-4;
+/// Largest correction δ of a corner's first guess, over the step h: beyond, the general search takes over. What the expansion
+/// leaves out is (ωδ)³ of u̇, 1e-18 even for ωh = 1.
+const SMALL_SHIFT: f64 = 1e-6;
 
 /// What a plain step does not touch.
 #[derive(Clone, Copy)]
@@ -375,11 +376,11 @@ impl<'a, const N: usize> Lanes<'a, N> {
             return false;
         }
         let oscillator = motion.oscillators[branch];
-        let guess = step * crossing([from, to], step, corner.displacement, 1);
+        let guess = step * crossing([from, to], step, corner.displacement, 2);
         let Some(near) = oscillator.series_at(from, rate, guess) else { return false };
         let Kinematics { velocity, acceleration, .. } = near;
         let jerk = oscillator.jerk(near, rate);
-        // u(δ) = corner, from the value on by the derivatives there; δ is some 1e-5 of the step, and δ⁴ nothing
+        // u(δ) = corner, from the value on by the derivatives there; δ is at most 1e-6 of the step, and δ⁴ nothing
         let first = (corner.displacement - near.displacement) / velocity;
         let shift = first * (1.0 - 0.5 * acceleration * first / velocity);
         let time = guess + shift;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
+use rocking_wall::accuracy::{Setting, defaults, measure_at};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
@@ -230,6 +231,23 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let scaled = Scaled::new(&forcing, [1.0], largest);
     solver.run([start], &scaled, false, |_, u, _| history.push(u[0] / scale)).unwrap();
     history
+}
+
+/// From mild to very stiff, the exact solver agrees with the adaptive one at 1e-13 to max(1e-10, 100 ε S) whatever the step,
+/// and with secant damping the adaptive one keeps its tolerance of 1e-8, or ten of its local shares of that (1e-12) amplified.
+#[test]
+fn default_problems_stay_within_rounding() {
+    for problem in defaults(None).unwrap() {
+        let exact = Wall::new(&problem.parameters).unwrap().has_constant_damping();
+        let settings: &[Setting] =
+            if exact { &[Setting::Exact(1), Setting::Exact(4)] } else { &[Setting::Adaptive(1e-8)] };
+        let study = measure_at(&problem, settings, 0.0).unwrap();
+        let floor = if exact { 1e-10 } else { 1e-8_f64.max(1e-11 * study.amplification) };
+        for row in &study.measurements {
+            let (error, allowed) = (row.error_max, study.rounding().max(floor));
+            assert!(error <= allowed, "{}, {:?}: {error:e} of {allowed:e}", study.name, row.setting);
+        }
+    }
 }
 
 /// The work of the committed scenes: a change that costs more shows here before it shows on a clock.
