@@ -13,10 +13,11 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 /// A random valid wall at rest.
 pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
     let shape = (0.5_f64..10.0, 0.03_f64..0.2, 0.2_f64..0.8, 0.0_f64..2.0, -0.2_f64..0.2);
-    let law = (0..3_i32, 0.005_f64..0.1, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
+    let law = (0..3_i32, -4.0_f64..-1.0, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
     let damping = (0..5_i32, 0.0_f64..0.1, any::<bool>(), 0.7_f64..0.99, any::<[bool; 2]>());
     (shape, law, damping).prop_map(|((h, slenderness, hinge, load, eccentricity), law, damping)| {
-        let (force_law, a1, a3, d1, softening) = law;
+        let (force_law, exponent, a3, d1, softening) = law;
+        let a1 = 10.0_f64.powf(exponent);
         let (model, xi, impact, restitution, [vertical, follows]) = damping;
         let force_law = ForceLaw::ALL[usize::try_from(force_law).unwrap()];
         let model = DampingModel::ALL[usize::try_from(model).unwrap()];
