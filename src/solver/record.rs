@@ -1,18 +1,29 @@
 //! Motion over a record: many steps of one length, for several runs of one wall side by side.
 //!
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made once for each
-//! branch. A *plain* step applies the map and checks that u stayed so far from the corners and from the extremes seen
-//! before that nothing can have happened in between. Everything else goes through [`Motion::advance`]'s own search.
+//! branch, and so are two steps: that way each state waits for the one before the last only. A *plain* step applies the
+//! map of two and checks that at both ends u is so far from the corners, and either so far from the extremes seen before or
+//! |u̇| so large, that nothing can have happened in between. Everything else is looked at step by step: corners crossed and turning
+//! points passed in the ordinary way in [`careful`], the rest by [`Motion::advance`]'s own search.
 //!
 //! The distance that suffices: let |p| ≤ P over the record, |f| ≤ f̂ between the corners, and |u̇| ≤ V at both ends of a
 //! step h. With A = max|ü| in the step, |u̇| ≤ V + A h/2 and u leaves its chord, and hence the branch, by no more than
-//! A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8, and the margin A h²/8 follows.
+//! A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8, and the margin A h²/8 follows. A step that ends with
+//! |u̇| > A h has no turning point.
+#![allow(
+    clippy::inline_always,
+    reason = "measured: a step is one piece of straight code, its numbers in registers"
+)]
 
+mod careful;
 mod lanes;
+mod short;
+mod wide;
 
 use super::oscillator::Oscillator;
 use super::{Method, Motion, SolverError, State, Work, is_constant};
 use lanes::Lanes;
+use short::Short;
 
 /// Forcing p of `N` runs at the samples of a record \[m/s²\].
 pub trait Forcing<const N: usize> {
@@ -98,40 +109,81 @@ pub struct RecordSolver<'a> {
     maps: Vec<Option<StepMap>>,
 }
 
-/// A step on one branch:
-/// Δu = `u[0]` u + `u[1]` u̇ + `u[2]` p₀ + `u[3]` p₁ + `u[4]`, and Δu̇ likewise.
+/// Steps on one branch, by the forcing less the branch's force at u = 0, q = p − f(0): the change of u and of u̇ for each of
+/// u₀, u̇₀, q₀, q₁ and q₂.
+#[derive(Clone, Copy, Debug)]
+struct Affine {
+    terms: [[f64; 2]; 5],
+}
+
+impl Affine {
+    /// Nothing moves.
+    const STILL: Self = Self { terms: [[0.0; 2]; 5] };
+
+    /// One step h: q₂ does not count.
+    fn single(oscillator: &Oscillator, step: f64) -> Self {
+        let (c, k) = (oscillator.damping, oscillator.stiffness);
+        let green = oscillator.green(step);
+        let (g, h, j) = (green.g, green.h, green.j / step);
+        let (of_u, of_v) = ([-k * h, -k * g], [g, -(k * h + c * g)]);
+        Self { terms: [of_u, of_v, [h - j, g - h / step], [j, h / step], [0.0; 2]] }
+    }
+
+    /// Two steps h: the closed form over 2h, and the forcing of both.
+    fn double(oscillator: &Oscillator, step: f64) -> Self {
+        let [one_u, one_v, first, second, _] = Self::single(oscillator, step).terms;
+        let [two_u, two_v, ..] = Self::single(oscillator, 2.0 * step).terms;
+        // what the first step changed, moved on by the second
+        let onward = |[u, v]: [f64; 2], part: usize| [u, v][part] + (one_u[part] * u + one_v[part] * v);
+        let parts = [0, 1];
+        Self {
+            terms: [
+                two_u,
+                two_v,
+                parts.map(|part| onward(first, part)),
+                parts.map(|part| onward(second, part) + first[part]),
+                second,
+            ],
+        }
+    }
+}
+
+/// What steps on one branch need.
 #[derive(Clone, Copy, Debug)]
 struct StepMap {
-    u: [f64; 5],
-    v: [f64; 5],
+    single: Affine,
+    double: Affine,
     /// Corners of the branch.
     corners: [f64; 2],
     /// f̂ \[m/s²\].
     force: f64,
-    damping: f64,
-    /// A = `growth` (P + c V + f̂); infinite where the step is too long for the argument.
-    growth: f64,
+    /// A = `growth` (P + c V + f̂) over one step and over two; infinite where they are too long for the argument.
+    growth: [f64; 2],
     oscillator: Oscillator,
-    /// Force at u = 0 of the branch's line \[m/s²\].
+    /// 1/c \[s\].
+    inverse_damping: f64,
+    /// f(0), of the branch's line \[m/s²\].
     force_at_zero: f64,
+    short: Option<Short>,
 }
 
 impl StepMap {
     fn new(branch: &crate::wall::Branch, oscillator: Oscillator, step: f64) -> Self {
         let (c, k) = (oscillator.damping, oscillator.stiffness);
-        let green = oscillator.green(step);
-        let (g, h, j) = (green.g, green.h, green.j / step);
-        let force_at_zero = branch.restoring(0.0);
-        let slack = 1.0 - 0.5 * c * step - 0.125 * k.abs() * step * step;
+        let growth = |length: f64| {
+            let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
+            if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
+        };
         Self {
-            u: [-k * h, g, h - j, j, -h * force_at_zero],
-            v: [-k * g, -(k * h + c * g), g - h / step, h / step, -g * force_at_zero],
+            single: Affine::single(&oscillator, step),
+            double: Affine::double(&oscillator, step),
             corners: [branch.lower, branch.upper],
             force: branch.restoring(branch.lower).abs().max(branch.restoring(branch.upper).abs()),
-            damping: c,
-            growth: if slack > 0.0 { 1.0 / slack } else { f64::INFINITY },
+            growth: [growth(step), growth(2.0 * step)],
             oscillator,
-            force_at_zero,
+            inverse_damping: 1.0 / c,
+            force_at_zero: branch.restoring(0.0),
+            short: Short::new(&oscillator, step),
         }
     }
 }
@@ -146,7 +198,7 @@ impl<'a> RecordSolver<'a> {
                 Method::Adaptive { .. } => branch.stiffness > 0.0 && is_constant(branch.damping),
                 Method::Newmark { .. } => false,
             };
-            (affine && !oscillator.is_spread(step)).then(|| StepMap::new(branch, oscillator, step))
+            (affine && !oscillator.is_spread(2.0 * step)).then(|| StepMap::new(branch, oscillator, step))
         });
         Self { motion, step, maps: maps.collect() }
     }
@@ -164,20 +216,9 @@ impl<'a> RecordSolver<'a> {
         mut observe: impl FnMut(usize, &[f64; N], &[f64; N]),
     ) -> Result<[Passage; N], SolverError> {
         let mut lanes = Lanes::new(self, states, forcing.largest(), until_overturning);
-        if forcing.count() == 0 {
-            return Ok(lanes.passages(0));
+        if forcing.count() > 0 {
+            wide::follow(&mut lanes, forcing, &mut observe)?;
         }
-        let mut index = 0;
-        while index + 1 < forcing.count() && lanes.running > 0 {
-            if lanes.all_inside {
-                index = lanes.plain_steps(index, forcing, &mut observe);
-            }
-            if index + 1 < forcing.count() {
-                lanes.step(index, forcing)?;
-                index += 1;
-                observe(index, &lanes.u, &lanes.v);
-            }
-        }
-        Ok(lanes.passages(forcing.count() as u64 - 1))
+        Ok(lanes.passages(forcing.count().saturating_sub(1) as u64))
     }
 }

@@ -1,48 +1,134 @@
-//! Runs of one wall side by side, step by step.
+//! Runs of one wall side by side, two steps at a time as long as they are plain.
 
-use super::super::event::{Kinematics, Verdict, crossing, settle};
-use super::super::run::Run;
-use super::super::{Memo, Phase, Report, SolverError, State, Work};
-use super::{Forcing, Passage, RecordSolver, StepMap};
+use super::super::event::Peaks;
+use super::super::{Memo, Phase, SolverError, State, Work};
+use super::{Affine, Forcing, Passage, RecordSolver, StepMap};
+
+/// u and u̇ of each run.
+pub(super) type States<const N: usize> = [[f64; N]; 2];
 
 /// Runs side by side.
 pub(super) struct Lanes<'a, const N: usize> {
-    solver: &'a RecordSolver<'a>,
-    pub(super) u: [f64; N],
-    pub(super) v: [f64; N],
-    /// Coefficients of the step of each lane's branch.
-    to_u: [[f64; N]; 5],
-    to_v: [[f64; N]; 5],
-    /// Range of u and of |u̇| within which a step is plain.
-    low: [f64; N],
-    high: [f64; N],
-    fastest: [f64; N],
-    margin: [f64; N],
-    /// Whether the present state is within that range.
+    pub(super) solver: &'a RecordSolver<'a>,
+    now: States<N>,
+    /// Coefficients of one and of two steps on each lane's branch.
+    single: Wide<N>,
+    double: Wide<N>,
+    /// f(0) of each lane's branch \[m/s²\].
+    force_at_zero: [f64; N],
+    /// Where one and two plain steps may start and end.
+    single_range: Range<N>,
+    double_range: Range<N>,
+    /// Whether two plain steps may start from the present state.
     inside: [bool; N],
-    pub(super) all_inside: bool,
-    rest: [Lane; N],
+    all_inside: bool,
+    pub(super) rest: [Lane; N],
     pub(super) running: usize,
-    until_overturning: bool,
+    pub(super) until_overturning: bool,
 }
 
-/// Largest correction δ of a corner's first guess, over the step h: beyond, the general search takes over. What the expansion
-/// leaves out is (ωδ)³ of u̇, 1e-18 even for ωh = 1.
-const SMALL_SHIFT: f64 = 1e-6;
+/// [`Affine`] of each lane.
+struct Wide<const N: usize> {
+    terms: [[[f64; N]; 2]; 5],
+}
+
+/// Where a plain step, or two, may start and end.
+struct Range<const N: usize> {
+    /// Of u, so far from the corners.
+    low: [f64; N],
+    high: [f64; N],
+    /// Of u where |u̇| is `slow` or less, so far from the extremes seen before.
+    lowest: [f64; N],
+    highest: [f64; N],
+    slow: [f64; N],
+    /// V, of |u̇|.
+    fastest: [f64; N],
+}
 
 /// What a plain step does not touch.
 #[derive(Clone, Copy)]
-struct Lane {
-    state: State,
-    largest_forcing: f64,
-    overturning: Option<f64>,
-    /// Work of the steps that were not plain, and their number.
-    work: Work,
-    searched: u64,
-    stilled: bool,
+pub(super) struct Lane {
+    pub(super) state: State,
+    pub(super) largest_forcing: f64,
+    pub(super) overturning: Option<f64>,
+    /// Work of the steps that were searched, and their number.
+    pub(super) work: Work,
+    pub(super) searched: u64,
+    pub(super) stilled: bool,
     /// The sample at which the run stopped.
-    stopped: Option<usize>,
-    memo: Memo,
+    pub(super) stopped: Option<usize>,
+    pub(super) memo: Memo,
+}
+
+/// c V over P + f̂: the largest speed V of a plain step. Walls stay far below, as they do below the terminal speed.
+const BRAKING: f64 = 0.25;
+
+impl<const N: usize> Wide<N> {
+    const STILL: Self = Self { terms: [[[0.0; N]; 2]; 5] };
+
+    #[inline(always)]
+    fn load(&mut self, i: usize, affine: &Affine) {
+        for (term, [u, v]) in self.terms.iter_mut().zip(affine.terms) {
+            (term[0][i], term[1][i]) = (u, v);
+        }
+    }
+
+    /// u or u̇ of lane `i` after one step.
+    #[inline(always)]
+    fn one_step(&self, i: usize, part: usize, [u, v]: [f64; 2], q: [f64; 2]) -> f64 {
+        let c = |term: usize| self.terms[term][part][i];
+        // the products with the state last: they are what the next step waits for
+        [u, v][part] + ((c(2) * q[0] + c(3) * q[1]) + (c(0) * u + c(1) * v))
+    }
+
+    /// u or u̇ of lane `i` after two steps.
+    #[inline(always)]
+    fn two_steps(&self, i: usize, part: usize, [u, v]: [f64; 2], q: [f64; 3]) -> f64 {
+        let c = |term: usize| self.terms[term][part][i];
+        [u, v][part] + (((c(2) * q[0] + c(3) * q[1]) + c(4) * q[2]) + (c(0) * u + c(1) * v))
+    }
+}
+
+impl<const N: usize> Range<N> {
+    const EMPTY: Self = Self {
+        low: [0.0; N],
+        high: [0.0; N],
+        lowest: [0.0; N],
+        highest: [0.0; N],
+        slow: [0.0; N],
+        fastest: [0.0; N],
+    };
+
+    #[allow(clippy::needless_bitwise_bool, reason = "no branches, so that lanes go side by side")]
+    #[inline(always)]
+    fn holds(&self, i: usize, [u, v]: [f64; 2]) -> bool {
+        let speed = v.abs();
+        let no_new_extreme = (speed > self.slow[i]) | ((u >= self.lowest[i]) & (u <= self.highest[i]));
+        (u >= self.low[i]) & (u <= self.high[i]) & (speed <= self.fastest[i]) & no_new_extreme
+    }
+
+    /// For stretches of `length` on a branch between `corners`, in which |ü| stays below `most` and |u̇| starts and ends
+    /// below `fastest`.
+    #[inline(always)]
+    fn set(&mut self, i: usize, length: f64, corners: [f64; 2], most: f64, fastest: f64) {
+        let margin = 0.125 * length * length * most;
+        (self.low[i], self.high[i]) = (corners[0] + margin, corners[1] - margin);
+        (self.slow[i], self.fastest[i]) = (most * length, fastest);
+    }
+
+    /// With the extremes seen so far.
+    #[inline]
+    fn bound(&mut self, i: usize, length: f64, peaks: Peaks) {
+        let margin = 0.125 * length * self.slow[i];
+        (self.lowest[i], self.highest[i]) = (margin - peaks.negative, peaks.positive - margin);
+    }
+
+    /// Every state, or none.
+    fn fill(&mut self, i: usize, all: bool) {
+        let bound = if all { f64::INFINITY } else { f64::NEG_INFINITY };
+        (self.low[i], self.high[i]) = (-bound, bound);
+        (self.slow[i], self.fastest[i]) = (-1.0, f64::INFINITY);
+    }
 }
 
 impl<'a, const N: usize> Lanes<'a, N> {
@@ -64,14 +150,12 @@ impl<'a, const N: usize> Lanes<'a, N> {
         };
         let mut lanes = Self {
             solver,
-            u: [0.0; N],
-            v: [0.0; N],
-            to_u: [[0.0; N]; 5],
-            to_v: [[0.0; N]; 5],
-            low: [0.0; N],
-            high: [0.0; N],
-            fastest: [0.0; N],
-            margin: [0.0; N],
+            now: [[0.0; N]; 2],
+            single: Wide::STILL,
+            double: Wide::STILL,
+            force_at_zero: [0.0; N],
+            single_range: Range::EMPTY,
+            double_range: Range::EMPTY,
             inside: [false; N],
             all_inside: false,
             rest: std::array::from_fn(lane),
@@ -85,237 +169,172 @@ impl<'a, const N: usize> Lanes<'a, N> {
         lanes
     }
 
-    /// The plain step of each lane: its end, and whether it is plain as far as the end tells.
-    #[allow(clippy::needless_bitwise_bool, reason = "no branches, so that lanes go side by side")]
-    #[inline]
-    fn mapped(
-        &self,
-        [u0, v0]: [&[f64; N]; 2],
-        [from, to]: [&[f64; N]; 2],
-    ) -> ([f64; N], [f64; N], [bool; N]) {
-        let (mut u, mut v, mut plain) = ([0.0; N], [0.0; N], [false; N]);
-        for i in 0..N {
-            // the products with the state last: they are what the next step waits for
-            let given = |c: &[[f64; N]; 5]| c[2][i] * from[i] + c[3][i] * to[i] + c[4][i];
-            let own = |c: &[[f64; N]; 5]| c[0][i] * u0[i] + c[1][i] * v0[i];
-            u[i] = (u0[i] + given(&self.to_u)) + own(&self.to_u);
-            v[i] = (v0[i] + given(&self.to_v)) + own(&self.to_v);
-            plain[i] = (u[i] >= self.low[i]) & (u[i] <= self.high[i]) & (v[i].abs() <= self.fastest[i]);
-        }
-        (u, v, plain)
-    }
-
-    /// Steps from `index` on as long as they are plain in all lanes; returns the sample reached.
-    #[inline]
-    pub(super) fn plain_steps<F: Forcing<N>>(
+    /// Follows all lanes to the end of the record, or until none runs.
+    #[inline(always)]
+    pub(super) fn follow<F: Forcing<N>>(
         &mut self,
-        start: usize,
         forcing: &F,
         observe: &mut impl FnMut(usize, &[f64; N], &[f64; N]),
-    ) -> usize {
-        let (mut u, mut v, mut from) = (self.u, self.v, forcing.at(start));
-        let mut reached = forcing.count() - 1;
-        for index in start + 1..forcing.count() {
-            let to = forcing.at(index);
-            let (next_u, next_v, plain) = self.mapped([&u, &v], [&from, &to]);
-            if !plain.iter().fold(true, |all, &one| all & one) {
-                reached = index - 1;
-                break;
+    ) -> Result<(), SolverError> {
+        let last = forcing.count() - 1;
+        let mut index = 0;
+        let mut now = self.now;
+        let mut p = forcing.at(0);
+        while index + 1 < last && self.running > 0 {
+            let [next, after] = [forcing.at(index + 1), forcing.at(index + 2)];
+            let (middle, end, plain) = self.pair(&now, [&p, &next, &after]);
+            let mut states = [middle, end];
+            if !(self.all_inside & plain) {
+                self.now = now;
+                self.with_care(index, &mut states, [&p, &next, &after])?;
             }
-            (u, v, from) = (next_u, next_v, to);
-            observe(index, &u, &v);
+            observe(index + 1, &states[0][0], &states[0][1]);
+            observe(index + 2, &states[1][0], &states[1][1]);
+            (now, p) = (states[1], after);
+            index += 2;
         }
-        (self.u, self.v) = (u, v);
-        reached
+        self.now = now;
+        if index < last && self.running > 0 {
+            let to = forcing.at(last);
+            for i in 0..N {
+                self.step(i, index, [p[i], to[i]])?;
+            }
+            observe(last, &self.now[0], &self.now[1]);
+        }
+        Ok(())
     }
 
-    /// One step of all lanes, plain or not.
-    pub(super) fn step<F: Forcing<N>>(&mut self, index: usize, forcing: &F) -> Result<(), SolverError> {
-        let (from, to) = (forcing.at(index), forcing.at(index + 1));
-        let (u, v, plain) = self.mapped([&self.u, &self.v], [&from, &to]);
+    /// Two plain steps of each lane: the states between and after them, and whether they are plain as far as the end tells.
+    #[inline(always)]
+    fn pair(&self, now: &States<N>, p: [&[f64; N]; 3]) -> (States<N>, States<N>, bool) {
+        let (mut middle, mut end) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+        let mut plain = [false; N];
         for i in 0..N {
-            if plain[i] & self.inside[i] {
-                (self.u[i], self.v[i]) = (u[i], v[i]);
-            } else {
-                self.careful(i, index, [from[i], to[i]], [u[i], v[i]])?;
+            let q = p.map(|p| p[i] - self.force_at_zero[i]);
+            let state = [now[0][i], now[1][i]];
+            for part in 0..2 {
+                middle[part][i] = self.single.one_step(i, part, state, [q[0], q[1]]);
+                end[part][i] = self.double.two_steps(i, part, state, q);
             }
+            plain[i] = self.double_range.holds(i, [end[0][i], end[1][i]]);
+        }
+        (middle, end, plain.iter().fold(true, |all, &one| all & one))
+    }
+
+    /// Two steps where some are not plain: those lanes go step by step.
+    #[inline(always)]
+    fn with_care(
+        &mut self,
+        index: usize,
+        states: &mut [States<N>; 2],
+        p: [&[f64; N]; 3],
+    ) -> Result<(), SolverError> {
+        for i in 0..N {
+            if self.inside[i] && self.double_range.holds(i, states[1].map(|of| of[i])) {
+                continue;
+            }
+            for (part, state) in states.iter_mut().enumerate() {
+                self.step(i, index + part, [p[part][i], p[part + 1][i]])?;
+                (state[0][i], state[1][i]) = (self.now[0][i], self.now[1][i]);
+            }
+            self.inside[i] = self.double_range.holds(i, self.state(i));
         }
         self.all_inside = self.inside.iter().all(|&inside| inside);
         Ok(())
     }
 
-    /// A step that may reach a corner or a new extreme.
-    fn careful(
-        &mut self,
-        i: usize,
-        index: usize,
-        forcing: [f64; 2],
-        end: [f64; 2],
-    ) -> Result<(), SolverError> {
-        let lane = &mut self.rest[i];
-        if lane.stopped.is_some() {
+    /// One step of one lane, plain or not.
+    #[inline(always)]
+    fn step(&mut self, i: usize, index: usize, p: [f64; 2]) -> Result<(), SolverError> {
+        let q = p.map(|p| p - self.force_at_zero[i]);
+        let state = self.state(i);
+        let end = [0, 1].map(|part| self.single.one_step(i, part, state, q));
+        if self.single_range.holds(i, state) && self.single_range.holds(i, end) {
+            self.set_state(i, end);
             return Ok(());
         }
-        let mut known_end = None;
+        if self.rest[i].stopped.is_some() {
+            return Ok(());
+        }
+        self.careful(i, index, p, end)
+    }
+
+    /// u and u̇ of a lane.
+    #[inline]
+    pub(super) fn state(&self, i: usize) -> [f64; 2] {
+        self.now.map(|of| of[i])
+    }
+
+    #[inline]
+    pub(super) fn set_state(&mut self, i: usize, [u, v]: [f64; 2]) {
+        (self.now[0][i], self.now[1][i]) = (u, v);
+    }
+
+    /// The map of steps on the branch a lane is on.
+    pub(super) fn map(&self, i: usize) -> Option<&'a StepMap> {
+        let State { phase, branch, .. } = self.rest[i].state;
         let solver = self.solver;
-        let moving = lane.state.phase == Phase::Moving;
-        let map = if moving { solver.maps[lane.state.branch].as_ref() } else { None };
-        if let Some(map) = map {
-            let kinematics = |[displacement, velocity]: [f64; 2], forcing: f64| Kinematics {
-                displacement,
-                velocity,
-                acceleration: forcing
-                    - map.damping * velocity
-                    - (map.force_at_zero + map.oscillator.stiffness * displacement),
-            };
-            let (from, to) = (kinematics([self.u[i], self.v[i]], forcing[0]), kinematics(end, forcing[1]));
-            let rate = (forcing[1] - forcing[0]) / self.solver.step;
-            let bounds = map.oscillator.bounds(from, rate, self.solver.step);
-            let verdict = settle([from, to], self.solver.step, bounds, map.corners, &lane.state.peaks);
-            let within = end[0] > map.corners[0] && end[0] < map.corners[1];
-            if matches!(verdict, Verdict::Quiet | Verdict::Monotone) && within {
-                lane.state.peaks.include(end[0]);
-                [self.u[i], self.v[i]] = end;
-                self.bound(i, map);
-                return Ok(());
-            }
-            if matches!(verdict, Verdict::Monotone) && self.cross(i, [from, to], rate) {
-                return Ok(());
-            }
-            known_end = Some(to);
-        }
-        self.search(i, index, forcing, known_end)
-    }
-
-    /// A step on which u, monotone, leaves the branch through a corner where nothing but the stiffness changes, and stays on
-    /// the next one: the ordinary case of a corner, without the general search. Tells whether it was that.
-    fn cross(&mut self, i: usize, [from, to]: [Kinematics; 2], rate: f64) -> bool {
-        let (motion, step) = (self.solver.motion, self.solver.step);
-        let branch = self.rest[i].state.branch;
-        let upwards = to.displacement > from.displacement;
-        let corner = motion.wall.corners()[branch + usize::from(upwards)];
-        let next = if upwards { branch + 1 } else { branch.wrapping_sub(1) };
-        let Some(Some(map)) = self.solver.maps.get(next) else { return false };
-        if corner.is_marked() || from.displacement == corner.displacement {
-            return false;
-        }
-        let oscillator = motion.oscillators[branch];
-        let guess = step * crossing([from, to], step, corner.displacement, 2);
-        let Some(near) = oscillator.series_at(from, rate, guess) else { return false };
-        let Kinematics { velocity, acceleration, .. } = near;
-        let jerk = oscillator.jerk(near, rate);
-        // u(δ) = corner, from the value on by the derivatives there; δ is at most 1e-6 of the step, and δ⁴ nothing
-        let first = (corner.displacement - near.displacement) / velocity;
-        let shift = first * (1.0 - 0.5 * acceleration * first / velocity);
-        let time = guess + shift;
-        if shift.abs() > SMALL_SHIFT * step || !(0.0..step).contains(&time) {
-            return false;
-        }
-        let velocity = velocity + shift * (acceleration + 0.5 * shift * jerk);
-        let acceleration = acceleration + shift * jerk;
-        let start = Kinematics { displacement: corner.displacement, velocity, acceleration };
-        let remaining = step - time;
-        let Some(end) = map.oscillator.series_at(start, rate, remaining) else { return false };
-        let bounds = map.oscillator.bounds(start, rate, remaining);
-        let lane = &mut self.rest[i];
-        let within = end.displacement > map.corners[0] && end.displacement < map.corners[1];
-        if !within
-            || !matches!(
-                settle([start, end], remaining, bounds, map.corners, &lane.state.peaks),
-                Verdict::Quiet | Verdict::Monotone
-            )
-        {
-            return false;
-        }
-        lane.searched += 1;
-        lane.work.add(Work { pieces: 2, corners: 1, impacts: 0 });
-        let state = &mut lane.state;
-        state.branch = next;
-        (state.displacement, state.velocity) = (end.displacement, end.velocity);
-        state.peaks.include(corner.displacement);
-        state.peaks.include(end.displacement);
-        self.load(i);
-        true
-    }
-
-    /// A step through the search for events.
-    #[cold]
-    fn search(
-        &mut self,
-        i: usize,
-        index: usize,
-        forcing: [f64; 2],
-        known_end: Option<Kinematics>,
-    ) -> Result<(), SolverError> {
-        let (motion, step) = (self.solver.motion, self.solver.step);
-        let lane = &mut self.rest[i];
-        (lane.state.displacement, lane.state.velocity) = (self.u[i], self.v[i]);
-        let run = Run::new(motion, lane.state, step, forcing, false, &mut lane.memo);
-        let (state, report) = run.ending_at(known_end).finish()?;
-        let Report { overturning, work, stilled, .. } = report;
-        lane.state = state;
-        lane.work.add(work);
-        lane.searched += 1;
-        lane.stilled |= stilled;
-        if let (Some(offset), None) = (overturning, lane.overturning) {
-            lane.overturning = Some(index as f64 * step + offset);
-            if self.until_overturning {
-                lane.stopped = Some(index + 1);
-                self.running -= 1;
-            }
-        }
-        self.load(i);
-        Ok(())
+        if phase == Phase::Moving { solver.maps[branch].as_ref() } else { None }
     }
 
     /// Takes up the state and the branch of a lane.
-    fn load(&mut self, i: usize) {
+    #[inline(always)]
+    pub(super) fn load(&mut self, i: usize) {
         let Lane { state, stopped, .. } = self.rest[i];
-        (self.u[i], self.v[i]) = (state.displacement, state.velocity);
+        self.set_state(i, [state.displacement, state.velocity]);
         let still = stopped.is_some() || state.phase == Phase::Landed;
-        let solver = self.solver;
-        let moving = !still && state.phase == Phase::Moving;
-        let map = if moving { solver.maps[state.branch].as_ref() } else { None };
-        for term in 0..5 {
-            self.to_u[term][i] = map.map_or(0.0, |map| map.u[term]);
-            self.to_v[term][i] = map.map_or(0.0, |map| map.v[term]);
-        }
-        if let Some(map) = map {
+        if let (false, Some(map)) = (still, self.map(i)) {
+            self.single.load(i, &map.single);
+            self.double.load(i, &map.double);
+            self.force_at_zero[i] = map.force_at_zero;
             self.measure(i, map);
-        } else if still {
-            (self.low[i], self.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
-            (self.fastest[i], self.inside[i]) = (f64::INFINITY, true);
         } else {
-            (self.low[i], self.high[i], self.inside[i]) = (f64::INFINITY, f64::NEG_INFINITY, false);
+            self.single.load(i, &Affine::STILL);
+            self.double.load(i, &Affine::STILL);
+            // nothing will ever happen, or anything may
+            self.single_range.fill(i, still);
+            self.double_range.fill(i, still);
+        }
+        self.bound(i);
+    }
+
+    /// The range of plain steps on the present branch.
+    #[inline(always)]
+    fn measure(&mut self, i: usize, map: &StepMap) {
+        let damping = map.oscillator.damping;
+        let driving = self.rest[i].largest_forcing + map.force;
+        let fastest = BRAKING * driving * map.inverse_damping;
+        let braking = if damping > 0.0 { BRAKING * driving } else { 0.0 };
+        let step = self.solver.step;
+        let ranges = [&mut self.single_range, &mut self.double_range];
+        for ((range, growth), steps) in ranges.into_iter().zip(map.growth).zip([1.0, 2.0]) {
+            range.set(i, steps * step, map.corners, growth * (driving + braking), fastest);
         }
     }
 
-    /// The margin of plain steps on the present branch, and their range.
-    fn measure(&mut self, i: usize, map: &StepMap) {
-        let largest_forcing = self.rest[i].largest_forcing;
-        let fastest = 2.0 * (largest_forcing + map.force) / map.damping;
-        let braking = if map.damping > 0.0 { map.damping * fastest } else { 0.0 };
-        let step = self.solver.step;
-        self.margin[i] = 0.125 * step * step * map.growth * (largest_forcing + map.force + braking);
-        self.fastest[i] = fastest;
-        self.bound(i, map);
+    /// Whether u̇ keeps its sign over a step, by what |ü| can be at most: so it does between two velocities of one sign that
+    /// are larger together than A h.
+    #[inline(always)]
+    pub(super) fn is_steady(&self, i: usize, [v0, v1]: [f64; 2]) -> bool {
+        let Range { slow, fastest, .. } = &self.single_range;
+        v0 * v1 > 0.0 && v0.abs() + v1.abs() > slow[i] && v0.abs().max(v1.abs()) <= fastest[i]
     }
 
     /// The range of plain steps with the present extremes.
-    #[inline]
-    fn bound(&mut self, i: usize, map: &StepMap) {
-        let peaks = self.rest[i].state.peaks;
-        self.low[i] = map.corners[0].max(-peaks.negative) + self.margin[i];
-        self.high[i] = map.corners[1].min(peaks.positive) - self.margin[i];
-        let (u, v) = (self.u[i], self.v[i]);
-        self.inside[i] = u >= self.low[i] && u <= self.high[i] && v.abs() <= self.fastest[i];
+    #[inline(always)]
+    pub(super) fn bound(&mut self, i: usize) {
+        let (peaks, step) = (self.rest[i].state.peaks, self.solver.step);
+        self.single_range.bound(i, step, peaks);
+        self.double_range.bound(i, 2.0 * step, peaks);
+        self.inside[i] = self.double_range.holds(i, self.state(i));
     }
 
     pub(super) fn passages(&self, steps: u64) -> [Passage; N] {
         std::array::from_fn(|i| {
             let Lane { mut state, overturning, mut work, searched, stilled, stopped, .. } = self.rest[i];
             if stopped.is_none() {
-                (state.displacement, state.velocity) = (self.u[i], self.v[i]);
+                [state.displacement, state.velocity] = self.state(i);
+                state.peaks.include(state.displacement);
             }
             // a plain step is one piece of motion
             work.pieces += stopped.map_or(steps, |index| index as u64) - searched;

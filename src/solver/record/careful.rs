@@ -1,0 +1,261 @@
+//! Steps that are not plain: new extremes, turning points, corners.
+
+use super::super::event::{Kinematics, Peaks, Verdict, crossing, settle};
+use super::super::run::Run;
+use super::super::{Report, SolverError, Work};
+use super::StepMap;
+use super::lanes::Lanes;
+use super::short::Short;
+
+/// Largest correction δ of a first guess, over the step h: beyond, the general search takes over. The expansions to the fourth
+/// derivative leave out (ωδ)⁴ of u̇, 1e-16/24 even for ωh = 1.
+const SMALL_SHIFT: f64 = 1e-4;
+/// Evaluations of the motion on the way to a corner.
+const MOST_GUESSES: u32 = 4;
+/// Corners crossed in one step without the general search.
+const MOST_CROSSINGS: u32 = 4;
+/// Ratios of the mean velocity of a crossing to those at its ends for which time is well told from u.
+const EVEN: std::ops::Range<f64> = 0.3..3.0;
+
+/// A stretch of a step, its forcing changing at `rate` \[m/s³\].
+#[derive(Clone, Copy)]
+struct Stretch {
+    from: Kinematics,
+    to: Kinematics,
+    length: f64,
+    rate: f64,
+}
+
+impl<const N: usize> Lanes<'_, N> {
+    /// A step that may reach a corner or a new extreme, and its end if it does not leave its branch.
+    #[inline(always)]
+    pub(super) fn careful(
+        &mut self,
+        i: usize,
+        index: usize,
+        p: [f64; 2],
+        end: [f64; 2],
+    ) -> Result<(), SolverError> {
+        let start = self.state(i);
+        let Some(map) = self.map(i) else { return self.search(i, index, p, None) };
+        let step = self.solver.step;
+        // plain steps before left out extremes that a steady motion went past
+        self.rest[i].state.peaks.include(start[0]);
+        let [lower, upper] = map.corners;
+        let within = end[0] > lower && end[0] < upper;
+        if within && self.is_steady(i, [start[1], end[1]]) {
+            self.arrive(i, end);
+            return Ok(());
+        }
+        let lane = &mut self.rest[i];
+        let kinematics = |[displacement, velocity]: [f64; 2], p: f64| Kinematics {
+            displacement,
+            velocity,
+            acceleration: p
+                - map.oscillator.damping * velocity
+                - (map.force_at_zero + map.oscillator.stiffness * displacement),
+        };
+        let (from, to) = (kinematics(start, p[0]), kinematics(end, p[1]));
+        let stretch = Stretch { from, to, length: step, rate: (p[1] - p[0]) / step };
+        let bounds = map.oscillator.bounds(from, stretch.rate, step);
+        let verdict = settle([from, to], step, bounds, map.corners, &lane.state.peaks);
+        let done = match verdict {
+            Verdict::Quiet => true,
+            Verdict::Monotone => within,
+            Verdict::Turning => within && turn(&mut lane.state.peaks, map, &stretch),
+            Verdict::Split => false,
+        };
+        if done {
+            self.arrive(i, end);
+            return Ok(());
+        }
+        if matches!(verdict, Verdict::Monotone) && self.cross(i, stretch) {
+            return Ok(());
+        }
+        self.search(i, index, p, Some(to))
+    }
+
+    /// The end of a step on the same branch.
+    #[inline(always)]
+    fn arrive(&mut self, i: usize, end: [f64; 2]) {
+        self.rest[i].state.peaks.include(end[0]);
+        self.set_state(i, end);
+        self.bound(i);
+    }
+
+    /// A step on which u, monotone, leaves the branch through corners where nothing but the stiffness changes, and then
+    /// stays on a branch: the ordinary case of a corner, without the general search. Tells whether it was that.
+    #[inline(always)]
+    fn cross(&mut self, i: usize, mut stretch: Stretch) -> bool {
+        let motion = self.solver.motion;
+        let mut state = self.rest[i].state;
+        let upwards = stretch.to.displacement > stretch.from.displacement;
+        for corners in 1..=MOST_CROSSINGS {
+            let corner = motion.wall.corners()[state.branch + usize::from(upwards)];
+            let next = if upwards { state.branch + 1 } else { state.branch.wrapping_sub(1) };
+            if corner.is_marked() || stretch.from.displacement == corner.displacement {
+                return false;
+            }
+            let shorts = [state.branch, next].map(|branch| {
+                let map = self.solver.maps.get(branch)?.as_ref()?;
+                Some((map, map.short.as_ref()?))
+            });
+            let [Some((map, short)), Some((ahead, short_ahead))] = shorts else { return false };
+            let Some((time, start)) = passage(map, short, &stretch, corner.displacement) else {
+                return false;
+            };
+            let remaining = stretch.length - time;
+            let end = short_ahead.after(remaining, start, stretch.rate);
+            stretch = Stretch { from: start, to: end, length: remaining, rate: stretch.rate };
+            state.branch = next;
+            state.peaks.include(corner.displacement);
+            let bounds = ahead.oscillator.bounds(start, stretch.rate, remaining);
+            let verdict = settle([start, end], remaining, bounds, ahead.corners, &state.peaks);
+            let within = end.displacement > ahead.corners[0] && end.displacement < ahead.corners[1];
+            let ends = match verdict {
+                Verdict::Quiet => true,
+                Verdict::Monotone => within,
+                Verdict::Turning => within && turn(&mut state.peaks, ahead, &stretch),
+                Verdict::Split => return false,
+            };
+            match (ends, verdict) {
+                (true, _) => {
+                    (state.displacement, state.velocity) = (end.displacement, end.velocity);
+                    state.peaks.include(end.displacement);
+                    let lane = &mut self.rest[i];
+                    lane.state = state;
+                    lane.searched += 1;
+                    lane.work.add(Work {
+                        pieces: 1 + u64::from(corners),
+                        corners: u64::from(corners),
+                        impacts: 0,
+                    });
+                    self.load(i);
+                    return true;
+                }
+                (false, Verdict::Monotone) => {}
+                _ => return false,
+            }
+        }
+        false
+    }
+
+    /// A step through the search for events.
+    #[cold]
+    fn search(
+        &mut self,
+        i: usize,
+        index: usize,
+        p: [f64; 2],
+        known_end: Option<Kinematics>,
+    ) -> Result<(), SolverError> {
+        let (motion, step) = (self.solver.motion, self.solver.step);
+        let start = self.state(i);
+        let lane = &mut self.rest[i];
+        [lane.state.displacement, lane.state.velocity] = start;
+        let run = Run::new(motion, lane.state, step, p, false, &mut lane.memo);
+        let (state, report) = run.ending_at(known_end).finish()?;
+        let Report { overturning, work, stilled, .. } = report;
+        lane.state = state;
+        lane.work.add(work);
+        lane.searched += 1;
+        lane.stilled |= stilled;
+        if let (Some(offset), None) = (overturning, lane.overturning) {
+            lane.overturning = Some(index as f64 * step + offset);
+            if self.until_overturning {
+                lane.stopped = Some(index + 1);
+                self.running -= 1;
+            }
+        }
+        self.load(i);
+        Ok(())
+    }
+}
+
+/// A stretch with one turning point, its ends on the branch; takes in the extreme. Tells whether it was an ordinary one,
+/// inside the branch.
+#[inline(always)]
+fn turn(peaks: &mut Peaks, map: &StepMap, stretch: &Stretch) -> bool {
+    let Stretch { from, to, length, rate } = *stretch;
+    let Some(short) = &map.short else { return false };
+    let guess = turning(stretch);
+    let near = short.after(guess, from, rate);
+    let shift = -near.velocity / near.acceleration;
+    if !(shift.abs() <= SMALL_SHIFT * length && from.velocity * to.velocity < 0.0) {
+        return false;
+    }
+    let jerk = map.oscillator.jerk(near, rate);
+    let extreme =
+        near.displacement + shift * (near.velocity + shift * (near.acceleration / 2.0 + shift * jerk / 6.0));
+    if extreme <= map.corners[0] || extreme >= map.corners[1] {
+        return false;
+    }
+    peaks.include(extreme);
+    true
+}
+
+/// When u, monotone, passes `corner`, and the motion there; `None` where that is not found at once.
+#[inline(always)]
+fn passage(map: &StepMap, short: &Short, stretch: &Stretch, corner: f64) -> Option<(f64, Kinematics)> {
+    let Stretch { from, length, rate, .. } = *stretch;
+    let mut guess = length * share(stretch, corner);
+    for _ in 0..MOST_GUESSES {
+        let near = short.after(guess, from, rate);
+        let Kinematics { velocity, acceleration, .. } = near;
+        let jerk = map.oscillator.jerk(near, rate);
+        // u(δ) = corner, from the value on by the derivatives there
+        let pace = 1.0 / velocity;
+        let first = (corner - near.displacement) * pace;
+        let bend = 0.5 * acceleration * first * pace;
+        let shift = first * (1.0 - bend * (1.0 - 2.0 * bend) - jerk * first * first * pace / 6.0);
+        let time = guess + shift;
+        if !(0.0..length).contains(&time) {
+            return None;
+        }
+        if shift.abs() > SMALL_SHIFT * length {
+            guess = time;
+            continue;
+        }
+        // d⁴u/dt⁴ = −c d³u/dt³ − k ü
+        let snap = -map.oscillator.damping * jerk - map.oscillator.stiffness * acceleration;
+        let velocity = velocity + shift * (acceleration + shift * (jerk / 2.0 + shift * snap / 6.0));
+        let acceleration = acceleration + shift * (jerk + shift * snap / 2.0);
+        return Some((time, Kinematics { displacement: corner, velocity, acceleration }));
+    }
+    None
+}
+
+/// The fraction of a stretch after which u, monotone, passes `bound`: the quintic t(u) through the ends, where the velocity
+/// does not change much, else the quintic u(t).
+#[inline(always)]
+fn share(stretch: &Stretch, bound: f64) -> f64 {
+    let Stretch { from, to, length, .. } = *stretch;
+    let rise = to.displacement - from.displacement;
+    // dt/du and d²t/du² = −ü/u̇³, for t over the length and u over the rise
+    let (w0, w1) = (rise / (from.velocity * length), rise / (to.velocity * length));
+    if !(EVEN.contains(&w0) && EVEN.contains(&w1)) {
+        return crossing([from, to], length, bound, 2);
+    }
+    let bend = -0.5 * length * length / rise;
+    let (b0, b1) = (bend * from.acceleration * w0 * w0 * w0, bend * to.acceleration * w1 * w1 * w1);
+    let (d, dv, db) = (1.0 - w0 - b0, w1 - w0 - 2.0 * b0, b1 - b0);
+    let (c3, c4, c5) = (10.0 * d - 4.0 * dv + db, -15.0 * d + 7.0 * dv - 2.0 * db, 6.0 * d - 3.0 * dv + db);
+    let s = (bound - from.displacement) / rise;
+    s * (w0 + s * (b0 + s * (c3 + s * (c4 + s * c5))))
+}
+
+/// Time of the one zero of u̇ in a stretch, by the cubic through u̇ and ü at its ends.
+#[inline(always)]
+fn turning(stretch: &Stretch) -> f64 {
+    let Stretch { from, to, length, .. } = *stretch;
+    let (v0, v1) = (from.velocity, to.velocity);
+    let (a0, a1) = (from.acceleration * length, to.acceleration * length);
+    let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
+    let mut x = v0 / (v0 - v1);
+    for _ in 0..2 {
+        let value = v0 + x * (a0 + x * (c2 + x * c3));
+        let slope = a0 + x * (2.0 * c2 + x * 3.0 * c3);
+        x = (x - value / slope).clamp(0.0, 1.0);
+    }
+    x * length
+}
