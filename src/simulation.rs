@@ -180,15 +180,15 @@ impl Simulation {
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.record.state;
-        let branch = &wall.branches()[branch];
+        let damping = wall.branches()[branch].damping_at(displacement) * velocity;
         let forcing = body.forcing(support);
         // of the forcing, what is not support acceleration: W d/h
         let pull = forcing - body.forcing(Support { drift: 0.0, ..support });
         let (acceleration, restoring, damping) = match phase {
             Phase::Moving => (
-                branch.acceleration(displacement, velocity, forcing),
-                branch.restoring(displacement) - pull,
-                branch.damping_at(displacement) * velocity,
+                wall.acceleration(branch, displacement, velocity, forcing),
+                wall.restoring(branch, displacement) - pull,
+                damping,
             ),
             Phase::Resting => (0.0, forcing - pull, 0.0),
             Phase::Landed => (0.0, 0.0, 0.0),

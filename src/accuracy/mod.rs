@@ -3,6 +3,7 @@
 //! Errors are taken at the samples of the record, over `u_ins`, while the wall stands. The reference is the exact solver where
 //! it is exact, else the adaptive one at its tightest; the reference itself is measured against the other of the two.
 
+pub mod linearisation;
 mod problem;
 
 use std::time::Instant;
@@ -131,7 +132,7 @@ struct History {
 /// # Errors
 /// [`AccuracyError`].
 pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
-    let exact = Wall::new(&problem.parameters)?.has_constant_damping();
+    let exact = Wall::new(&problem.parameters)?.has_closed_form();
     let settings: Vec<Setting> = std::iter::empty()
         .chain(EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| exact))
         .chain(ADAPTIVE.map(Setting::Adaptive))
@@ -146,7 +147,7 @@ pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
 /// [`AccuracyError`].
 pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Result<Study, AccuracyError> {
     let wall = Wall::new(&problem.parameters)?;
-    let exact = wall.has_constant_damping();
+    let exact = wall.has_closed_form();
     let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
     let runner = Runner { problem, wall };
     let best = [Setting::Exact(1), Setting::Adaptive(TIGHTEST)];

@@ -29,9 +29,23 @@ pub(super) struct Series {
     horizon: f64,
 }
 
-/// Work arrays of the recurrence.
-struct Recurrence<'a> {
+/// An equation of motion that gives the Taylor coefficients of u one after the other.
+pub(super) trait Recurrence {
+    /// Coefficients of u, those known so far.
+    fn displacement(&mut self) -> &mut [f64; HIGHEST_ORDER + 1];
+
+    /// The n-th coefficient of ü; those of u are known up to n + 1.
+    fn acceleration(&mut self, n: usize) -> f64;
+
+    /// −1 where the recurrence works on −u, else 1.
+    fn sign(&self) -> f64;
+}
+
+/// Work arrays for a branch.
+struct Damped<'a> {
     branch: &'a Branch,
+    /// p₀ and p₁.
+    forcing: [f64; 2],
     displacement: [f64; HIGHEST_ORDER + 1],
     /// ω² of the secant.
     secant: [f64; HIGHEST_ORDER + 1],
@@ -39,7 +53,7 @@ struct Recurrence<'a> {
     frequency: [f64; HIGHEST_ORDER + 1],
 }
 
-impl Recurrence<'_> {
+impl Damped<'_> {
     /// (F/m)ₙ
     fn restoring(&self, n: usize) -> f64 {
         if n == 0 {
@@ -90,6 +104,21 @@ impl Recurrence<'_> {
     }
 }
 
+impl Recurrence for Damped<'_> {
+    fn displacement(&mut self) -> &mut [f64; HIGHEST_ORDER + 1] {
+        &mut self.displacement
+    }
+
+    fn acceleration(&mut self, n: usize) -> f64 {
+        let forcing = self.forcing.get(n).copied().unwrap_or(0.0);
+        forcing - self.restoring(n) - self.damping(n)
+    }
+
+    fn sign(&self) -> f64 {
+        1.0
+    }
+}
+
 impl Series {
     /// The motion from `start` under the forcing p₀ + p₁ t, over `remaining` or as much of it as the highest order
     /// reaches within the tolerance.
@@ -100,37 +129,40 @@ impl Series {
         remaining: f64,
         tolerances: Tolerances,
     ) -> Self {
-        let mut work = Recurrence {
+        let mut work = Damped {
             branch,
+            forcing,
             displacement: [0.0; HIGHEST_ORDER + 1],
             secant: [0.0; HIGHEST_ORDER + 1],
             frequency: [0.0; HIGHEST_ORDER + 1],
         };
         work.displacement[0] = start.displacement;
         work.displacement[1] = start.velocity;
+        Self::of(work, remaining, tolerances)
+    }
+
+    /// The motion of a recurrence, over `remaining` or as much of it as the highest order reaches within the tolerance.
+    pub(super) fn of(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
         let mut power = remaining;
         let mut small_before = false;
         for n in 0..=HIGHEST_ORDER - 2 {
-            let forcing = forcing.get(n).copied().unwrap_or(0.0);
-            let acceleration = forcing - work.restoring(n) - work.damping(n);
             let order = n + 2;
-            work.displacement[order] = acceleration / ((n + 1) * (n + 2)) as f64;
+            let coefficient = work.acceleration(n) / ((n + 1) * (n + 2)) as f64;
+            work.displacement()[order] = coefficient;
             // |uₙ| Tⁿ in u, n |uₙ| Tⁿ⁻¹ in u̇
-            let rate = work.displacement[order].abs() * power;
+            let rate = coefficient.abs() * power;
             let small = rate * remaining <= tolerances.displacement
                 && order as f64 * rate <= tolerances.velocity
                 // forcing enters the first two terms, damping needs one more
                 && order > 3;
             if small && small_before {
-                let polynomial = Polynomial { coefficients: work.displacement, order };
-                return Self { polynomial, horizon: remaining };
+                return Self { polynomial: polynomial(work, order), horizon: remaining };
             }
             small_before = small;
             power *= remaining;
         }
-        let order = HIGHEST_ORDER;
-        let horizon = longest_step(&work.displacement, tolerances).min(remaining);
-        Self { polynomial: Polynomial { coefficients: work.displacement, order }, horizon }
+        let horizon = longest_step(work.displacement(), tolerances).min(remaining);
+        Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon }
     }
 
     /// A given polynomial, as other schemes make them.
@@ -142,6 +174,12 @@ impl Series {
         coefficients[3] = acceleration_rate / 6.0;
         Self { polynomial: Polynomial { coefficients, order: 3 }, horizon }
     }
+}
+
+/// u(t) from its coefficients up to `order`.
+fn polynomial(mut work: impl Recurrence, order: usize) -> Polynomial {
+    let sign = work.sign();
+    Polynomial { coefficients: work.displacement().map(|coefficient| sign * coefficient), order }
 }
 
 /// The step at which the last two terms of the highest order fall below the tolerance.

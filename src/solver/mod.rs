@@ -11,6 +11,7 @@ mod oscillator;
 mod polynomial;
 pub mod record;
 mod run;
+mod trigonometric;
 
 use crate::variables::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Support, Wall};
@@ -144,7 +145,7 @@ const LOCAL_SHARE: f64 = 1e-4;
 pub enum Method {
     /// Closed form on each branch.
     Exact,
-    /// Closed form on the elastic branch, Taylor series elsewhere.
+    /// Closed form on the elastic branch, Taylor series elsewhere and for full rotations.
     Adaptive {
         /// Largest error of u/`u_ins` to aim at \[-\].
         tolerance: f64,
@@ -162,7 +163,7 @@ impl Method {
     /// # Errors
     /// [`ParameterError::NotExact`] where the exact solver is asked for damping that varies on a branch.
     pub fn new(parameters: &Parameters, wall: &Wall, tolerance: f64) -> Result<Self, ParameterError> {
-        let exact = wall.has_constant_damping();
+        let exact = wall.has_closed_form();
         match parameters.solver {
             Solver::Automatic | Solver::Exact if exact => Ok(Self::Exact),
             Solver::Exact => Err(ParameterError::NotExact { model: parameters.damping_model.name() }),
@@ -185,8 +186,13 @@ pub struct Motion {
 
 impl Motion {
     /// Prepares the motion of a wall.
+    ///
+    /// # Panics
+    /// If a wall in full rotations is to move by another method than the adaptive one.
     #[must_use]
     pub fn new(wall: Wall, method: Method) -> Self {
+        let adaptive = matches!(method, Method::Adaptive { .. });
+        assert!(adaptive || wall.rotations().is_none(), "full rotations need the adaptive method");
         let constant = |damping| match damping {
             BranchDamping::Constant(c) => c,
             // never used: a curved branch has no closed form
@@ -240,8 +246,8 @@ impl Motion {
             self.settle(&mut state, forcing, 0.0);
         } else {
             // At a corner the motion chooses the side; the force is continuous there, but for the rigid one at u = 0.
-            let outer = &wall.branches()[wall.branch_of(displacement, 0.0)];
-            let acceleration = outer.acceleration(displacement, velocity, forcing);
+            let outer = wall.branch_of(displacement, 0.0);
+            let acceleration = wall.acceleration(outer, displacement, velocity, forcing);
             state.branch =
                 wall.branch_of(displacement, if velocity == 0.0 { acceleration } else { velocity });
         }

@@ -3,6 +3,7 @@
 use super::adaptive::Series;
 use super::event::{self, Ending, Exit, Kinematics, Piece};
 use super::exact::{ClosedForm, Memo, Quiet};
+use super::trigonometric::Rotation;
 use super::{Method, Motion, Phase, Report, SolverError, State, is_constant, newmark};
 
 /// Impacts in one segment, after which a wall that could rest is put to rest.
@@ -116,6 +117,10 @@ impl<'a> Run<'a> {
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
         let remaining = self.duration - self.time;
+        if let (Method::Adaptive { .. }, Some(rotations)) = (&motion.method, motion.wall.rotations()) {
+            let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
+            return self.follow(&Series::of(rotation, remaining, motion.tolerances));
+        }
         match motion.method {
             Method::Adaptive { .. } if branch.stiffness <= 0.0 || !is_constant(branch.damping) => {
                 self.follow(&Series::new(branch, start, [forcing, self.rate], remaining, motion.tolerances))

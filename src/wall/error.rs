@@ -51,6 +51,17 @@ pub enum ParameterError {
         "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to upright"
     )]
     StartBeyondLanding { u_start: f64, limit: f64 },
+    /// Full rotations know rigid bodies with impacts only.
+    #[error(
+        "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or kinematics = linear"
+    )]
+    Trigonometric { name: &'static str, value: String, remedy: &'static str },
+    /// No unstable equilibrium in full rotations.
+    #[error(
+        "kinematics = trigonometric: for {side} the wall lies flat at u = {end} m before it becomes unstable; make it more \
+         slender, bring the overburden's eccentricity closer to the axis, or set kinematics = linear"
+    )]
+    NoFall { side: &'static str, end: f64 },
     /// The closed form does not hold.
     #[error(
         "solver = exact needs damping that is constant on each branch, and damping_model = {model} is not; use \

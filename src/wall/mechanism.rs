@@ -104,6 +104,14 @@ impl Body {
         })
     }
 
+    /// Takes from full rotations where the wall is unstable, leaves its supports and lies down.
+    pub(super) fn turn_fully(&mut self, rotations: &super::FullRotations) {
+        let end = rotations.landing();
+        self.instability = rotations.instability();
+        self.landing = self.instability.map(|u_ins| end.max(u_ins));
+        self.departure = self.instability.map(|u_ins| (end / 2.0).max(u_ins));
+    }
+
     /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
     ///
     /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.

@@ -15,6 +15,7 @@ mod mechanism;
 mod parameters;
 pub mod restitution;
 mod supports;
+mod trigonometric;
 
 pub use damping::BranchDamping;
 pub use error::{ParameterError, Warning};
@@ -22,6 +23,7 @@ pub use force_law::Line;
 pub use mechanism::Body;
 pub use parameters::Parameters;
 pub use supports::{Ends, Support};
+pub use trigonometric::{FullRotations, Kinematics};
 
 use damping::Damping;
 use force_law::RestoringForce;
@@ -71,6 +73,12 @@ impl Branch {
     #[must_use]
     pub fn restoring(&self, displacement: f64) -> f64 {
         self.force + self.stiffness * (displacement - self.anchor)
+    }
+
+    /// 1 for u > 0, −1 for u < 0.
+    #[must_use]
+    pub fn side(&self) -> f64 {
+        if self.upper > 0.0 { 1.0 } else { -1.0 }
     }
 
     /// C/`m_eff` \[1/s\].
@@ -130,6 +138,7 @@ impl Corner {
 pub struct Wall {
     body: Body,
     force: RestoringForce,
+    rotations: Option<FullRotations>,
     damping: Damping,
     restitution: f64,
     impact: bool,
@@ -143,21 +152,32 @@ pub struct Wall {
 /// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
 const RATIO_CUTOFF: f64 = 1e-10;
 
+/// Parts in which a curved force is drawn between two corners.
+const DRAWN_PARTS: u32 = 32;
+
 impl Wall {
     /// Checks the relations between parameters and lays out the branches.
     ///
     /// # Errors
     /// [`ParameterError`], with the values, the limit and the remedy.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        let body = Body::new(parameters)?;
+        let mut body = Body::new(parameters)?;
+        let rotations = match parameters.kinematics {
+            Kinematics::Linear => None,
+            Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
+        };
         let force = RestoringForce::new(parameters, &body)?;
         let restitution = restitution::coefficient(parameters, &body)?;
         let damping = Damping::new(parameters, &body, &force, restitution)?;
         let impact = parameters.impact == Impact::Restitution;
         let warnings = Warning::collect(parameters, &body, &force, impact);
+        if let Some(rotations) = &rotations {
+            body.turn_fully(rotations);
+        }
         let mut wall = Self {
             body,
             force,
+            rotations,
             damping,
             restitution,
             impact,
@@ -200,10 +220,42 @@ impl Wall {
         self.force.elastic_stiffness.is_none()
     }
 
-    /// Whether C is constant on every branch, so that the closed form holds.
+    /// The wall in full rotations, unless they are taken as small.
+    #[must_use]
+    pub fn rotations(&self) -> Option<&FullRotations> {
+        self.rotations.as_ref()
+    }
+
+    /// Whether C is constant on every branch.
     #[must_use]
     pub fn has_constant_damping(&self) -> bool {
         self.damping.is_constant()
+    }
+
+    /// Whether the motion on each branch has a closed form: C is constant there, and rotations are small.
+    #[must_use]
+    pub fn has_closed_form(&self) -> bool {
+        self.rotations.is_none() && self.has_constant_damping()
+    }
+
+    /// F/`m_eff` on a branch \[m/s²\].
+    #[must_use]
+    pub fn restoring(&self, branch: usize, displacement: f64) -> f64 {
+        let branch = &self.branches[branch];
+        match &self.rotations {
+            None => branch.restoring(displacement),
+            Some(rotations) => rotations.restoring(displacement, branch.side()),
+        }
+    }
+
+    /// ü on a branch under the forcing p \[m/s²\].
+    #[must_use]
+    pub fn acceleration(&self, branch: usize, displacement: f64, velocity: f64, forcing: f64) -> f64 {
+        let branch = &self.branches[branch];
+        match &self.rotations {
+            None => branch.acceleration(displacement, velocity, forcing),
+            Some(rotations) => rotations.acceleration(displacement, velocity, forcing, branch.side()),
+        }
     }
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
@@ -246,7 +298,7 @@ impl Wall {
     #[must_use]
     pub fn rest_band(&self) -> [f64; 2] {
         // of the branches themselves, so that a wall beyond the band is accelerated away from it bit for bit
-        [-1.0, 1.0].map(|direction| self.branches[self.branch_of(0.0, direction)].restoring(0.0))
+        [-1.0, 1.0].map(|direction| self.restoring(self.branch_of(0.0, direction), 0.0))
     }
 
     /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
@@ -264,6 +316,9 @@ impl Wall {
     /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip twice the physical one, as Eq. (12) is.
     #[must_use]
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
+        if let Some(rotations) = &self.rotations {
+            return rotations.energy(displacement, velocity);
+        }
         let (low, high) = (displacement.min(0.0), displacement.max(0.0));
         // trapezoids are exact on straight lines
         let part = |branch: &Branch| {
@@ -300,10 +355,15 @@ impl Wall {
         let m = self.body.effective_mass;
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
         // the branch before u₃ that only drops the damping is no corner of the force
-        let drawn = self.branches.iter().filter(|b| b.upper - b.lower > 2.0 * RATIO_CUTOFF * b.upper.abs());
-        for branch in drawn {
-            for u in [branch.lower, branch.upper] {
-                let point = (u, branch.restoring(u) * m);
+        let branches = self.branches.iter().enumerate();
+        let drawn = branches.filter(|(_, b)| b.upper - b.lower > 2.0 * RATIO_CUTOFF * b.upper.abs());
+        for (index, branch) in drawn {
+            // full rotations bend the line
+            let parts = if self.rotations.is_some() { DRAWN_PARTS } else { 1 };
+            for part in 0..=parts {
+                let share = f64::from(part) / f64::from(parts);
+                let u = branch.lower * (1.0 - share) + branch.upper * share;
+                let point = (u, self.restoring(index, u) * m);
                 if points.last() != Some(&point) {
                     points.push(point);
                 }
@@ -333,10 +393,12 @@ impl Wall {
                     insert(&mut corners, sign * displacement, mark);
                 }
             };
-            for &corner in &side.corners {
-                place(corner, |_| {});
+            if self.rotations.is_none() {
+                for &corner in &side.corners {
+                    place(corner, |_| {});
+                }
+                place(side.end, |_| {});
             }
-            place(side.end, |_| {});
             if self.damping.model == DampingModel::ConstantRatio {
                 place(side.end * (1.0 - RATIO_CUTOFF), |_| {});
             }

@@ -9,6 +9,8 @@ use crate::variables::{
     RealVariable, RestitutionSource, Softening, Solver,
 };
 
+use super::Kinematics;
+
 /// The parameters of a wall and of its solution, in SI units, named as in `modelDescription.xml`.
 ///
 /// This is where the scene file and the FMI variables meet. The limits of one parameter come from the description
@@ -44,6 +46,8 @@ pub struct Parameters {
     pub solver: Solver,
     pub tolerance: f64,
     pub newmark_step: f64,
+    /// Small or full rotations. Only scenes carry it.
+    pub kinematics: Kinematics,
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides; replaces
     /// `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
     pub multilinear: Option<Arc<[[f64; 2]]>>,
@@ -80,6 +84,7 @@ impl Default for Parameters {
             solver: Solver::Automatic,
             tolerance: f64::NAN,
             newmark_step: f64::NAN,
+            kinematics: Kinematics::Linear,
             multilinear: None,
         };
         for &variable in RealVariable::ALL {

@@ -15,4 +15,5 @@ mod numerics;
 mod properties;
 mod record_command;
 mod record_path;
+mod trigonometric;
 mod wiring;
