@@ -53,6 +53,7 @@ impl Response {
     /// [`SceneError`].
     pub fn of(scene: &Scene) -> Result<Self, SceneError> {
         let count = scene.output_count()?;
+        scene.check_supports()?;
         let excitation = scene.excitation.as_ref();
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(excitation, 0.0))?;
         let mut samples = Vec::with_capacity(count + 1);

@@ -62,7 +62,7 @@ pub struct Outputs {
     pub reactions: Ends,
 }
 
-/// Partial derivatives of ü and of the forces with respect to one variable.
+/// Partial derivatives of ü and of the forces with respect to one variable, for small rotations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensitivity {
     /// Of ü.
@@ -211,6 +211,9 @@ impl Simulation {
     }
 
     /// Partial derivatives of the outputs with respect to u at fixed u̇ and supports.
+    ///
+    /// # Panics
+    /// As the other derivatives, if the wall moves in full rotations.
     #[must_use]
     pub fn by_displacement(&self) -> Sensitivity {
         let State { displacement, velocity, branch, phase, .. } = self.record.state;
@@ -224,6 +227,9 @@ impl Simulation {
     }
 
     /// Partial derivatives of the outputs with respect to u̇.
+    ///
+    /// # Panics
+    /// If the wall moves in full rotations.
     #[must_use]
     pub fn by_velocity(&self) -> Sensitivity {
         let State { displacement, branch, phase, .. } = self.record.state;
@@ -235,6 +241,9 @@ impl Simulation {
     }
 
     /// Derivatives of the outputs along a change of the supports' motion.
+    ///
+    /// # Panics
+    /// If the wall moves in full rotations.
     #[must_use]
     pub fn by_support(&self, change: Support) -> Sensitivity {
         let body = self.wall().body();
@@ -249,6 +258,9 @@ impl Simulation {
     }
 
     /// Rates of the outputs along the motion while the supports change at the rate `support_rate`.
+    ///
+    /// # Panics
+    /// If the wall moves in full rotations.
     #[must_use]
     pub fn rates(&self, support: Support, support_rate: Support) -> Sensitivity {
         let now = self.outputs(support);
@@ -274,6 +286,7 @@ impl Simulation {
         damping: f64,
         couple: f64,
     ) -> Sensitivity {
+        assert!(self.wall().rotations().is_none(), "derivatives are those of small rotations");
         let body = self.wall().body();
         let m = body.effective_mass;
         let reactions = if self.record.state.departed {

@@ -17,7 +17,7 @@ use crate::solver::Segment;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, Mechanism, RealVariable, StringVariable,
 };
-use crate::wall::{Ends, Parameters, Support, Wall};
+use crate::wall::{Ends, Kinematics, Parameters, Support, Wall};
 
 /// The inputs as they stand, and their rates for the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -247,6 +247,9 @@ impl Model for Unit {
         let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
         let folder = environment.resources.unwrap_or(Path::new("."));
         let scene = Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
+        if scene.parameters.kinematics != Kinematics::Linear {
+            return Err("resources/scene.toml: an FMU knows kinematics = linear only".into());
+        }
         Self::new(scene.parameters, scene.excitation.map(Arc::new))
     }
 

@@ -132,11 +132,13 @@ struct History {
 /// # Errors
 /// [`AccuracyError`].
 pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
-    let exact = Wall::new(&problem.parameters)?.has_closed_form();
+    let wall = Wall::new(&problem.parameters)?;
+    let exact = wall.has_closed_form();
     let settings: Vec<Setting> = std::iter::empty()
         .chain(EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| exact))
         .chain(ADAPTIVE.map(Setting::Adaptive))
-        .chain(NEWMARK_PARTS.map(Setting::Newmark))
+        // full rotations move by the adaptive solver only
+        .chain(NEWMARK_PARTS.map(Setting::Newmark).into_iter().filter(|_| wall.rotations().is_none()))
         .collect();
     measure_at(problem, &settings, budget)
 }
@@ -145,6 +147,9 @@ pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
 ///
 /// # Errors
 /// [`AccuracyError`].
+///
+/// # Panics
+/// If full rotations are to be measured at other settings than adaptive ones.
 pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Result<Study, AccuracyError> {
     let wall = Wall::new(&problem.parameters)?;
     let exact = wall.has_closed_form();

@@ -14,8 +14,8 @@ use std::path::Path;
 use fmi2_export::{Causality, Kind, VariableId};
 
 use crate::simulation::Excitation;
-use crate::variables::{ForceLaw, IntegerVariable, RealVariable};
-use crate::wall::Parameters;
+use crate::variables::{ForceLaw, IntegerVariable, Mechanism, RealVariable};
+use crate::wall::{Kinematics, Parameters};
 
 pub use document::{Document, Group};
 pub use error::SceneError;
@@ -53,6 +53,9 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
 
 /// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
 pub const POINTS: &str = "points";
+
+/// The key in `[geometry]` that chooses small or full rotations.
+pub const KINEMATICS: &str = "kinematics";
 
 /// A wall, its motion, and how long it is watched.
 #[derive(Clone, Debug)]
@@ -130,6 +133,11 @@ impl Scene {
                 parameters.u_start = 0.0;
             }
         }
+        if let (Some(table), Some(loaded)) = (motion, &loaded)
+            && let Some(message) = moved_apart(&parameters, Some(&loaded.excitation))
+        {
+            return Err(place.error(table.span(), message));
+        }
         let (excitation, tail, motion_notes) = match loaded {
             Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes),
             None => (None, 0.0, Vec::new()),
@@ -170,6 +178,15 @@ impl Scene {
         self.parameters.u_start = 0.0;
     }
 
+    /// Checks that the supports move as the kinematics allows.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where a strip wall in full rotations has another motion at its top.
+    pub fn check_supports(&self) -> Result<(), SceneError> {
+        moved_apart(&self.parameters, self.excitation.as_ref())
+            .map_or(Ok(()), |message| Err(SceneError::Value { message: message.into() }))
+    }
+
     /// Number of output intervals of the run.
     ///
     /// # Errors
@@ -189,6 +206,16 @@ impl Scene {
     pub fn uses(&self, name: &str) -> bool {
         parameter::is_used(self, name)
     }
+}
+
+/// What is wrong where full rotations meet supports that move differently.
+fn moved_apart(parameters: &Parameters, excitation: Option<&Excitation>) -> Option<&'static str> {
+    let strip = parameters.mechanism == Mechanism::VerticalSpanning;
+    let full = parameters.kinematics == Kinematics::Trigonometric;
+    let apart = excitation.is_some_and(|motion| motion.top().is_some());
+    (strip && full && apart).then_some(
+        "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set kinematics = linear",
+    )
 }
 
 /// A title from a file name.
@@ -222,6 +249,9 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
     for (group, names) in GROUPS {
         let _ = writeln!(text, "\n[{group}]");
+        if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
+            let _ = writeln!(text, "{KINEMATICS} = {:?}", scene.parameters.kinematics.name());
+        }
         for name in names {
             match (&scene.parameters.multilinear, *name) {
                 (Some(points), "force_law") => {

@@ -7,14 +7,16 @@ use crate::variables::{
     DampingModel, DampingSource, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable,
     RestitutionSource, Solver,
 };
-use crate::wall::Parameters;
+use crate::wall::{Kinematics, Parameters};
 
 use super::document::Group;
 use super::error::Place;
-use super::{GROUPS, POINTS, Scene, SceneError, input_names, is_named_law};
+use super::{GROUPS, KINEMATICS, POINTS, Scene, SceneError, input_names, is_named_law};
 
 /// The name in `force_law` that stands for a law of points.
 const MULTILINEAR: &str = "multilinear";
+/// The table that holds the kinematics.
+const KINEMATICS_GROUP: &str = "geometry";
 
 /// Applies one table.
 pub(super) fn apply_group(
@@ -36,7 +38,7 @@ pub(super) fn apply_group(
             multilinear = Some(key);
             continue;
         }
-        if !names.contains(&name) {
+        if !names.contains(&name) && (group, name) != (KINEMATICS_GROUP, KINEMATICS) {
             return Err(place.error(key.span(), unknown(name, group, names)));
         }
         set(parameters, name, value.get_ref()).map_err(|message| place.error(value.span(), message))?;
@@ -63,9 +65,10 @@ pub(super) fn apply_group(
 
 /// A parameter set from text: a number, or the name of an item with or without quotes.
 pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str) -> Result<(), SceneError> {
-    let known = GROUPS.iter().any(|(_, names)| names.contains(&name));
+    let known = name == KINEMATICS || GROUPS.iter().any(|(_, names)| names.contains(&name));
     if !known {
-        let all: Vec<_> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+        let all: Vec<_> = names.chain([KINEMATICS]).collect();
         let message = format!("there is no parameter {name:?}; the parameters are {}", all.join(", "));
         return Err(SceneError::Value { message });
     }
@@ -81,6 +84,14 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
 }
 
 fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), String> {
+    if name == KINEMATICS {
+        let text = value.as_str();
+        let found = Kinematics::ALL.into_iter().find(|kinematics| Some(kinematics.name()) == text);
+        let shown = text.map_or_else(|| format!("{value:?}"), |text| format!("{text:?}"));
+        let names = Kinematics::ALL.map(Kinematics::name).join(", ");
+        parameters.kinematics = found.ok_or_else(|| format!("{name} = {shown} is not one of {names}"))?;
+        return Ok(());
+    }
     if let Some(variable) = RealVariable::from_name(name) {
         let number = number(value).ok_or_else(|| format!("{name} = {value:?} is not a number"))?;
         check_limits(variable.variable(), number)?;
@@ -142,6 +153,9 @@ fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
 }
 
 fn unknown(name: &str, group: &str, names: &[&str]) -> String {
+    if name == KINEMATICS {
+        return format!("{name:?} belongs in [{KINEMATICS_GROUP}], not in [{group}]");
+    }
     let elsewhere = GROUPS.iter().find(|(_, others)| others.contains(&name));
     elsewhere.map_or_else(
         || format!("unknown key {name:?} in [{group}]; it holds {}", names.join(", ")),

@@ -153,7 +153,7 @@ pub struct Wall {
 const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Parts in which a curved force is drawn between two corners.
-const DRAWN_PARTS: u32 = 32;
+const DRAWN_PARTS: u32 = 8;
 
 impl Wall {
     /// Checks the relations between parameters and lays out the branches.

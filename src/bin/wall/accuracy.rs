@@ -7,6 +7,7 @@ use rocking_wall::accuracy::{Measurement, Problem, Study, defaults, measure};
 use rocking_wall::scene::Scene;
 
 use crate::args::AccuracyArguments;
+use crate::linearisation::Linearisation;
 use crate::{output, work_precision};
 
 pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
@@ -29,11 +30,17 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
         output::to_stdout(&table(&study))?;
         studies.push(study);
     }
+    let rotations = Linearisation::measure()?;
+    output::to_stdout(&rotations.table())?;
     if let Some(path) = &arguments.csv {
         output::to_file(path, csv(&studies).as_bytes())?;
     }
+    if let Some(path) = &arguments.linearisation {
+        output::to_file(path, rotations.csv().as_bytes())?;
+    }
     if let Some(path) = &arguments.html {
-        output::to_file(path, work_precision::page(&studies, peers.as_deref()).as_bytes())?;
+        let page = work_precision::page(&studies, &rotations.section(), peers.as_deref());
+        output::to_file(path, page.as_bytes())?;
     }
     Ok(())
 }

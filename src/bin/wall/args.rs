@@ -161,6 +161,9 @@ pub(crate) struct AccuracyArguments {
     /// Measurements of other tools to show on the page, the CSV of `cargo xtask bench --peers`
     #[arg(long, value_name = "FILE", requires = "html")]
     pub(crate) peers: Option<PathBuf>,
+    /// Write the periods of small and of full rotations against slenderness as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) linearisation: Option<PathBuf>,
     /// Time to spend on timing each setting in s
     #[arg(long, value_name = "SECONDS", default_value_t = 0.05)]
     pub(crate) budget: f64,

@@ -23,6 +23,7 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let words = [
         ("title", scene.title.clone()),
         ("mechanism", parameters.mechanism.name().to_owned()),
+        ("kinematics", parameters.kinematics.name().to_owned()),
         ("force_law", law.to_owned()),
         ("damping_model", parameters.damping_model.name().to_owned()),
         ("impact", parameters.impact.name().to_owned()),

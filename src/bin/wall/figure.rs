@@ -1,7 +1,7 @@
 //! The plots of a page, by kuva, as inline SVG whose plot area is known to the pixel.
 
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
+use kuva::plot::{LinePlot, LineStyle};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
@@ -60,6 +60,26 @@ impl Figure {
         Self::new(vec![law, run], vec![], [x_range, y_range], labels, 320.0)
     }
 
+    /// Curves over one axis; `y_range` is that of the points if none is given.
+    pub(crate) fn curves(
+        curves: &[Curve<'_>],
+        x_range: [f64; 2],
+        y_range: Option<[f64; 2]>,
+        labels: [&str; 2],
+        height: f64,
+    ) -> Self {
+        let points = || curves.iter().flat_map(|curve| curve.points);
+        let y_range = y_range.unwrap_or_else(|| padded(points().map(|point| point.1)));
+        let line = |curve: &Curve<'_>| {
+            LinePlot::new()
+                .with_data(decimated(curve.points, x_range[1]))
+                .with_color(curve.color)
+                .with_stroke_width(1.4)
+                .with_line_style(curve.style.clone())
+        };
+        Self::new(curves.iter().map(line).collect(), vec![], [x_range, y_range], labels, height)
+    }
+
     fn new(
         lines: Vec<LinePlot>,
         references: Vec<ReferenceLine>,
@@ -102,6 +122,13 @@ impl Figure {
     }
 }
 
+/// One of several curves of a figure.
+pub(crate) struct Curve<'a> {
+    pub(crate) points: &'a [(f64, f64)],
+    pub(crate) color: &'static str,
+    pub(crate) style: LineStyle,
+}
+
 /// What a history shows.
 #[derive(Clone, Copy)]
 pub(crate) enum Color {
@@ -121,7 +148,8 @@ impl Color {
 /// The range of some values with room around it.
 fn padded(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    let room = 0.06 * (high - low).max(1e-9);
+    // nothing but zeros: an axis of ones
+    let room = if high > low { 0.06 * (high - low) } else { 1.0 };
     [low - room, high + room]
 }
 

@@ -5,6 +5,7 @@ mod args;
 mod describe;
 mod figure;
 mod heat_map;
+mod linearisation;
 mod motion;
 mod output;
 mod package;

@@ -11,7 +11,7 @@ use fmi2_export_build::archive::Archive;
 use fmi2_export_build::{DefaultExperiment, Description, Reduction};
 use rocking_wall::ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::{Kinematics, Parameters, Wall};
 
 use crate::args::PackageArguments;
 use crate::output;
@@ -21,6 +21,12 @@ const STEPS: f64 = 1000.0;
 
 pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
+    if scene.parameters.kinematics != Kinematics::Linear {
+        bail!(
+            "{}: an FMU knows small rotations only; set kinematics = linear, or run the scene with `wall simulate`",
+            arguments.scene.display()
+        );
+    }
     Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
     let mut archive = Archive::open(&arguments.base).with_context(
         || "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base",

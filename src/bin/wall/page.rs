@@ -9,6 +9,7 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::figure::{Color, Figure, escaped};
+use crate::linearisation::Counterpart;
 
 const TEMPLATE: &str = include_str!("page.html");
 /// Frames the slider moves through.
@@ -39,6 +40,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         "height": wall.body().height,
         "thickness": scene.parameters.thickness,
         "hinge": hinge(wall),
+        "full": wall.rotations().is_some(),
         "overturned": response.summary.overturn_time,
     });
     let subtitle =
@@ -50,7 +52,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         ("{{last_frame}}", (frames.len() - 1).to_string()),
         ("{{factors}}", factors(wall, response)),
         ("{{facts}}", facts(scene, wall, response)),
-        ("{{figures}}", figures(wall, response, end)),
+        ("{{figures}}", figures(wall, response, end) + &rotations(scene, response)),
         // a closing tag inside the data would end the script
         ("{{data}}", data.to_string().replace("</", "<\\/")),
     ];
@@ -187,6 +189,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
                 100.0 * wall.damping_ratio()
             ),
         ),
+        ("kinematics", parameters.kinematics.name().to_owned()),
         ("impact", format!("{}, e = {:.3}", parameters.impact.name(), wall.restitution())),
     ];
     let row = |(name, value): &(&str, String)| format!("<tr><td>{name}</td><td>{}</td></tr>", escaped(value));
@@ -227,6 +230,25 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
         ),
     ]
     .concat()
+}
+
+/// A rigid wall beside itself with the other kinematics; nothing for walls that have none.
+fn rotations(scene: &Scene, response: &Response) -> String {
+    let Some(twin) = Counterpart::of(scene, response) else { return String::new() };
+    let caption = format!(
+        "Full rotations (blue) and small ones (red, dashed): at most {:.3} u_ins apart while both stand",
+        twin.apart
+    );
+    let [x, y] = twin.place.map(|part| 100.0 * part);
+    plot("rotations", &caption, &twin.histories, None)
+        + &format!(
+            "<figure><figcaption>Period with small rotations over that with full ones, from {:.2} u_ins; dot: this wall, \
+             {:.2} % short</figcaption><div class=\"still\">{}<div class=\"dot\" \
+             style=\"left:{x:.3}%;top:{y:.3}%\"></div></div></figure>",
+            twin.start,
+            100.0 * (1.0 - twin.ratio),
+            twin.ratios.svg
+        )
 }
 
 /// A plot with what moves over it: a cursor on histories, a dot on the force.

@@ -2,8 +2,9 @@
 
 use anyhow::Result;
 use fmi2_export::{Kind, Variable, VariableId};
-use rocking_wall::scene::{GROUPS, MotionTable, POINTS, input_names};
+use rocking_wall::scene::{GROUPS, KINEMATICS, MotionTable, POINTS, input_names};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
+use rocking_wall::wall::Kinematics;
 use serde_json::{Map, Value, json};
 
 use crate::output;
@@ -36,6 +37,16 @@ pub(crate) fn schema() -> Result<Value> {
     for (group, names) in GROUPS {
         let mut members: Map<String, Value> =
             names.iter().filter_map(|name| Some(((*name).to_owned(), parameter(name)?))).collect();
+        if group == "geometry" {
+            members.insert(
+                KINEMATICS.into(),
+                json!({
+                    "enum": Kinematics::ALL.map(Kinematics::name),
+                    "default": Kinematics::default().name(),
+                    "description": "Small rotations, or full ones (rigid_linear without damping, not in an FMU)."
+                }),
+            );
+        }
         if group == "force_law" {
             extend_force_law(&mut members);
         }

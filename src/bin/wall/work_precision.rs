@@ -39,8 +39,8 @@ fn exponent(error: f64) -> f64 {
     error.max(FLOOR).log10()
 }
 
-/// The page; `peers_csv` is what `cargo xtask bench --peers` wrote.
-pub(crate) fn page(studies: &[Study], peers_csv: Option<&str>) -> String {
+/// The page; `rotations` is its section on small rotations, `peers_csv` what `cargo xtask bench --peers` wrote.
+pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) -> String {
     let mut figures = String::new();
     for study in studies {
         let fate = match study.overturning {
@@ -57,6 +57,7 @@ pub(crate) fn page(studies: &[Study], peers_csv: Option<&str>) -> String {
     }
     include_str!("work_precision.html")
         .replace("{{figures}}", &figures)
+        .replace("{{rotations}}", rotations)
         .replace("{{peers}}", &peers_csv.map_or_else(String::new, peers))
 }
 
