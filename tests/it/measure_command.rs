@@ -20,7 +20,18 @@ fn accuracy_measures_a_scene() {
     let folder = folder("accuracy");
     let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
     std::fs::write(folder.join("peers.csv"), peers).unwrap();
-    let arguments = ["accuracy", &scene(), "--budget", "0", "--csv", "a.csv", "--html", "a.html"];
+    let arguments = [
+        "accuracy",
+        &scene(),
+        "--budget",
+        "0",
+        "--csv",
+        "a.csv",
+        "--html",
+        "a.html",
+        "--linearisation",
+        "l.csv",
+    ];
     let output = wall(&folder, &[&arguments[..], &["--peers", "peers.csv"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     let rows = rows(&folder.join("a.csv"));
@@ -34,7 +45,10 @@ fn accuracy_measures_a_scene() {
     assert!(adaptive[5] < 1e-12 && adaptive[0] > adaptive[5], "{adaptive:?}");
     assert!(newmark[0] > 1e-3 && newmark[5] < 1e-4, "{newmark:?}");
     let page = std::fs::read_to_string(folder.join("a.html")).unwrap();
-    assert_eq!(page.matches("<figure>").count(), 2, "the scene and the peers");
+    assert_eq!(page.matches("<figure>").count(), 6, "the scene, the peers, and small rotations");
+    let content = std::fs::read_to_string(folder.join("l.csv")).unwrap();
+    assert_eq!(content.lines().count(), 1 + 2 * 3 * 15, "mechanisms, starts, angles");
+    assert!(text(&output.stdout).contains("1.56059 s instead of 1.56459 s"), "Figure 2");
     assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
     assert!(page.contains("Beside other tools") && page.contains("exact, step"), "no words at the marks");
 }

@@ -114,7 +114,7 @@ impl Linearisation {
         let mut section = format!(
             "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, h = 4 m, released from \
              0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio of the two periods against slenderness, \
-             hinge of the strip at mid-height.</p>\n<p class=\"key\">{}</p>\n<main>\n",
+             hinge of the strip at mid-height.</p>\n<p class=\"key\">{}</p>\n<main class=\"wide\">\n",
             key(&[
                 ("full rotations", FULL),
                 ("small rotations", LINEAR),
