@@ -9,10 +9,13 @@ use std::cell::Cell;
 
 use fmi2_export::{Environment, Log, Model, Step};
 use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
+use rocking_wall::simulation::Simulation;
+use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable, Solver,
 };
+use rocking_wall::wall::{Kinematics, Parameters, Support};
 
 struct Counting;
 
@@ -54,6 +57,30 @@ fn unit(choices: &Choices) -> Unit {
     }
     unit.initialize(&mut Log::silent()).unwrap();
     unit
+}
+
+/// Full rotations move no FMU: the library steps by itself.
+#[test]
+fn a_step_in_full_rotations_allocates_nothing() {
+    for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
+        let parameters = Parameters {
+            mechanism,
+            kinematics: Kinematics::Trigonometric,
+            force_law: ForceLaw::RigidLinear,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            ..Parameters::default()
+        };
+        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+        let before = COUNT.with(Cell::get);
+        for index in 0..4000_u32 {
+            let support = |index: u32| Support::rigid(0.3 * (0.02 * f64::from(index)).sin());
+            let segment = Segment { duration: 0.005, from: support(index), to: support(index + 1) };
+            simulation.advance(&segment).unwrap();
+        }
+        assert_eq!(COUNT.with(Cell::get), before, "{mechanism:?}");
+        assert!(simulation.progress().work.impacts > 2, "it rocked");
+    }
 }
 
 #[test]
