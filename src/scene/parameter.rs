@@ -17,7 +17,7 @@ use super::{GROUPS, POINTS, Scene, SceneError, input_names, is_named_law};
 const MULTILINEAR: &str = "multilinear";
 
 /// Applies one table.
-pub(super) fn apply_group(
+pub(crate) fn apply_group(
     parameters: &mut Parameters,
     group: &str,
     entries: &Group,

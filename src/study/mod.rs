@@ -2,6 +2,8 @@
 //!
 //! Nothing here opens a file or prints.
 
+pub mod document;
 pub mod fragility;
 pub mod ida;
+pub mod parallel;
 mod random;

@@ -9,12 +9,14 @@
 //! 31(1), 2015, 579–599.
 
 mod bootstrap;
+mod compare;
 mod fit;
 mod normal;
 
 use super::ida::Occurrence;
 
 pub use bootstrap::{Bootstrap, Interval};
+pub use compare::{Summary, compare};
 pub use fit::{FitError, Lognormal, fit};
 pub use normal::{cumulative, quantile};
 

@@ -9,12 +9,12 @@ mod levels;
 mod measure;
 mod model;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::OnceLock;
 
 use crate::ground_motion::{GroundMotion, GroundMotionError};
 use crate::solver::record::{RecordSolver, Scaled, Still};
 use crate::solver::{Method, Motion, SolverError, State};
+use crate::study::parallel;
 use crate::wall::{ParameterError, Parameters, Support, Wall};
 
 pub use curve::{Curve, Level, Occurrence};
@@ -243,54 +243,19 @@ impl Study {
         Ok(Curve::new(levels))
     }
 
-    /// All curves, in the order of their numbers, on `threads` threads.
+    /// All curves, in the order of their numbers, on `threads` threads; the same whatever their number.
     ///
     /// # Errors
     /// The error of a run that could not be followed.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
-        let curves: Vec<Mutex<Option<Curve>>> = (0..self.count()).map(|_| Mutex::new(None)).collect();
-        let all: Vec<usize> = (0..self.count()).collect();
-        self.each(&all, threads, |index, curve| {
-            // a poisoned lock would be that of a thread that has already brought the program down
-            if let Ok(mut place) = curves[index].lock() {
-                *place = Some(curve);
-            }
+        let curves: Vec<OnceLock<Curve>> = (0..self.count()).map(|_| OnceLock::new()).collect();
+        let numbers: Vec<usize> = (0..self.count()).collect();
+        parallel::each(&numbers, threads, |index| {
+            let curve = self.curve(self.case(index))?;
+            let _ = curves[index].set(curve);
             Ok(())
         })?;
-        Ok(curves.into_iter().filter_map(|curve| curve.into_inner().ok().flatten()).collect())
-    }
-
-    /// Runs the combinations of some numbers on `threads` threads and hands each curve over as it is finished, from any of
-    /// them; the first error ends the study.
-    ///
-    /// # Errors
-    /// The error of `finished` or of a run that could not be followed.
-    pub fn each<E: From<IdaError> + Send>(
-        &self,
-        numbers: &[usize],
-        threads: usize,
-        finished: impl Fn(usize, Curve) -> Result<(), E> + Sync,
-    ) -> Result<(), E> {
-        let (next, stop, failure) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
-        let work = || {
-            while !stop.load(Ordering::Relaxed) {
-                let Some(&index) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
-                let outcome = self.curve(self.case(index)).map_err(E::from);
-                if let Err(error) = outcome.and_then(|curve| finished(index, curve)) {
-                    stop.store(true, Ordering::Relaxed);
-                    if let Ok(mut place) = failure.lock() {
-                        place.get_or_insert(error);
-                    }
-                }
-            }
-        };
-        std::thread::scope(|scope| {
-            for _ in 1..threads.clamp(1, numbers.len().max(1)) {
-                scope.spawn(work);
-            }
-            work();
-        });
-        failure.into_inner().ok().flatten().map_or(Ok(()), Err)
+        Ok(curves.into_iter().filter_map(OnceLock::into_inner).collect())
     }
 }
 
