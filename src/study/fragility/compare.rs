@@ -39,38 +39,44 @@ pub fn compare(
 ) -> Vec<Summary> {
     let records = models[reference].len();
     assert!(models.iter().all(|model| model.len() == records), "each model has seen each record");
-    let of = |model: &Vec<Occurrence>| {
+    let all: Vec<Resampled> =
+        models.iter().map(|model| Resampled::new(model, observing, bootstrap)).collect();
+    let base = &all[reference];
+    let ratio = |[a, b]: [f64; 2], [above, below]: [&Vec<f64>; 2]| {
+        Interval::new(a / b, above.iter().zip(below).map(|(a, b)| a / b), CONFIDENCE)
+    };
+    let summary = |(model, own): (&Vec<Occurrence>, &Resampled)| Summary {
+        records,
+        censored: model.iter().filter(|occurrence| matches!(occurrence, Occurrence::Above(_))).count(),
+        median: Interval::new(own.median, own.medians.iter().copied(), CONFIDENCE),
+        fitted: own.fitted,
+        theta: Interval::new(own.theta(), own.thetas.iter().copied(), CONFIDENCE),
+        median_ratio: ratio([own.median, base.median], [&own.medians, &base.medians]),
+        theta_ratio: ratio([own.theta(), base.theta()], [&own.thetas, &base.thetas]),
+    };
+    models.iter().zip(&all).map(summary).collect()
+}
+
+/// One model's median and fit, and those of the resamples.
+struct Resampled {
+    median: f64,
+    medians: Vec<f64>,
+    fitted: Result<Lognormal, FitError>,
+    thetas: Vec<f64>,
+}
+
+impl Resampled {
+    fn new(model: &[Occurrence], observing: &Observing, bootstrap: &Bootstrap) -> Self {
         let fitted = fit(&observing.observations(model));
         // without a curve of all records there is none to resample
         let thetas = match &fitted {
             Ok(_) => bootstrap.fitted_medians(model, observing),
             Err(_) => Vec::new(),
         };
-        (median(model), bootstrap.medians(model), fitted, thetas)
-    };
-    let all: Vec<_> = models.iter().map(of).collect();
-    let (base, bases, base_fit, base_thetas) = &all[reference];
-    let theta_of = |fitted: &Result<Lognormal, FitError>| fitted.as_ref().map_or(f64::NAN, |fit| fit.median);
-    let ratios = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a / b).collect::<Vec<_>>();
-    let summary =
-        |(model, (median, medians, fitted, thetas)): (&Vec<Occurrence>, &(f64, Vec<f64>, _, Vec<f64>))| {
-            let theta = theta_of(fitted);
-            Summary {
-                records,
-                censored: model
-                    .iter()
-                    .filter(|occurrence| matches!(occurrence, Occurrence::Above(_)))
-                    .count(),
-                median: Interval::new(*median, medians.iter().copied(), CONFIDENCE),
-                fitted: *fitted,
-                theta: Interval::new(theta, thetas.iter().copied(), CONFIDENCE),
-                median_ratio: Interval::new(median / base, ratios(medians, bases), CONFIDENCE),
-                theta_ratio: Interval::new(
-                    theta / theta_of(base_fit),
-                    ratios(thetas, base_thetas),
-                    CONFIDENCE,
-                ),
-            }
-        };
-    models.iter().zip(&all).map(summary).collect()
+        Self { median: median(model), medians: bootstrap.medians(model), fitted, thetas }
+    }
+
+    fn theta(&self) -> f64 {
+        self.fitted.map_or(f64::NAN, |fit| fit.median)
+    }
 }

@@ -16,7 +16,7 @@ mod normal;
 use super::ida::Occurrence;
 
 pub use bootstrap::{Bootstrap, Interval};
-pub use compare::{Summary, compare};
+pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit};
 pub use normal::{cumulative, quantile};
 
