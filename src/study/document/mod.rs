@@ -261,7 +261,7 @@ fn report(
 ) -> Result<Report, SceneError> {
     let first = models.first().map(|model| model.name.clone()).unwrap_or_default();
     let mut report =
-        Report { fractions: vec![0.1, 0.4, 0.6, 1.0], reference: first, resamples: 2000, seed: 1 };
+        Report { fractions: vec![0.1, 0.4, 0.6, 1.0], reference: first, resamples: 1000, seed: 1 };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();
     if let Some(fractions) = &spec.fractions {

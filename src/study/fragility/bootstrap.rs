@@ -1,6 +1,7 @@
 //! How much medians and their ratios owe to the choice of records.
 
-use super::{FitError, Observing, fit, sample_median, value};
+use super::fit::{fit, fit_from};
+use super::{FitError, Observing, sample_median, value};
 use crate::study::ida::Occurrence;
 use crate::study::random::Pcg;
 
@@ -51,9 +52,10 @@ impl Bootstrap {
     /// θ of the fits to the resamples; NaN where one has no fit.
     #[must_use]
     pub fn fitted_medians(&self, occurrences: &[Occurrence], observing: &Observing) -> Vec<f64> {
+        let near = fit(&observing.observations(occurrences)).ok();
         let fitted = |draw: &Vec<u32>| -> Result<f64, FitError> {
             let drawn: Vec<Occurrence> = draw.iter().map(|&index| occurrences[index as usize]).collect();
-            Ok(fit(&observing.observations(&drawn))?.median)
+            Ok(fit_from(&observing.observations(&drawn), near)?.median)
         };
         self.draws.iter().map(|draw| fitted(draw).unwrap_or(f64::NAN)).collect()
     }

@@ -1,7 +1,7 @@
 //! The lognormal curve of greatest likelihood.
 
 use super::Observation;
-use super::normal::{cumulative, hazard, log_cumulative};
+use super::normal::{cumulative, log_and_hazard};
 
 /// A lognormal fragility.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +48,11 @@ const MOST_HALVINGS: usize = 60;
 const STEEPEST: f64 = 1e5;
 /// 1/β below which there is no rise.
 const FLATTEST: f64 = 1e-3;
-/// Newton's decrement, in units of the logarithm of the likelihood, at which the search ends.
-const DECREMENT: f64 = 1e-20;
+/// Newton's decrement, in units of the logarithm of the likelihood, at which one more step ends the search: it leaves an error
+/// of about 1e-14 standard errors.
+const DECREMENT: f64 = 1e-14;
+/// Smallest β to start from.
+const LEAST_SPREAD: f64 = 0.05;
 
 /// Fits θ and β to observations by maximum likelihood.
 ///
@@ -62,11 +65,23 @@ const DECREMENT: f64 = 1e-20;
 /// Stripe:     k ln Φ(z) + (n − k) ln Φ(−z)                                             Eq. (11)
 /// ```
 ///
+/// Of intensities alone the maximum has a closed form, their mean and standard deviation.
+///
 /// # Errors
 /// [`FitError`], if the observations do not determine a curve.
 pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
+    fit_from(observations, None)
+}
+
+/// The same, from the curve of similar observations on.
+pub(super) fn fit_from(observations: &[Observation], near: Option<Lognormal>) -> Result<Lognormal, FitError> {
     let terms = terms(observations)?;
     let (centre, spread) = start(&terms)?;
+    if terms.iter().all(|term| matches!(term, Term::At(_))) {
+        return Ok(Lognormal { median: libm::exp(centre), dispersion: spread });
+    }
+    let (centre, spread) =
+        near.map_or((centre, spread.max(LEAST_SPREAD)), |near| (libm::log(near.median), near.dispersion));
     // logarithms of intensities about their centre, so that a and c are nearly independent
     let mut place = [1.0 / spread, 0.0];
     let mut now = likelihood(&terms, centre, place);
@@ -79,30 +94,13 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
         let [ga, gc] = now.gradient;
         // the curvature is that of −ln L, positive definite
         let step = [(cc * ga - ac * gc) / determinant, (aa * gc - ac * ga) / determinant];
-        let decrement = step[0] * ga + step[1] * gc;
-        if decrement <= DECREMENT {
+        if step[0] * ga + step[1] * gc <= DECREMENT {
+            place = [place[0] + step[0], place[1] + step[1]];
             break;
-        }
-        let mut part = 1.0;
-        let mut moved = None;
-        for _ in 0..MOST_HALVINGS {
-            let trial = [place[0] + part * step[0], place[1] + part * step[1]];
-            if trial[0] > 0.0 {
-                let there = likelihood(&terms, centre, trial);
-                if there.value >= now.value {
-                    moved = Some((trial, there));
-                    break;
-                }
-            }
-            part *= 0.5;
         }
         // no better place to rounding: this is it
-        let Some((trial, there)) = moved else { break };
-        let settled = trial == place;
-        (place, now) = (trial, there);
-        if settled {
-            break;
-        }
+        let Some((better, there)) = climb(&terms, centre, place, step, now.value) else { break };
+        (place, now) = (better, there);
     }
     let [a, c] = place;
     if a >= STEEPEST {
@@ -112,6 +110,28 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
         return Err(FitError::Falling);
     }
     Ok(Lognormal { median: libm::exp(centre - c / a), dispersion: 1.0 / a })
+}
+
+/// A step, halved until it leads upwards.
+fn climb(
+    terms: &[Term],
+    centre: f64,
+    [a, c]: [f64; 2],
+    step: [f64; 2],
+    value: f64,
+) -> Option<([f64; 2], Likelihood)> {
+    let mut part = 1.0;
+    for _ in 0..MOST_HALVINGS {
+        let trial = [a + part * step[0], c + part * step[1]];
+        if trial[0] > 0.0 {
+            let there = likelihood(terms, centre, trial);
+            if there.value > value {
+                return Some((trial, there));
+            }
+        }
+        part *= 0.5;
+    }
+    None
 }
 
 /// A part of the likelihood at y = ln x.
@@ -153,14 +173,13 @@ fn start(terms: &[Term]) -> Result<(f64, f64), FitError> {
         Term::At(y) => (y, 1.0, 1.0, 0.0),
         Term::Counts { y, exceeded, standing } => (y, exceeded + standing, exceeded, standing),
     });
-    let (mut weight, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    let (mut weight, mut sum) = (0.0, 0.0);
     // the range of what exceeds and of what does not
     let (mut lowest_exceeded, mut highest_standing) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut exact, mut different) = (None, false);
     for (y, n, exceeded, standing) in weighted {
         weight += n;
         sum += n * y;
-        squares += n * y * y;
         if exceeded > 0.0 {
             lowest_exceeded = lowest_exceeded.min(y);
         }
@@ -183,8 +202,12 @@ fn start(terms: &[Term]) -> Result<(f64, f64), FitError> {
         return Err(FitError::NoScatter);
     }
     let mean = sum / weight;
-    let variance = (squares / weight - mean * mean).max(0.0);
-    Ok((mean, variance.sqrt().max(0.05)))
+    let square = |term: &Term| match *term {
+        Term::At(y) => (y - mean).powi(2),
+        Term::Counts { y, exceeded, standing } => (exceeded + standing) * (y - mean).powi(2),
+    };
+    let variance = terms.iter().map(square).sum::<f64>() / weight;
+    Ok((mean, variance.sqrt()))
 }
 
 struct Likelihood {
@@ -211,12 +234,12 @@ fn likelihood(terms: &[Term], centre: f64, [a, c]: [f64; 2]) -> Likelihood {
                 let (mut l, mut d, mut dd) = (0.0, 0.0, 0.0);
                 // nothing of a side without runs: 0 · ∞ is not 0
                 if exceeded > 0.0 {
-                    let h = hazard(z);
-                    (l, d, dd) = (exceeded * log_cumulative(z), exceeded * h, -exceeded * h * (h + z));
+                    let (log, h) = log_and_hazard(z);
+                    (l, d, dd) = (exceeded * log, exceeded * h, -exceeded * h * (h + z));
                 }
                 if standing > 0.0 {
-                    let h = hazard(-z);
-                    l += standing * log_cumulative(-z);
+                    let (log, h) = log_and_hazard(-z);
+                    l += standing * log;
                     d -= standing * h;
                     dd -= standing * h * (h - z);
                 }

@@ -29,17 +29,21 @@ pub fn quantile(p: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// ln Φ(z).
-pub(super) fn log_cumulative(z: f64) -> f64 {
-    if z > FAR {
-        return libm::log(cumulative(z));
-    }
-    // 1 − 1/z² + 3/z⁴ − 15/z⁶: the next term is 105/z⁸, 4e-9 at z = −20
-    let s = 1.0 / (z * z);
-    -0.5 * z * z - libm::log(-z * libm::sqrt(2.0 * PI)) + libm::log1p(-s * (1.0 - 3.0 * s * (1.0 - 5.0 * s)))
-}
+/// Above this 1 − Φ is below half a rounding of 1.
+const NEAR_ONE: f64 = 8.5;
 
-/// φ(z)/Φ(z), the derivative of ln Φ.
-pub(super) fn hazard(z: f64) -> f64 {
-    libm::exp(-0.5 * z * z - 0.5 * libm::log(2.0 * PI) - log_cumulative(z))
+/// ln Φ(z) and its derivative, φ(z)/Φ(z).
+pub(super) fn log_and_hazard(z: f64) -> (f64, f64) {
+    if z > NEAR_ONE {
+        return (0.0, 0.0);
+    }
+    let log = if z > FAR {
+        libm::log(cumulative(z))
+    } else {
+        // 1 − 1/z² + 3/z⁴ − 15/z⁶: the next term is 105/z⁸, 4e-9 at z = −20
+        let s = 1.0 / (z * z);
+        -0.5 * z * z - libm::log(-z * libm::sqrt(2.0 * PI))
+            + libm::log1p(-s * (1.0 - 3.0 * s * (1.0 - 5.0 * s)))
+    };
+    (log, libm::exp(-0.5 * z * z - 0.5 * libm::log(2.0 * PI) - log))
 }

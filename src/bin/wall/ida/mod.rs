@@ -1,5 +1,7 @@
 //! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
 
+#[cfg(feature = "parquet")]
+mod columns;
 mod folder;
 mod load;
 mod page;
@@ -176,6 +178,8 @@ fn finish(folder: &Folder, threads: usize) -> Result<()> {
         ("fragilities.csv", results.fragilities_csv().into_bytes()),
         ("study.html", page::page(&results).into_bytes()),
     ];
+    #[cfg(feature = "parquet")]
+    files.push(("levels.parquet", columns::levels(&results)?));
     let mut text = summary(&results);
     for (name, bytes) in &mut files {
         let path = folder.path().join(*name);
@@ -193,7 +197,7 @@ fn summary(results: &Results) -> String {
         return String::new();
     };
     let mut text = format!(
-        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n{:<12}{:<16}{:>8}{:>18}{:>8}{:>8}{:>10}{:>20}\n",
+        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n{:<12}{:<16}{:>8}{:>18}{:>8}{:>8}{:>10}{:>26}\n",
         results.runs(),
         contents.measure,
         report.resamples,
@@ -215,7 +219,7 @@ fn summary(results: &Results) -> String {
             let ratio = &summary.median_ratio;
             let _ = writeln!(
                 text,
-                "{:<12}{:<16}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>20}",
+                "{:<12}{:<16}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
                 wall.name,
                 model.name,
                 in_g(summary.median.estimate),

@@ -65,18 +65,23 @@ pub(super) fn page(results: &Results) -> String {
         measure_words(results),
     );
     let page = [
-        ("{{title}}", escaped(&results.manifest.title)),
-        ("{{facts}}", facts),
-        ("{{reading}}", reading(results)),
-        ("{{key}}", key),
-        ("{{program}}", escaped(&contents.program)),
-        ("{{sections}}", sections),
+        ("title", escaped(&results.manifest.title)),
+        ("facts", facts),
+        ("reading", reading(results)),
+        ("key", key),
+        ("program", escaped(&contents.program)),
+        ("sections", sections),
     ];
-    let mut html = include_str!("page.html").to_owned();
-    for (name, content) in page {
-        html = html.replacen(name, &content, 1);
+    let mut html = String::new();
+    let mut rest = include_str!("page.html");
+    // in one pass, so that braces in a title stay what they are
+    while let Some((before, after)) = rest.split_once("{{") {
+        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+        html.push_str(before);
+        html.push_str(page.iter().find(|(known, _)| *known == name).map_or("", |(_, content)| content));
+        rest = after;
     }
-    html
+    html + rest
 }
 
 /// The intensity measure in words, with its periods.
@@ -138,16 +143,16 @@ fn section(results: &Results, wall: usize) -> String {
             table(results, wall, collapse)
         );
     }
-    html.push_str("</div><div class=\"row\">");
+    html.push_str("</div><h3>IDA curves, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
     for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
         let _ = write!(
             html,
-            "<figure><figcaption>{}: IDA curves, 16, 50 and 84 %</figcaption>{}</figure>",
+            "<figure><figcaption>{}</figcaption>{}</figure>",
             escaped(name),
             curves(results, wall, model, top)
         );
     }
-    html.push_str("</div><div class=\"row\">");
+    html.push_str("</div><h3>Fragilities at fractions of u<sub>ins</sub></h3><div class=\"row\">");
     for (place, fraction) in fractions.iter().enumerate().filter(|(_, fraction)| **fraction < 1.0) {
         let _ = write!(
             html,
@@ -202,7 +207,7 @@ fn top_at(results: &Results, wall: usize, fraction: f64) -> f64 {
         intensities.sort_by(f64::total_cmp);
         let (most, all) = (fractile(&intensities, 0.9), intensities.last().copied());
         // one stray record must not squeeze the others
-        most.unwrap_or(1.0).min(f64::INFINITY).mul_add(1.5, 0.0).min(all.unwrap_or(1.0))
+        (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
     };
     1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
 }
@@ -291,7 +296,7 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
     let report = &results.manifest.report;
     let mut html = format!(
         "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th><th>median / {0}</th><th>θ / {0}</th>\
-         <th>censored</th><th>standing again</th></tr></thead><tbody>",
+         <th>censored</th><th>stands again</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
     for (model, summary) in results.summaries(wall, collapse).iter().enumerate() {
@@ -326,8 +331,9 @@ fn words(interval: &Interval, unit: f64) -> String {
     let number = |value: f64| {
         if value.is_nan() {
             "–".to_owned()
-        } else if value.is_infinite() {
-            "&gt; top".to_owned()
+        } else if value.is_infinite() || value == 0.0 {
+            // a median of the sample or of a resample lies above the levels
+            "open".to_owned()
         } else {
             format!("{:.3}", value / unit)
         }
