@@ -9,6 +9,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
+use rocking_wall::study::ida::Curve;
+
 use super::results::{Results, in_g};
 
 /// The table in bytes; the same results give the same bytes.
@@ -51,7 +53,7 @@ fn rows(
 ) -> Result<()> {
     let contents = results.contents();
     let curves = results.curves(wall, model);
-    let levels: Vec<_> = curves.iter().flat_map(|curve| curve.levels()).collect();
+    let levels: Vec<_> = curves.iter().flat_map(Curve::levels).collect();
     let alike = |name: &str| vec![ByteArray::from(name); levels.len()];
     let records = curves.iter().zip(&contents.records).flat_map(|(curve, record)| {
         std::iter::repeat_n(ByteArray::from(record.name.as_str()), curve.levels().len())
