@@ -53,16 +53,6 @@ pub struct Document {
 }
 
 impl Document {
-    pub(super) fn parse(place: &Place<'_>) -> Result<Self, SceneError> {
-        toml::from_str(place.text()).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            let message = error.message().replace('\n', " ");
-            let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
-            let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
-            place.error(span, format!("{message}, in `{shown}`"))
-        })
-    }
-
     /// The tables of parameters with their names.
     pub(super) fn groups(&self) -> [(&'static str, &Group); 6] {
         [
@@ -93,6 +83,17 @@ impl Document {
         }
         Ok(inputs)
     }
+}
+
+/// Reads a TOML text; what is wrong with it is told with its line.
+pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
+    toml::from_str(place.text()).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        let message = error.message().replace('\n', " ");
+        let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
+        let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
+        place.error(span, format!("{message}, in `{shown}`"))
+    })
 }
 
 /// The text of a scene file.

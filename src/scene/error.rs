@@ -40,36 +40,36 @@ pub enum SceneError {
 }
 
 /// A scene's file and text, to turn byte ranges into lines.
-pub(super) struct Place<'a> {
+pub(crate) struct Place<'a> {
     name: &'a str,
     text: &'a str,
 }
 
 impl<'a> Place<'a> {
-    pub(super) fn new(name: &'a str, text: &'a str) -> Self {
+    pub(crate) fn new(name: &'a str, text: &'a str) -> Self {
         Self { name, text }
     }
 
-    pub(super) fn name(&self) -> &'a str {
+    pub(crate) fn name(&self) -> &'a str {
         self.name
     }
 
-    pub(super) fn text(&self) -> &'a str {
+    pub(crate) fn text(&self) -> &'a str {
         self.text
     }
 
     /// The 1-based line of a byte range.
-    pub(super) fn line(&self, span: Range<usize>) -> usize {
+    pub(crate) fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         before.split(|&byte| byte == b'\n').count()
     }
 
-    pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+    pub(crate) fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
         SceneError::Line { file: self.name.to_owned(), line: self.line(span), message: message.into() }
     }
 
     /// A positive number up to `limit`, or `natural` where none is given.
-    pub(super) fn within(
+    pub(crate) fn within(
         &self,
         key: &str,
         given: Option<&Spanned<f64>>,

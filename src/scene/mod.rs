@@ -22,7 +22,9 @@ pub use error::SceneError;
 pub use motion::fingerprint;
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 
-use error::Place;
+pub(crate) use document::parse_toml;
+pub(crate) use error::Place;
+pub(crate) use parameter::apply_group;
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -114,7 +116,7 @@ impl Scene {
     /// [`SceneError`].
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
         let place = Place::new(name, text);
-        let document = Document::parse(&place)?;
+        let document: Document = document::parse_toml(&place)?;
         Self::from_document(&document, &place, folder)
     }
 

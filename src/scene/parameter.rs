@@ -19,7 +19,7 @@ const MULTILINEAR: &str = "multilinear";
 const KINEMATICS_GROUP: &str = "geometry";
 
 /// Applies one table.
-pub(super) fn apply_group(
+pub(crate) fn apply_group(
     parameters: &mut Parameters,
     group: &str,
     entries: &Group,

@@ -128,3 +128,40 @@ def test_overturning_is_marked(browser, wall, tmp_path):
     assert browser.find_element(By.ID, "overturned").text == ""
     move(browser, 1.0)
     assert browser.find_element(By.ID, "overturned").text.startswith("overturned at t = ")
+
+
+STUDY = """
+models = ["CR", "CDR", "CDR Eq. 14"]
+levels = { method = "hunt", first = 0.1, increase = 0.1, top = 8 }
+records = { synthetic = { count = 4, duration = 12, step = 0.01 } }
+report = { resamples = 200 }
+walls = [{ name = "3", geometry = { height = 3, thickness = 0.3 }, force_law = { a1 = 0.009 } }]
+"""
+
+
+@pytest.fixture(scope="module")
+def study(wall, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("study")
+    (folder / "study.toml").write_text(STUDY)
+    subprocess.run([wall, "ida", "study.toml", "-o", "out"], cwd=folder, check=True, capture_output=True)
+    return folder / "out/study.html"
+
+
+@pytest.mark.parametrize("width", [420, 1600])
+def test_the_page_of_a_study(browser, study, width):
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+    )
+    browser.get_log("browser"), browser.get_log("performance")
+    browser.get(study.as_uri())
+    assert browser.get_log("browser") == []
+    requests = [entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]]
+    assert not [request for request in requests if '"url":"http' in request]
+    inner, content = browser.execute_script("return [window.innerWidth, document.documentElement.scrollWidth]")
+    assert content <= inner == width
+    # the collapse, three models' curves, three fractions; each with something drawn inside its axes
+    plots = browser.find_elements(By.CSS_SELECTOR, "svg")
+    assert len(plots) == 1 + 3 + 3
+    assert all(plot.find_elements(By.CSS_SELECTOR, "g path") for plot in plots)
+    rows = [row.text for row in browser.find_elements(By.CSS_SELECTOR, "tbody tr")]
+    assert [row.split()[0] for row in rows] == ["CR", "CDR", "CDR"]

@@ -36,6 +36,10 @@ pub(crate) enum Command {
     Stability(StabilityArguments),
     /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
     Record(RecordFilesArguments),
+    /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
+    Ida(IdaArguments),
+    /// Put together the shards of an incremental dynamic analysis and write its results
+    Merge(MergeArguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Print a completion script for a shell
@@ -223,6 +227,51 @@ pub(crate) struct RecordFilesArguments {
     /// Draw the histories and the spectra, as SVG or PNG by the file's ending
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct IdaArguments {
+    /// Study file (TOML): walls, records, damping models, intensity, levels
+    pub(crate) study: PathBuf,
+    /// Folder of the results; without it the study's name and `_results`. Started again, a study goes on where it stopped
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Threads; all cores if none are given
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` puts them together
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of the shards, or the one they share
+    #[arg(required = true, value_name = "FOLDER")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Folder of the whole
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// One of several parts of a study.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shard {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) of: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
+        }
+    }
 }
 
 impl SceneArguments {

@@ -5,6 +5,7 @@ mod args;
 mod describe;
 mod figure;
 mod heat_map;
+mod ida;
 mod linearisation;
 mod motion;
 mod output;
@@ -34,6 +35,8 @@ fn main() -> ExitCode {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
+        Command::Ida(arguments) => ida::run(&arguments),
+        Command::Merge(arguments) => ida::merge(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,0 +1,245 @@
+//! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+
+#[cfg(feature = "parquet")]
+mod columns;
+mod folder;
+mod load;
+mod page;
+mod plot;
+mod progress;
+mod results;
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use rocking_wall::study::ida::{Occurrence, Study};
+use rocking_wall::study::parallel;
+
+use crate::args::{IdaArguments, MergeArguments};
+use crate::output;
+
+use folder::Folder;
+use load::load;
+use progress::Progress;
+use results::{Results, in_g};
+
+/// Most missing combinations that a message names.
+const NAMED: usize = 3;
+
+pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
+    let loaded = load(&arguments.study)?;
+    let path = match (&arguments.output, arguments.study.file_stem()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
+        (None, None) => bail!("{}: not a file", arguments.study.display()),
+    };
+    let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
+    let threads = threads(arguments.threads);
+    let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
+    let mine: Vec<usize> = (0..loaded.study.count()).filter(|index| index % shards == shard).collect();
+    let missing: Vec<usize> = mine.iter().copied().filter(|&index| folder.curve(index).is_none()).collect();
+    let found = mine.len() - missing.len();
+    if found > 0 {
+        output::note(&format!("{found} of {} combinations are there already", mine.len()));
+    }
+    let words = work(&loaded.study, &folder, &missing, threads)?;
+    output::to_stdout(&words)?;
+    if shards > 1 {
+        let name = path.display();
+        return output::to_stdout(&format!(
+            "shard {} of {shards} is done; when all are: wall merge {name}\n",
+            shard + 1
+        ));
+    }
+    finish(&folder, threads)
+}
+
+pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
+    let folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
+    let first = &folders[0].manifest;
+    for folder in &folders[1..] {
+        folder.expect(&first.contents)?;
+    }
+    let target = match (&arguments.output, folders.as_slice()) {
+        (Some(path), _) => Folder::like(path, first)?,
+        (None, [only]) => Folder::open(only.path())?,
+        (None, _) => bail!("several folders need a place for the whole; give it with -o FOLDER"),
+    };
+    let mut missing = Vec::new();
+    for index in 0..first.contents.count() {
+        if target.curve(index).is_some() {
+            continue;
+        }
+        match folders.iter().find_map(|folder| folder.curve(index)) {
+            Some(curve) => target.keep(index, &curve)?,
+            None => missing.push(index),
+        }
+    }
+    if !missing.is_empty() {
+        bail!("{}", not_whole(&target, &missing));
+    }
+    finish(&target, threads(None))
+}
+
+/// Says what is missing.
+fn not_whole(folder: &Folder, missing: &[usize]) -> String {
+    let contents = &folder.manifest.contents;
+    let name = |&index: &usize| {
+        let case = contents.case(index);
+        format!(
+            "wall {:?} with {} under {:?}",
+            contents.walls[case.wall].name,
+            contents.models[case.model].name,
+            contents.records[case.record].name
+        )
+    };
+    let names: Vec<_> = missing.iter().take(NAMED).map(name).collect();
+    let more = if missing.len() > NAMED { " …" } else { "" };
+    format!(
+        "{} of {} combinations are missing: {}{more}; run their shards again, or name the folders that hold them too",
+        missing.len(),
+        contents.count(),
+        names.join(", ")
+    )
+}
+
+fn threads(given: Option<u16>) -> usize {
+    given.map(usize::from).or_else(|| std::thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
+}
+
+/// Time and amount of work of one model.
+#[derive(Clone, Copy, Default)]
+struct Share {
+    seconds: f64,
+    runs: usize,
+    samples: f64,
+}
+
+/// Runs what is missing; returns the throughput of each model.
+fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Result<String> {
+    if missing.is_empty() {
+        return Ok(String::new());
+    }
+    let progress = Progress::new(missing.len());
+    let shares = Mutex::new(vec![Share::default(); study.models().len()]);
+    let start = Instant::now();
+    let outcome = parallel::each(missing, threads, |index| -> Result<()> {
+        let case = study.case(index);
+        let begun = Instant::now();
+        let curve = study.curve(case)?;
+        let seconds = begun.elapsed().as_secs_f64();
+        folder.keep(index, &curve)?;
+        let runs = curve.levels().len();
+        if let Ok(mut shares) = shares.lock() {
+            let share = &mut shares[case.model];
+            share.seconds += seconds;
+            share.runs += runs;
+            share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
+        }
+        progress.add(runs);
+        Ok(())
+    });
+    progress.finish();
+    outcome?;
+    let shares = shares.into_inner().unwrap_or_default();
+    let runs: usize = shares.iter().map(|share| share.runs).sum();
+    let mut text = format!("{runs} runs in {:.1} s on {threads} threads\n", start.elapsed().as_secs_f64());
+    let _ =
+        writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
+    for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
+        let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
+        let _ = writeln!(text, "{:<16}{:>10}{rate:>18.0}{each:>22.1}", model.name, share.runs);
+    }
+    Ok(text)
+}
+
+/// Makes the final results of a folder whose runs are all there.
+fn finish(folder: &Folder, threads: usize) -> Result<()> {
+    let contents = &folder.manifest.contents;
+    let mut curves = Vec::with_capacity(contents.count());
+    let mut missing = Vec::new();
+    for index in 0..contents.count() {
+        match folder.curve(index) {
+            Some(curve) => curves.push(curve),
+            None => missing.push(index),
+        }
+    }
+    if !missing.is_empty() {
+        bail!("{}", not_whole(folder, &missing));
+    }
+    folder.sweep();
+    let results = Results::new(folder.manifest.clone(), curves, threads)?;
+    let mut files = vec![
+        ("levels.csv", results.levels_csv().into_bytes()),
+        ("collapses.csv", results.collapses_csv().into_bytes()),
+        ("fragilities.csv", results.fragilities_csv().into_bytes()),
+        ("study.html", page::page(&results).into_bytes()),
+    ];
+    #[cfg(feature = "parquet")]
+    files.push(("levels.parquet", columns::levels(&results)?));
+    let mut text = summary(&results);
+    for (name, bytes) in &mut files {
+        let path = folder.path().join(*name);
+        output::to_file(&path, bytes)?;
+        let _ = writeln!(text, "written  {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+/// The collapse of every wall and model as a table.
+fn summary(results: &Results) -> String {
+    let contents = results.contents();
+    let report = &results.manifest.report;
+    let Some(collapse) = report.fractions.iter().position(|fraction| *fraction == 1.0) else {
+        return String::new();
+    };
+    let mut text = format!(
+        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n{:<12}{:<16}{:>8}{:>18}{:>8}{:>8}{:>10}{:>26}\n",
+        results.runs(),
+        contents.measure,
+        report.resamples,
+        contents.records.len(),
+        "wall",
+        "model",
+        "median",
+        "",
+        "theta",
+        "beta",
+        "censored",
+        format!("median/{}", report.reference)
+    );
+    for (w, wall) in contents.walls.iter().enumerate() {
+        for (model, summary) in contents.models.iter().zip(results.summaries(w, collapse)) {
+            let (theta, beta) =
+                summary.fitted.map_or((f64::NAN, f64::NAN), |fit| (fit.median, fit.dispersion));
+            let [low, high] = summary.median.range;
+            let ratio = &summary.median_ratio;
+            let _ = writeln!(
+                text,
+                "{:<12}{:<16}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
+                wall.name,
+                model.name,
+                in_g(summary.median.estimate),
+                format!("{:.3} … {:.3}", in_g(low), in_g(high)),
+                in_g(theta),
+                summary.censored,
+                format!("{:.3} ({:.3} … {:.3})", ratio.estimate, ratio.range[0], ratio.range[1])
+            );
+        }
+    }
+    let resurrected = (0..contents.walls.len() * contents.models.len())
+        .flat_map(|pair| results.curves(pair / contents.models.len(), pair % contents.models.len()))
+        .filter(|curve| matches!(curve.collapse(), Occurrence::At(_)) && curve.resurrections() > 0)
+        .count();
+    if resurrected > 0 {
+        let _ = writeln!(
+            text,
+            "{resurrected} of {} curves stand again above their first overturning, which counts as the collapse",
+            contents.count()
+        );
+    }
+    text
+}

@@ -1,0 +1,171 @@
+//! Fragilities: fits, medians, bootstrap.
+
+use rocking_wall::study::fragility::{
+    Bootstrap, FitError, Interval, Lognormal, Observation, Observing, cumulative, fit, median, quantile,
+    steps,
+};
+use rocking_wall::study::ida::Occurrence;
+
+const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
+
+/// Intensities at the middles of `count` equally likely parts of the truth.
+fn stratified(count: u32) -> Vec<f64> {
+    let z = |k: u32| quantile((f64::from(k) + 0.5) / f64::from(count));
+    (0..count).map(|k| TRUTH.median * libm::exp(TRUTH.dispersion * z(k))).collect()
+}
+
+fn near(found: f64, wanted: f64, allowed: f64) {
+    assert!((found - wanted).abs() <= allowed, "{found} is not {wanted} to {allowed:e}");
+}
+
+#[test]
+fn the_normal_distribution_has_its_textbook_values() {
+    // Abramowitz and Stegun, table 26.1
+    for (z, p) in [
+        (0.0, 0.5),
+        (1.0, 0.841_344_746_068_543),
+        (-1.96, 0.024_997_895_148_220),
+        (3.0, 0.998_650_101_968_370),
+    ] {
+        near(cumulative(z), p, 1e-14);
+        // |dz/dp| is 226 at z = 3
+        near(quantile(p), z, 1e-11);
+    }
+    assert!(quantile(0.0) == f64::NEG_INFINITY && quantile(1.0) == f64::INFINITY && quantile(1.5).is_nan());
+}
+
+/// Of exact intensities the likeliest θ is their geometric mean, β their standard deviation with 1/n.
+#[test]
+fn exact_intensities_have_a_closed_form() {
+    let intensities = [0.31, 0.44, 0.58, 0.61, 0.9, 1.7];
+    let logarithms = intensities.map(f64::ln);
+    let mean = logarithms.iter().sum::<f64>() / 6.0;
+    let variance = logarithms.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / 6.0;
+    let exact = intensities.map(Observation::At);
+    let found = fit(&exact).unwrap();
+    // sums of six terms
+    near(found.median, mean.exp(), 1e-15);
+    near(found.dispersion, variance.sqrt(), 1e-15);
+    // a record censored 40 β below tells nothing, but has Newton's method find the same; its last step leaves 1e-14
+    let searched = fit(&[&exact[..], &[Observation::Above(1e-9)]].concat()).unwrap();
+    near(searched.median, found.median, 1e-13);
+    near(searched.dispersion, found.dispersion, 1e-13);
+}
+
+#[test]
+fn stripes_recover_the_truth() {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a probability of 1e6")]
+    let stripe = |intensity: f64| Observation::Stripe {
+        intensity,
+        runs: 1_000_000,
+        exceeded: (1e6 * TRUTH.probability(intensity)).round() as u32,
+    };
+    let found = fit(&[0.2, 0.4, 0.6, 0.8, 1.2, 2.0].map(stripe)).unwrap();
+    // counts rounded to 5e-7 of the runs; θ and β follow within a few times that
+    near(found.median, TRUTH.median, 5e-6);
+    near(found.dispersion, TRUTH.dispersion, 5e-6);
+}
+
+/// Censored at 0.7: what is left of a large sample still gives the truth, where leaving censored records out does not.
+#[test]
+fn censored_records_count() {
+    let top = 0.7;
+    let sample = stratified(4000);
+    let censored: Vec<_> =
+        sample.iter().map(|&x| if x <= top { Observation::At(x) } else { Observation::Above(top) }).collect();
+    let found = fit(&censored).unwrap();
+    // a stratified sample of n is off by O(1/n) where a random one is off by O(1/√n)
+    near(found.median, TRUTH.median, 2e-3);
+    near(found.dispersion, TRUTH.dispersion, 2e-3);
+    let kept: Vec<_> = censored.iter().copied().filter(|o| matches!(o, Observation::At(_))).collect();
+    assert!(fit(&kept).unwrap().median < 0.8 * TRUTH.median);
+}
+
+#[test]
+fn what_gives_no_curve_is_refused() {
+    use Observation::{Above, At, Stripe};
+    let stripe = |intensity, exceeded| Stripe { intensity, runs: 10, exceeded };
+    for (observations, error) in [
+        (vec![], FitError::OneSided),
+        (vec![Above(1.0), Above(1.0)], FitError::OneSided),
+        (vec![stripe(1.0, 10), stripe(2.0, 10)], FitError::OneSided),
+        (vec![At(0.5)], FitError::NoScatter),
+        (vec![At(0.5), At(0.5), Above(0.4)], FitError::NoScatter),
+        (vec![stripe(0.5, 0), stripe(1.0, 10)], FitError::NoScatter),
+        (vec![stripe(0.5, 0), stripe(1.0, 4), stripe(2.0, 10)], FitError::NoScatter),
+        (vec![stripe(0.5, 9), stripe(1.0, 2)], FitError::Falling),
+        (vec![At(-1.0), At(1.0)], FitError::Observation),
+        (vec![At(f64::NAN), At(1.0)], FitError::Observation),
+        (vec![stripe(1.0, 11)], FitError::Observation),
+    ] {
+        assert_eq!(fit(&observations), Err(error), "{observations:?}");
+    }
+    // far tails: likelihoods of e^-1000 and less are still told apart
+    let far = fit(&[At(1e-6), At(1.1e-6), Above(1e-3), At(1e3)]).unwrap();
+    assert!(far.median.is_finite() && far.dispersion > 5.0);
+}
+
+#[test]
+fn medians_and_steps_count_censored_records() {
+    use Occurrence::{Above, At};
+    assert_eq!(median(&[At(0.3), At(0.1), At(0.2)]), 0.2);
+    assert_eq!(median(&[At(0.3), At(0.1), At(0.2), Above(1.0)]), 0.25);
+    assert_eq!(median(&[At(0.3), Above(1.0), Above(1.0)]), f64::INFINITY);
+    assert_eq!(steps(&[At(0.3), Above(1.0), At(0.1), Above(1.0)]), [(0.1, 0.25), (0.3, 0.5)]);
+    let stripes = Observing::InStripes(vec![0.2, 0.4]).observations(&[At(0.2), At(0.4), Above(0.4)]);
+    let stripe = |intensity, exceeded| Observation::Stripe { intensity, runs: 3, exceeded };
+    assert_eq!(stripes, [stripe(0.2, 1), stripe(0.4, 2)]);
+}
+
+/// The interval of a median covers the truth about as often as it says: of 200 random samples 95 % within four standard
+/// errors of the count, √(200 · 0.95 · 0.05) = 3.1.
+#[test]
+fn bootstrap_intervals_cover_the_truth() {
+    let population = stratified(5000);
+    let mut covered = 0;
+    for seed in 0..200 {
+        // the draws of one bootstrap serve as random samples
+        let sample: Vec<Occurrence> = draws(&population, 40, 1000 + seed);
+        let bootstrap = Bootstrap::new(sample.len(), 400, seed);
+        let interval = Interval::new(median(&sample), bootstrap.medians(&sample), 0.95);
+        covered += u32::from(interval.range[0] <= TRUTH.median && TRUTH.median <= interval.range[1]);
+        assert!(interval.range[0] <= interval.estimate && interval.estimate <= interval.range[1]);
+    }
+    assert!((178..=200).contains(&covered), "{covered} of 200");
+}
+
+/// `count` members of a population, at random.
+fn draws(population: &[f64], count: usize, seed: u64) -> Vec<Occurrence> {
+    let all: Vec<Occurrence> = population.iter().copied().map(Occurrence::At).collect();
+    // the median of a resample of one is a member drawn
+    let one = |index: u64| {
+        let mut state =
+            seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(index.wrapping_mul(0xD1B5_4A32_D192_ED03));
+        state ^= state >> 29;
+        state = state.wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        state ^= state >> 32;
+        all[usize::try_from(state % all.len() as u64).unwrap()]
+    };
+    (0..count as u64).map(one).collect()
+}
+
+/// What two models have in common cancels in their ratio: a model that always needs 10 % more has a ratio of 1.1 without any
+/// width, whatever the scatter of the records.
+#[test]
+fn ratios_are_paired() {
+    let one: Vec<Occurrence> = stratified(30).into_iter().map(Occurrence::At).collect();
+    let other: Vec<Occurrence> = stratified(30).into_iter().map(|x| Occurrence::At(1.1 * x)).collect();
+    let bootstrap = Bootstrap::new(30, 500, 7);
+    for medians in [
+        |b: &Bootstrap, o: &[Occurrence]| b.medians(o),
+        |b: &Bootstrap, o: &[Occurrence]| b.fitted_medians(o, &Observing::Exactly),
+    ] {
+        let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
+        assert!(a.iter().any(|median| (median / TRUTH.median - 1.0).abs() > 0.05), "resamples differ");
+        let interval = Interval::new(1.1, b.iter().zip(&a).map(|(b, a)| b / a), 0.95);
+        near(interval.range[0], 1.1, 1e-8);
+        near(interval.range[1], 1.1, 1e-8);
+    }
+    let again = Bootstrap::new(30, 500, 7).medians(&one);
+    assert_eq!(again, bootstrap.medians(&one), "the same seed draws the same");
+}

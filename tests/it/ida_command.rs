@@ -1,0 +1,302 @@
+//! `wall ida` and `wall merge`: the same bytes whoever runs what when, and what they refuse.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::command_line::{folder, refused, text, wall};
+
+/// Two walls, three synthetic records and one from a file, three models.
+const STUDY: &str = r#"
+title = "A small study {{facts}}"
+models = ["CR", "CDC", { name = "CDR 5 %", model = "CDR", xi = 0.05 }]
+
+[levels]
+method = "hunt"
+first = 0.1
+increase = 0.1
+top = 8
+gap = 0.3
+
+[records]
+files = ["records/*.csv"]
+unit = "g"
+synthetic = { count = 3, duration = 12, step = 0.01 }
+
+[report]
+resamples = 200
+
+[[walls]]
+name = "parapet, low"
+geometry = { height = 3, thickness = 0.3 }
+force_law = { a1 = 0.009 }
+
+[[walls]]
+name = "strip"
+geometry = { mechanism = "vertical_spanning", height = 3.75, thickness = 0.24, hinge_ratio = 0.58 }
+force_law = { a1 = 0.02 }
+"#;
+
+const COUNT: usize = 2 * 4 * 3;
+
+fn study(name: &str) -> PathBuf {
+    let folder = folder(name);
+    fs::write(folder.join("study.toml"), STUDY).unwrap();
+    fs::create_dir(folder.join("records")).unwrap();
+    let mut record = "time,a_g\n".to_owned();
+    for k in 0..400 {
+        let time = f64::from(k) * 0.01;
+        record += &format!("{time:.2},{:.6}\n", 0.3 * (7.0 * time).sin() * (0.8 * time).sin());
+    }
+    fs::write(folder.join("records/beat.csv"), record).unwrap();
+    folder
+}
+
+fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = wall(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Every file of a folder of results, with its bytes.
+fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut rest = vec![path.to_owned()];
+    while let Some(folder) = rest.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap().path();
+            if entry.is_dir() {
+                rest.push(entry);
+            } else {
+                files.insert(entry.strip_prefix(path).unwrap().to_owned(), fs::read(&entry).unwrap());
+            }
+        }
+    }
+    files
+}
+
+fn run_files(results: &Path) -> Vec<PathBuf> {
+    let files = bytes(results).into_keys().filter(|path| path.starts_with("runs"));
+    files.map(|path| results.join(path)).collect()
+}
+
+#[test]
+fn threads_shards_and_interruptions_change_no_byte() {
+    let folder = study("ida_bytes");
+    let at = |name: &str| folder.join(name);
+    let printed = succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
+    assert!(printed.contains("runs/s a core") && printed.contains("CDR 5 %"), "{printed}");
+    let whole = bytes(&at("one"));
+    assert_eq!(run_files(&at("one")).len(), COUNT);
+    for name in ["levels.csv", "collapses.csv", "fragilities.csv", "study.html", "study.json"] {
+        assert!(whole.contains_key(Path::new(name)), "{name}");
+    }
+    succeed(&folder, &["ida", "study.toml", "-o", "two", "--threads", "2"]);
+    assert!(bytes(&at("two")) == whole, "two threads");
+
+    // shards in folders of their own, and in one
+    for shard in ["1/3", "2/3", "3/3"] {
+        let own = format!("shard{}", &shard[..1]);
+        let printed = succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", &own]);
+        assert!(printed.contains("wall merge"), "{printed}");
+        assert!(!at(&own).join("levels.csv").exists());
+        succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", "shared"]);
+    }
+    refused_in_words(
+        &folder,
+        &["merge", "shard1", "shard3", "-o", "part"],
+        &["8 of 24", "missing", "parapet, low"],
+    );
+    succeed(&folder, &["merge", "shard1", "shard2", "shard3", "-o", "merged"]);
+    assert!(bytes(&at("merged")) == whole, "merged shards");
+    succeed(&folder, &["merge", "shared"]);
+    assert!(bytes(&at("shared")) == whole, "a shared folder");
+
+    // some runs lost, some cut short, one of another study, a half-written file, no results
+    let runs = run_files(&at("two"));
+    fs::remove_file(&runs[3]).unwrap();
+    let content = fs::read_to_string(&runs[7]).unwrap();
+    fs::write(&runs[7], &content[..content.len() / 2]).unwrap();
+    fs::write(&runs[9], &content).unwrap();
+    fs::write(&runs[11], "").unwrap();
+    fs::write(runs[3].with_file_name(".0000003.csv.1.part"), "half").unwrap();
+    fs::remove_file(at("two").join("fragilities.csv")).unwrap();
+    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert!(
+        text(&output.stderr).contains("20 of 24 combinations are there already"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert!(bytes(&at("two")) == whole, "after losses");
+
+    // another report of the same runs runs nothing anew
+    fs::write(at("study.toml"), STUDY.replace("resamples = 200", "resamples = 300")).unwrap();
+    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert!(text(&output.stderr).contains("24 of 24"), "{}", text(&output.stderr));
+    let again = bytes(&at("two"));
+    assert_eq!(again[Path::new("levels.csv")], whole[Path::new("levels.csv")]);
+    assert_ne!(again[Path::new("fragilities.csv")], whole[Path::new("fragilities.csv")]);
+}
+
+/// As `refused`, for a message of several lines, or a command that leaves what it has merged so far.
+fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let output = wall(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for word in words {
+        assert!(message.contains(word), "no {word:?} in {message}");
+    }
+}
+
+/// Killed without warning, again and again, at moments that fall anywhere in a run, and started once more.
+#[test]
+fn a_killed_study_goes_on() {
+    let folder = study("ida_killed");
+    succeed(&folder, &["ida", "study.toml", "-o", "whole"]);
+    let mut killed = 0;
+    for attempt in 0..12_u64 {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_wall"))
+            .current_dir(&folder)
+            .args(["ida", "study.toml", "-o", "broken", "--threads", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(15 + 23 * attempt));
+        if child.try_wait().unwrap().is_none() {
+            // SIGKILL: no chance to tidy up
+            child.kill().unwrap();
+            killed += 1;
+        }
+        child.wait().unwrap();
+        for file in run_files(&folder.join("broken"))
+            .iter()
+            .filter(|file| file.extension().is_some_and(|e| e == "csv"))
+        {
+            assert!(fs::read_to_string(file).unwrap().ends_with("end\n"), "{}", file.display());
+        }
+    }
+    assert!(killed > 0, "the study was over before it could be killed");
+    succeed(&folder, &["ida", "study.toml", "-o", "broken"]);
+    assert!(bytes(&folder.join("broken")) == bytes(&folder.join("whole")));
+}
+
+#[test]
+fn tables_and_page_hold_the_runs() {
+    let folder = study("ida_tables");
+    succeed(&folder, &["ida", "study.toml"]);
+    let results = folder.join("study_results");
+    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    let collapses = read("collapses.csv");
+    assert_eq!(collapses.lines().count(), 1 + COUNT);
+    for line in collapses.lines().skip(1) {
+        // the name of the first wall holds a comma and is quoted
+        let cells: Vec<_> = line.trim_start_matches("\"parapet, low\"").split(',').collect();
+        let [collapse, standing] = [3, 4].map(|column| cells[column].parse::<f64>().unwrap());
+        assert!(standing < collapse && collapse <= standing * 1.0102, "{line}");
+    }
+    let levels = read("levels.csv");
+    let fragilities = read("fragilities.csv");
+    assert_eq!(fragilities.lines().count(), 1 + 2 * 3 * 4);
+    // overturned runs are those whose demand is above 1
+    for line in levels.lines().skip(1) {
+        let cells: Vec<_> = line.rsplit(',').collect();
+        let (overturned, demand) = (cells[1] == "1", cells[2].parse::<f64>().unwrap());
+        assert_eq!((overturned, demand >= 1.0), (!cells[0].is_empty(), overturned), "{line}");
+    }
+    let page = read("study.html");
+    assert!(page.len() < 3_000_000 && page.contains("A small study {{facts}}"));
+    assert!(!page.contains("NaN") && !page.contains("http") && !page.contains("inf"), "a page of its own");
+    // for each wall the collapse, three models' curves and three fractions
+    assert_eq!(page.matches("<svg").count(), 2 * (1 + 3 + 3));
+    assert!(page.contains("AvgSA (g)") && page.contains("u_max / u_ins") && page.contains("CDR 5 %"));
+}
+
+#[test]
+fn other_studies_and_bad_ones_are_refused() {
+    let folder = study("ida_refused");
+    succeed(&folder, &["ida", "study.toml", "-o", "out", "--shard", "1/8"]);
+    let change = |name: &str, from: &str, to: &str| {
+        assert!(STUDY.contains(from), "{from}");
+        fs::write(folder.join(name), STUDY.replace(from, to)).unwrap();
+    };
+    change("wall.toml", "height = 3,", "height = 3.1,");
+    let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder with -o"];
+    refused(&folder, &["ida", "wall.toml", "-o", "out"], &other);
+    fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
+    refused(&folder, &["ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
+    refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
+    refused(&folder, &["ida", "none.toml"], &["none.toml"]);
+    refused_in_words(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
+    let cases: [(&str, &str, &[&str]); 20] = [
+        ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
+        ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
+        ("gap = 0.3", "values = [1]", &["line 5", "values", "no part"]),
+        ("first = 0.1", "first = 0", &["first", "above 0"]),
+        ("first = 0.1\n", "", &["line 5", "needs first"]),
+        ("top = 8", "top = nan", &["top", "NaN"]),
+        ("\"CDC\"", "\"CDX\"", &["line 3", "CDX", "CDR"]),
+        ("\"CDC\"", "\"CR\"", &["line 3", "\"CR\"", "twice"]),
+        ("xi = 0.05", "xi = -1", &["line 3", "xi = -1", "from 0 to 100"]),
+        ("xi = 0.05", "e = 0.9", &["line 3", "\"e\"", "name, model, xi, c_bar"]),
+        ("[report]", "[report]\nreference = \"SDR\"", &["SDR", "not among the models"]),
+        ("[report]", "[report]\nfractions = [0.5, 1.5]", &["1.5", "at most 1"]),
+        ("a1 = 0.009", "a1 = -0.009", &["a1", "-0.009", "below its limit"]),
+        ("a1 = 0.009", "xi = 0.009", &["xi", "[damping]"]),
+        ("name = \"strip\"", "name = \"parapet, low\"", &["parapet, low", "twice"]),
+        ("name = \"strip\"", "colour = \"red\"", &["colour", "geometry"]),
+        ("records/*.csv", "records/*.AT2", &["line 13", "records/*.AT2", "none that fits"]),
+        ("unit = \"g\"", "unit = \"feet\"", &["line 14", "feet", "cm/s2"]),
+        ("count = 3", "count = 0", &["line 15", "count = 0", "10000"]),
+        ("[levels]", "[intensity]\nmeasure = \"Sa\"\n\n[levels]", &["line 5", "period = 0.5"]),
+    ];
+    for (from, to, words) in cases {
+        change("bad.toml", from, to);
+        refused(&folder, &["ida", "bad.toml", "-o", "new"], words);
+    }
+}
+
+/// The study that comes with the project runs as it stands; its walls are those of Table 5.
+#[test]
+fn the_example_is_a_study() {
+    let folder = folder("ida_example");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/table_5.toml");
+    // one of its 900 combinations; all of them take seconds in a release build
+    let file = file.to_str().unwrap();
+    let printed = succeed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
+    assert!(printed.contains("shard 7 of 900 is done"), "{printed}");
+    assert_eq!(run_files(&folder.join("out")).len(), 1);
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_holds_what_the_csv_holds() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    let folder = study("ida_parquet");
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let file = fs::File::open(folder.join("out/levels.parquet")).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let csv = fs::read_to_string(folder.join("out/levels.csv")).unwrap();
+    let mut lines = csv.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').collect();
+    let mut rows = reader.get_row_iter(None).unwrap();
+    for line in lines {
+        let row = rows.next().unwrap().unwrap();
+        assert!(row.get_column_iter().map(|(name, _)| name).eq(names.iter()));
+        let word = |field: &Field| match field {
+            Field::Str(text) if text.contains(',') => format!("\"{text}\""),
+            Field::Str(text) => text.clone(),
+            Field::Double(number) => number.to_string(),
+            Field::Bool(flag) => u8::from(*flag).to_string(),
+            Field::Null => String::new(),
+            other => panic!("{other:?}"),
+        };
+        let cells: Vec<_> = row.get_column_iter().map(|(_, field)| word(field)).collect();
+        assert_eq!(cells.join(","), line);
+    }
+    assert!(rows.next().is_none());
+}
