@@ -26,7 +26,7 @@
 //! | [`solver`] | from a state and a segment to the state at its end: closed form, Taylor series, Newmark |
 //! | [`ground_motion`] | records, pulses and the synthetic motion, linear between samples; their response spectra |
 //! | [`simulation`] | a wall in time and its outputs |
-//! | [`response`] | histories and peaks |
+//! | [`response`] | histories, peaks and demands |
 //! | [`accuracy`] | error against run time of every solver |
 //! | [`stability`] | maps of stability, and a table of extremes |
 //! | [`scene`] | a wall and its motion as a TOML file |

@@ -6,6 +6,7 @@
 mod cases;
 mod closed_forms;
 mod command_line;
+mod demands;
 mod description;
 mod extremes;
 mod ground_motion;

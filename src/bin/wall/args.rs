@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, Parser, Subcommand};
 use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
 /// Out-of-plane rocking of masonry walls under earthquakes.
@@ -111,7 +111,10 @@ pub(crate) struct SimulateArguments {
     /// Write a page with the rocking wall and its history
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
-    /// Print the summary as JSON
+    /// Limit states as fractions of `u_ins` whose first crossings are reported, instead of the scene's [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    pub(crate) thresholds: Option<Vec<f64>>,
+    /// Print the summary and the demands as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -315,6 +318,10 @@ impl SimulateArguments {
                 }
                 *value = given;
             }
+        }
+        if let Some(thresholds) = &self.thresholds {
+            check_thresholds(thresholds)?;
+            scene.thresholds.clone_from(thresholds);
         }
         Ok(scene)
     }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod args;
+mod demands;
 mod describe;
 mod figure;
 mod heat_map;

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fmi2_export::{Kind, Variable, VariableId};
-use rocking_wall::scene::{GROUPS, MotionTable, POINTS, input_names};
+use rocking_wall::scene::{DEFAULT_THRESHOLDS, GROUPS, MOST_THRESHOLDS, MotionTable, POINTS, input_names};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use serde_json::{Map, Value, json};
 
@@ -33,6 +33,16 @@ pub(crate) fn schema() -> Result<Value> {
             json!({ "type": "number", "exclusiveMinimum": 0, "description": description }),
         );
     }
+    properties.insert(
+        "thresholds".into(),
+        json!({
+            "type": "array",
+            "maxItems": MOST_THRESHOLDS,
+            "items": { "type": "number", "exclusiveMinimum": 0, "maximum": 1 },
+            "default": DEFAULT_THRESHOLDS,
+            "description": "Limit states as fractions of u_ins, whose first crossings a run reports."
+        }),
+    );
     for (group, names) in GROUPS {
         let mut members: Map<String, Value> =
             names.iter().filter_map(|name| Some(((*name).to_owned(), parameter(name)?))).collect();
