@@ -16,4 +16,5 @@ mod numerics;
 mod properties;
 mod record_command;
 mod record_path;
+mod rocking_spectrum;
 mod wiring;

@@ -1,0 +1,5 @@
+//! Studies: many runs of walls under many motions, and what they say together.
+//!
+//! Nothing here opens a file or prints.
+
+pub mod spectrum;
