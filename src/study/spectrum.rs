@@ -4,7 +4,7 @@
 //! wall, which may overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical design
 //! methodologies, Earthquake Engineering and Structural Dynamics 32, 2003).
 //!
-//! Over pulses the axes are dimensionless: ω_p/p across with p = √(k₀/`m_eff`), and a_p/a₀ up with the acceleration a₀ = F₀/(λ `m_eff`) at
+//! Over pulses the axes are dimensionless: `ω_p/p` across with p = √(k₀/`m_eff`), and `a_p/a₀` up with the acceleration a₀ = F₀/(λ `m_eff`) at
 //! which the rigid wall begins to rock. For a parapet without overburden p = √(3g/(2h)), Housner's √(3g/(4R)) with h for 2R as
 //! everywhere in the linearised model, and a₀ = g tan α. Two walls with the same damping and restitution then have the same
 //! spectrum, whatever their size (Zhang and Makris, Rocking response of free-standing blocks under cycloidal pulses, Journal
@@ -13,24 +13,26 @@
 //! Each wall starts upright and at rest. After the motion it is followed until the energy left cannot raise its peak; a run ends at
 //! overturning. Results do not depend on the number of threads.
 
+mod axes;
+
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fmi2_export::{Kind, VariableId};
 
-use crate::ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
+use crate::ground_motion::GroundMotion;
 use crate::solver::record::{Forcing, Passage, RecordSolver, Scaled};
 use crate::solver::{Memo, Method, Motion, Segment, SolverError, State};
 use crate::variables::{Mechanism, RealVariable};
-use crate::wall::{ParameterError, Parameters, Support, Wall};
+use crate::wall::{Parameters, Support, Wall};
+
+pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
 
 /// Runs side by side.
 const LANES: usize = 8;
 /// Most points of a spectrum.
 pub const MOST_POINTS: usize = 250_000;
-/// Steps of a pulse in a period.
-const STEPS_PER_PERIOD: f64 = 2000.0;
 /// Steps of the free motion after the record, over 1/p, and their number: a wall near the instability leaves it as e^{pt}, so
 /// that after 100/p every peak has come.
 const FREE_STEP: f64 = 0.25;
@@ -58,128 +60,6 @@ pub struct RockingSpectrum {
     pub rows: Vec<f64>,
     /// One for each row and column.
     pub points: Vec<Vec<Point>>,
-}
-
-/// How the size of a wall is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
-    /// Height h \[m\].
-    Height,
-    /// Half the diagonal of a parapet, R = √(h² + b²)/2 \[m\].
-    SemiDiagonal,
-}
-
-/// How the slenderness of a wall is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slenderness {
-    /// h/b \[-\].
-    Ratio,
-    /// α = atan(b/h) of a parapet \[rad\].
-    Angle,
-}
-
-/// The form of a pulse of unit amplitude; ω_p = 2π f.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PulseForm {
-    /// Symmetric Ricker pulse (1 − 2z²) exp(−z²), z = π f (t − t₀).
-    Ricker,
-    /// One cycle of a sine.
-    SineCycle,
-    /// Half a cycle of a sine.
-    HalfSine,
-}
-
-/// Why a spectrum could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum SpectrumError {
-    /// A value of an axis that makes no wall or pulse.
-    #[error("{name} = {value} is out of range; it must be {limit}")]
-    Value {
-        /// The axis.
-        name: &'static str,
-        /// The value.
-        value: f64,
-        /// What is allowed.
-        limit: String,
-    },
-    /// More points than memory or patience are for.
-    #[error("{found} points are more than {MOST_POINTS}; take fewer rows or columns")]
-    TooManyPoints {
-        /// Points asked for.
-        found: usize,
-    },
-    /// R and α belong to a parapet.
-    #[error("{name} is that of a parapet; for a vertical spanning wall give heights and h/b")]
-    ParapetOnly {
-        /// The axis.
-        name: &'static str,
-    },
-    /// One of the walls.
-    #[error("wall of {height} m by {thickness} m: {source}")]
-    Wall {
-        /// Height \[m\].
-        height: f64,
-        /// Thickness \[m\].
-        thickness: f64,
-        /// What is wrong with it.
-        source: ParameterError,
-    },
-    /// One of the runs.
-    #[error("wall of {height} m by {thickness} m: {source}")]
-    Run {
-        /// Height \[m\].
-        height: f64,
-        /// Thickness \[m\].
-        thickness: f64,
-        /// Why it broke off.
-        source: SolverError,
-    },
-    /// The pulse.
-    #[error(transparent)]
-    Motion(#[from] GroundMotionError),
-}
-
-impl Size {
-    /// Name and unit, for axes and messages.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Height => "height h (m)",
-            Self::SemiDiagonal => "semi-diagonal R (m)",
-        }
-    }
-}
-
-impl Slenderness {
-    /// Name and unit, for axes and messages.
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Ratio => "slenderness h/b",
-            Self::Angle => "slenderness angle α (rad)",
-        }
-    }
-}
-
-impl PulseForm {
-    /// The pulse with a frequency \[Hz\] and the amplitude 1 m/s².
-    fn pulse(self, frequency: f64) -> Pulse {
-        let shape = match self {
-            // from where it is 1e-16 of its amplitude on
-            Self::Ricker => Shape::Ricker { centre: 6.5 / (0.5 * TAU * frequency) },
-            Self::SineCycle => Shape::SineCycle,
-            Self::HalfSine => Shape::HalfSine,
-        };
-        Pulse { shape, amplitude: 1.0, frequency }
-    }
-
-    /// The pulse as a record, in 2000 steps a period: with a frequency \[Hz\] and the amplitude 1 m/s².
-    ///
-    /// # Errors
-    /// [`GroundMotionError`] if the frequency is not positive and finite.
-    pub fn motion(self, frequency: f64) -> Result<GroundMotion, GroundMotionError> {
-        self.pulse(frequency).sampled(None, 1.0 / (STEPS_PER_PERIOD * frequency))
-    }
 }
 
 /// A rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness; all else is as `parameters` say.
@@ -221,7 +101,7 @@ pub fn over_walls(
     Ok(RockingSpectrum::new(sizes, rows, &points))
 }
 
-/// A rocking spectrum of one wall under pulses of one form: columns are ω_p/p, rows are a_p/a₀.
+/// A rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are `a_p/a₀`.
 ///
 /// # Errors
 /// [`SpectrumError`], of the first pulse in order of columns.

@@ -14,7 +14,9 @@ mod record;
 mod record_plot;
 mod schema;
 mod simulate;
+mod spectrum;
 mod stability;
+mod stability_page;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),
         Command::Record(arguments) => record::run(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
