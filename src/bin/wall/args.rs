@@ -138,6 +138,15 @@ pub(crate) struct PackageArguments {
 pub(crate) struct DescribeArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
+    /// Limit states as fractions of `u_ins` to show secant periods at, instead of the scene's [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    pub(crate) thresholds: Option<Vec<f64>>,
+    /// Write the corners and limit states of the capacity curve as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Draw the capacity curve with its secants, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

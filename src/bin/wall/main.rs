@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod args;
+mod capacity;
 mod demands;
 mod describe;
 mod figure;
