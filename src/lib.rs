@@ -26,10 +26,10 @@
 //! | [`solver`] | from a state and a segment to the state at its end: closed form, Taylor series, Newmark |
 //! | [`ground_motion`] | records, pulses and the synthetic motion, linear between samples; their response spectra |
 //! | [`simulation`] | a wall in time and its outputs |
-//! | [`response`] | histories and peaks |
+//! | [`response`] | histories, peaks and demands |
 //! | [`accuracy`] | error against run time of every solver; what small rotations leave out |
 //! | [`stability`] | maps of stability, and a table of extremes |
-//! | [`study`] | incremental dynamic analysis, fragilities |
+//! | [`study`] | many runs together: incremental dynamic analysis, fragilities, rocking spectra |
 //! | [`scene`] | a wall and its motion as a TOML file |
 //! | [`unit`](mod@unit) | the wall as an FMI model |
 //!

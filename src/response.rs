@@ -1,8 +1,8 @@
-//! Histories and peaks of a run.
+//! Histories, peaks and demands of a run.
 
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Excitation, Outputs, Simulation};
-use crate::solver::{Segment, Work};
+use crate::solver::{Demands, Segment, Work};
 use crate::wall::{Support, Warning};
 
 /// One line of a history.
@@ -23,6 +23,10 @@ pub struct Response {
     pub samples: Vec<Sample>,
     /// Peaks and events.
     pub summary: Summary,
+    /// What the motion asks of the wall and of its supports, up to overturning.
+    pub demands: Demands,
+    /// u at the end of the run \[m\].
+    pub residual: f64,
     /// What the user should know about the parameters.
     pub warnings: Vec<Warning>,
 }
@@ -63,11 +67,12 @@ impl Response {
             outputs: simulation.outputs(support),
         };
         samples.push(record(&simulation, support_at(excitation, 0.0)));
+        let mut demands = simulation.demands(support_at(excitation, 0.0), &scene.thresholds);
         let mut stilled = false;
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
-            stilled |= advance_to(&mut simulation, excitation, time)?;
+            stilled |= advance_to(&mut simulation, excitation, time, &mut demands)?;
             samples.push(record(&simulation, support_at(excitation, time)));
         }
         let progress = simulation.progress();
@@ -81,14 +86,16 @@ impl Response {
             work: progress.work,
             stilled,
         };
-        Ok(Self { samples, summary, warnings: simulation.wall().warnings().to_vec() })
+        let residual = progress.state.displacement;
+        Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })
     }
 }
 
 /// Segments between two output points: more samples than that are refused by the output step's limit.
 const MOST_SEGMENTS: usize = 100_000_000;
 
-/// Moves a simulation to `time` through every sample of its excitation; tells whether the wall was put to rest.
+/// Moves a simulation to `time` through every sample of its excitation, taking up its demands; tells whether the wall was put
+/// to rest.
 ///
 /// # Errors
 /// [`SceneError::Run`].
@@ -96,6 +103,7 @@ pub fn advance_to(
     simulation: &mut Simulation,
     excitation: Option<&Excitation>,
     time: f64,
+    demands: &mut Demands,
 ) -> Result<bool, SceneError> {
     let mut stilled = false;
     for _ in 0..MOST_SEGMENTS {
@@ -108,7 +116,9 @@ pub fn advance_to(
             Some(excitation) => excitation.stretch(now, remaining),
             None => Segment { duration: remaining, from: Support::default(), to: Support::default() },
         };
-        let step = simulation.advance(&segment).map_err(|source| SceneError::Run { time: now, source })?;
+        let step = simulation
+            .advance_watched(&segment, demands)
+            .map_err(|source| SceneError::Run { time: now, source })?;
         stilled |= step.stilled;
         if segment.duration >= remaining {
             simulation.set_time(time);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::ground_motion::GroundMotion;
-use crate::solver::{Memo, Method, Motion, Phase, Segment, SolverError, State, Work};
+use crate::solver::{Demands, Memo, Method, Motion, Phase, Segment, SolverError, Start, State, Work};
 use crate::variables::Mechanism;
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 
@@ -130,12 +130,34 @@ impl Simulation {
     /// # Errors
     /// [`SolverError`]; the simulation then stands where it stood.
     pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
+        self.step(segment, None)
+    }
+
+    /// The demands of a motion that starts now, under the supports' present motion: `fractions` of `u_ins`, each above 0 and
+    /// at most 1, are the limit states whose first crossings are wanted.
+    #[must_use]
+    pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
+        let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
+        let motion = [displacement, velocity, acceleration];
+        Demands::new(self.wall(), &Start { time: self.record.time, motion, reactions }, fractions)
+    }
+
+    /// [`Self::advance`] with the demands of the segment taken up in `demands`.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation then stands where it stood, and `demands` may know of the motion up to the failure.
+    pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
+        self.step(segment, Some(demands))
+    }
+
+    fn step(&mut self, segment: &Segment, demands: Option<&mut Demands>) -> Result<Step, SolverError> {
         let body = self.motion.wall().body();
         let before = self.record;
         let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
         let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
         let mut state = before.state;
-        let report = self.motion.advance(&mut state, segment, integral, &mut self.memo)?;
+        let watch = demands.map(|demands| (demands, before.time, drift));
+        let report = self.motion.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
         let mut step = Step {
             overturned: report.overturning.is_some(),
             departed: report.departure.is_some(),

@@ -36,6 +36,8 @@ pub struct Document {
     pub stop_time: Option<Spanned<f64>>,
     /// Step of the output \[s\]; by default the motion's own, or 0.01 s.
     pub output_step: Option<Spanned<f64>>,
+    /// Limit states as fractions of `u_ins`; by default 0.1, 0.4, 0.6 and 1.
+    pub thresholds: Option<Spanned<Vec<f64>>>,
     /// Shape, mass and loads.
     pub geometry: Group,
     /// Restoring force.

@@ -74,6 +74,8 @@ pub struct Scene {
     pub stop_time: f64,
     /// Step of the output \[s\].
     pub output_step: f64,
+    /// Fractions of `u_ins` whose first crossings are reported.
+    pub thresholds: Vec<f64>,
     /// Facts about the motion worth showing: source, scale, peak.
     pub motion_notes: Vec<String>,
 }
@@ -88,9 +90,32 @@ impl Default for Scene {
             inputs: vec![RealVariable::AG],
             stop_time: 30.0,
             output_step: DEFAULT_OUTPUT_STEP,
+            thresholds: DEFAULT_THRESHOLDS.to_vec(),
             motion_notes: Vec::new(),
         }
     }
+}
+
+/// Limit states of a scene that states none, as fractions of `u_ins`.
+pub const DEFAULT_THRESHOLDS: [f64; 4] = [0.1, 0.4, 0.6, 1.0];
+/// Most limit states.
+pub const MOST_THRESHOLDS: usize = 100;
+
+/// Refuses limit states that are none: fractions of `u_ins`, above 0 and at most 1, in any order.
+///
+/// # Errors
+/// [`SceneError::Value`] naming the value and the limit.
+pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
+    let message = match fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
+        Some(fraction) => {
+            format!("thresholds: {fraction} is no fraction of u_ins; give numbers above 0 and at most 1")
+        }
+        None if fractions.len() > MOST_THRESHOLDS => {
+            format!("thresholds: {} fractions of u_ins; give at most {MOST_THRESHOLDS}", fractions.len())
+        }
+        None => return Ok(()),
+    };
+    Err(SceneError::Value { message })
 }
 
 /// Output step of a scene without motion \[s\].
@@ -145,6 +170,14 @@ impl Scene {
             None => (None, 0.0, Vec::new()),
         };
         let free = Self::default();
+        let thresholds = match &document.thresholds {
+            Some(given) => {
+                check_thresholds(given.get_ref())
+                    .map_err(|error| place.error(given.span(), error.to_string()))?;
+                given.get_ref().clone()
+            }
+            None => DEFAULT_THRESHOLDS.to_vec(),
+        };
         let natural_stop = excitation.as_ref().map_or(free.stop_time, |e| e.duration() + tail);
         let natural_step = excitation.as_ref().map_or(DEFAULT_OUTPUT_STEP, |e| e.bottom().step().max(1e-3));
         let inputs = match (&excitation, inputs.is_empty() && document.inputs.is_none()) {
@@ -158,6 +191,7 @@ impl Scene {
             stop_time: place.within("stop_time", document.stop_time.as_ref(), natural_stop, LONGEST_RUN)?,
             output_step: place.within("output_step", document.output_step.as_ref(), natural_step, 1e3)?,
             excitation,
+            thresholds,
             motion_notes,
         })
     }
@@ -247,6 +281,9 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     // writing to a String cannot fail
     let _ = writeln!(text, "title = {}", quoted(&scene.title));
     let _ = writeln!(text, "stop_time = {:?}\noutput_step = {:?}", scene.stop_time, scene.output_step);
+    if scene.thresholds != DEFAULT_THRESHOLDS {
+        let _ = writeln!(text, "thresholds = {:?}", scene.thresholds);
+    }
     let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
     for (group, names) in GROUPS {

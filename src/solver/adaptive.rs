@@ -213,6 +213,10 @@ impl Piece for Series {
         self.polynomial.bounds(self.horizon)
     }
 
+    fn snap(&self, _bounds: (f64, f64)) -> f64 {
+        self.polynomial.snap(self.horizon)
+    }
+
     fn displacement_integral(&self, time: f64) -> f64 {
         self.polynomial.integral(time)
     }

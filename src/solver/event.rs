@@ -55,6 +55,9 @@ pub(super) trait Piece {
     /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
     fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64);
 
+    /// Bound on the rate of the jerk \[m/s⁴\], where |ü| and the jerk keep within `bounds`.
+    fn snap(&self, bounds: (f64, f64)) -> f64;
+
     /// ∫u dt from the start of the piece \[m s\].
     fn displacement_integral(&self, time: f64) -> f64;
 }

@@ -157,6 +157,11 @@ impl Piece for ClosedForm {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
+    fn snap(&self, (acceleration, jerk): (f64, f64)) -> f64 {
+        // u⁗ = −c u‴ − k ü
+        self.oscillator.damping * jerk + self.oscillator.stiffness.abs() * acceleration
+    }
+
     fn displacement_integral(&self, time: f64) -> f64 {
         let Green { h, j, k, .. } = self.oscillator.green(time);
         let Kinematics { displacement, velocity, acceleration } = self.start;

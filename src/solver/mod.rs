@@ -4,6 +4,7 @@
 //! and applies what happens there: change of branch, impact, overturning, departure from the supports, landing.
 
 mod adaptive;
+mod demand;
 mod event;
 mod exact;
 mod newmark;
@@ -17,6 +18,9 @@ use crate::variables::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Support, Wall};
 
 use adaptive::Tolerances;
+pub(crate) use demand::Start;
+use demand::Watch;
+pub use demand::{ACCURACY, Crossing, Demands, Extremes, Instant};
 pub use event::Peaks;
 pub use exact::Memo;
 use oscillator::Oscillator;
@@ -265,9 +269,27 @@ impl Motion {
         integral: bool,
         memo: &mut Memo,
     ) -> Result<Report, SolverError> {
+        self.advance_watched(state, segment, integral, memo, None)
+    }
+
+    /// [`Self::advance`], and the demands of the segment: `watch` holds those so far, the time at the start of the segment \[s\],
+    /// and whether the couple of a drift acts.
+    ///
+    /// # Errors
+    /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
+    pub(crate) fn advance_watched(
+        &self,
+        state: &mut State,
+        segment: &Segment,
+        integral: bool,
+        memo: &mut Memo,
+        watch: Option<(&mut Demands, f64, bool)>,
+    ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
-        let run = Run::new(self, *state, segment.duration, [from, to], integral, memo);
+        let watch =
+            watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
+        let run = Run::new(self, *state, segment.duration, [from, to], integral, memo).watched(watch);
         let (end, report) = run.finish()?;
         *state = end;
         Ok(report)

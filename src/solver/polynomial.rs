@@ -45,6 +45,14 @@ impl Polynomial {
         (acceleration, jerk)
     }
 
+    /// Bound on the rate of the jerk up to `horizon`: Σ n(n−1)(n−2)(n−3) |uₙ| Tⁿ⁻⁴.
+    pub(super) fn snap(&self, horizon: f64) -> f64 {
+        let terms = self.used().iter().enumerate().skip(4).rev();
+        terms.fold(0.0, |sum, (n, coefficient)| {
+            sum * horizon + (n * (n - 1) * (n - 2) * (n - 3)) as f64 * coefficient.abs()
+        })
+    }
+
     /// ∫u dt from 0.
     pub(super) fn integral(&self, time: f64) -> f64 {
         let mut sum = 0.0;

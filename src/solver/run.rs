@@ -1,6 +1,7 @@
 //! A segment under way: pieces of motion between the places where something happens.
 
 use super::adaptive::Series;
+use super::demand::{Stretch, Watch};
 use super::event::{self, Ending, Exit, Kinematics, Piece};
 use super::exact::{ClosedForm, Memo, Quiet};
 use super::trigonometric::Rotation;
@@ -23,6 +24,7 @@ pub(super) struct Run<'a> {
     memo: &'a mut Memo,
     /// The end of the first piece, where it is known.
     first_end: Option<Kinematics>,
+    watch: Option<Watch<'a>>,
     report: Report,
 }
 
@@ -47,6 +49,7 @@ impl<'a> Run<'a> {
             integral,
             memo,
             first_end: None,
+            watch: None,
             report: Report::default(),
         }
     }
@@ -54,6 +57,12 @@ impl<'a> Run<'a> {
     /// The same, the motion at the end of the segment being known if nothing happens before.
     pub(super) fn ending_at(mut self, end: Option<Kinematics>) -> Self {
         self.first_end = end;
+        self
+    }
+
+    /// The same, with its demands collected.
+    pub(super) fn watched(mut self, watch: Option<Watch<'a>>) -> Self {
+        self.watch = watch;
         self
     }
 
@@ -95,11 +104,14 @@ impl<'a> Run<'a> {
         } else if self.rate < 0.0 {
             leaving = self.time + until(lowest);
         }
+        let until = leaving.max(self.time).min(self.duration);
+        if let Some(watch) = &mut self.watch {
+            watch.rest(self.time, until);
+        }
+        self.time = until;
         if leaving >= self.duration {
-            self.time = self.duration;
             return;
         }
-        self.time = leaving.max(self.time);
         self.state.phase = Phase::Moving;
         let upwards = now > highest || (now >= lowest && self.rate > 0.0);
         self.state.branch = self.motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
@@ -165,6 +177,16 @@ impl<'a> Run<'a> {
             Ending::Horizon(_) => piece.horizon(),
             Ending::Exit(exit) => exit.time,
         };
+        if let (Some(watch), false) = (&mut self.watch, self.state.overturned) {
+            let displacement = match ending {
+                Ending::Horizon(end) => end.displacement,
+                Ending::Exit(exit) => places[usize::from(exit.upwards)],
+            };
+            let stretch = Stretch { piece, branch: self.state.branch, from: self.time, length, displacement };
+            if watch.piece(&stretch).is_err() {
+                return Err(self.exhausted());
+            }
+        }
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
         }

@@ -7,3 +7,4 @@ pub mod fragility;
 pub mod ida;
 pub mod parallel;
 mod random;
+pub mod spectrum;

@@ -7,6 +7,7 @@
 //! A [`Wall`] that exists is valid and never changes. It is a short sorted list of [`Branch`]es, straight pieces of the
 //! restoring force per unit effective mass, and of the [`Corner`]s between them; a solver sees only the branch it is on.
 
+mod capacity;
 mod damping;
 pub mod equivalence;
 mod error;
@@ -18,6 +19,7 @@ pub mod restitution;
 mod supports;
 mod trigonometric;
 
+pub use capacity::CapacityPoint;
 pub use damping::BranchDamping;
 pub use error::{ParameterError, Warning};
 pub use force_law::Line;

@@ -3,9 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+mod capacity;
 mod cases;
 mod closed_forms;
 mod command_line;
+mod demands;
 mod description;
 mod extremes;
 mod figure_15;
@@ -19,5 +21,6 @@ mod numerics;
 mod properties;
 mod record_command;
 mod record_path;
+mod rocking_spectrum;
 mod trigonometric;
 mod wiring;

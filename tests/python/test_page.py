@@ -165,3 +165,20 @@ def test_the_page_of_a_study(browser, study, width):
     assert all(plot.find_elements(By.CSS_SELECTOR, "g path") for plot in plots)
     rows = [row.text for row in browser.find_elements(By.CSS_SELECTOR, "tbody tr")]
     assert [row.split()[0] for row in rows] == ["CR", "CDR", "CDR"]
+
+
+def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tmp_path):
+    path = tmp_path / "spectrum.html"
+    ranges = ["--heights", "1:6:21", "--ratios", "5:20:16"]
+    subprocess.run([wall, "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True)
+    browser.get_log("browser")
+    browser.get(path.as_uri())
+    assert browser.get_log("browser") == []
+    cells = browser.find_elements(By.CSS_SELECTOR, "figure rect:not(.frame)")
+    assert len(cells) == 21 * 16
+    titles = [cell.find_element(By.TAG_NAME, "title").get_attribute("textContent") for cell in cells]
+    assert any("overturns at" in title for title in titles) and any("u_max/u_ins = 0." in title for title in titles)
+    frame = browser.find_element(By.CSS_SELECTOR, "figure .frame").rect
+    # the first cell is the lower left one, the last the upper right one; strokes and rounding take a pixel or two
+    assert abs(cells[0].rect["x"] - frame["x"]) < 3 and abs(cells[-1].rect["y"] - frame["y"]) < 3
+    assert path.stat().st_size < 3_000_000

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, Parser, Subcommand};
 use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
 /// Out-of-plane rocking of masonry walls under earthquakes.
@@ -40,6 +40,9 @@ pub(crate) enum Command {
     Ida(IdaArguments),
     /// Put together the shards of an incremental dynamic analysis and write its results
     Merge(MergeArguments),
+    /// Rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
+    #[command(allow_negative_numbers = true)]
+    Spectrum(SpectrumArguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Print a completion script for a shell
@@ -115,7 +118,10 @@ pub(crate) struct SimulateArguments {
     /// Write a page with the rocking wall and its history
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
-    /// Print the summary as JSON
+    /// Limit states as fractions of `u_ins` whose first crossings are reported, instead of the scene's [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    pub(crate) thresholds: Option<Vec<f64>>,
+    /// Print the summary and the demands as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -136,6 +142,15 @@ pub(crate) struct PackageArguments {
 pub(crate) struct DescribeArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
+    /// Limit states as fractions of `u_ins` to show secant periods at, instead of the scene's [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    pub(crate) thresholds: Option<Vec<f64>>,
+    /// Write the corners and limit states of the capacity curve as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Draw the capacity curve with its secants, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    pub(crate) plot: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -274,6 +289,51 @@ impl std::str::FromStr for Shard {
     }
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct SpectrumArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    #[command(flatten)]
+    pub(crate) record: RecordArguments,
+    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless spectrum over
+    /// `omega_p/p` and `a_p/a_0`
+    #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
+    pub(crate) pulse: Option<String>,
+    /// Frequency of the pulse in Hz, for a spectrum over walls
+    #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
+    pub(crate) frequency: Option<f64>,
+    /// Amplitude of the pulse in m/s2, for a spectrum over walls
+    #[arg(long, value_name = "M_PER_S2", requires_all = ["pulse", "frequency"])]
+    pub(crate) amplitude: Option<f64>,
+    /// Heights in m [default: 0.5:8:31]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "radii")]
+    pub(crate) heights: Option<String>,
+    /// Semi-diagonals R of a parapet in m, instead of heights
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    pub(crate) radii: Option<String>,
+    /// Slenderness h/b [default: 4:20:33]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "angles")]
+    pub(crate) ratios: Option<String>,
+    /// Slenderness angles alpha = atan(b/h) of a parapet in rad, instead of h/b
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    pub(crate) angles: Option<String>,
+    /// `omega_p/p` of the dimensionless spectrum [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    pub(crate) frequency_ratios: Option<String>,
+    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    pub(crate) amplitude_ratios: Option<String>,
+    /// Threads [default: one a core]; the result does not depend on them
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
+    /// Write the points as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with the heat map
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+}
+
 impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self) -> Result<Scene> {
@@ -367,6 +427,10 @@ impl SimulateArguments {
                 }
                 *value = given;
             }
+        }
+        if let Some(thresholds) = &self.thresholds {
+            check_thresholds(thresholds)?;
+            scene.thresholds.clone_from(thresholds);
         }
         Ok(scene)
     }

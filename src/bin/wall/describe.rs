@@ -3,10 +3,12 @@
 use std::fmt::Write;
 
 use anyhow::Result;
+use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Wall, equivalence};
 
 use crate::args::DescribeArguments;
+use crate::capacity::Capacity;
 use crate::output;
 
 /// One derived number: name, symbol, value, unit.
@@ -18,6 +20,15 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let parameters = &scene.parameters;
     let wall = Wall::new(parameters)?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
+    let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
+    check_thresholds(&fractions)?;
+    let capacity = Capacity::new(&wall, &fractions);
+    if let Some(path) = &arguments.csv {
+        output::to_file(path, capacity.csv().as_bytes())?;
+    }
+    if let Some(path) = &arguments.plot {
+        output::to_file(path, &capacity.draw(path)?)?;
+    }
     let facts = facts(&wall);
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
@@ -39,6 +50,7 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
         }
         let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
         object.insert("backbone".into(), serde_json::to_value(backbone)?);
+        object.insert("capacity".into(), capacity.json());
         let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
         object.insert("warnings".into(), warnings.into());
         return output::to_stdout(&(serde_json::to_string_pretty(&object)? + "\n"));
@@ -51,18 +63,18 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     for Fact(name, symbol, value, unit) in facts {
         let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
     }
-    text.push_str("\ncapacity curve             u [m]         F [N]\n");
-    for (displacement, force) in wall.backbone() {
-        let _ = writeln!(text, "                    {} {}", significant(displacement), significant(force));
-    }
+    text.push_str(&capacity.table());
     for warning in wall.warnings() {
         let _ = writeln!(text, "\nnote: {warning}");
+    }
+    for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
+        let _ = writeln!(text, "\nwritten {}", path.display());
     }
     output::to_stdout(&text)
 }
 
 /// Six significant figures, right-aligned.
-fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 || (1e-3..1e6).contains(&magnitude) {
         let digits = if value == 0.0 { 1.0 } else { magnitude.log10().floor() };

@@ -1,154 +1,145 @@
-//! The page of `wall stability`: heat maps of the error, with what is unstable marked, and the table of extremes.
+//! Heat maps as inline SVG: cells in colours with a title each, two axes, and the scale of the colours.
 
 use std::fmt::Write;
 
-use rocking_wall::stability::{Axis, Cell, Extreme, Map};
-
-use crate::figure::escaped;
-use crate::stability::axis_words;
-
-/// Size of a cell and of the margins \[px\].
-const CELL: [f64; 2] = [26.0, 20.0];
+/// Margins around the cells \[px\].
 const LEFT: f64 = 62.0;
+const RIGHT: f64 = 8.0;
 const BOTTOM: f64 = 44.0;
 const TOP: f64 = 6.0;
-/// Exponents of the error at the ends of the colours.
-const EXPONENTS: [f64; 2] = [-14.0, 0.0];
 
-pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
-    let section = |axis: Axis| {
-        let figures: Vec<String> = maps.iter().filter(|map| map.axis == axis).map(figure).collect();
-        figures.concat()
-    };
-    let mut rows = String::new();
-    for extreme in extremes {
-        let (class, verdict) = if extreme.holds() { ("holds", "holds") } else { ("broken", "broken") };
-        let _ = writeln!(
-            rows,
-            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.1e}</td><td>{:.0e}</td><td>{verdict}</td></tr>",
-            escaped(extreme.name),
-            escaped(extreme.what),
-            extreme.figure,
-            extreme.limit
-        );
-    }
-    include_str!("heat_map.html")
-        .replace("{{steps}}", &section(Axis::Step))
-        .replace("{{ratios}}", &section(Axis::Ratio))
-        .replace("{{scale}}", &scale())
-        .replace("{{extremes}}", &rows)
+/// A map of cells, the first row at the bottom.
+pub(crate) struct HeatMap<'a> {
+    /// What it shows, for those who cannot see it.
+    pub(crate) label: String,
+    pub(crate) columns: Axis,
+    pub(crate) rows: Axis,
+    /// Width and height of a cell \[px\].
+    pub(crate) cell: [f64; 2],
+    /// The cell of a row and a column.
+    pub(crate) paint: &'a dyn Fn(usize, usize) -> Paint,
 }
 
-fn figure(map: &Map) -> String {
-    format!(
-        "<figure><figcaption><b>{}</b>, {}</figcaption>{}</figure>\n",
-        map.solver.name(),
-        map.damping.name().replace('_', " "),
-        drawing(map)
-    )
+/// An axis: its label, the number of cells along it, and marks at places counted in cells from its start.
+pub(crate) struct Axis {
+    pub(crate) label: String,
+    pub(crate) count: usize,
+    pub(crate) ticks: Vec<(f64, String)>,
 }
 
-fn drawing(map: &Map) -> String {
-    let [width, height] = CELL;
-    let bottom = TOP + height * map.rows.len() as f64;
-    let right = LEFT + width * map.columns.len() as f64;
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"error over a1 and {}\">",
-        right + 8.0,
-        bottom + BOTTOM,
-        axis_words(map.axis)
-    );
-    for (r, (row, cells)) in map.rows.iter().zip(&map.cells).enumerate() {
-        let y = bottom - height * (r + 1) as f64;
-        let _ = write!(
-            svg,
-            "<text x=\"{:.0}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-            LEFT - 5.0,
-            y + 0.68 * height,
-            number(*row)
-        );
-        for (c, (a1, cell)) in map.columns.iter().zip(cells).enumerate() {
-            let x = LEFT + width * c as f64;
-            let _ = write!(
-                svg,
-                "<rect x=\"{x:.0}\" y=\"{y:.0}\" width=\"{width}\" height=\"{height}\" fill=\"{}\">\
-                 <title>a1 = {a1:.1e}, {} = {row:.1e}: {}</title></rect>",
-                colour(cell.error),
-                axis_words(map.axis),
-                words(cell)
-            );
-            if !cell.stable {
-                let _ = write!(
-                    svg,
-                    "<path d=\"M{:.0} {:.0}l{:.0} {:.0}m0 {:.0}l{:.0} {:.0}\" class=\"cross\"/>",
-                    x + 8.0,
-                    y + 5.0,
-                    width - 16.0,
-                    height - 10.0,
-                    10.0 - height,
-                    16.0 - width,
-                    height - 10.0
-                );
+/// How a cell looks and what it says when pointed at.
+pub(crate) struct Paint {
+    pub(crate) fill: String,
+    pub(crate) title: String,
+    pub(crate) crossed: bool,
+}
+
+impl Axis {
+    /// An axis of evenly spaced values at the middles of its cells, marked at round numbers.
+    pub(crate) fn even(label: &str, values: &[f64]) -> Self {
+        let count = values.len();
+        let mut ticks = Vec::new();
+        if let [first, .., last] = *values {
+            let step = round_step((last - first) / 7.0);
+            let mut tick = (first / step - 1e-9).ceil() * step;
+            while tick <= last + 1e-9 * step && ticks.len() < 20 {
+                let place = (tick - first) / (last - first) * (count as f64 - 1.0) + 0.5;
+                ticks.push((place, shortened(tick, step)));
+                tick += step;
             }
         }
+        Self { label: label.to_owned(), count, ticks }
     }
-    for (c, a1) in map.columns.iter().enumerate() {
-        let x = LEFT + width * (c as f64 + 0.5);
-        // whole powers of ten only
-        if (a1.log10() - a1.log10().round()).abs() < 1e-6 {
+}
+
+/// 1, 2 or 5 times a power of ten, at least `least`.
+fn round_step(least: f64) -> f64 {
+    let power = 10.0_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0, 10.0]
+        .map(|factor| factor * power)
+        .into_iter()
+        .find(|step| *step >= least)
+        .unwrap_or(least)
+}
+
+/// A tick with as many decimals as its step has.
+fn shortened(tick: f64, step: f64) -> String {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12 decimals")]
+    let decimals = (-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize;
+    format!("{tick:.decimals$}")
+}
+
+impl HeatMap<'_> {
+    pub(crate) fn draw(&self) -> String {
+        let [width, height] = self.cell;
+        let bottom = TOP + height * self.rows.count as f64;
+        let right = LEFT + width * self.columns.count as f64;
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"{}\">",
+            right + RIGHT,
+            bottom + BOTTOM,
+            self.label
+        );
+        for row in 0..self.rows.count {
+            let y = bottom - height * (row + 1) as f64;
+            for column in 0..self.columns.count {
+                self.draw_cell(&mut svg, [LEFT + width * column as f64, y], (self.paint)(row, column));
+            }
+        }
+        let _ = write!(
+            svg,
+            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\"/>",
+            right - LEFT,
+            bottom - TOP
+        );
+        for (place, text) in &self.rows.ticks {
+            let (x, y) = (LEFT - 5.0, bottom - height * place + 4.0);
+            let _ = write!(svg, "<text x=\"{x:.0}\" y=\"{y:.1}\" text-anchor=\"end\">{text}</text>");
+        }
+        for (place, text) in &self.columns.ticks {
+            let (x, y) = (LEFT + width * place, bottom + 15.0);
+            let _ = write!(svg, "<text x=\"{x:.1}\" y=\"{y:.0}\" text-anchor=\"middle\">{text}</text>");
+        }
+        let _ = write!(
+            svg,
+            "<text x=\"{:.0}\" y=\"{:.0}\" text-anchor=\"middle\">{}</text><text transform=\"translate(12 {:.0}) rotate(-90)\" \
+             text-anchor=\"middle\">{}</text></svg>",
+            0.5 * (LEFT + right),
+            bottom + 34.0,
+            self.columns.label,
+            0.5 * (TOP + bottom),
+            self.rows.label
+        );
+        svg
+    }
+
+    fn draw_cell(&self, svg: &mut String, [x, y]: [f64; 2], paint: Paint) {
+        let [width, height] = self.cell;
+        let Paint { fill, title, crossed } = paint;
+        let _ = write!(
+            svg,
+            "<rect x=\"{x:.0}\" y=\"{y:.0}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"><title>{title}</title></rect>"
+        );
+        if crossed {
             let _ = write!(
                 svg,
-                "<text x=\"{x:.0}\" y=\"{:.0}\" text-anchor=\"middle\">{}</text>",
-                bottom + 15.0,
-                number(*a1)
+                "<path d=\"M{:.0} {:.0}l{:.0} {:.0}m0 {:.0}l{:.0} {:.0}\" class=\"cross\"/>",
+                x + 8.0,
+                y + 5.0,
+                width - 16.0,
+                height - 10.0,
+                10.0 - height,
+                16.0 - width,
+                height - 10.0
             );
         }
     }
-    let axis = match map.axis {
-        Axis::Step => "step (s)",
-        Axis::Ratio => "ξ",
-    };
-    let _ = write!(
-        svg,
-        "<text x=\"{:.0}\" y=\"{:.0}\" text-anchor=\"middle\">a₁</text><text transform=\"translate(12 {:.0}) rotate(-90)\" \
-         text-anchor=\"middle\">{axis}</text></svg>",
-        0.5 * (LEFT + right),
-        bottom + 34.0,
-        0.5 * (TOP + bottom)
-    );
-    svg
 }
 
-fn words(cell: &Cell) -> String {
-    let verdict = if cell.stable { "stable" } else { "unstable" };
-    format!("{verdict}, error {:.1e}, growth of the energy {:.1e}", cell.error, cell.growth)
-}
-
-/// Short numbers for axes.
-fn number(value: f64) -> String {
-    match value {
-        0.01..0.1 => format!("{value:.2}"),
-        _ if value > 0.0 && value < 0.01 => format!("{value:.0e}"),
-        _ => format!("{value}"),
-    }
-}
-
-/// From dark blue (small) over pale to dark red (large), as exponents go.
-fn colour(error: f64) -> String {
-    if !error.is_finite() {
-        return "#5c0a12".into();
-    }
-    let [low, high] = EXPONENTS;
-    let share = ((error.max(1e-300).log10() - low) / (high - low)).clamp(0.0, 1.0);
-    let stops = [
-        [33.0, 76.0, 140.0],
-        [120.0, 170.0, 210.0],
-        [247.0, 240.0, 215.0],
-        [232.0, 150.0, 90.0],
-        [178.0, 34.0, 34.0],
-    ];
-    let place = share * (stops.len() - 1) as f64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 3")]
+/// A colour between those of `stops`, evenly spaced over shares from 0 to 1.
+pub(crate) fn mixed(stops: &[[f64; 3]], share: f64) -> String {
+    let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the last but one")]
     let index = (place as usize).min(stops.len() - 2);
     let part = place - index as f64;
     let mix =
@@ -156,27 +147,20 @@ fn colour(error: f64) -> String {
     format!("rgb({:.0},{:.0},{:.0})", mix(0), mix(1), mix(2))
 }
 
-/// The colours and their exponents.
-fn scale() -> String {
-    let [low, high] = EXPONENTS;
-    let steps = 14;
-    let mut svg = String::from(
-        "<svg viewBox=\"0 0 420 44\" class=\"scale\" role=\"img\" aria-label=\"colours of the error\">",
+/// The scale of colours: swatches side by side, some with a text below.
+pub(crate) fn scale(label: &str, swatches: &[(String, Option<String>)]) -> String {
+    let width = 26.0;
+    let mut svg = format!(
+        "<svg viewBox=\"0 0 {:.0} 44\" class=\"scale\" role=\"img\" aria-label=\"{label}\">",
+        width * swatches.len() as f64 + 30.0
     );
-    for step in 0..=steps {
-        let exponent = low + (high - low) * f64::from(step) / f64::from(steps);
-        let x = 10.0 + 26.0 * f64::from(step);
-        let _ = write!(
-            svg,
-            "<rect x=\"{x:.0}\" y=\"2\" width=\"26\" height=\"18\" fill=\"{}\"/>",
-            colour(10.0_f64.powf(exponent))
-        );
-        if step % 2 == 0 {
-            let _ = write!(
-                svg,
-                "<text x=\"{:.0}\" y=\"38\" text-anchor=\"middle\">1e{exponent:.0}</text>",
-                x + 13.0
-            );
+    for (index, (fill, text)) in swatches.iter().enumerate() {
+        let x = 10.0 + width * index as f64;
+        let _ =
+            write!(svg, "<rect x=\"{x:.0}\" y=\"2\" width=\"{width:.0}\" height=\"18\" fill=\"{fill}\"/>");
+        if let Some(text) = text {
+            let middle = x + 0.5 * width;
+            let _ = write!(svg, "<text x=\"{middle:.0}\" y=\"38\" text-anchor=\"middle\">{text}</text>");
         }
     }
     svg + "</svg>"

@@ -2,6 +2,8 @@
 
 mod accuracy;
 mod args;
+mod capacity;
+mod demands;
 mod describe;
 mod figure;
 mod heat_map;
@@ -15,7 +17,9 @@ mod record;
 mod record_plot;
 mod schema;
 mod simulate;
+mod spectrum;
 mod stability;
+mod stability_page;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -37,6 +41,7 @@ fn main() -> ExitCode {
         Command::Record(arguments) => record::run(&arguments),
         Command::Ida(arguments) => ida::run(&arguments),
         Command::Merge(arguments) => ida::merge(&arguments),
+        Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

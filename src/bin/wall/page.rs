@@ -8,6 +8,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
+use crate::demands;
 use crate::figure::{Color, Figure, escaped};
 use crate::linearisation::Counterpart;
 
@@ -52,7 +53,10 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         ("{{last_frame}}", (frames.len() - 1).to_string()),
         ("{{factors}}", factors(wall, response)),
         ("{{facts}}", facts(scene, wall, response)),
-        ("{{figures}}", figures(wall, response, end) + &rotations(scene, response)),
+        (
+            "{{figures}}",
+            figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response),
+        ),
         // a closing tag inside the data would end the script
         ("{{data}}", data.to_string().replace("</", "<\\/")),
     ];
@@ -192,8 +196,18 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("kinematics", parameters.kinematics.name().to_owned()),
         ("impact", format!("{}, e = {:.3}", parameters.impact.name(), wall.restitution())),
     ];
-    let row = |(name, value): &(&str, String)| format!("<tr><td>{name}</td><td>{}</td></tr>", escaped(value));
-    rows.iter().map(row).collect::<Vec<_>>().concat()
+    rows.iter().map(|(name, value)| row(name, value)).collect()
+}
+
+fn row(name: &str, value: &str) -> String {
+    format!("<tr><td>{}</td><td>{}</td></tr>", escaped(name), escaped(value))
+}
+
+fn demands(wall: &Wall, response: &Response) -> String {
+    let lines = demands::lines(response, wall.body().mechanism == Mechanism::VerticalSpanning);
+    let rows: String = lines.iter().map(|(name, value)| row(name, value)).collect();
+    let until = if response.summary.overturned { ", up to overturning" } else { "" };
+    format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
 }
 
 fn figures(wall: &Wall, response: &Response, end: f64) -> String {

@@ -2,7 +2,9 @@
 
 use anyhow::Result;
 use fmi2_export::{Kind, Variable, VariableId};
-use rocking_wall::scene::{GROUPS, KINEMATICS, MotionTable, POINTS, input_names};
+use rocking_wall::scene::{
+    DEFAULT_THRESHOLDS, GROUPS, KINEMATICS, MOST_THRESHOLDS, MotionTable, POINTS, input_names,
+};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::Kinematics;
 use serde_json::{Map, Value, json};
@@ -34,6 +36,16 @@ pub(crate) fn schema() -> Result<Value> {
             json!({ "type": "number", "exclusiveMinimum": 0, "description": description }),
         );
     }
+    properties.insert(
+        "thresholds".into(),
+        json!({
+            "type": "array",
+            "maxItems": MOST_THRESHOLDS,
+            "items": { "type": "number", "exclusiveMinimum": 0, "maximum": 1 },
+            "default": DEFAULT_THRESHOLDS,
+            "description": "Limit states as fractions of u_ins, whose first crossings a run reports."
+        }),
+    );
     for (group, names) in GROUPS {
         let mut members: Map<String, Value> =
             names.iter().filter_map(|name| Some(((*name).to_owned(), parameter(name)?))).collect();

@@ -3,12 +3,13 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use rocking_wall::response::{Response, Summary};
+use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
+use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::args::SimulateArguments;
-use crate::{output, page};
+use crate::{demands, output, page};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
     let scene = arguments.scene()?;
@@ -27,9 +28,9 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
         output::to_file(path, page.as_bytes())?;
     }
     let text = if arguments.json {
-        json(&scene, &response.summary)?
+        json(&scene, &response)?
     } else {
-        let mut text = table(&scene, &response.summary);
+        let mut text = table(&scene, &response);
         for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
             let _ = writeln!(text, "written        {}", path.display());
         }
@@ -66,7 +67,8 @@ fn history(response: &Response) -> String {
     csv
 }
 
-fn json(scene: &Scene, summary: &Summary) -> Result<String> {
+fn json(scene: &Scene, response: &Response) -> Result<String> {
+    let summary = &response.summary;
     let value = serde_json::json!({
         "title": scene.title,
         "u_max": summary.u_max,
@@ -77,11 +79,13 @@ fn json(scene: &Scene, summary: &Summary) -> Result<String> {
         "pieces": summary.work.pieces,
         "corners": summary.work.corners,
         "impacts": summary.work.impacts,
+        "demands": demands::json(response),
     });
     Ok(serde_json::to_string_pretty(&value)? + "\n")
 }
 
-fn table(scene: &Scene, summary: &Summary) -> String {
+fn table(scene: &Scene, response: &Response) -> String {
+    let summary = &response.summary;
     let mut text = format!("{}\n", scene.title);
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<15}{value}");
@@ -102,5 +106,12 @@ fn table(scene: &Scene, summary: &Summary) -> String {
             summary.work.pieces, summary.work.corners, summary.work.impacts
         ),
     );
+    if summary.overturned {
+        line("demands", "up to overturning".to_owned());
+    }
+    let has_top = scene.parameters.mechanism == Mechanism::VerticalSpanning;
+    for (name, value) in demands::lines(response, has_top) {
+        let _ = writeln!(text, "{name:<15}{value}");
+    }
     text
 }

@@ -6,7 +6,7 @@ use anyhow::Result;
 use rocking_wall::stability::{Axis, Extreme, MAPS, Map, extremes, map};
 
 use crate::args::StabilityArguments;
-use crate::{heat_map, output};
+use crate::{output, stability_page};
 
 pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
     let mut maps = Vec::with_capacity(2 * MAPS.len());
@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
         output::to_file(path, csv(&maps).as_bytes())?;
     }
     if let Some(path) = &arguments.html {
-        output::to_file(path, heat_map::page(&maps, &extremes).as_bytes())?;
+        output::to_file(path, stability_page::page(&maps, &extremes).as_bytes())?;
     }
     Ok(())
 }

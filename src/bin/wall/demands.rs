@@ -1,0 +1,73 @@
+//! Demands of a run in words, for the summary and the page, and as JSON.
+
+use rocking_wall::response::Response;
+use rocking_wall::solver::{Crossing, Extremes, Instant};
+use serde_json::{Value, json};
+
+/// Names and values; a parapet has no top support.
+pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
+    let demands = &response.demands;
+    let mut lines = Vec::new();
+    let mut peak = |name: &str, extremes: &Extremes, scale: f64, unit: &str| {
+        let Extremes { highest, lowest } = extremes;
+        let part = |at: &Instant| format!("{} at {:.3} s", figure(scale * at.value), at.time);
+        lines.push((name.to_owned(), format!("{}, {} [{unit}]", part(highest), part(lowest))));
+    };
+    peak("u", &demands.displacement, 1000.0, "mm");
+    peak("u_dot", &demands.velocity, 1.0, "m/s");
+    peak("u_ddot", &demands.acceleration, 1.0, "m/s2");
+    peak(if has_top { "bottom force" } else { "base force" }, &demands.reaction_bottom, 1e-3, "kN");
+    if has_top {
+        peak("top force", &demands.reaction_top, 1e-3, "kN");
+    }
+    let crossing = |Crossing { fraction, first }: &Crossing| match first {
+        Some(Instant { time, .. }) => format!("{fraction} u_ins at {time:.4} s"),
+        None => format!("{fraction} u_ins never"),
+    };
+    if !demands.crossings.is_empty() {
+        let crossings: Vec<_> = demands.crossings.iter().map(crossing).collect();
+        lines.push(("first reached".to_owned(), crossings.join(", ")));
+    }
+    lines.push(("half cycles".to_owned(), demands.half_cycles.to_string()));
+    lines.push(("residual u".to_owned(), format!("{} mm", figure(1000.0 * response.residual))));
+    lines
+}
+
+/// Four significant figures with a sign.
+fn figure(value: f64) -> String {
+    let digits = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if !(-3.0..6.0).contains(&digits) {
+        return format!("{value:+.3e}");
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6 decimals")]
+    let decimals = (3.0 - digits).clamp(0.0, 6.0) as usize;
+    format!("{value:+.decimals$}")
+}
+
+/// All of it in SI units; times in s.
+pub(crate) fn json(response: &Response) -> Value {
+    let demands = &response.demands;
+    let instant = |Instant { value, time }: &Instant| json!({ "value": value, "time": time });
+    let extremes = |extremes: &Extremes| json!({ "highest": instant(&extremes.highest), "lowest": instant(&extremes.lowest) });
+    let crossings: Vec<Value> = demands
+        .crossings
+        .iter()
+        .map(|Crossing { fraction, first }| {
+            json!({
+                "fraction": fraction,
+                "time": first.map(|first| first.time),
+                "u": first.map(|first| first.value),
+            })
+        })
+        .collect();
+    json!({
+        "u": extremes(&demands.displacement),
+        "u_dot": extremes(&demands.velocity),
+        "u_ddot": extremes(&demands.acceleration),
+        "reaction_bottom": extremes(&demands.reaction_bottom),
+        "reaction_top": extremes(&demands.reaction_top),
+        "thresholds": crossings,
+        "half_cycles": demands.half_cycles,
+        "residual": response.residual,
+    })
+}

@@ -1,0 +1,75 @@
+//! The static capacity curve of a wall, and its secant periods.
+
+use std::f64::consts::TAU;
+
+use super::Wall;
+use super::force_law::Side;
+
+/// Part of F₀ below which a force is 0: a softening line ends there but for rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A point of the capacity curve of one side, with the displacement and the force as positive numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CapacityPoint {
+    /// |u| \[m\].
+    pub displacement: f64,
+    /// |F|, negative beyond u₃ \[N\].
+    pub force: f64,
+    /// |u|/`u_ins` \[-\].
+    pub displacement_ratio: f64,
+    /// F/F₀ \[-\].
+    pub force_ratio: f64,
+    /// d* = |u|/λ of the oscillator d̈* + a*(d*) = −`a_g` that Eq. (12) is, to be laid over a spectrum \[m\].
+    pub spectral_displacement: f64,
+    /// a* = F/(λ `m_eff`) \[m/s²\].
+    pub spectral_acceleration: f64,
+    /// Secant stiffness F/u \[N/m\]; `None` at u = 0.
+    pub secant_stiffness: Option<f64>,
+    /// Secant period T = 2π √(`m_eff` u/F) = 2π √(d*/a*) \[s\]; `None` at u = 0 and where the force is not positive.
+    pub secant_period: Option<f64>,
+}
+
+impl Wall {
+    /// The capacity curve of the side of `sign` at a fraction of its `u_ins`.
+    #[must_use]
+    pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
+        self.capacity_point(sign, fraction * self.body().instability.of(sign))
+    }
+
+    /// The corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
+    #[must_use]
+    pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
+        let u_ins = self.body().instability.of(sign);
+        let side = self.side(sign);
+        let mut corners = vec![0.0];
+        corners.extend(side.corners.iter().chain([&side.end, &u_ins]).filter(|corner| **corner <= u_ins));
+        corners.sort_by(f64::total_cmp);
+        corners.dedup_by(|a, b| *a - *b <= ROUNDING * u_ins);
+        corners.into_iter().map(|corner| self.capacity_point(sign, corner)).collect()
+    }
+
+    /// One side of the force law; the negative one is in signed displacements and forces.
+    fn side(&self, sign: f64) -> &Side {
+        if sign < 0.0 { &self.force.negative } else { &self.force.positive }
+    }
+
+    fn capacity_point(&self, sign: f64, u: f64) -> CapacityPoint {
+        let body = self.body();
+        let (m, participation) = (body.effective_mass, body.participation);
+        let (u_ins, strength, side) = (body.instability.of(sign), body.strength.of(sign), self.side(sign));
+        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
+        let direction = 1.0_f64.copysign(sign);
+        let force = direction * line.at(direction * u);
+        let force = if force.abs() <= ROUNDING * strength { 0.0 } else { force };
+        CapacityPoint {
+            displacement: u,
+            force,
+            displacement_ratio: u / u_ins,
+            force_ratio: force / strength,
+            spectral_displacement: u / participation,
+            spectral_acceleration: force / (participation * m),
+            secant_stiffness: (u > 0.0).then(|| force / u),
+            secant_period: (u > 0.0 && force > 0.0).then(|| TAU * (m * u / force).sqrt()),
+        }
+    }
+}

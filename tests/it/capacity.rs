@@ -1,0 +1,111 @@
+//! The static capacity curve: closed forms of its secant periods, its corners, and what `wall describe` writes.
+
+use std::f64::consts::TAU;
+
+use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
+use rocking_wall::wall::{Parameters, Wall};
+
+use crate::command_line::{folder, refused, text, wall};
+
+fn made(parameters: &Parameters) -> Wall {
+    Wall::new(parameters).unwrap()
+}
+
+#[track_caller]
+fn assert_near(found: f64, expected: f64) {
+    // a dozen roundings
+    assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} for {expected}");
+}
+
+/// On the softening line k_sec = k₀ (1 − f)/f; on the elastic branch the period is T₁.
+#[test]
+fn secant_periods_have_their_closed_form() {
+    let wall = made(&Parameters::default());
+    for fraction in [0.05, 0.1, 0.4, 0.6, 0.95] {
+        let point = wall.capacity_at(1.0, fraction);
+        let expected = TAU / wall.rocking_rate() * (fraction / (1.0 - fraction)).sqrt();
+        assert_near(point.secant_period.unwrap(), expected);
+        assert_near(point.force_ratio, 1.0 - fraction);
+        assert_near(point.secant_stiffness.unwrap(), point.force / point.displacement);
+        // T = 2π √(d*/a*) is the same period
+        let period = TAU * (point.spectral_displacement / point.spectral_acceleration).sqrt();
+        assert_near(point.secant_period.unwrap(), period);
+    }
+    let elastic = wall.capacity_at(1.0, 0.01);
+    assert_near(elastic.secant_period.unwrap(), TAU / wall.omega1());
+    let end = wall.capacity_at(1.0, 1.0);
+    assert_eq!((end.force, end.secant_period), (0.0, None));
+    assert_eq!(wall.capacity_at(1.0, 0.0).secant_stiffness, None);
+}
+
+/// a* of a rigid parapet at u = 0 is the acceleration at which it begins to rock, g tan α.
+#[test]
+fn the_rigid_curve_starts_at_the_onset_of_rocking() {
+    let parameters = Parameters {
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        ..Parameters::default()
+    };
+    let corners = made(&parameters).capacity_corners(1.0);
+    assert_eq!(corners.len(), 2);
+    assert_near(corners[0].spectral_acceleration, 9.81 * 0.1);
+    assert_eq!((corners[0].displacement, corners[0].force_ratio), (0.0, 1.0));
+    assert_eq!((corners[1].displacement_ratio, corners[1].force), (1.0, 0.0));
+}
+
+/// The corners are those of the law, once each, on both sides of an eccentric load; and the backbone runs through them.
+#[test]
+fn corners_are_those_of_the_law() {
+    for (law, count) in [(ForceLaw::Bilinear, 4), (ForceLaw::Trilinear, 5)] {
+        for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
+            let parameters = Parameters {
+                mechanism,
+                force_law: law,
+                a3: 0.9,
+                d1: 0.6,
+                overburden: 3000.0,
+                overburden_eccentricity: 0.05,
+                ..Parameters::default()
+            };
+            let wall = made(&parameters);
+            for sign in [1.0, -1.0] {
+                let corners = wall.capacity_corners(sign);
+                assert_eq!(corners.len(), count, "{corners:?}");
+                assert_near(corners[1].displacement_ratio, 0.03);
+                assert_near(corners[count - 2].displacement_ratio, 0.9);
+                assert_eq!(corners[count - 2].force, 0.0);
+                assert!(corners[count - 1].force < 0.0 && corners[count - 1].displacement_ratio == 1.0);
+                let m = wall.body().effective_mass;
+                for corner in &corners[1..count - 1] {
+                    let u = sign * corner.displacement;
+                    let force = sign * m * wall.branches()[wall.branch_of(u, -sign)].restoring(u);
+                    assert!((force - corner.force).abs() < 1e-9 * wall.body().strength.of(sign));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn describe_writes_the_curve() {
+    let folder = folder("capacity");
+    let arguments = ["describe", "--thresholds", "0.4,1", "--csv", "c.csv", "--plot", "c.svg"];
+    let output = wall(&folder, &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    assert!(table.contains("capacity curve, u > 0") && table.contains("T_sec [s]"), "{table}");
+    // 2π √(2/3) / 1.918 rad/s
+    assert!(table.contains("2.67476"), "{table}");
+    let csv = std::fs::read_to_string(folder.join("c.csv")).unwrap();
+    let kinds: Vec<_> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    assert_eq!(kinds, ["corner", "corner", "corner", "limit_state", "limit_state"]);
+    assert!(std::fs::read_to_string(folder.join("c.svg")).unwrap().contains("0.4 u_ins, T = 2.675 s"));
+    let json: serde_json::Value =
+        serde_json::from_slice(&wall(&folder, &["describe", "--json"]).stdout).unwrap();
+    let limits = json["capacity"][0]["limit_states"].as_array().unwrap();
+    assert_eq!(limits.len(), 4);
+    assert!(limits[3]["secant_period"].is_null());
+    let refused_folder = crate::command_line::folder("capacity_refused");
+    refused(&refused_folder, &["describe", "--thresholds", "2"], &["thresholds", "2"]);
+    refused(&refused_folder, &["describe", "--plot", "c.jpg"], &["c.jpg", ".svg or .png"]);
+}

@@ -1,0 +1,236 @@
+//! Demands: extremes and crossings against closed forms and against dense sampling, half cycles, and what the program says of them.
+
+use proptest::prelude::*;
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::simulation::Simulation;
+use rocking_wall::solver::{Demands, Extremes, Segment};
+use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, RestitutionSource};
+use rocking_wall::wall::{Parameters, Support};
+
+use crate::command_line::{folder, refused, text, wall};
+use crate::properties::{configuration, walls};
+
+const FREE: Segment = Segment {
+    duration: 0.01,
+    from: Support { bottom: 0.0, top: 0.0, drift: 0.0 },
+    to: Support { bottom: 0.0, top: 0.0, drift: 0.0 },
+};
+
+fn undamped(law: ForceLaw) -> Parameters {
+    Parameters { force_law: law, damping_model: DampingModel::None, ..Parameters::default() }
+}
+
+/// Free motion in steps of 10 ms.
+fn free(parameters: &Parameters, steps: u32, fractions: &[f64]) -> (Simulation, Demands) {
+    let mut simulation = Simulation::new(parameters, None, 0.0, Support::default()).unwrap();
+    let mut demands = simulation.demands(Support::default(), fractions);
+    for _ in 0..steps {
+        simulation.advance_watched(&FREE, &mut demands).unwrap();
+    }
+    (simulation, demands)
+}
+
+/// 1e-11 of the value: ten times the stated accuracy, for the motion's own rounding. Times are good to 1e-6 of the time scale.
+#[track_caller]
+fn assert_instant(found: rocking_wall::solver::Instant, value: f64, time: f64, scale: f64) {
+    assert!((found.value - value).abs() <= 1e-11 * value.abs(), "{} for {value}", found.value);
+    assert!((found.time - time).abs() <= 1e-5 * scale, "{} s for {time} s", found.time);
+}
+
+/// u = u₀ cos ωt: the samples at 10 ms hit no extreme.
+#[test]
+fn elastic_vibration_has_its_closed_form() {
+    let start = 1e-3;
+    let parameters = Parameters { u_start: start, ..undamped(ForceLaw::Bilinear) };
+    let (simulation, demands) = free(&parameters, 60, &[0.004, 0.1]);
+    let omega = simulation.wall().omega1();
+    let quarter = std::f64::consts::FRAC_PI_2 / omega;
+    let scale = 1.0 / omega;
+    assert_instant(demands.displacement.lowest, -start, 2.0 * quarter, scale);
+    assert_instant(demands.velocity.lowest, -start * omega, quarter, scale);
+    assert_instant(demands.velocity.highest, start * omega, 3.0 * quarter, scale);
+    assert_instant(demands.acceleration.highest, start * omega * omega, 2.0 * quarter, scale);
+    let mass = simulation.wall().body().mass;
+    assert_instant(demands.reaction_bottom.highest, mass * start * omega * omega, 2.0 * quarter, scale);
+    assert_eq!(demands.reaction_top.highest.value, 0.0);
+    assert_eq!((demands.crossings[0].first.unwrap().time, demands.crossings[1].first), (0.0, None));
+    assert_eq!(demands.half_cycles, 0, "it never leaves the elastic branch");
+}
+
+/// u/u_ins = 1 − cosh pt + (v₀/p) sinh pt from u = 0.
+#[test]
+fn crossings_of_a_rigid_wall_have_their_closed_form() {
+    let wall = undamped(ForceLaw::RigidLinear);
+    let rate = Simulation::new(&wall, None, 0.0, Support::default()).unwrap().wall().rocking_rate();
+    let velocity = 0.9;
+    let parameters = Parameters { u_start: 0.0, u_dot_start: velocity * rate * 0.2, ..wall };
+    let (_, demands) = free(&parameters, 100, &[0.3, 0.5, 0.6]);
+    // e^{pt} = y solves (1 − v) y² − 2 (1 − x) y + (1 + v) = 0; the smaller root comes first
+    let time = |x: f64| {
+        let discriminant = (1.0 - x).powi(2) - (1.0 - velocity * velocity);
+        ((1.0 - x - discriminant.sqrt()) / (1.0 - velocity)).ln() / rate
+    };
+    for (crossing, fraction) in demands.crossings.iter().zip([0.3, 0.5]) {
+        let first = crossing.first.unwrap();
+        // times are sums of steps of 10 ms
+        assert!((first.time - time(fraction)).abs() < 1e-13, "{fraction}: {} s", first.time);
+        assert!((first.value - 0.2 * fraction).abs() < 1e-15);
+    }
+    // it turns at 1 − √(1 − v²) = 0.564
+    assert_eq!(demands.crossings[2].first, None);
+    let turn = 0.2 * (1.0 - (1.0 - velocity * velocity).sqrt());
+    assert!((demands.displacement.highest.value - turn).abs() < 1e-12);
+}
+
+/// The fraction 1 is overturning, to the bit.
+#[test]
+fn the_last_threshold_is_overturning() {
+    let mut scene = Scene::default();
+    scene.parameters = Parameters { u_start: 0.0, u_dot_start: 1.5, ..scene.parameters };
+    let response = Response::of(&scene).unwrap();
+    let crossing = response.demands.crossings[3];
+    assert_eq!(crossing.fraction, 1.0);
+    assert_eq!(crossing.first.map(|first| first.time), response.summary.overturn_time);
+    assert!(
+        response.summary.overturned
+            && response.demands.displacement.highest.value == crossing.first.unwrap().value
+    );
+}
+
+/// A rigid block counts an excursion for each impact; a wall with an elastic branch two a cycle, and none at the end.
+#[test]
+fn half_cycles_are_excursions() {
+    let parameters = Parameters {
+        impact: Impact::Restitution,
+        restitution_source: RestitutionSource::Given,
+        restitution: 0.9,
+        ..undamped(ForceLaw::RigidLinear)
+    };
+    let (simulation, demands) = free(&parameters, 400, &[]);
+    // the first excursion had begun; the last is under way
+    assert_eq!(demands.half_cycles, simulation.progress().work.impacts + 1);
+    let damped = Parameters { damping_source: DampingSource::Given, xi: 0.05, ..Parameters::default() };
+    let (simulation, demands) = free(&damped, 3000, &[]);
+    let corners = simulation.progress().work.corners;
+    // out through a corner and back through it; the start was outside
+    assert_eq!(2 * demands.half_cycles, corners + 1, "{corners} corners");
+}
+
+/// The least and most of a quantity.
+fn widen(range: &mut [f64; 2], value: f64) {
+    *range = [range[0].min(value), range[1].max(value)];
+}
+
+proptest! {
+    #![proptest_config(configuration())]
+
+    /// Nothing between samples exceeds the extremes, and they are no more than what dense sampling misses.
+    #[test]
+    fn extremes_hold_between_samples(
+        parameters in walls(),
+        motion in prop::collection::vec((-1.5_f64..1.5, -1.5_f64..1.5, -1e-3_f64..1e-3), 8..20),
+    ) {
+        const PARTS: u32 = 400;
+        let step = 0.04;
+        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+        let body = simulation.wall().body();
+        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        let supports: Vec<_> = motion
+            .iter()
+            .map(|&(bottom, top, drift)| Support { bottom: onset * bottom, top: onset * top, drift })
+            .collect();
+        // the watched one takes the drift into account from the start, as the other does from its first small step on
+        let mut demands = simulation.demands(supports[0], &[0.01, 0.1]);
+        let mut dense = simulation.clone();
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 5];
+        let mut most = [0.0_f64; 5];
+        let stiffest = simulation.wall().branches().iter().map(|branch| branch.stiffness.abs()).fold(0.0, f64::max);
+        for ends in supports.windows(2) {
+            let at = |part: u32| ends[0].towards(ends[1], f64::from(part) / f64::from(PARTS));
+            if dense.progress().state.overturned {
+                break;
+            }
+            simulation.advance_watched(&Segment { duration: step, from: ends[0], to: ends[1] }, &mut demands).unwrap();
+            for part in 0..PARTS {
+                let (from, to) = (at(part), at(part + 1));
+                dense.advance(&Segment { duration: step / f64::from(PARTS), from, to }).unwrap();
+                if dense.progress().state.overturned {
+                    break;
+                }
+                let outputs = dense.outputs(to);
+                let values = [
+                    outputs.displacement,
+                    outputs.velocity,
+                    outputs.acceleration,
+                    outputs.reactions.bottom,
+                    outputs.reactions.top,
+                ];
+                for ((range, most), value) in ranges.iter_mut().zip(&mut most).zip(values) {
+                    widen(range, value);
+                    *most = most.max(value.abs());
+                }
+            }
+        }
+        let found = [
+            demands.displacement,
+            demands.velocity,
+            demands.acceleration,
+            demands.reaction_bottom,
+            demands.reaction_top,
+        ];
+        // two solutions of a motion that rounding may move: 1e-6 of the largest value
+        for (index, (Extremes { highest, lowest }, (range, most))) in found.iter().zip(ranges.iter().zip(&most)).enumerate() {
+            prop_assert!(highest.value >= range[1] - 1e-6 * most, "{index}: {} for {}", highest.value, range[1]);
+            prop_assert!(lowest.value <= range[0] + 1e-6 * most, "{index}: {} for {}", lowest.value, range[0]);
+        }
+        // between dense samples δ apart a smooth u̇ rises by no more than its size times (ωδ)²/8; a rigid wall's has a kink at u = 0
+        let turn = stiffest.sqrt() * step / f64::from(PARTS);
+        if turn < 0.1 && !simulation.wall().is_rigid() && simulation.wall().passage_factor() == 1.0 {
+            let [low, high] = ranges[1];
+            prop_assert!(demands.velocity.highest.value <= high.max(0.0) + (0.125 * turn * turn + 1e-3) * most[1]);
+            prop_assert!(demands.velocity.lowest.value >= low.min(0.0) - (0.125 * turn * turn + 1e-3) * most[1]);
+        }
+    }
+}
+
+#[test]
+fn the_program_reports_demands() {
+    let folder = folder("demands");
+    let output = wall(&folder, &["simulate", "--synthetic", "--json", "--thresholds", "0.5,1"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let demands = &summary["demands"];
+    assert_eq!(demands["thresholds"][1]["time"], summary["overturn_time"]);
+    assert_eq!(demands["thresholds"][0]["fraction"], 0.5);
+    assert!(demands["reaction_bottom"]["lowest"]["value"].as_f64().unwrap() < 0.0);
+    let output = text(&wall(&folder, &["simulate", "--synthetic", "--html", "page.html"]).stdout);
+    for words in
+        ["base force", "first reached  0.1 u_ins at", "half cycles", "residual u", "up to overturning"]
+    {
+        assert!(output.contains(words), "no {words:?} in {output}");
+    }
+    assert!(std::fs::read_to_string(folder.join("page.html")).unwrap().contains("0.1 u_ins at"));
+    let refused_folder = crate::command_line::folder("demands_refused");
+    for bad in ["0", "1.5", "nan", "-0.1"] {
+        refused(
+            &refused_folder,
+            &["simulate", &format!("--thresholds={bad}")],
+            &["thresholds", "above 0 and at most 1"],
+        );
+    }
+    std::fs::write(refused_folder.join("bad.toml"), "thresholds = [0.4, 2]\n").unwrap();
+    refused(&refused_folder, &["simulate", "bad.toml"], &["bad.toml", "line 1", "thresholds", "2"]);
+}
+
+/// A scene's own limit states are used, and survive being written.
+#[test]
+fn a_scene_states_its_limit_states() {
+    let read = |text: &str| Scene::parse("scene", text, std::path::Path::new(".")).unwrap();
+    let scene = read("thresholds = [0.25, 0.75]\n");
+    let response = Response::of(&scene).unwrap();
+    let fractions: Vec<f64> = response.demands.crossings.iter().map(|crossing| crossing.fraction).collect();
+    assert_eq!(fractions, [0.25, 0.75]);
+    assert_eq!(read(&rocking_wall::scene::to_toml(&scene, "")).thresholds, scene.thresholds);
+    assert_eq!(read("").thresholds, [0.1, 0.4, 0.6, 1.0]);
+}
