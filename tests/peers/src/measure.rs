@@ -31,10 +31,14 @@ impl Rows {
         setting: &str,
         run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
     ) {
-        self.measure_many(problem, tool, setting, 1, run);
+        let mut timed_history = Vec::with_capacity(problem.reference.len());
+        let run = std::cell::RefCell::new(run);
+        let timed = || run.borrow_mut()(&mut timed_history);
+        self.measure_many(problem, tool, setting, 1, |history| run.borrow_mut()(history), timed);
     }
 
-    /// As [`Rows::measure`], where `run` makes `count` runs at once and the row has the time of one.
+    /// As [`Rows::measure`], where `timed`, which makes `count` runs at once and records nothing, is timed in the place of `run`; the
+    /// row has the time of one.
     pub(crate) fn measure_many(
         &mut self,
         problem: &Problem,
@@ -42,6 +46,7 @@ impl Rows {
         setting: &str,
         count: usize,
         mut run: impl FnMut(&mut Vec<f64>) -> Result<(), String>,
+        mut timed: impl FnMut() -> Result<(), String>,
     ) {
         let mut history = Vec::with_capacity(problem.reference.len());
         let mut row = |text: String| {
@@ -64,7 +69,7 @@ impl Rows {
                 break;
             }
             let start = Instant::now();
-            let _ = black_box(run(&mut history));
+            let _ = black_box(timed());
             least = least.min(start.elapsed().as_secs_f64());
         }
         let least = least / count as f64;

@@ -3,7 +3,7 @@
 use rocking_wall::solver::record::{RecordSolver, Scaled};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
 
 use crate::measure::Rows;
 use crate::problem::{Problem, run, start, with_solver};
@@ -39,25 +39,39 @@ fn both_ways(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Par
     by_step(problem, rows, &format!("{setting} by step"), parameters);
 }
 
-/// `N` runs at once; the history is that of the first, which is the scene, and the time is that of one run.
+/// `N` runs at once; the history is that of the first, which is the scene, and the time is that of one run without it.
 fn over_record<const N: usize>(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters) {
     let motion = Wall::new(parameters).and_then(|wall| {
         let method = Method::new(parameters, &wall, parameters.tolerance)?;
         Ok(Motion::new(wall, method))
     });
-    rows.measure_many(problem, "rocking-wall", setting, N, |history| {
-        let motion = motion.as_ref().map_err(ToString::to_string)?;
-        let participation = motion.wall().body().forcing(Support::rigid(1.0));
-        let factors = std::array::from_fn(|lane| participation * (1.0 - 0.05 * lane as f64));
-        let forcing = Scaled::<N>::new(problem.motion.samples(), factors, problem.peak);
-        let states = [motion.start(0.0, 0.0, Support::default()); N];
+    let length = problem.motion.samples().len();
+    let record = |history: &mut Vec<f64>| {
         history.clear();
-        history.resize(problem.motion.samples().len(), 0.0);
-        RecordSolver::new(motion, problem.motion.step())
-            .run(states, &forcing, false, |index, u, _| history[index] = u[0])
-            .map(drop)
-            .map_err(|error| error.to_string())
+        history.resize(length, 0.0);
+        follow::<N>(problem, motion.as_ref(), |index, u| history[index] = u)
+    };
+    rows.measure_many(problem, "rocking-wall", setting, N, record, || {
+        follow::<N>(problem, motion.as_ref(), |_, _| {})
     });
+}
+
+/// Makes `N` runs; `observe` is shown the samples of the first.
+fn follow<const N: usize>(
+    problem: &Problem,
+    motion: Result<&Motion, &ParameterError>,
+    mut observe: impl FnMut(usize, f64),
+) -> Result<(), String> {
+    let motion = motion.map_err(ToString::to_string)?;
+    let participation = motion.wall().body().forcing(Support::rigid(1.0));
+    let factors = std::array::from_fn(|lane| participation * (1.0 - 0.05 * lane as f64));
+    let forcing = Scaled::<N>::new(problem.motion.samples(), factors, problem.peak);
+    let states = [motion.start(0.0, 0.0, Support::default()); N];
+    let passages = RecordSolver::new(motion, problem.motion.step())
+        .run(states, &forcing, false, |index, u, _| observe(index, u[0]))
+        .map_err(|error| error.to_string())?;
+    std::hint::black_box(passages);
+    Ok(())
 }
 
 fn by_step(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters) {
