@@ -43,6 +43,7 @@ fn walls() -> Vec<NamedWall> {
 }
 
 /// The collapse of each wall with each model; prints the ratios to CR.
+#[allow(clippy::print_stderr, reason = "the figures behind a verdict")]
 fn summaries(records: Vec<NamedRecord>) -> Vec<Vec<Summary>> {
     const G: f64 = 9.806_65;
     let levels = Levels::HuntAndFill {

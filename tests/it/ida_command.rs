@@ -45,11 +45,12 @@ fn study(name: &str) -> PathBuf {
     let folder = folder(name);
     fs::write(folder.join("study.toml"), STUDY).unwrap();
     fs::create_dir(folder.join("records")).unwrap();
-    let mut record = "time,a_g\n".to_owned();
-    for k in 0..400 {
+    let sample = |k: u32| {
         let time = f64::from(k) * 0.01;
-        record += &format!("{time:.2},{:.6}\n", 0.3 * (7.0 * time).sin() * (0.8 * time).sin());
-    }
+        format!("{time:.2},{:.6}\n", 0.3 * (7.0 * time).sin() * (0.8 * time).sin())
+    };
+    let samples: Vec<_> = (0..400).map(sample).collect();
+    let record = format!("time,a_g\n{}", samples.concat());
     fs::write(folder.join("records/beat.csv"), record).unwrap();
     folder
 }
