@@ -196,20 +196,23 @@ fn summary(results: &Results) -> String {
     let Some(collapse) = report.fractions.iter().position(|fraction| *fraction == 1.0) else {
         return String::new();
     };
+    let width = |names: &mut dyn Iterator<Item = &String>| {
+        names.map(|name| name.chars().count()).max().unwrap_or(0).max("model".len()) + 2
+    };
+    let wall_width = width(&mut contents.walls.iter().map(|wall| &wall.name));
+    let model_width = width(&mut contents.models.iter().map(|model| &model.name));
     let mut text = format!(
-        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n{:<12}{:<16}{:>8}{:>18}{:>8}{:>8}{:>10}{:>26}\n",
+        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n",
         results.runs(),
         contents.measure,
         report.resamples,
-        contents.records.len(),
-        "wall",
-        "model",
-        "median",
-        "",
-        "theta",
-        "beta",
-        "censored",
-        format!("median/{}", report.reference)
+        contents.records.len()
+    );
+    let ratio_name = format!("median/{}", report.reference);
+    let _ = writeln!(
+        text,
+        "{:<wall_width$}{:<model_width$}{:>8}{:>18}{:>8}{:>8}{:>10}{ratio_name:>26}",
+        "wall", "model", "median", "", "theta", "beta", "censored"
     );
     for (w, wall) in contents.walls.iter().enumerate() {
         for (model, summary) in contents.models.iter().zip(results.summaries(w, collapse)) {
@@ -219,7 +222,7 @@ fn summary(results: &Results) -> String {
             let ratio = &summary.median_ratio;
             let _ = writeln!(
                 text,
-                "{:<12}{:<16}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
+                "{:<wall_width$}{:<model_width$}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
                 wall.name,
                 model.name,
                 in_g(summary.median.estimate),
@@ -230,16 +233,21 @@ fn summary(results: &Results) -> String {
             );
         }
     }
+    text + &resurrections(results)
+}
+
+/// How many curves are not monotonic, if any.
+fn resurrections(results: &Results) -> String {
+    let contents = results.contents();
     let resurrected = (0..contents.walls.len() * contents.models.len())
         .flat_map(|pair| results.curves(pair / contents.models.len(), pair % contents.models.len()))
         .filter(|curve| matches!(curve.collapse(), Occurrence::At(_)) && curve.resurrections() > 0)
         .count();
-    if resurrected > 0 {
-        let _ = writeln!(
-            text,
-            "{resurrected} of {} curves stand again above their first overturning, which counts as the collapse",
-            contents.count()
-        );
+    if resurrected == 0 {
+        return String::new();
     }
-    text
+    format!(
+        "{resurrected} of {} curves stand again above their first overturning, which counts as the collapse\n",
+        contents.count()
+    )
 }
