@@ -8,6 +8,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use fmi2_export::{Environment, Log, Model, Step};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
@@ -16,6 +18,10 @@ use rocking_wall::variables::{
     DampingModel, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable, Solver,
 };
 use rocking_wall::wall::{Kinematics, Parameters, Support};
+
+#[allow(dead_code, reason = "the tests of the readers use more of it")]
+#[path = "it/ground_motion/specimen.rs"]
+mod specimen;
 
 struct Counting;
 
@@ -133,11 +139,14 @@ fn peak_of_reading(text: &[u8], format: Format) -> usize {
     peak
 }
 
+/// Bytes held while a file is read, for each byte of it, and those for messages, headers and labels.
+const MULTIPLE: usize = 16;
+const BESIDE: usize = 1 << 16;
+
 /// The densest samples take two bytes and become eight; a vector that grows holds its old and its doubled new place, and
 /// the finished motion is a copy: 4 · 3 + 1 for the text. 64 kB are for messages and headers.
 #[test]
 fn reading_takes_a_small_multiple_of_the_file() {
-    const MULTIPLE: usize = 16;
     const SIZE: usize = 1 << 20;
     let row = |index: usize| format!("{index},1\n");
     let at2 = |count: usize| format!("units of cm/s2\nNPTS= {count}, DT= .01 SEC\n");
@@ -167,12 +176,40 @@ fn reading_takes_a_small_multiple_of_the_file() {
     ];
     for (format, text) in texts {
         let peak = peak_of_reading(text.as_bytes(), format);
-        assert!(peak <= MULTIPLE * text.len() + (1 << 16), "{format:?}: {peak} bytes for {}", text.len());
+        assert!(peak <= MULTIPLE * text.len() + BESIDE, "{format:?}: {peak} bytes for {}", text.len());
     }
     for format in Format::ALL {
         for byte in [b' ', b'\n', b'1', b'*', b'|', b':', 0xff] {
             let peak = peak_of_reading(&vec![byte; SIZE], format);
             assert!(peak <= MULTIPLE * SIZE, "{format:?}: {peak} bytes for {SIZE} times 0x{byte:02x}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+
+    /// Whatever happens to a file: numbers in its header that ask for more than it has, lines run together, blanks without end.
+    #[test]
+    fn damaged_files_take_a_small_multiple_too(
+        edits in specimen::edits(),
+        digits in any::<prop::sample::Index>(),
+        blanks in 0..20_000_usize,
+        blank in prop::sample::select(vec![" ", "\n", "\r\r\n", "*", ".", "NaN ", "1E9"]),
+        bytes in prop::collection::vec(any::<u8>(), 0..4000),
+    ) {
+        for (format, write) in specimen::ALL {
+            let text = write(&specimen::SAMPLES);
+            let damaged = specimen::mutated(&text, &edits);
+            // a run of digits becomes the largest number, and blanks or stars follow it
+            let place = digits.index(text.len());
+            let start = text[place..].find(|c: char| c.is_ascii_digit()).map_or(text.len(), |at| place + at);
+            let rest = text[start..].trim_start_matches(|c: char| c.is_ascii_digit());
+            let swollen = format!("{}99999999999{}{rest}", &text[..start], blank.repeat(blanks));
+            for bytes in [damaged, swollen.into_bytes(), bytes.clone()] {
+                let peak = peak_of_reading(&bytes, format);
+                prop_assert!(peak <= MULTIPLE * bytes.len() + BESIDE, "{format:?}: {peak} bytes for {}", bytes.len());
+            }
         }
     }
 }

@@ -12,8 +12,12 @@ use super::event::{self, Ending, Kinematics, Peaks, Piece, SearchExhausted};
 /// Error of an extreme over the size of the terms it is a sum of; its time is then good to about 1e-6 of the time scale of the
 /// motion around it.
 pub const ACCURACY: f64 = 1e-12;
-/// Intervals of one search, and halvings of one interval.
-const MOST_INTERVALS: u32 = 1 << 22;
+/// Intervals of one search after which its tolerance doubles, each time again: hundreds of undamped oscillations in one step, all of
+/// one height, are not worth twelve digits each.
+const PATIENCE: u32 = 1 << 14;
+/// Intervals of one search: by then the tolerance is a million times the value.
+const MOST_INTERVALS: u32 = 60 * PATIENCE;
+/// Intervals that wait for their turn at once.
 const DEEPEST: usize = 64;
 
 /// A value and when it came.
@@ -368,7 +372,7 @@ impl<'a, P: Piece> Search<'a, P> {
                 found = *node;
             }
         }
-        for _ in 0..MOST_INTERVALS {
+        for visited in 0..MOST_INTERVALS {
             let Some(index) = usize::checked_sub(count, 1) else {
                 let time = self.time + (self.from + found.offset);
                 return Ok((found.value > best).then_some(Instant { value: found.value, time }));
@@ -377,7 +381,8 @@ impl<'a, P: Piece> Search<'a, P> {
             let width = right.offset - left.offset;
             let most = left.value.max(right.value) + 0.125 * width * width * quantity.curvature;
             // a sum that cancels is not worth more digits than its terms have
-            let tolerance = ACCURACY * quantity.size.max(found.value.abs());
+            let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
+            let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
             if most <= found.value + tolerance || count == DEEPEST {
                 (left, count) = (right, index);
                 continue;

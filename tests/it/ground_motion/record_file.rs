@@ -64,12 +64,32 @@ fn refuses_noise_at_its_first_byte() {
 }
 
 #[test]
-fn refuses_a_gigabyte_without_reading_it() {
-    let path = file("large.csv");
-    File::create(&path).unwrap().set_len(1 << 30).unwrap();
-    assert_refused(&path, &["at most 67108864 bytes", "found 1073741824"]);
-    fs::remove_file(&path).unwrap();
+fn refuses_two_gigabytes_without_reading_them() {
+    // sparse: they take no space, and nobody reads them
+    for name in ["large.csv", "large.AT2", "large.ASC", "large.EW", "large.V2c", "large.V2", "large.smc"] {
+        let path = file(name);
+        File::create(&path).unwrap().set_len(2 << 30).unwrap();
+        assert_refused(&path, &["at most 67108864 bytes", "found 2147483648"]);
+        fs::remove_file(&path).unwrap();
+    }
     assert_eq!(MAX_FILE_BYTES, 67_108_864);
+}
+
+/// Eight megabytes of blanks are read, and refused with one message in each format.
+#[test]
+fn refuses_megabytes_of_blanks() {
+    for format in Format::ALL {
+        for blank in [b' ', b'\n'] {
+            let mut bytes = vec![blank; usize::try_from(MAX_FILE_BYTES).unwrap() / 8];
+            let options = ReadOptions { format: Some(format), ..stated() };
+            let error = parse("x", bytes.clone(), &options).unwrap_err().to_string();
+            assert!(error.starts_with("x, line 1: expected") && error.len() < 300, "{error}");
+            // something behind them, so that nothing trims them away
+            bytes.push(b'1');
+            let error = parse("x", bytes, &options).unwrap_err().to_string();
+            assert!(error.starts_with("x, line ") && error.len() < 300, "{format:?}: {error}");
+        }
+    }
 }
 
 #[test]

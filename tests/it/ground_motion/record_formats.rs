@@ -5,7 +5,7 @@ use rocking_wall::ground_motion::{
     Format, GroundMotionError, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse, parse_channels,
 };
 
-use super::specimen::{self, ALL, SAMPLES, STEP, csmip_channels, options};
+use super::specimen::{self, ALL, SAMPLES, STEP, csmip_channels, mutated, options};
 use crate::properties::configuration;
 
 fn read(text: &str, options: &ReadOptions) -> Result<Record, String> {
@@ -250,7 +250,14 @@ fn damage_is_named_with_its_line() {
 /// One line, with the file, the line where there is one, what was expected and found; short whatever the file holds.
 #[track_caller]
 fn assert_clear(error: &str, what: &str) {
-    assert!(error.starts_with("x, line ") || error.starts_with("x: expected"), "{what}: {error}");
+    assert_clear_of("x", error, what);
+}
+
+/// The same for a file of any name.
+#[track_caller]
+pub(super) fn assert_clear_of(file: &str, error: &str, what: &str) {
+    let rest = error.strip_prefix(file).unwrap_or_else(|| panic!("{what}: {error}"));
+    assert!(rest.starts_with(", line ") || rest.starts_with(": expected"), "{what}: {error}");
     assert!(error.contains("expected ") && error.contains("found "), "{what}: {error}");
     assert!(error.len() < 700 && !error.contains('\n'), "{what}: {error}");
 }
@@ -316,28 +323,6 @@ fn hostile_numbers_and_blanks_give_one_clear_message() {
     }
 }
 
-/// A damaged copy of a text: parts removed, doubled, overwritten.
-fn mutated(text: &str, edits: &[(prop::sample::Index, usize, u8, Vec<u8>)]) -> Vec<u8> {
-    let mut bytes = text.as_bytes().to_vec();
-    for (place, length, kind, insert) in edits {
-        if bytes.is_empty() {
-            break;
-        }
-        let at = place.index(bytes.len());
-        let end = (at + length).min(bytes.len());
-        match kind % 4 {
-            0 => drop(bytes.drain(at..end)),
-            1 => drop(bytes.splice(at..end, insert.iter().copied())),
-            2 => {
-                let copy = bytes[at..end].to_vec();
-                drop(bytes.splice(at..at, copy));
-            }
-            _ => bytes.truncate(at),
-        }
-    }
-    bytes
-}
-
 proptest! {
     #![proptest_config(configuration())]
 
@@ -366,10 +351,7 @@ proptest! {
     #[test]
     fn survives_damage(
         samples in prop::collection::vec(-900_i32..900, 2..40),
-        edits in prop::collection::vec(
-            (any::<prop::sample::Index>(), 0..200_usize, any::<u8>(), prop::collection::vec(any::<u8>(), 0..8)),
-            1..6,
-        ),
+        edits in specimen::edits(),
         printable in any::<bool>(),
     ) {
         let samples: Vec<_> = samples.into_iter().map(f64::from).collect();

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use proptest::prelude::*;
 use rocking_wall::ground_motion::{Format, ReadOptions, Unit};
 
 /// Samples with three decimals and five digits, so that every format holds them to the digit, and without a mean; an odd number, so
@@ -170,4 +171,35 @@ pub(crate) fn smc(samples: &[f64]) -> String {
 pub(crate) fn csv(samples: &[f64]) -> String {
     let row = |(index, a): (usize, &f64)| format!("{:.3},{a}\n", index as f64 * STEP);
     "time,a_g\n".to_owned() + &samples.iter().enumerate().map(row).collect::<String>()
+}
+
+/// Places, lengths, kinds and new bytes of damages.
+pub(crate) type Edits = Vec<(prop::sample::Index, usize, u8, Vec<u8>)>;
+
+/// One to five damages.
+pub(crate) fn edits() -> impl Strategy<Value = Edits> {
+    let bytes = prop::collection::vec(any::<u8>(), 0..8);
+    prop::collection::vec((any::<prop::sample::Index>(), 0..200_usize, any::<u8>(), bytes), 1..6)
+}
+
+/// A damaged copy of a text: parts removed, doubled, overwritten.
+pub(crate) fn mutated(text: &str, edits: &Edits) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for (place, length, kind, insert) in edits {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = place.index(bytes.len());
+        let end = (at + length).min(bytes.len());
+        match kind % 4 {
+            0 => drop(bytes.drain(at..end)),
+            1 => drop(bytes.splice(at..end, insert.iter().copied())),
+            2 => {
+                let copy = bytes[at..end].to_vec();
+                drop(bytes.splice(at..at, copy));
+            }
+            _ => bytes.truncate(at),
+        }
+    }
+    bytes
 }
