@@ -7,7 +7,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use fmi2_export::{Environment, Log, Model, Step};
+use fmi2_export::{Environment, Interface, Log, Model, Step};
 use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
@@ -50,7 +50,12 @@ static ALLOCATOR: Counting = Counting;
 type Choices = [(IntegerVariable, i32)];
 
 fn unit(choices: &Choices) -> Unit {
-    let environment = Environment { instance_name: "wall", resources: None, payload: None };
+    let environment = Environment {
+        interface: Interface::CoSimulation,
+        instance_name: "wall",
+        resources: None,
+        payload: None,
+    };
     let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
     for &(variable, value) in choices {
         unit.set_integer(variable, value);
