@@ -74,7 +74,7 @@ impl fmt::Display for Phase {
     }
 }
 
-/// The functions that the call order is about.
+/// The functions that the call order is about: first those of both kinds, then of co-simulation, then of Model Exchange.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Call {
     SetDebugLogging,
@@ -204,6 +204,15 @@ impl Call {
 
     pub(crate) const fn is_allowed(self, phase: Phase) -> bool {
         TABLE[self as usize].allowed & phase.bit() != 0
+    }
+
+    /// The one kind of instance that this call is for; none if it is for both.
+    pub(crate) const fn only_for(self) -> Option<Interface> {
+        match self as usize {
+            call if call >= Self::EnterEventMode as usize => Some(Interface::ModelExchange),
+            call if call >= Self::SetRealInputDerivatives as usize => Some(Interface::CoSimulation),
+            _ => None,
+        }
     }
 
     /// Whether a failure of this call ends the simulation.

@@ -169,6 +169,15 @@ pub enum Interface {
     CoSimulation,
 }
 
+impl fmt::Display for Interface {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::ModelExchange => "Model Exchange",
+            Self::CoSimulation => "co-simulation",
+        })
+    }
+}
+
 /// Where an instance lives.
 #[derive(Clone, Copy, Debug)]
 pub struct Environment<'a> {

@@ -38,8 +38,9 @@ pub unsafe fn get_version<M: Model>() -> Text {
 /// # Safety
 /// The texts are NULL or end with a NUL; `functions` is NULL or points to callbacks of the stated types.
 #[must_use]
+#[allow(clippy::too_many_arguments, reason = "the standard's seven, and what the library can do")]
 pub unsafe fn instantiate<M: Model>(
-    kinds: Kinds<M>,
+    kinds: &Kinds<M>,
     instance_name: Text,
     fmu_type: Type,
     guid: Text,

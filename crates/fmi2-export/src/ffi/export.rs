@@ -104,7 +104,7 @@ macro_rules! __fmi2_module {
                 // SAFETY: C promises what the standard asks for.
                 unsafe {
                     $crate::ffi::common::instantiate::<Exported>(
-                        $crate::ffi::Kinds::<Exported>::$kinds,
+                        &$crate::ffi::Kinds::<Exported>::$kinds,
                         instanceName,
                         fmuType,
                         fmuGUID,

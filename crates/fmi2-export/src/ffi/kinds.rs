@@ -5,7 +5,7 @@ use crate::instance::Purpose;
 use crate::model::{Failure, Interface, Model, ModelExchange};
 
 /// The kinds of instances that a library exports the functions for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Kinds<M: Model> {
     co_simulation: bool,
     /// The continuous states, for Model Exchange.

@@ -99,7 +99,9 @@ impl<M: Model> Instance<M> {
 
     /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation.
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
-        let done = if call.is_allowed(self.now.phase) { body(self) } else { Err(self.out_of_turn(call)) };
+        let suits = call.only_for().is_none_or(|interface| interface == self.now.interface);
+        let in_turn = suits && call.is_allowed(self.now.phase);
+        let done = if in_turn { body(self) } else { Err(self.out_of_turn(call)) };
         match done {
             Ok(()) => Status::Ok,
             Err(failure) => self.failed(call, &failure),
@@ -122,6 +124,9 @@ impl<M: Model> Instance<M> {
     #[cold]
     fn out_of_turn(&self, call: Call) -> Failure {
         match call {
+            _ if call.only_for().is_some_and(|interface| interface != self.now.interface) => {
+                Failure(format!("not for an instance of {}", self.now.interface))
+            }
             Call::CancelStep => "there is no step to cancel: fmi2DoStep returns when the step is done".into(),
             _ => Failure(format!("not allowed now: the instance is {}", self.now.phase)),
         }
