@@ -1,7 +1,7 @@
 //! A wall that somebody else's solver moves: states set from outside, events handled here.
 
 use super::Simulation;
-use crate::solver::{Event, INDICATORS, State};
+use crate::solver::{Event, INDICATORS};
 use crate::wall::{Ends, Support};
 
 /// What an event did, and the impulses of the supports on the wall at it \[N s\].
@@ -11,6 +11,8 @@ pub struct Handled {
     pub event: Event,
     /// Impulses of the impacts alone.
     pub impulses: Ends,
+    /// Displacement or velocity have jumped.
+    pub jumped: bool,
 }
 
 impl Simulation {
@@ -46,13 +48,17 @@ impl Simulation {
         } else {
             body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
         };
-        Handled { event, impulses }
+        let motion = |displacement: f64, velocity: f64| [displacement.to_bits(), velocity.to_bits()];
+        let now = self.record.state;
+        let jumped = motion(before.displacement, before.velocity) != motion(now.displacement, now.velocity);
+        Handled { event, impulses, jumped }
     }
 
     /// The solver has come to the present time and motion to stay.
     pub fn complete_step(&mut self, rising: bool, support: Support) {
-        let state: &mut State = &mut self.record.state;
-        self.motion.complete(state, rising);
+        if rising {
+            self.record.state.include_peak();
+        }
         self.record.drift |= support.drift != 0.0;
     }
 }

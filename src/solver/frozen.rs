@@ -10,7 +10,7 @@ pub const INDICATORS: usize = 3;
 
 /// Part of the scale of an indicator by which it goes beyond its corner.
 ///
-/// Far above rounding, and what it adds to the energy at a jump of the rigid force, 2 · 10⁻¹² F₀ u_ins, far below any
+/// Far above rounding, and what it adds to the energy at a jump of the rigid force, 2 · 10⁻¹² F₀ `u_ins`, far below any
 /// solver's tolerance.
 const MARGIN: f64 = 1e-12;
 
@@ -28,8 +28,6 @@ pub struct Event {
     pub stopped: bool,
     /// Change of u̇ by impacts \[m/s\].
     pub velocity_jump: f64,
-    /// Displacement or velocity have jumped.
-    pub jumped: bool,
     /// Changes of branch and impacts.
     pub work: Work,
 }
@@ -89,15 +87,8 @@ impl Motion {
                 },
             }
         }
-        self.follow_peak(state, rising);
+        follow_peak(state, rising);
         event
-    }
-
-    /// Includes the displacement that a solver has reached in the peaks.
-    pub fn complete(&self, state: &mut State, rising: bool) {
-        if rising {
-            state.peaks.include(state.displacement);
-        }
     }
 
     /// Whether the wall has left its branch: upwards or downwards.
@@ -134,7 +125,7 @@ impl Motion {
         if corner.landing {
             (state.displacement, state.velocity) = (corner.displacement, 0.0);
             state.phase = Phase::Landed;
-            (event.stopped, event.jumped) = (true, true);
+            event.stopped = true;
             return;
         }
         state.branch = if upwards { state.branch + 1 } else { state.branch - 1 };
@@ -158,24 +149,28 @@ impl Motion {
             if state.velocity.abs() < self.rest_speed || (in_band && low) {
                 self.settle(state, forcing, 0.0);
                 event.stopped = state.phase == Phase::Resting;
-                event.jumped = true;
             }
         } else if state.velocity == 0.0 && forcing != 0.0 {
             // e = 0: it stops here and leaves with the forcing
             state.branch = self.wall.branch_of(0.0, forcing);
             state.displacement = 0.0;
-            event.jumped = true;
         }
         event.velocity_jump += state.velocity - before;
-        event.jumped |= state.velocity.to_bits() != before.to_bits();
     }
+}
 
-    fn follow_peak(&self, state: &mut State, rising: &mut bool) {
-        let outwards = state.velocity * state.displacement.signum();
-        let new = state.displacement.abs() >= state.peaks.largest();
-        if *rising || new {
-            state.peaks.include(state.displacement);
-        }
-        *rising = (*rising || new) && outwards > 0.0 && state.phase == Phase::Moving;
+impl State {
+    /// Counts the displacement that a solver has reached among the peaks.
+    pub fn include_peak(&mut self) {
+        self.peaks.include(self.displacement);
     }
+}
+
+fn follow_peak(state: &mut State, rising: &mut bool) {
+    let outwards = state.velocity * state.displacement.signum();
+    let new = state.displacement.abs() >= state.peaks.largest();
+    if *rising || new {
+        state.include_peak();
+    }
+    *rising = (*rising || new) && outwards > 0.0 && state.phase == Phase::Moving;
 }

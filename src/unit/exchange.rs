@@ -167,7 +167,7 @@ impl ModelExchange for Unit {
             log.event(format_args!("stands still from t = {time} s on, at u = {displacement} m"));
         }
         Ok(Update {
-            states_changed: event.jumped,
+            states_changed: handled.jumped,
             next_event: exchange.stretch.end.map(|end| self.experiment.start + end),
             ..Update::default()
         })
