@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fmi2_export::{Environment, Log, Model, Step};
+use fmi2_export::{Environment, Interface, Log, Model, Step};
 use rocking_wall::ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
@@ -70,7 +70,12 @@ fn main() {
 
 /// An elastic communication step of the unit, its input set before each.
 fn do_step(record: &[f64], step: f64) -> f64 {
-    let environment = Environment { instance_name: "wall", resources: None, payload: None };
+    let environment = Environment {
+        interface: Interface::CoSimulation,
+        instance_name: "wall",
+        resources: None,
+        payload: None,
+    };
     let mut log = Log::silent();
     let mut start = Unit::instantiate(environment, &mut log).expect("the default wall");
     start.set_real(RealVariable::UStart, 0.0);

@@ -58,4 +58,4 @@ pub mod variables {
 pub mod wall;
 
 #[cfg(feature = "fmu")]
-fmi2_export::export_fmu!(unit::Unit);
+fmi2_export::export_fmu!(unit::Unit, co_simulation + model_exchange);

@@ -1,11 +1,15 @@
 //! A wall in time: the state, the supports' motion, the outputs.
 
+mod events;
+
 use std::sync::Arc;
 
 use crate::ground_motion::GroundMotion;
 use crate::solver::{Demands, Memo, Method, Motion, Phase, Segment, SolverError, Start, State, Work};
 use crate::variables::Mechanism;
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
+
+pub use events::Handled;
 
 /// A wall under way.
 #[derive(Clone, Debug)]
@@ -202,16 +206,19 @@ impl Simulation {
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.record.state;
-        let damping = wall.branches()[branch].damping_at(displacement) * velocity;
+        let damping = wall.branches()[branch].continued_damping(displacement).0 * velocity;
         let forcing = body.forcing(support);
         // of the forcing, what is not support acceleration: W d/h
         let pull = forcing - body.forcing(Support { drift: 0.0, ..support });
         let (acceleration, restoring, damping) = match phase {
-            Phase::Moving => (
-                wall.acceleration(branch, displacement, velocity, forcing),
-                wall.restoring(branch, displacement) - pull,
-                damping,
-            ),
+            Phase::Moving => {
+                let restoring = wall.restoring(branch, displacement);
+                let acceleration = match wall.rotations() {
+                    None => forcing - damping - restoring,
+                    Some(_) => wall.acceleration(branch, displacement, velocity, forcing),
+                };
+                (acceleration, restoring - pull, damping)
+            }
             Phase::Resting => (0.0, forcing - pull, 0.0),
             Phase::Landed => (0.0, 0.0, 0.0),
         };
@@ -243,7 +250,7 @@ impl Simulation {
             return Sensitivity::default();
         }
         let branch = &self.wall().branches()[branch];
-        let damping = branch.damping_slope(displacement) * velocity;
+        let damping = branch.continued_damping(displacement).1 * velocity;
         let couple = if self.record.drift { self.wall().body().couple(1.0, 0.0) } else { 0.0 };
         self.sensitivity(Support::default(), -(branch.stiffness + damping), branch.stiffness, damping, couple)
     }
@@ -258,7 +265,7 @@ impl Simulation {
         if phase != Phase::Moving {
             return Sensitivity::default();
         }
-        let damping = self.wall().branches()[branch].damping_at(displacement);
+        let damping = self.wall().branches()[branch].continued_damping(displacement).0;
         self.sensitivity(Support::default(), -damping, 0.0, damping, 0.0)
     }
 

@@ -1,5 +1,6 @@
 //! The wall as an FMI model.
 
+mod exchange;
 mod state;
 
 use std::cell::Cell;
@@ -7,8 +8,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fmi2_export::{
-    Environment, Experiment, Failure, Log, Model, StateReader, StateWriter, Step as CommunicationStep,
-    VariableId,
+    Environment, Experiment, Failure, Interface, Log, Model, StateReader, StateWriter,
+    Step as CommunicationStep, VariableId,
 };
 
 use crate::scene::Scene;
@@ -18,6 +19,8 @@ use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, Mechanism, RealVariable, StringVariable,
 };
 use crate::wall::{Ends, Kinematics, Parameters, Support, Wall};
+
+use exchange::Exchange;
 
 /// The inputs as they stand, and their rates for the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,6 +81,8 @@ pub struct Unit {
     /// Initialisation is over.
     running: bool,
     impulses: Ends,
+    /// What Model Exchange adds; none in co-simulation.
+    exchange: Option<Exchange>,
     /// The outputs as they follow from state and inputs, once asked for.
     outputs: Cell<Option<Outputs>>,
     top_ignored_told: bool,
@@ -94,6 +99,7 @@ impl Unit {
             simulation,
             running: false,
             impulses: Ends::default(),
+            exchange: None,
             outputs: Cell::new(None),
             top_ignored_told: false,
         };
@@ -104,6 +110,9 @@ impl Unit {
     /// The motion the scene brings along, at the present.
     fn own_support(&self) -> Support {
         let elapsed = self.simulation.progress().time - self.experiment.start;
+        if let (Some(exchange), true) = (&self.exchange, self.running) {
+            return exchange.stretch.at(elapsed);
+        }
         self.excitation.as_ref().map_or_else(Support::default, |motion| motion.stretch(elapsed, 0.0).from)
     }
 
@@ -241,8 +250,9 @@ impl Model for Unit {
     const PAYLOAD: &'static str = "scene.toml";
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
+        let exchange = (environment.interface == Interface::ModelExchange).then(Exchange::default);
         let Some(payload) = environment.payload else {
-            return Self::new(Parameters::default(), None);
+            return Ok(Self { exchange, ..Self::new(Parameters::default(), None)? });
         };
         let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
         let folder = environment.resources.unwrap_or(Path::new("."));
@@ -250,7 +260,7 @@ impl Model for Unit {
         if scene.parameters.kinematics != Kinematics::Linear {
             return Err("resources/scene.toml: an FMU knows kinematics = linear only".into());
         }
-        Self::new(scene.parameters, scene.excitation.map(Arc::new))
+        Ok(Self { exchange, ..Self::new(scene.parameters, scene.excitation.map(Arc::new))? })
     }
 
     fn real(&self, variable: RealVariable) -> f64 {
@@ -258,7 +268,7 @@ impl Model for Unit {
         let progress = self.simulation.progress();
         let (wall, body) = (self.wall(), self.wall().body());
         match variable {
-            V::AG => self.inputs.ground,
+            V::AG => self.exchange.map_or(self.inputs.ground, |exchange| exchange.ground),
             V::ABottom => self.inputs.bottom.value,
             V::ATop => self.inputs.top.value,
             V::Drift => self.inputs.drift.value,
@@ -304,7 +314,9 @@ impl Model for Unit {
 
     fn set_real(&mut self, variable: RealVariable, value: f64) {
         if variable == RealVariable::AG {
-            self.inputs.ground = value;
+            self.set_ground(value);
+        } else if matches!(variable, RealVariable::U | RealVariable::UDot) {
+            self.place(variable, value);
         } else if let Some(input) = self.input(variable) {
             input.set(value);
         } else if let Some(parameter) = self.parameters.real_mut(variable) {
@@ -388,6 +400,9 @@ impl Model for Unit {
     fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure> {
         self.calculate()?;
         self.running = true;
+        if self.exchange.is_some() {
+            self.begin_stretch();
+        }
         for warning in self.wall().warnings() {
             log.warning(format_args!("{warning}"));
         }

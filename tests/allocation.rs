@@ -7,7 +7,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use fmi2_export::{Environment, Log, Model, Step};
+use fmi2_export::{Environment, Interface, Log, Model, ModelExchange, Step};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
@@ -55,8 +55,8 @@ static ALLOCATOR: Counting = Counting;
 /// Choices of a wall.
 type Choices = [(IntegerVariable, i32)];
 
-fn unit(choices: &Choices) -> Unit {
-    let environment = Environment { instance_name: "wall", resources: None, payload: None };
+fn unit(choices: &Choices, interface: Interface) -> Unit {
+    let environment = Environment { interface, instance_name: "wall", resources: None, payload: None };
     let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
     for &(variable, value) in choices {
         unit.set_integer(variable, value);
@@ -89,6 +89,41 @@ fn a_step_in_full_rotations_allocates_nothing() {
     }
 }
 
+/// Model Exchange with explicit steps of 1 ms, an event after each: through corners, impacts and rest.
+#[test]
+fn derivatives_and_events_allocate_nothing() {
+    use IntegerVariable as V;
+    let rigid = [
+        (V::ForceLaw, ForceLaw::RigidLinear.value()),
+        (V::DampingModel, DampingModel::None.value()),
+        (V::Impact, Impact::Restitution.value()),
+    ];
+    let cases: [(&str, &Choices); 2] = [("constant ratio", &[]), ("rigid with restitution", &rigid)];
+    for (name, choices) in cases {
+        let mut unit = unit(choices, Interface::ModelExchange);
+        let mut indicators = [0.0; Unit::EVENT_INDICATORS];
+        let before = COUNT.with(Cell::get);
+        unit.update(&mut Log::silent()).unwrap();
+        let mut jumps = 0;
+        for index in 0..20_000_u32 {
+            unit.enter_continuous_time_mode();
+            unit.set_time(0.001 * f64::from(index));
+            let [u, v, a] =
+                [RealVariable::U, RealVariable::UDot, RealVariable::UDdot].map(|name| unit.real(name));
+            let v = v + 0.001 * a;
+            unit.set_states(&[u + 0.001 * v, v]);
+            unit.event_indicators(&mut indicators);
+            unit.complete_step(&mut Log::silent()).unwrap();
+            unit.enter_event_mode();
+            jumps += u32::from(unit.update(&mut Log::silent()).unwrap().states_changed);
+        }
+        let allocations = COUNT.with(Cell::get) - before;
+        assert!(unit.real(RealVariable::U).abs() < 0.1, "{name}: the wall has rocked");
+        assert_eq!(jumps > 10, !choices.is_empty(), "{name}: {jumps} jumps");
+        assert_eq!(allocations, 0, "{name}: 20000 steps allocated {allocations} times");
+    }
+}
+
 #[test]
 fn a_step_allocates_nothing() {
     use IntegerVariable as V;
@@ -106,7 +141,7 @@ fn a_step_allocates_nothing() {
         ("vertical spanning", &[(V::Mechanism, Mechanism::VerticalSpanning.value())]),
     ];
     for (name, choices) in cases {
-        let mut unit = unit(choices);
+        let mut unit = unit(choices, Interface::CoSimulation);
         let before = COUNT.with(Cell::get);
         for index in 0..4000_u32 {
             let time = 0.005 * f64::from(index);

@@ -7,6 +7,7 @@ mod adaptive;
 mod demand;
 mod event;
 mod exact;
+mod frozen;
 mod newmark;
 mod oscillator;
 mod polynomial;
@@ -23,6 +24,7 @@ use demand::Watch;
 pub use demand::{ACCURACY, Crossing, Demands, Extremes, Instant};
 pub use event::Peaks;
 pub use exact::Memo;
+pub use frozen::{Event, INDICATORS};
 use oscillator::Oscillator;
 use run::Run;
 

@@ -5,8 +5,9 @@ use fmi2_export::{Experiment, Failure, Model, StateReader, StateWriter, Variable
 use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};
 use crate::variables::{IntegerVariable, RealVariable};
-use crate::wall::Ends;
+use crate::wall::{Ends, Support};
 
+use super::exchange::{Exchange, Stretch};
 use super::{Input, Inputs, Unit};
 
 pub(super) fn write(unit: &Unit, writer: &mut StateWriter) {
@@ -45,6 +46,39 @@ pub(super) fn write(unit: &Unit, writer: &mut StateWriter) {
     for value in [state.overturned, state.departed, drift] {
         writer.bool(value);
     }
+    if let Some(exchange) = &unit.exchange {
+        write_exchange(exchange, writer);
+    }
+}
+
+/// What Model Exchange adds; the layer keeps the two kinds of instances apart.
+fn write_exchange(exchange: &Exchange, writer: &mut StateWriter) {
+    let Exchange { continuous, rising, ground, stretch } = *exchange;
+    let Stretch { from, support, rate, end } = stretch;
+    writer.bool(continuous);
+    writer.bool(rising);
+    for value in [ground, from] {
+        writer.f64(value);
+    }
+    for Support { bottom, top, drift } in [support, rate] {
+        for value in [bottom, top, drift] {
+            writer.f64(value);
+        }
+    }
+    writer.bool(end.is_some());
+    writer.f64(end.unwrap_or(0.0));
+}
+
+fn read_exchange(reader: &mut StateReader<'_>) -> Result<Exchange, Failure> {
+    let (continuous, rising) = (reader.bool()?, reader.bool()?);
+    let (ground, from) = (reader.f64()?, reader.f64()?);
+    let mut support = || -> Result<Support, Failure> {
+        Ok(Support { bottom: reader.f64()?, top: reader.f64()?, drift: reader.f64()? })
+    };
+    let (support, rate) = (support()?, support()?);
+    let (some, end) = (reader.bool()?, reader.f64()?);
+    let stretch = Stretch { from, support, rate, end: some.then_some(end) };
+    Ok(Exchange { continuous, rising, ground, stretch })
 }
 
 /// # Errors
@@ -95,6 +129,9 @@ pub(super) fn read(before: &Unit, reader: &mut StateReader<'_>) -> Result<Unit, 
         departed: reader.bool()?,
     };
     let drift = reader.bool()?;
+    if unit.exchange.is_some() {
+        unit.exchange = Some(read_exchange(reader)?);
+    }
     unit.running = false;
     unit.calculate()?;
     if state.branch >= unit.wall().branches().len() {

@@ -8,6 +8,7 @@
 //! restoring force per unit effective mass, and of the [`Corner`]s between them; a solver sees only the branch it is on.
 
 mod capacity;
+mod continuation;
 mod damping;
 pub mod equivalence;
 mod error;

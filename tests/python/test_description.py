@@ -8,7 +8,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from check_symbols import problems
+from check_symbols import problems, read
 from conftest import ROOT
 from unit import Unit
 
@@ -61,6 +61,15 @@ def test_capabilities(xml):
     for name in ("canRunAsynchronuously", "canBeInstantiatedOnlyOncePerProcess", "needsExecutionTool"):
         assert kind.get(name, "false") == "false", name
     assert int(kind.get("maxOutputDerivativeOrder")) >= 1
+    exchange = xml.find("ModelExchange")
+    assert exchange.get("modelIdentifier") == "wall"
+    for name in (
+        "canGetAndSetFMUstate", "canSerializeFMUstate", "providesDirectionalDerivative", "canNotUseMemoryManagementFunctions",
+    ):  # fmt: skip
+        assert exchange.get(name) == "true", name
+    for name in ("completedIntegratorStepNotNeeded", "canBeInstantiatedOnlyOncePerProcess", "needsExecutionTool"):
+        assert exchange.get(name, "false") == "false", name
+    assert int(xml.get("numberOfEventIndicators")) == 3
 
 
 def test_units_and_types(xml, variables):
@@ -182,6 +191,7 @@ def test_library_exports_the_interface_alone(fmu, tmp_path):
     with zipfile.ZipFile(fmu) as archive:
         library = archive.extract("binaries/linux64/wall.so", tmp_path)
     assert problems(library, portable=False) == []
+    assert len(read(library)[2]) == 44
 
 
 def test_packing_is_reproducible(fmu, tmp_path):

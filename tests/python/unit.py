@@ -18,6 +18,8 @@ class Unpacked:
 class Unit:
     """One instance. `messages` collects (status, category, text) of its log."""
 
+    KIND = FMU2Slave
+
     def __init__(self, unpacked, name="wall", logging=False):
         self.description = unpacked.description
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
@@ -32,7 +34,7 @@ class Unit:
         self.callbacks.logger = self._logger
         # the unit logs as printf does; the proxy turns that into finished text
         addLoggerProxy(byref(self.callbacks))
-        self.slave = FMU2Slave(
+        self.slave = self.KIND(
             guid=self.description.guid,
             unzipDirectory=unpacked.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,

@@ -26,7 +26,42 @@ pub(crate) fn all(description: &Description) -> Result<(), Fault> {
         enumeration_start(variable, &description.enumerations)?;
         derivative(variable, &description.variables)?;
     }
-    structure::check(&description.variables, required_child(&description.root, "ModelStructure")?)
+    structure::check(&description.variables, required_child(&description.root, "ModelStructure")?)?;
+    interfaces(&description.root, &description.variables)
+}
+
+/// At least one of co-simulation and Model Exchange, by one library; Model Exchange tells its derivatives and the
+/// number of its event indicators.
+fn interfaces(root: &Element, variables: &[Variable]) -> Result<(), Fault> {
+    let (exchange, steps) = (root.child("ModelExchange"), root.child("CoSimulation"));
+    let mut identifier = None;
+    for element in [exchange, steps].into_iter().flatten() {
+        let own = element.required("modelIdentifier")?;
+        if let Some(other) = identifier.replace(own).filter(|other| *other != own) {
+            let (own, other) = (own.to_owned(), other.to_owned());
+            return Err(element.fault(Problem::TwoLibraries { own, other }));
+        }
+    }
+    let count = root.parsed::<usize>("numberOfEventIndicators", "a number of event indicators")?;
+    match exchange {
+        None if steps.is_none() => Err(root.fault(Problem::MissingElement { element: "CoSimulation" })),
+        None if count.is_some() => {
+            Err(root.fault(Problem::EventIndicators { why: "belongs to <ModelExchange>, which is missing" }))
+        }
+        None => Ok(()),
+        Some(element) => {
+            if count.is_none() {
+                let why = "is missing, which <ModelExchange> needs; 0 if there are none";
+                return Err(root.fault(Problem::EventIndicators { why }));
+            }
+            let derivative = variables.iter().any(|variable| variable.derivative.is_some());
+            let listed = root.child("ModelStructure").is_some_and(|list| list.child("Derivatives").is_some());
+            if derivative && !listed {
+                return Err(element.fault(Problem::MissingElement { element: "Derivatives" }));
+            }
+            Ok(())
+        }
+    }
 }
 
 impl Variable {

@@ -21,10 +21,34 @@ pub(crate) fn module(description: &Description) -> String {
             description.variables.iter().filter(|variable| BaseType::of(&variable.kind) == base).collect();
         base_type(&mut code, base, &variables, &description.enumerations);
     }
+    exchange(&mut code, description);
     for enumeration in &description.enumerations {
         enumeration_type(&mut code, enumeration);
     }
     code
+}
+
+/// What Model Exchange needs to know: states, derivatives, event indicators.
+fn exchange(code: &mut String, description: &Description) {
+    let pairs = description.derivatives();
+    if pairs.is_empty() && description.event_indicators() == 0 {
+        return;
+    }
+    let list = |of: &dyn Fn(&(&Variable, &Variable)) -> String| {
+        let names: Vec<_> = pairs.iter().map(|pair| format!("RealVariable::{}", of(pair))).collect();
+        names.join(", ")
+    };
+    let states = list(&|(_, state)| variant(state));
+    let derivatives = list(&|(derivative, _)| variant(derivative));
+    let count = description.event_indicators();
+    add(
+        code,
+        format_args!(
+            "\n/// The continuous states.\npub const CONTINUOUS_STATES: &[RealVariable] = &[{states}];\n\
+             \n/// Their derivatives, in the same order.\npub const DERIVATIVES: &[RealVariable] = &[{derivatives}];\n\
+             \n/// The number of event indicators of Model Exchange.\npub const EVENT_INDICATORS: usize = {count};\n"
+        ),
+    );
 }
 
 /// `name` as a Rust type or variant: `u_dot_start` becomes `UDotStart`. None if that is no Rust name.

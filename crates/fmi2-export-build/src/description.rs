@@ -136,7 +136,6 @@ impl Description {
             .collect::<Result<Vec<_>, _>>()?;
         let enumerations = read_enumerations(&root)?;
         let description = Self { root, text, variables, enumerations };
-        required_child(&description.root, "CoSimulation")?.required("modelIdentifier")?;
         check::all(&description)?;
         Ok(description)
     }
@@ -162,10 +161,27 @@ impl Description {
     /// The name of the library, and of the functions' owner.
     #[must_use]
     pub fn model_identifier(&self) -> &str {
-        self.root
-            .child("CoSimulation")
-            .and_then(|element| element.attribute("modelIdentifier"))
-            .unwrap_or_default()
+        let element = self.root.child("CoSimulation").or_else(|| self.root.child("ModelExchange"));
+        element.and_then(|element| element.attribute("modelIdentifier")).unwrap_or_default()
+    }
+
+    /// The number of event indicators; 0 for co-simulation alone.
+    #[must_use]
+    pub fn event_indicators(&self) -> usize {
+        let count = self.root.attribute("numberOfEventIndicators");
+        count.and_then(|count| count.trim().parse().ok()).unwrap_or_default()
+    }
+
+    /// The derivatives in the order of the model structure, each with its state.
+    pub(crate) fn derivatives(&self) -> Vec<(&Variable, &Variable)> {
+        let listed = self.root.child("ModelStructure").and_then(|structure| structure.child("Derivatives"));
+        let unknowns = listed.map_or(&[][..], |list| &list.children).iter();
+        let pair = |unknown: &Element| {
+            let index: usize = unknown.attribute("index")?.trim().parse().ok()?;
+            let derivative = self.variables.get(index.checked_sub(1)?)?;
+            Some((derivative, self.variables.get(derivative.derivative?.checked_sub(1)?)?))
+        };
+        unknowns.filter_map(pair).collect()
     }
 
     /// The names of the variables, in their order.

@@ -53,6 +53,12 @@ pub enum Problem {
     UnexpectedElement { expected: &'static str, found: String },
     #[error("<{element}> is missing")]
     MissingElement { element: &'static str },
+    #[error(
+        "the modelIdentifier is {own:?} here and {other:?} in <ModelExchange>: one library serves both kinds"
+    )]
+    TwoLibraries { own: String, other: String },
+    #[error("numberOfEventIndicators {why}")]
+    EventIndicators { why: &'static str },
     #[error("<{element}> needs the attribute `{attribute}`")]
     MissingAttribute { element: String, attribute: &'static str },
     #[error("{attribute}=\"{value}\" is not {expected}")]

@@ -52,7 +52,7 @@ pub enum ReductionError {
 impl Description {
     /// The description with the variables, start values, guid, names and experiment of `reduction`.
     ///
-    /// Value references stay; indices count anew. Units, types and dependencies that nothing uses any more are gone.
+    /// Value references stay; indices count anew. Model Exchange goes if a state or derivative does. Units, types and dependencies that nothing uses any more are gone.
     ///
     /// # Errors
     ///
@@ -81,6 +81,15 @@ impl Description {
         }
         if let Some(structure) = root.child_mut("ModelStructure") {
             retain_unknowns(structure, &indices, &self.variables);
+        }
+        if self
+            .derivatives()
+            .iter()
+            .any(|(derivative, state)| !(reduction.keep)(&derivative.name) || !(reduction.keep)(&state.name))
+        {
+            // the library would answer for states that the description no longer has
+            root.children.retain(|element| element.name != "ModelExchange");
+            root.attributes.retain(|(attribute, _)| attribute != "numberOfEventIndicators");
         }
         retain_types(&mut root);
         retain_units(&mut root);

@@ -18,8 +18,9 @@ fn unknown(reference: u32) -> Failure {
 pub(crate) fn is_settable(variable: &Variable, phase: Phase) -> bool {
     match (variable.causality, variable.variability) {
         (_, Variability::Constant) => false,
-        (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => true,
-        (Causality::Parameter, _) => phase != Phase::StepMode,
+        (Causality::Input, _) => true,
+        (Causality::Parameter, Variability::Tunable) => phase != Phase::ContinuousTimeMode,
+        (Causality::Parameter, _) => phase.is_before_the_start(),
         _ => false,
     }
 }
@@ -35,6 +36,9 @@ fn not_settable(variable: &Variable, phase: Phase) -> Failure {
     let what = match variable.causality {
         Causality::Parameter | Causality::Input if variable.variability == Variability::Constant => {
             "a constant"
+        }
+        Causality::Parameter if variable.variability == Variability::Tunable => {
+            return Failure(format!("{name} is tunable and cannot be set {phase}: set it in Event Mode"));
         }
         Causality::Parameter => {
             return Failure(format!(

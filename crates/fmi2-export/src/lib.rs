@@ -6,7 +6,8 @@
 //!    [`VariableId`], and a guid.
 //! 2. Implement [`Model`]: get and set by exhaustive `match` over the enums, so that a variable described but not wired does
 //!    not compile; compute a step; write and read the state.
-//! 3. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be `"unwind"`.
+//! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
+//! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be `"unwind"`.
 //!
 //! ```
 //! use fmi2_export::*;
@@ -90,9 +91,8 @@
 //!
 //! # Map
 //!
-//! [`Variable`] and [`Model`] are the model's side, [`ffi`] is C's; between them one instance with its table
-//! of allowed calls. Model Exchange would add a module beside [`ffi::co_simulation`], rows to the table and
-//! methods in a trait that extends [`Model`].
+//! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's; between
+//! them one instance with its table of allowed calls.
 
 mod access;
 mod call;
@@ -109,7 +109,7 @@ mod variable;
 
 pub use hash::fnv1a_128;
 pub use log::{Category, Filter, Log, Sink, Status};
-pub use model::{Environment, Experiment, Failure, Model, Step};
+pub use model::{Environment, Experiment, Failure, Interface, Model, ModelExchange, Step, Update};
 pub use start::set_start_values;
 pub use state::{StateReader, StateWriter};
 pub use uri::path_from_location;

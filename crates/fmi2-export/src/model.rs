@@ -79,7 +79,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// When the model cannot start; the message names variables, values and remedy.
     fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure>;
 
-    /// Computes one step. It must be bounded, and should not allocate.
+    /// Computes one step. It must be bounded, and should not allocate. A model exported for Model Exchange
+    /// alone is never asked.
     ///
     /// # Errors
     /// When it cannot be computed. The model is then as it was before the step.
@@ -96,9 +97,92 @@ pub trait Model: Clone + Send + Sized + 'static {
     fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure>;
 }
 
+/// A model whose equations an importer's solver integrates: Model Exchange.
+///
+/// The layer reads states and derivatives with [`Model::real`], and tells the modes apart. Between events the
+/// discrete state is frozen: what the model computes is smooth in time, states and continuous inputs, also
+/// where an event indicator has changed sign already, until [`update`](Self::update).
+///
+/// A state may also be set with [`Model::set_real`], in Event Mode and in Continuous-Time Mode, as some
+/// importers do who only evaluate the equations: the discrete state is then chosen anew. A discrete input may be set in
+/// Continuous-Time Mode, which FMI 2.0 forbids and some importers do all the same: it takes effect at the next event.
+pub trait ModelExchange: Model {
+    /// The continuous states.
+    const STATES: &'static [Self::Real];
+    /// Their time derivatives, in the same order.
+    const DERIVATIVES: &'static [Self::Real];
+    /// The `numberOfEventIndicators` of the description.
+    const EVENT_INDICATORS: usize;
+
+    /// Sets the time \[s\]. Solvers go back and forth, and beyond the stop time.
+    fn set_time(&mut self, time: f64);
+
+    /// Sets the states, and leaves the discrete state as it is.
+    fn set_states(&mut self, states: &[f64]);
+
+    /// The magnitude of a state, above 0, to which the solver relates its tolerance; in its unit.
+    fn nominal(&self, state: Self::Real) -> f64;
+
+    /// Writes the event indicators: an event is where one changes its sign. None is zero after an update.
+    fn event_indicators(&self, indicators: &mut [f64]);
+
+    /// Event Mode begins, for whatever reason.
+    fn enter_event_mode(&mut self);
+
+    /// Updates the discrete state, and those states that jump, to the event at hand: to be called again while
+    /// it asks for that.
+    ///
+    /// # Errors
+    /// When the model cannot go on.
+    fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure>;
+
+    /// Continuous-Time Mode begins.
+    fn enter_continuous_time_mode(&mut self);
+
+    /// The solver has accepted a step to the present time and states. True asks for Event Mode.
+    ///
+    /// # Errors
+    /// When the model cannot go on.
+    fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure>;
+}
+
+/// What an update in Event Mode did (`fmi2EventInfo`). The model never ends the simulation.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Update {
+    /// There is more to update, at the same time.
+    pub again: bool,
+    /// States have jumped.
+    pub states_changed: bool,
+    /// Nominal values of states have changed.
+    pub nominals_changed: bool,
+    /// The next event that is known in advance \[s\].
+    pub next_event: Option<f64>,
+}
+
+/// How an importer uses an instance (`fmi2Type`).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Interface {
+    /// The importer's solver integrates the equations.
+    ModelExchange,
+    /// The model integrates itself from one communication point to the next.
+    #[default]
+    CoSimulation,
+}
+
+impl fmt::Display for Interface {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::ModelExchange => "Model Exchange",
+            Self::CoSimulation => "co-simulation",
+        })
+    }
+}
+
 /// Where an instance lives.
 #[derive(Clone, Copy, Debug)]
 pub struct Environment<'a> {
+    /// How the importer uses it.
+    pub interface: Interface,
     /// Name of the instance in the importer; the model identifier if that gave none.
     pub instance_name: &'a str,
     /// The `resources` folder of the unpacked FMU, if the importer told of a usable one.

@@ -4,7 +4,7 @@
 //! magic       8 bytes
 //! version     u64
 //! guid        u64 length, bytes
-//! payload     u64 length, bytes: phase, time, experiment and what the model wrote
+//! payload     u64 length, bytes: phase, time, kind, experiment and what the model wrote
 //! checksum    u64, FNV-1a of all before
 //! ```
 //!
@@ -15,7 +15,7 @@ use crate::model::Failure;
 
 const MAGIC: &[u8; 8] = b"FMI2stat";
 /// Changes with the format of the envelope and of what the layer writes into the payload.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 const CHECKSUM_LENGTH: usize = 8;
 
 /// Takes the values of a state.

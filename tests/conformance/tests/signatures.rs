@@ -51,6 +51,15 @@ same_type! {
     fmi2GetIntegerStatus: fmi2GetIntegerStatusTYPE,
     fmi2GetBooleanStatus: fmi2GetBooleanStatusTYPE,
     fmi2GetStringStatus: fmi2GetStringStatusTYPE,
+    fmi2EnterEventMode: fmi2EnterEventModeTYPE,
+    fmi2EnterContinuousTimeMode: fmi2EnterContinuousTimeModeTYPE,
+    fmi2CompletedIntegratorStep: fmi2CompletedIntegratorStepTYPE,
+    fmi2SetTime: fmi2SetTimeTYPE,
+    fmi2SetContinuousStates: fmi2SetContinuousStatesTYPE,
+    fmi2GetDerivatives: fmi2GetDerivativesTYPE,
+    fmi2GetEventIndicators: fmi2GetEventIndicatorsTYPE,
+    fmi2GetContinuousStates: fmi2GetContinuousStatesTYPE,
+    fmi2GetNominalsOfContinuousStates: fmi2GetNominalsOfContinuousStatesTYPE,
 }
 
 /// `fmi2Instantiate` takes a struct of callbacks, ours and theirs: with ours in its place the type is the same.
@@ -75,6 +84,20 @@ const _: standard::fmi2InstantiateTYPE = {
         _: standard::fmi2Boolean,
     ) -> standard::fmi2Component {
         std::ptr::null_mut()
+    }
+    Some(theirs)
+};
+
+/// `fmi2NewDiscreteStates` fills a struct, ours and theirs: with ours in its place the type is the same.
+type NewDiscreteStates =
+    unsafe extern "C" fn(standard::fmi2Component, *mut own::EventInfo) -> standard::fmi2Status;
+const _: NewDiscreteStates = exported::fmi2NewDiscreteStates;
+const _: standard::fmi2NewDiscreteStatesTYPE = {
+    unsafe extern "C" fn theirs(
+        _: standard::fmi2Component,
+        _: *mut standard::fmi2EventInfo,
+    ) -> standard::fmi2Status {
+        0
     }
     Some(theirs)
 };
@@ -108,12 +131,33 @@ fn the_callbacks_lie_where_the_standard_has_them() {
 }
 
 #[test]
+fn the_event_information_lies_where_the_standard_has_it() {
+    type Ours = own::EventInfo;
+    type Theirs = standard::fmi2EventInfo;
+    assert_eq!(size_of::<Ours>(), size_of::<Theirs>());
+    assert_eq!(align_of::<Ours>(), align_of::<Theirs>());
+    assert_eq!(offset_of!(Ours, new_discrete_states_needed), offset_of!(Theirs, newDiscreteStatesNeeded));
+    assert_eq!(offset_of!(Ours, terminate_simulation), offset_of!(Theirs, terminateSimulation));
+    assert_eq!(
+        offset_of!(Ours, nominals_of_continuous_states_changed),
+        offset_of!(Theirs, nominalsOfContinuousStatesChanged)
+    );
+    assert_eq!(
+        offset_of!(Ours, values_of_continuous_states_changed),
+        offset_of!(Theirs, valuesOfContinuousStatesChanged)
+    );
+    assert_eq!(offset_of!(Ours, next_event_time_defined), offset_of!(Theirs, nextEventTimeDefined));
+    assert_eq!(offset_of!(Ours, next_event_time), offset_of!(Theirs, nextEventTime));
+}
+
+#[test]
 fn the_numbers_are_the_standards() {
     assert_eq!(own::OK, standard::fmi2Status_fmi2OK);
     assert_eq!(own::WARNING, standard::fmi2Status_fmi2Warning);
     assert_eq!(own::DISCARD, standard::fmi2Status_fmi2Discard);
     assert_eq!(own::ERROR, standard::fmi2Status_fmi2Error);
     assert_eq!(own::FATAL, standard::fmi2Status_fmi2Fatal);
+    assert_eq!(own::MODEL_EXCHANGE, standard::fmi2Type_fmi2ModelExchange);
     assert_eq!(own::CO_SIMULATION, standard::fmi2Type_fmi2CoSimulation);
     assert_eq!(own::DO_STEP_STATUS, standard::fmi2StatusKind_fmi2DoStepStatus);
     assert_eq!(own::LAST_SUCCESSFUL_TIME, standard::fmi2StatusKind_fmi2LastSuccessfulTime);
@@ -122,6 +166,6 @@ fn the_numbers_are_the_standards() {
 
 #[test]
 fn all_functions_are_compared() {
-    // and fmi2Instantiate
-    assert_eq!(COMPARED.len() + 1, 34);
+    // and fmi2Instantiate and fmi2NewDiscreteStates
+    assert_eq!(COMPARED.len() + 2, 44);
 }

@@ -277,6 +277,53 @@ fn the_frame() {
     assert!(error.starts_with("line 45: not well-formed XML: "), "{error}");
 }
 
+const CO_SIMULATION: &str = "  <CoSimulation modelIdentifier=\"block\"/>\n";
+const EXCHANGE: &str = "<ModelExchange modelIdentifier=\"block\"/>";
+const INDICATORS: &str = " numberOfEventIndicators=\"2\">\n";
+
+/// The block for Model Exchange, `frame` being the end of its first tag.
+fn exchange(frame: &str, element: &str, other: &str) -> Result<Description, String> {
+    let head = format!("{{fingerprint}}\">\n{CO_SIMULATION}");
+    let text = block_with(&head, &format!("{{fingerprint}}\"{frame}{element}{other}"));
+    Description::parse(&text).map_err(|fault| fault.to_string())
+}
+
+#[test]
+fn either_kind_or_both() {
+    for other in ["", CO_SIMULATION] {
+        let description = exchange(INDICATORS, EXCHANGE, other).unwrap();
+        assert_eq!(description.model_identifier(), "block");
+        assert_eq!(description.event_indicators(), 2);
+    }
+    let error = exchange(">\n", EXCHANGE, CO_SIMULATION).unwrap_err();
+    let missing = "numberOfEventIndicators is missing, which <ModelExchange> needs; 0 if there are none";
+    assert_eq!(error, format!("line 2: {missing}"));
+    let error = exchange(INDICATORS, "", CO_SIMULATION).unwrap_err();
+    assert!(
+        error.ends_with("numberOfEventIndicators belongs to <ModelExchange>, which is missing"),
+        "{error}"
+    );
+    let error = exchange(" numberOfEventIndicators=\"-1\">\n", EXCHANGE, "").unwrap_err();
+    assert!(error.ends_with("numberOfEventIndicators=\"-1\" is not a number of event indicators"), "{error}");
+    let error = exchange(INDICATORS, &EXCHANGE.replace("block", "brick"), CO_SIMULATION).unwrap_err();
+    assert!(error.contains("\"block\" here and \"brick\" in <ModelExchange>"), "{error}");
+    let error = exchange(INDICATORS, "<ModelExchange/>", "").unwrap_err();
+    assert!(error.ends_with("<ModelExchange> needs the attribute `modelIdentifier`"), "{error}");
+}
+
+#[test]
+fn model_exchange_lists_its_derivatives() {
+    let list = "    <Derivatives>\n      <Unknown index=\"3\" dependencies=\"1\"/>\n    </Derivatives>\n";
+    // x is no known state then, and nothing may depend on it
+    let text = block_with(list, "")
+        .replace(CO_SIMULATION, EXCHANGE)
+        .replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"0\">")
+        .replace("dependencies=\"2\" dependenciesKind=\"constant\"", "dependencies=\"\"")
+        .replace("dependencies=\"1 2\" dependenciesKind=\"fixed dependent\"", "dependencies=\"1\"");
+    let error = Description::parse(&text).unwrap_err().to_string();
+    assert!(error.ends_with("<Derivatives> is missing"), "{error}");
+}
+
 #[test]
 fn the_message_of_generate_starts_with_file_and_line() {
     let folder = std::env::temp_dir().join(format!("fmi2-export-build-checks-{}", std::process::id()));

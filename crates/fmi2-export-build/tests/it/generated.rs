@@ -38,6 +38,21 @@ fn each_base_type_has_an_enum_of_its_variables() {
 }
 
 #[test]
+fn states_and_derivatives_are_named() {
+    let text =
+        BLOCK.replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\">");
+    let text = text.replace("<CoSimulation", "<ModelExchange modelIdentifier=\"block\"/><CoSimulation");
+    let code = module("states", &text);
+    for line in [
+        "pub const CONTINUOUS_STATES: &[RealVariable] = &[RealVariable::X];",
+        "pub const DERIVATIVES: &[RealVariable] = &[RealVariable::XDot];",
+        "pub const EVENT_INDICATORS: usize = 4;",
+    ] {
+        assert!(code.contains(line), "{line} is missing in\n{code}");
+    }
+}
+
+#[test]
 fn the_tables_say_what_the_description_says() {
     let code = module("tables", BLOCK);
     let guid = Description::parse(BLOCK).unwrap().guid();

@@ -85,6 +85,34 @@ fn states_and_their_derivatives_stay_related() {
 }
 
 #[test]
+fn model_exchange_goes_with_a_state() {
+    let text =
+        BLOCK.replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\">");
+    let text = text.replace("<CoSimulation", "<ModelExchange modelIdentifier=\"block\"/><CoSimulation");
+    let description = Description::parse(&text).unwrap();
+    let reduce = |left_out: &str| {
+        let reduction = Reduction {
+            model_name: "block",
+            description: "",
+            guid: "{a-b}",
+            keep: &|name| name != left_out,
+            starts: &[],
+            experiment: DefaultExperiment { start: 0.0, stop: 1.0, step: 0.1, tolerance: 1e-6 },
+        };
+        description.reduced(&reduction).unwrap().to_xml()
+    };
+    assert!(reduce("force").contains("<ModelExchange"));
+    assert!(reduce("force").contains("numberOfEventIndicators=\"4\""));
+    for state in ["x", "x_dot"] {
+        let reduced = reduce(state);
+        assert!(
+            !reduced.contains("ModelExchange") && !reduced.contains("numberOfEventIndicators"),
+            "{reduced}"
+        );
+    }
+}
+
+#[test]
 fn start_values_are_checked() {
     let all = |_: &str| true;
     let unknown = reduce(&all, &[("weigth", "1")]).unwrap_err();

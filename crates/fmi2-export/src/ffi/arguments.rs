@@ -36,6 +36,20 @@ pub(super) unsafe fn array_mut<'a, T>(
     Ok(unsafe { slice::from_raw_parts_mut(start.cast(), count) })
 }
 
+/// The array of `count` numbers at `start` to be written, set to 0.
+///
+/// # Safety
+/// As for [`array_mut`].
+pub(super) unsafe fn zeroed<'a>(name: &str, start: *mut f64, count: usize) -> Result<&'a mut [f64], Failure> {
+    // SAFETY: as the caller promises.
+    let slots = unsafe { array_mut(name, start, count) }?;
+    for slot in &mut *slots {
+        slot.write(0.0);
+    }
+    // SAFETY: all were just written.
+    Ok(unsafe { &mut *(std::ptr::from_mut(slots) as *mut [f64]) })
+}
+
 /// The place at `target`, whatever is in it.
 ///
 /// # Safety

@@ -2,10 +2,9 @@
 
 use super::arguments::{array, array_mut, text};
 use super::types::{
-    Boolean, CO_SIMULATION, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference,
-    status,
+    Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
 };
-use super::{guard, with};
+use super::{Kinds, guard, with};
 use crate::call::Call;
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
@@ -39,7 +38,9 @@ pub unsafe fn get_version<M: Model>() -> Text {
 /// # Safety
 /// The texts are NULL or end with a NUL; `functions` is NULL or points to callbacks of the stated types.
 #[must_use]
+#[allow(clippy::too_many_arguments, reason = "the standard's seven, and what the library can do")]
 pub unsafe fn instantiate<M: Model>(
+    kinds: &Kinds<M>,
     instance_name: Text,
     fmu_type: Type,
     guid: Text,
@@ -60,8 +61,11 @@ pub unsafe fn instantiate<M: Model>(
         || Logger::new(callbacks.and_then(|callbacks| sink(*callbacks, name.clone())), logging_on != 0);
     // SAFETY: as the caller promises.
     let texts = unsafe { (text("fmuGUID", guid), text("fmuResourceLocation", resource_location)) };
-    let instance = guard::catch(|| match check_arguments(fmu_type, texts) {
-        Ok((guid, location)) => Instance::<M>::new(&name.to_string_lossy(), guid, location, logger()),
+    let checked = kinds.purpose(fmu_type).and_then(|purpose| Ok((purpose, check_texts(texts)?)));
+    let instance = guard::catch(|| match checked {
+        Ok((purpose, (guid, location))) => {
+            Instance::<M>::new(&name.to_string_lossy(), guid, location, purpose, logger())
+        }
         Err(failure) => {
             logger().log().error(format_args!("fmi2Instantiate: {failure}"));
             None
@@ -79,15 +83,9 @@ pub unsafe fn instantiate<M: Model>(
 
 type OptionalText<'a> = Result<Option<&'a str>, Failure>;
 
-fn check_arguments<'a>(
-    fmu_type: Type,
+fn check_texts<'a>(
     (guid, location): (OptionalText<'a>, OptionalText<'a>),
 ) -> Result<(&'a str, Option<&'a str>), Failure> {
-    if fmu_type != CO_SIMULATION {
-        return Err(Failure(format!(
-            "fmuType {fmu_type}: this FMU is for co-simulation, {CO_SIMULATION}, only"
-        )));
-    }
     let guid = guid?.ok_or("fmuGUID is NULL")?;
     Ok((guid, location?))
 }

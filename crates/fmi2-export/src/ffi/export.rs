@@ -1,6 +1,7 @@
 //! The C functions of an FMU, by name.
 
-/// Makes the model `$model` an FMU: defines the 34 C functions of FMI 2.0 co-simulation in a module `fmi2`.
+/// Makes the model `$model` an FMU: defines the C functions of FMI 2.0 in a module `fmi2`. For co-simulation these
+/// are 34, for Model Exchange, which asks for a [`ModelExchange`](crate::ModelExchange), 35, for both 44.
 ///
 /// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these
 /// names.
@@ -8,10 +9,27 @@
 /// ```text
 /// #[cfg(feature = "fmu")]
 /// fmi2_export::export_fmu!(crate::Spring);
+/// fmi2_export::export_fmu!(crate::Spring, co_simulation + model_exchange);
+/// fmi2_export::export_fmu!(crate::Spring, model_exchange);
 /// ```
 #[macro_export]
 macro_rules! export_fmu {
     ($model:ty) => {
+        $crate::__fmi2_module! { $model, CO_SIMULATION, __fmi2_co_simulation }
+    };
+    ($model:ty, model_exchange) => {
+        $crate::__fmi2_module! { $model, MODEL_EXCHANGE, __fmi2_model_exchange }
+    };
+    ($model:ty, co_simulation + model_exchange) => {
+        $crate::__fmi2_module! { $model, BOTH, __fmi2_co_simulation __fmi2_model_exchange }
+    };
+}
+
+/// The module `fmi2`: the functions of every FMU, and those of the kinds.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi2_module {
+    ($model:ty, $kinds:ident, $($functions:ident)+) => {
         // The type is named out here, where its path means what the caller means.
         #[doc(hidden)]
         type ExportedFmi2Model = $model;
@@ -21,6 +39,8 @@ macro_rules! export_fmu {
         pub mod fmi2 {
             use super::ExportedFmi2Model as Exported;
             use $crate::ffi::types::*;
+
+            $($crate::$functions! { Exported })+
 
             $crate::__fmi2_functions! { Exported, common,
                 fn fmi2GetTypesPlatform = get_types_platform() -> Text;
@@ -69,27 +89,6 @@ macro_rules! export_fmu {
                     c: Component, serializedState: *const Byte, size: usize, state: *mut FmuState) -> Status;
             }
 
-            $crate::__fmi2_functions! { Exported, co_simulation,
-                fn fmi2SetRealInputDerivatives = set_real_input_derivatives(
-                    c: Component, vr: *const ValueReference, nvr: usize,
-                    order: *const Integer, value: *const Real) -> Status;
-                fn fmi2GetRealOutputDerivatives = get_real_output_derivatives(
-                    c: Component, vr: *const ValueReference, nvr: usize,
-                    order: *const Integer, value: *mut Real) -> Status;
-                fn fmi2DoStep = do_step(
-                    c: Component, currentCommunicationPoint: Real, communicationStepSize: Real,
-                    noSetFMUStatePriorToCurrentPoint: Boolean) -> Status;
-                fn fmi2CancelStep = cancel_step(c: Component) -> Status;
-                fn fmi2GetStatus = get_status(c: Component, s: StatusKind, value: *mut Status) -> Status;
-                fn fmi2GetRealStatus = get_real_status(c: Component, s: StatusKind, value: *mut Real) -> Status;
-                fn fmi2GetIntegerStatus = get_integer_status(
-                    c: Component, s: StatusKind, value: *mut Integer) -> Status;
-                fn fmi2GetBooleanStatus = get_boolean_status(
-                    c: Component, s: StatusKind, value: *mut Boolean) -> Status;
-                fn fmi2GetStringStatus = get_string_status(
-                    c: Component, s: StatusKind, value: *mut Text) -> Status;
-            }
-
             #[doc = "`fmi2Instantiate` of FMI 2.0. The first call also makes panics silent."]
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2Instantiate(
@@ -105,6 +104,7 @@ macro_rules! export_fmu {
                 // SAFETY: C promises what the standard asks for.
                 unsafe {
                     $crate::ffi::common::instantiate::<Exported>(
+                        &$crate::ffi::Kinds::<Exported>::$kinds,
                         instanceName,
                         fmuType,
                         fmuGUID,
@@ -115,6 +115,62 @@ macro_rules! export_fmu {
                     )
                 }
             }
+        }
+    };
+}
+
+/// The functions of co-simulation alone.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi2_co_simulation {
+    ($model:ident) => {
+        $crate::__fmi2_functions! { $model, co_simulation,
+            fn fmi2SetRealInputDerivatives = set_real_input_derivatives(
+                c: Component, vr: *const ValueReference, nvr: usize,
+                order: *const Integer, value: *const Real) -> Status;
+            fn fmi2GetRealOutputDerivatives = get_real_output_derivatives(
+                c: Component, vr: *const ValueReference, nvr: usize,
+                order: *const Integer, value: *mut Real) -> Status;
+            fn fmi2DoStep = do_step(
+                c: Component, currentCommunicationPoint: Real, communicationStepSize: Real,
+                noSetFMUStatePriorToCurrentPoint: Boolean) -> Status;
+            fn fmi2CancelStep = cancel_step(c: Component) -> Status;
+            fn fmi2GetStatus = get_status(c: Component, s: StatusKind, value: *mut Status) -> Status;
+            fn fmi2GetRealStatus = get_real_status(c: Component, s: StatusKind, value: *mut Real) -> Status;
+            fn fmi2GetIntegerStatus = get_integer_status(
+                c: Component, s: StatusKind, value: *mut Integer) -> Status;
+            fn fmi2GetBooleanStatus = get_boolean_status(
+                c: Component, s: StatusKind, value: *mut Boolean) -> Status;
+            fn fmi2GetStringStatus = get_string_status(
+                c: Component, s: StatusKind, value: *mut Text) -> Status;
+        }
+    };
+}
+
+/// The functions of Model Exchange alone.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi2_model_exchange {
+    ($model:ident) => {
+        $crate::__fmi2_functions! { $model, model_exchange,
+            fn fmi2EnterEventMode = enter_event_mode(c: Component) -> Status;
+            fn fmi2NewDiscreteStates = new_discrete_states(
+                c: Component, fmi2eventInfo: *mut EventInfo) -> Status;
+            fn fmi2EnterContinuousTimeMode = enter_continuous_time_mode(c: Component) -> Status;
+            fn fmi2CompletedIntegratorStep = completed_integrator_step(
+                c: Component, noSetFMUStatePriorToCurrentPoint: Boolean,
+                enterEventMode: *mut Boolean, terminateSimulation: *mut Boolean) -> Status;
+            fn fmi2SetTime = set_time(c: Component, time: Real) -> Status;
+            fn fmi2SetContinuousStates = set_continuous_states(
+                c: Component, x: *const Real, nx: usize) -> Status;
+            fn fmi2GetDerivatives = get_derivatives(
+                c: Component, derivatives: *mut Real, nx: usize) -> Status;
+            fn fmi2GetEventIndicators = get_event_indicators(
+                c: Component, eventIndicators: *mut Real, ni: usize) -> Status;
+            fn fmi2GetContinuousStates = get_continuous_states(
+                c: Component, x: *mut Real, nx: usize) -> Status;
+            fn fmi2GetNominalsOfContinuousStates = get_nominals_of_continuous_states(
+                c: Component, x_nominal: *mut Real, nx: usize) -> Status;
         }
     };
 }

@@ -10,10 +10,13 @@ pub mod co_simulation;
 pub mod common;
 mod export;
 mod guard;
+mod kinds;
+pub mod model_exchange;
 pub mod states;
 pub mod types;
 
 pub use guard::install_panic_hook;
+pub use kinds::Kinds;
 
 use crate::call::Call;
 use crate::instance::Instance;

@@ -48,6 +48,8 @@ pub const ERROR: Status = 3;
 /// `fmi2Fatal`
 pub const FATAL: Status = 4;
 
+/// `fmi2ModelExchange`
+pub const MODEL_EXCHANGE: Type = 0;
 /// `fmi2CoSimulation`
 pub const CO_SIMULATION: Type = 1;
 
@@ -83,6 +85,24 @@ pub struct CallbackFunctions {
     pub step_finished: Option<StepFinished>,
     /// Handed back to the logger.
     pub component_environment: ComponentEnvironment,
+}
+
+/// `fmi2EventInfo`
+#[repr(C)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct EventInfo {
+    /// `fmi2NewDiscreteStates` is to be called again.
+    pub new_discrete_states_needed: Boolean,
+    /// The model asks for the end of the simulation.
+    pub terminate_simulation: Boolean,
+    /// Nominal values of states have changed.
+    pub nominals_of_continuous_states_changed: Boolean,
+    /// States have jumped.
+    pub values_of_continuous_states_changed: Boolean,
+    /// `next_event_time` holds.
+    pub next_event_time_defined: Boolean,
+    /// Time of the next event that is known in advance \[s\].
+    pub next_event_time: Real,
 }
 
 /// A status as C has it.

@@ -1,5 +1,6 @@
 //! One instance of a model: what the C functions do, without C.
 
+mod exchange;
 mod saved;
 mod step;
 mod values;
@@ -7,7 +8,7 @@ mod values;
 use crate::call::{Call, Phase};
 use crate::guid;
 use crate::log::{Category, Filter, Logger, Status};
-use crate::model::{Environment, Experiment, Failure, Model};
+use crate::model::{Environment, Experiment, Failure, Interface, Model};
 use crate::uri::path_from_location;
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -17,8 +18,9 @@ use std::ffi::CString;
 struct Snapshot<M> {
     model: M,
     phase: Phase,
-    /// Where the last step ended [s].
+    /// Where the last step ended, or the solver is [s].
     time: f64,
+    interface: Interface,
     experiment: Experiment,
     /// Values were set that [`Model::calculate`] has not seen.
     stale: bool,
@@ -36,11 +38,26 @@ pub(crate) struct Instance<M: Model> {
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
     /// What the last `fmi2GetString` returned pointers to.
     texts: Vec<CString>,
+    /// The variables that may be set for being states.
+    states: &'static [M::Real],
+}
+
+/// What an instance is made for.
+pub(crate) struct Purpose<M: Model> {
+    pub(crate) interface: Interface,
+    /// The continuous states; none in co-simulation.
+    pub(crate) states: &'static [M::Real],
 }
 
 impl<M: Model> Instance<M> {
     /// A new instance. None, with a log, if guid or model refuse.
-    pub(crate) fn new(name: &str, guid: &str, location: Option<&str>, mut logger: Logger) -> Option<Self> {
+    pub(crate) fn new(
+        name: &str,
+        guid: &str,
+        location: Option<&str>,
+        Purpose { interface, states }: Purpose<M>,
+        mut logger: Logger,
+    ) -> Option<Self> {
         let resources = location.and_then(path_from_location);
         if let (Some(location), None) = (location, &resources) {
             logger.log().warning(format_args!(
@@ -49,8 +66,8 @@ impl<M: Model> Instance<M> {
         }
         let instantiated = guid::check::<M>(guid, resources.as_deref()).and_then(|payload| {
             let instance_name = if name.is_empty() { M::IDENTIFIER } else { name };
-            let environment =
-                Environment { instance_name, resources: resources.as_deref(), payload: payload.as_deref() };
+            let (resources, payload) = (resources.as_deref(), payload.as_deref());
+            let environment = Environment { interface, instance_name, resources, payload };
             M::instantiate(environment, &mut logger.log())
         });
         let model = match instantiated {
@@ -64,6 +81,7 @@ impl<M: Model> Instance<M> {
             model,
             phase: Phase::Instantiated,
             time: 0.0,
+            interface,
             experiment: Experiment::default(),
             stale: true,
         };
@@ -75,12 +93,15 @@ impl<M: Model> Instance<M> {
             last_step: Status::Ok,
             saved: BTreeMap::new(),
             texts: Vec::new(),
+            states,
         })
     }
 
     /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation.
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
-        let done = if call.is_allowed(self.now.phase) { body(self) } else { Err(self.out_of_turn(call)) };
+        let suits = call.only_for().is_none_or(|interface| interface == self.now.interface);
+        let in_turn = suits && call.is_allowed(self.now.phase);
+        let done = if in_turn { body(self) } else { Err(self.out_of_turn(call)) };
         match done {
             Ok(()) => Status::Ok,
             Err(failure) => self.failed(call, &failure),
@@ -103,6 +124,9 @@ impl<M: Model> Instance<M> {
     #[cold]
     fn out_of_turn(&self, call: Call) -> Failure {
         match call {
+            _ if call.only_for().is_some_and(|interface| interface != self.now.interface) => {
+                Failure(format!("not for an instance of {}", self.now.interface))
+            }
             Call::CancelStep => "there is no step to cancel: fmi2DoStep returns when the step is done".into(),
             _ => Failure(format!("not allowed now: the instance is {}", self.now.phase)),
         }
@@ -161,7 +185,10 @@ impl<M: Model> Instance<M> {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
         self.calculate()?;
         self.now.model.initialize(&mut self.logger.log())?;
-        self.now.phase = Phase::StepMode;
+        self.now.phase = match self.now.interface {
+            Interface::ModelExchange => Phase::EventMode,
+            Interface::CoSimulation => Phase::StepMode,
+        };
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use super::{Instance, Snapshot};
 use crate::call::Phase;
 use crate::log::Status;
-use crate::model::{Experiment, Failure, Model};
+use crate::model::{Experiment, Failure, Interface, Model};
 use crate::state::{self, StateReader, StateWriter};
 
 /// A handle is the address of a state in `saved`.
@@ -59,6 +59,7 @@ impl<M: Model> Snapshot<M> {
         writer.u64(self.phase.number());
         writer.f64(self.time);
         writer.bool(self.stale);
+        writer.u64(interface_number(self.interface));
         let Experiment { tolerance, start, stop } = self.experiment;
         writer.f64(start);
         for bound in [tolerance, stop] {
@@ -72,6 +73,9 @@ impl<M: Model> Snapshot<M> {
         self.phase = Phase::from_number(reader.u64()?).ok_or("the state is of no known phase")?;
         self.time = reader.f64()?;
         self.stale = reader.bool()?;
+        if reader.u64()? != interface_number(self.interface) || !self.phase.belongs_to(self.interface) {
+            return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
+        }
         let start = reader.f64()?;
         let mut bound = || Ok::<_, Failure>((reader.bool()?, reader.f64()?));
         let tolerance = bound().map(|(is_some, value)| is_some.then_some(value))?;
@@ -81,6 +85,13 @@ impl<M: Model> Snapshot<M> {
             return Err("the state has a time that is not finite".into());
         }
         self.model.read_state(reader)
+    }
+}
+
+fn interface_number(interface: Interface) -> u64 {
+    match interface {
+        Interface::ModelExchange => 0,
+        Interface::CoSimulation => 1,
     }
 }
 

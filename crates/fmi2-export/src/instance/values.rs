@@ -2,7 +2,6 @@
 
 use super::Instance;
 use crate::access;
-use crate::call::Phase;
 use crate::model::{Failure, Model};
 use crate::variable::VariableId;
 use std::ffi::{CStr, CString};
@@ -61,8 +60,11 @@ impl<M: Model> Instance<M> {
     pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let phase = self.now.phase;
         for (&reference, &value) in references.iter().zip(values) {
-            let variable = access::find::<M::Real>(reference)?.variable();
-            access::check_settable(variable, phase)?;
+            let id = access::find::<M::Real>(reference)?;
+            let variable = id.variable();
+            if phase.is_before_the_start() || !self.states.contains(&id) {
+                access::check_settable(variable, phase)?;
+            }
             access::check_real(variable, value)?;
         }
         self.set(references, values, |model, variable, &value| model.set_real(variable, value))
@@ -102,8 +104,8 @@ impl<M: Model> Instance<M> {
         for (&reference, value) in references.iter().zip(values) {
             set(&mut self.now.model, access::find(reference)?, value);
         }
-        // In step mode only inputs are set, and no calculated value follows from them.
-        self.now.stale |= self.now.phase != Phase::StepMode;
+        // Later only inputs and states are set, and no calculated value follows from them.
+        self.now.stale |= self.now.phase.is_before_the_start();
         Ok(())
     }
 }

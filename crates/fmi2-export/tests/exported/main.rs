@@ -11,6 +11,7 @@
 
 mod allocator;
 mod derivatives;
+mod exchange;
 mod importer;
 mod instantiation;
 mod logs;
@@ -26,4 +27,4 @@ mod values;
 #[global_allocator]
 static ALLOCATOR: allocator::Counting = allocator::Counting;
 
-fmi2_export::export_fmu!(crate::spring::Spring);
+fmi2_export::export_fmu!(crate::spring::Spring, co_simulation + model_exchange);

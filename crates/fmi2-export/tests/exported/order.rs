@@ -5,20 +5,28 @@
     reason = "each call states what it is given; the instance lives"
 )]
 
+use crate::exchange::Exchange;
 use crate::fmi2::*;
 use crate::importer::Importer;
 use crate::spring::{Boolean, COPIES_PANIC, Integer, Real, Text};
-use fmi2_export::ffi::types::{Component, DISCARD, ERROR, FATAL, OK, Status};
+use fmi2_export::ffi::types::{Component, DISCARD, ERROR, EventInfo, FATAL, OK, Status};
 use std::ffi::CStr;
 use std::ptr;
 
-const PHASES: [(char, fn() -> Importer); 6] = [
+/// Large letters are for co-simulation, small ones for Model Exchange.
+const PHASES: [(char, fn() -> Importer); 12] = [
     ('I', Importer::new),
     ('N', Importer::in_initialization_mode),
     ('S', Importer::in_step_mode),
     ('T', Importer::terminated),
     ('E', in_error),
     ('F', lost),
+    ('i', Exchange::instantiated),
+    ('n', Exchange::in_initialization_mode),
+    ('v', Exchange::in_event_mode),
+    ('c', Exchange::in_continuous_time_mode),
+    ('t', Exchange::terminated),
+    ('e', Exchange::in_error),
 ];
 
 fn in_error() -> Importer {
@@ -40,40 +48,50 @@ fn lost() -> Importer {
 
 type Function = unsafe fn(Component) -> Status;
 
-/// Each function, the phases it is allowed in by FMI 2.0.5 (section 4.2.4), and a call with arguments that
+/// Each function, the phases it is allowed in by FMI 2.0.5 (sections 3.2.3 and 4.2.4), and a call with arguments that
 /// are in order.
 #[rustfmt::skip]
-const FUNCTIONS: [(&str, &str, Function); 30] = [
-    ("fmi2SetDebugLogging",          "INSTE.", |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) }),
-    ("fmi2SetupExperiment",          "I.....", |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) }),
-    ("fmi2EnterInitializationMode",  "I.....", |c| unsafe { fmi2EnterInitializationMode(c) }),
-    ("fmi2ExitInitializationMode",   ".N....", |c| unsafe { fmi2ExitInitializationMode(c) }),
-    ("fmi2Terminate",                "..S...", |c| unsafe { fmi2Terminate(c) }),
-    ("fmi2Reset",                    "INSTE.", |c| unsafe { fmi2Reset(c) }),
-    ("fmi2GetReal",                  ".NSTE.", |c| unsafe { fmi2GetReal(c, &Real::X.reference(), 1, &mut 0.0) }),
-    ("fmi2GetInteger",               ".NSTE.", |c| unsafe { fmi2GetInteger(c, &Integer::Count.reference(), 1, &mut 0) }),
-    ("fmi2GetBoolean",               ".NSTE.", |c| unsafe { fmi2GetBoolean(c, &Boolean::Moving.reference(), 1, &mut 0) }),
-    ("fmi2GetString",                ".NSTE.", |c| unsafe { fmi2GetString(c, &Text::Label.reference(), 1, &mut ptr::null()) }),
-    ("fmi2SetReal",                  "INS...", |c| unsafe { fmi2SetReal(c, &Real::Force.reference(), 1, &1.0) }),
-    ("fmi2SetInteger",               "INS...", |c| unsafe { fmi2SetInteger(c, &Integer::Fault.reference(), 1, &0) }),
-    ("fmi2SetBoolean",               "INS...", |c| unsafe { fmi2SetBoolean(c, &Boolean::Held.reference(), 1, &1) }),
-    ("fmi2SetString",                "INS...", |c| unsafe { fmi2SetString(c, ptr::null(), 0, ptr::null()) }),
-    ("fmi2GetFMUstate",              "INSTE.", |c| unsafe { fmi2GetFMUstate(c, &mut ptr::null_mut()) }),
-    ("fmi2SetFMUstate",              "INSTE.", |c| unsafe { with_state(c, |c, state| fmi2SetFMUstate(c, state)) }),
-    ("fmi2FreeFMUstate",             "INSTE.", |c| unsafe { with_state(c, |c, mut state| fmi2FreeFMUstate(c, &mut state)) }),
-    ("fmi2SerializedFMUstateSize",   "INSTE.", |c| unsafe { with_state(c, |c, state| fmi2SerializedFMUstateSize(c, state, &mut 0)) }),
-    ("fmi2SerializeFMUstate",        "INSTE.", |c| unsafe { with_state(c, serialize) }),
-    ("fmi2DeSerializeFMUstate",      "INSTE.", |c| unsafe { with_state(c, serialize_and_back) }),
-    ("fmi2GetDirectionalDerivative", ".NSTE.", |c| unsafe { fmi2GetDirectionalDerivative(c, &Real::V.reference(), 1, &Real::X.reference(), 1, &1.0, &mut 0.0) }),
-    ("fmi2SetRealInputDerivatives",  ".NS...", |c| unsafe { fmi2SetRealInputDerivatives(c, &Real::Force.reference(), 1, &1, &0.5) }),
-    ("fmi2GetRealOutputDerivatives", "..STE.", |c| unsafe { fmi2GetRealOutputDerivatives(c, &Real::X.reference(), 1, &1, &mut 0.0) }),
-    ("fmi2DoStep",                   "..S...", |c| unsafe { fmi2DoStep(c, 0.0, 0.1, 1) }),
-    ("fmi2CancelStep",               "......", |c| unsafe { fmi2CancelStep(c) }),
-    ("fmi2GetStatus",                "..STE.", |c| unsafe { fmi2GetStatus(c, 0, &mut 0) }),
-    ("fmi2GetRealStatus",            "..STE.", |c| unsafe { fmi2GetRealStatus(c, 2, &mut 0.0) }),
-    ("fmi2GetIntegerStatus",         "..STE.", |c| unsafe { fmi2GetIntegerStatus(c, 0, &mut 0) }),
-    ("fmi2GetBooleanStatus",         "..STE.", |c| unsafe { fmi2GetBooleanStatus(c, 3, &mut 0) }),
-    ("fmi2GetStringStatus",          "..STE.", |c| unsafe { fmi2GetStringStatus(c, 1, &mut ptr::null()) }),
+const FUNCTIONS: [(&str, &str, Function); 40] = [
+    ("fmi2SetDebugLogging",          "INSTE.invcte", |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) }),
+    ("fmi2SetupExperiment",          "I.....i.....", |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) }),
+    ("fmi2EnterInitializationMode",  "I.....i.....", |c| unsafe { fmi2EnterInitializationMode(c) }),
+    ("fmi2ExitInitializationMode",   ".N.....n....", |c| unsafe { fmi2ExitInitializationMode(c) }),
+    ("fmi2Terminate",                "..S.....vc..", |c| unsafe { fmi2Terminate(c) }),
+    ("fmi2Reset",                    "INSTE.invcte", |c| unsafe { fmi2Reset(c) }),
+    ("fmi2GetReal",                  ".NSTE..nvcte", |c| unsafe { fmi2GetReal(c, &Real::X.reference(), 1, &mut 0.0) }),
+    ("fmi2GetInteger",               ".NSTE..nvcte", |c| unsafe { fmi2GetInteger(c, &Integer::Count.reference(), 1, &mut 0) }),
+    ("fmi2GetBoolean",               ".NSTE..nvcte", |c| unsafe { fmi2GetBoolean(c, &Boolean::Moving.reference(), 1, &mut 0) }),
+    ("fmi2GetString",                ".NSTE..nvcte", |c| unsafe { fmi2GetString(c, &Text::Label.reference(), 1, &mut ptr::null()) }),
+    ("fmi2SetReal",                  "INS...invc..", |c| unsafe { fmi2SetReal(c, &Real::Force.reference(), 1, &1.0) }),
+    ("fmi2SetInteger",               "INS...inv...", |c| unsafe { fmi2SetInteger(c, &Integer::Fault.reference(), 1, &0) }),
+    ("fmi2SetBoolean",               "INS...inv...", |c| unsafe { fmi2SetBoolean(c, &Boolean::Held.reference(), 1, &1) }),
+    ("fmi2SetString",                "INS...inv...", |c| unsafe { fmi2SetString(c, ptr::null(), 0, ptr::null()) }),
+    ("fmi2GetFMUstate",              "INSTE.invcte", |c| unsafe { fmi2GetFMUstate(c, &mut ptr::null_mut()) }),
+    ("fmi2SetFMUstate",              "INSTE.invcte", |c| unsafe { with_state(c, |c, state| fmi2SetFMUstate(c, state)) }),
+    ("fmi2FreeFMUstate",             "INSTE.invcte", |c| unsafe { with_state(c, |c, mut state| fmi2FreeFMUstate(c, &mut state)) }),
+    ("fmi2SerializedFMUstateSize",   "INSTE.invcte", |c| unsafe { with_state(c, |c, state| fmi2SerializedFMUstateSize(c, state, &mut 0)) }),
+    ("fmi2SerializeFMUstate",        "INSTE.invcte", |c| unsafe { with_state(c, serialize) }),
+    ("fmi2DeSerializeFMUstate",      "INSTE.invcte", |c| unsafe { with_state(c, serialize_and_back) }),
+    ("fmi2GetDirectionalDerivative", ".NSTE..nvcte", |c| unsafe { fmi2GetDirectionalDerivative(c, &Real::V.reference(), 1, &Real::X.reference(), 1, &1.0, &mut 0.0) }),
+    ("fmi2SetRealInputDerivatives",  ".NS.........", |c| unsafe { fmi2SetRealInputDerivatives(c, &Real::Force.reference(), 1, &1, &0.5) }),
+    ("fmi2GetRealOutputDerivatives", "..STE.......", |c| unsafe { fmi2GetRealOutputDerivatives(c, &Real::X.reference(), 1, &1, &mut 0.0) }),
+    ("fmi2DoStep",                   "..S.........", |c| unsafe { fmi2DoStep(c, 0.0, 0.1, 1) }),
+    ("fmi2CancelStep",               "............", |c| unsafe { fmi2CancelStep(c) }),
+    ("fmi2GetStatus",                "..STE.......", |c| unsafe { fmi2GetStatus(c, 0, &mut 0) }),
+    ("fmi2GetRealStatus",            "..STE.......", |c| unsafe { fmi2GetRealStatus(c, 2, &mut 0.0) }),
+    ("fmi2GetIntegerStatus",         "..STE.......", |c| unsafe { fmi2GetIntegerStatus(c, 0, &mut 0) }),
+    ("fmi2GetBooleanStatus",         "..STE.......", |c| unsafe { fmi2GetBooleanStatus(c, 3, &mut 0) }),
+    ("fmi2GetStringStatus",          "..STE.......", |c| unsafe { fmi2GetStringStatus(c, 1, &mut ptr::null()) }),
+    ("fmi2EnterEventMode", "........vc..", |c| unsafe { fmi2EnterEventMode(c) }),
+    ("fmi2NewDiscreteStates", "........v...", |c| unsafe { fmi2NewDiscreteStates(c, &mut EventInfo::default()) }),
+    ("fmi2EnterContinuousTimeMode", "........v...", |c| unsafe { fmi2EnterContinuousTimeMode(c) }),
+    ("fmi2CompletedIntegratorStep", ".........c..", |c| unsafe { fmi2CompletedIntegratorStep(c, 1, &mut 0, &mut 0) }),
+    ("fmi2SetTime", "........vc..", |c| unsafe { fmi2SetTime(c, 0.5) }),
+    ("fmi2SetContinuousStates", ".........c..", |c| unsafe { fmi2SetContinuousStates(c, [1.0, 0.0].as_ptr(), 2) }),
+    ("fmi2GetDerivatives", "........vcte", |c| unsafe { fmi2GetDerivatives(c, [0.0; 2].as_mut_ptr(), 2) }),
+    ("fmi2GetEventIndicators", ".......nvcte", |c| unsafe { fmi2GetEventIndicators(c, &mut 0.0, 1) }),
+    ("fmi2GetContinuousStates", ".......nvcte", |c| unsafe { fmi2GetContinuousStates(c, [0.0; 2].as_mut_ptr(), 2) }),
+    ("fmi2GetNominalsOfContinuousStates", "......i.vcte", |c| unsafe { fmi2GetNominalsOfContinuousStates(c, [0.0; 2].as_mut_ptr(), 2) }),
 ];
 
 unsafe fn with_state(c: Component, body: unsafe fn(Component, *mut std::ffi::c_void) -> Status) -> Status {

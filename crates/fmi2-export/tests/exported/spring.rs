@@ -1,8 +1,8 @@
 //! The model of these tests: a mass of 1 kg on a damped spring.
 
 use fmi2_export::{
-    Causality, Environment, Experiment, Failure, Item, Kind, Log, Model, StateReader, StateWriter, Step,
-    Variability, Variable, VariableId, set_start_values,
+    Causality, Environment, Experiment, Failure, Item, Kind, Log, Model, ModelExchange, StateReader,
+    StateWriter, Step, Update, Variability, Variable, VariableId, set_start_values,
 };
 use std::cell::Cell;
 
@@ -58,6 +58,7 @@ variables! { Real:
     Trim 10 "trim" Parameter Tunable None, FREE;
     Time 11 "time" Independent Continuous Some("s"), FREE;
     Bias 12 "bias" Input Continuous Some("N"), FREE;
+    A 13 "a" Local Continuous Some("m/s2"), FREE;
 }
 variables! { Integer:
     Law 20 "law" Parameter Fixed None, Kind::Enumeration { start: Some(1), items: &[
@@ -94,6 +95,9 @@ pub struct Spring {
     count: i32,
     clamped: bool,
     held: bool,
+    /// On the side x < 0, as of the last event.
+    below: bool,
+    time: f64,
     label: String,
     home: String,
 }
@@ -146,6 +150,8 @@ impl Model for Spring {
             count: 0,
             clamped: false,
             held: false,
+            below: false,
+            time: 0.0,
             label: String::new(),
             home: home.into_owned(),
         };
@@ -171,7 +177,8 @@ impl Model for Spring {
             Real::Energy => 0.5 * (self.v * self.v + self.stiffness * self.x * self.x),
             Real::Gravity => 9.81,
             Real::Trim => self.trim,
-            Real::Time => 0.0,
+            Real::Time => self.time,
+            Real::A => self.force + self.push + self.bias - self.restoring(self.x),
             Real::Bias => self.bias,
         }
     }
@@ -208,6 +215,9 @@ impl Model for Spring {
             Real::Push => self.push = value,
             Real::Trim => self.trim = value,
             Real::Bias => self.bias = value,
+            // set as if it were an input, a state chooses its side anew
+            Real::X => (self.x, self.below) = (value, value < 0.0),
+            Real::V => self.v = value,
             _ => unreachable!("the layer lets nobody set {variable:?}"),
         }
     }
@@ -320,6 +330,7 @@ impl Model for Spring {
             self.bias,
             self.x,
             self.v,
+            self.time,
         ] {
             writer.f64(value);
         }
@@ -328,6 +339,7 @@ impl Model for Spring {
         }
         writer.bool(self.clamped);
         writer.bool(self.held);
+        writer.bool(self.below);
         writer.bytes(self.label.as_bytes());
     }
 
@@ -343,6 +355,7 @@ impl Model for Spring {
             &mut self.bias,
             &mut self.x,
             &mut self.v,
+            &mut self.time,
         ] {
             *value = reader.f64()?;
         }
@@ -351,10 +364,71 @@ impl Model for Spring {
         }
         self.clamped = reader.bool()?;
         self.held = reader.bool()?;
+        self.below = reader.bool()?;
         self.label = String::from_utf8_lossy(reader.bytes()?).into_owned();
         if self.substeps < 1 {
             return Err(Failure(format!("the state has {} substeps", self.substeps)));
         }
         Ok(())
+    }
+}
+
+/// An event is where x changes its sign; it halves the velocity.
+impl ModelExchange for Spring {
+    const STATES: &'static [Real] = &[Real::X, Real::V];
+    const DERIVATIVES: &'static [Real] = &[Real::V, Real::A];
+    const EVENT_INDICATORS: usize = 1;
+
+    fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    fn set_states(&mut self, states: &[f64]) {
+        (self.x, self.v) = (states[0], states[1]);
+    }
+
+    fn nominal(&self, state: Real) -> f64 {
+        if state == Real::X { 0.5 } else { 0.25 }
+    }
+
+    fn event_indicators(&self, indicators: &mut [f64]) {
+        indicators[0] = if self.below { -self.x } else { self.x };
+    }
+
+    fn enter_event_mode(&mut self) {
+        self.held = false;
+    }
+
+    fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
+        match self.fault {
+            PANIC_IN_STEP => panic!("spring snapped in an update"),
+            FAIL_IN_STEP => return Err(Failure(format!("no update at {} s", self.time))),
+            TALK_IN_STEP => log.event("event"),
+            _ => {}
+        }
+        let passed = self.below != (self.x < 0.0);
+        if passed {
+            self.below = !self.below;
+            self.v *= 0.5;
+        }
+        self.count += 1;
+        // after a passage it asks for one more call
+        Ok(Update {
+            again: passed,
+            states_changed: passed,
+            nominals_changed: false,
+            next_event: (self.push != 0.0).then_some(self.time + 1.0),
+        })
+    }
+
+    fn enter_continuous_time_mode(&mut self) {
+        self.held = true;
+    }
+
+    fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure> {
+        if self.fault == TALK_IN_STEP {
+            log.event("step");
+        }
+        Ok(self.below != (self.x < 0.0))
     }
 }

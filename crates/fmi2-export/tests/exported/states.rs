@@ -45,6 +45,12 @@ fn load(importer: &Importer, bytes: &[u8]) -> Result<FmuState, Status> {
     if status == OK { Ok(state) } else { Err(status) }
 }
 
+/// Brings an instance to where the bytes were saved.
+pub fn resume(importer: &Importer, stored: &[u8]) {
+    let state = load(importer, stored).unwrap();
+    assert_eq!(restore(importer, state), OK);
+}
+
 fn go_on(importer: &Importer) -> [u64; 2] {
     for step in 0..10 {
         assert_eq!(importer.step(0.5 + f64::from(step) * 0.125, 0.125), OK, "{:?}", importer.journal.take());
@@ -180,8 +186,12 @@ fn bytes_in_order_are_refused_if_they_are_no_state_of_this_model() {
     refused(&|payload| payload.truncate(payload.len() - 1), "too short");
     refused(&Vec::clear, "too short");
     // The phase is the first number, the time the second.
-    for phase in [5, 6, 255] {
+    for phase in [5, 8, 255] {
         refused(&|payload| payload[0] = phase, "no known phase");
+    }
+    // Event Mode, Continuous-Time Mode, and the kind after the time and a truth value
+    for (at, value) in [(0, 6), (0, 7), (17, 0), (17, 2)] {
+        refused(&|payload| payload[at] = value, "another kind");
     }
     refused(&|payload| payload[8..16].copy_from_slice(&f64::NAN.to_le_bytes()), "not finite");
     refused(

@@ -1,0 +1,64 @@
+//! A wall that somebody else's solver moves: states set from outside, events handled here.
+
+use super::Simulation;
+use crate::solver::{Event, INDICATORS};
+use crate::wall::{Ends, Support};
+
+/// What an event did, and the impulses of the supports on the wall at it \[N s\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Handled {
+    /// What happened.
+    pub event: Event,
+    /// Impulses of the impacts alone.
+    pub impulses: Ends,
+    /// Displacement or velocity have jumped.
+    pub jumped: bool,
+}
+
+impl Simulation {
+    /// Sets displacement \[m\] and velocity \[m/s\]; the branch stays, and goes on beyond its ends.
+    pub fn set_motion(&mut self, displacement: f64, velocity: f64) {
+        (self.record.state.displacement, self.record.state.velocity) = (displacement, velocity);
+    }
+
+    /// Sets displacement \[m\] and velocity \[m/s\], and chooses the branch they belong to.
+    pub fn place(&mut self, displacement: f64, velocity: f64, support: Support) {
+        let forcing = self.wall().body().forcing(support);
+        self.record.state = self.motion.placed(&self.record.state, displacement, velocity, forcing);
+    }
+
+    /// The event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
+    #[must_use]
+    pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
+        self.motion.indicators(&self.record.state, rising, self.wall().body().forcing(support))
+    }
+
+    /// Brings the discrete state up to time, motion and supports.
+    pub fn handle_event(&mut self, rising: &mut bool, support: Support) -> Handled {
+        let body = self.motion.wall().body();
+        let before = self.record.state;
+        let event = self.motion.event(&mut self.record.state, rising, body.forcing(support));
+        self.record.work.add(event.work);
+        self.record.drift |= support.drift != 0.0;
+        if event.overturned && self.record.overturn_time.is_none() {
+            self.record.overturn_time = Some(self.record.time);
+        }
+        let impulses = if before.departed {
+            Ends::default()
+        } else {
+            body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
+        };
+        let motion = |displacement: f64, velocity: f64| [displacement.to_bits(), velocity.to_bits()];
+        let now = self.record.state;
+        let jumped = motion(before.displacement, before.velocity) != motion(now.displacement, now.velocity);
+        Handled { event, impulses, jumped }
+    }
+
+    /// The solver has come to the present time and motion to stay.
+    pub fn complete_step(&mut self, rising: bool, support: Support) {
+        if rising {
+            self.record.state.include_peak();
+        }
+        self.record.drift |= support.drift != 0.0;
+    }
+}
