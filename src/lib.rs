@@ -29,7 +29,7 @@
 //! | [`response`] | histories, peaks and demands |
 //! | [`accuracy`] | error against run time of every solver; what small rotations leave out |
 //! | [`stability`] | maps of stability, and a table of extremes |
-//! | [`study`] | many runs together: incremental dynamic analysis, fragilities, rocking spectra |
+//! | [`study`] | many runs together: incremental dynamic analysis, fragilities, rocking spectra, calibration, the paper reproduced |
 //! | [`scene`] | a wall and its motion as a TOML file |
 //! | [`unit`](mod@unit) | the wall as an FMI model |
 //!

@@ -2,9 +2,14 @@
 //!
 //! Nothing here opens a file or prints.
 
+#[cfg(feature = "calibration")]
+pub mod calibration;
+pub mod chart;
 pub mod document;
 pub mod fragility;
 pub mod ida;
 pub mod parallel;
 mod random;
+#[cfg(feature = "calibration")]
+pub mod reproduce;
 pub mod spectrum;

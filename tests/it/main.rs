@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+mod calibration;
 mod capacity;
 mod cases;
 mod closed_forms;
@@ -18,9 +19,11 @@ mod ida_command;
 mod measure_command;
 mod notices;
 mod numerics;
+mod paper_commands;
 mod properties;
 mod record_command;
 mod record_path;
+mod reproduce;
 mod rocking_spectrum;
 mod trigonometric;
 mod wiring;

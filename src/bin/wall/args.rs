@@ -43,6 +43,10 @@ pub(crate) enum Command {
     /// Rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
     #[command(allow_negative_numbers = true)]
     Spectrum(SpectrumArguments),
+    /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
+    Calibrate(crate::calibrate::CalibrateArguments),
+    /// Compute every table and figure of the paper beside its print, on one page
+    Reproduce(crate::reproduce::ReproduceArguments),
     /// Print the JSON schema of scene files
     Schema,
     /// Print a completion script for a shell

@@ -2,7 +2,9 @@
 
 mod accuracy;
 mod args;
+mod calibrate;
 mod capacity;
+mod chart;
 mod demands;
 mod describe;
 mod figure;
@@ -15,6 +17,7 @@ mod package;
 mod page;
 mod record;
 mod record_plot;
+mod reproduce;
 mod schema;
 mod simulate;
 mod spectrum;
@@ -42,6 +45,8 @@ fn main() -> ExitCode {
         Command::Ida(arguments) => ida::run(&arguments),
         Command::Merge(arguments) => ida::merge(&arguments),
         Command::Spectrum(arguments) => spectrum::run(&arguments),
+        Command::Calibrate(arguments) => calibrate::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Schema => schema::run(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
