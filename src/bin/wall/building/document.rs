@@ -66,6 +66,8 @@ pub(super) struct Building {
     pub(super) title: String,
     pub(super) stop_time: f64,
     pub(super) step: f64,
+    /// The ground's acceleration is an input of the system.
+    pub(super) expose_ground: bool,
     pub(super) floors: Vec<Floor>,
     pub(super) walls: Vec<Member>,
 }
@@ -78,6 +80,9 @@ struct Document {
     stop_time: f64,
     #[serde(default = "default_step")]
     step: f64,
+    /// By default off: not every tool knows inputs of a system.
+    #[serde(default)]
+    expose_ground: bool,
     #[serde(default)]
     floor: Vec<BTreeMap<Spanned<String>, Spanned<Value>>>,
     #[serde(default)]
@@ -134,7 +139,7 @@ impl Building {
     }
 
     fn from_document(document: Document, source: &Source<'_>, path: &Path) -> Result<Self> {
-        let Document { title, stop_time, step, floor, wall } = document;
+        let Document { title, stop_time, step, expose_ground, floor, wall } = document;
         if !(stop_time > 0.0 && stop_time <= LONGEST_RUN && step > 0.0 && step <= stop_time) {
             bail!(
                 "{}: stop_time = {stop_time} s and step = {step} s; 0 < step <= stop_time <= {LONGEST_RUN} s is needed",
@@ -159,7 +164,7 @@ impl Building {
             walls.push(read_wall(table, &floors, source)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        Ok(Self { title: title.unwrap_or(stem), stop_time, step, floors, walls })
+        Ok(Self { title: title.unwrap_or(stem), stop_time, step, expose_ground, floors, walls })
     }
 }
 

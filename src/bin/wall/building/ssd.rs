@@ -43,8 +43,7 @@ fn write(xml: &mut String, system: &System) -> std::fmt::Result {
         NAMESPACES.iter().map(|(prefix, uri)| format!("  xmlns:{prefix}=\"{uri}\"")).collect();
     writeln!(xml, "{}>", namespaces.join("\n"))?;
     writeln!(xml, "  <ssd:System name=\"building\" description=\"{title}\">")?;
-    let on_ground = system.connections.iter().any(|connection| connection.from.is_none());
-    if on_ground {
+    if system.expose_ground {
         writeln!(xml, "    <ssd:Connectors>")?;
         let ground = Connector {
             name: GROUND_MOTION,
@@ -89,7 +88,7 @@ fn write_component(xml: &mut String, component: &Component) -> std::fmt::Result 
     if !parameters.is_empty() {
         writeln!(xml, "        <ssd:ParameterBindings>\n          <ssd:ParameterBinding>")?;
         writeln!(xml, "            <ssd:ParameterValues>")?;
-        writeln!(xml, "              <ssv:ParameterSet version=\"1.0\" name=\"{name}\">")?;
+        writeln!(xml, "              <ssv:ParameterSet version=\"1.0\" name=\"initialValues\">")?;
         writeln!(xml, "                <ssv:Parameters>")?;
         for parameter in parameters {
             let value = match (parameter.value, parameter.unit) {

@@ -24,6 +24,8 @@ pub(super) struct System {
     pub(super) title: String,
     pub(super) stop_time: f64,
     pub(super) step: f64,
+    /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
+    pub(super) expose_ground: bool,
     pub(super) components: Vec<Component>,
     pub(super) connections: Vec<Connection>,
 }
@@ -88,6 +90,7 @@ pub(super) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
         title: building.title.clone(),
         stop_time: building.stop_time,
         step: building.step,
+        expose_ground: building.expose_ground,
         components: floors.chain(walls).collect(),
         connections: Vec::new(),
     };
@@ -134,7 +137,9 @@ impl System {
     /// A support's acceleration to an input.
     fn move_by(&mut self, support: Support, to: usize, input: &'static str) {
         match support {
-            Support::Ground => self.connect(None, GROUND_MOTION, to, input),
+            Support::Ground if self.expose_ground => self.connect(None, GROUND_MOTION, to, input),
+            // an input connector without a connection is more than FMPy can read
+            Support::Ground => {}
             Support::Floor(index) => self.connect(Some(index), "acceleration_absolute", to, input),
         }
     }
