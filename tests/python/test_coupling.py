@@ -9,7 +9,8 @@ import pytest
 from conftest import ROOT
 from monolith import GROUND, Monolith, Wall
 
-sys.path.insert(0, str(ROOT / "examples/coupling"))
+sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "xtask/coupling")]
+import compiled  # noqa: E402
 from master import CLOSED, SCHEMES, Archive, System, Unit  # noqa: E402
 from run import pulse  # noqa: E402
 from wiring import (  # noqa: E402
@@ -268,3 +269,43 @@ def test_a_wall_overturns_and_the_building_goes_on(archives):
     assert any("left the supports" in message for _, message in events)
     # the strip and the storeys go on as a building whose parapet's impulses end does
     assert 0.001 < system.get("strip.u_max") < 0.2
+
+
+# --- many walls
+
+
+def ground(t):
+    """That of examples/coupling/master.c."""
+    return 1.5 * math.sin(0.1 * math.pi * t) * (math.sin(2 * math.pi * 1.3 * t) + 0.6 * math.sin(2 * math.pi * 3.1 * t))
+
+
+def test_a_compiled_master_gives_the_same(archives, fmu, floor_fmu):
+    """Six walls in C and in Python, for 2 s; and a hundred in one process, each a few kilobytes."""
+    count, step, seconds = 6, 0.002, 2.0
+    mass = 6e3 * count
+    storey = {"mass": mass, "stiffness": mass * 4 * math.pi**2 * 16}
+    wall, floor = archives
+    units = [Unit(floor, name, **storey) for name in ("floor_1", "floor_2")]
+    connections = [
+        ("floor_1.acceleration_absolute", "floor_2.a_g"),
+        ("floor_2.reaction_bottom", "floor_1.reaction_8"),
+    ]
+    for index in range(count):
+        units.append(Unit(wall, f"wall_{index}", u_start=0.0, thickness=0.2 + 0.2 * index / count))
+        below = f"floor_{index % 2 + 1}"
+        connections += [
+            (f"{below}.acceleration_absolute", f"wall_{index}.a_bottom"),
+            (f"wall_{index}.reaction_bottom", f"{below}.reaction_{index // 2 + 1}"),
+        ]
+    system = System(units, connections, {"floor_1.a_g": ground})
+    system.initialize(loop=False)
+    largest = 0.0
+    for _ in range(round(seconds / step)):
+        system.jacobi(step)
+        largest = max(largest, abs(system.get("wall_0.u")))
+    found = compiled.run(fmu, floor_fmu, count, seconds, step)
+    assert found["u_max_of_wall_1_m"] == pytest.approx(largest, rel=1e-9) and largest > 1e-3
+    assert found["u_of_last_wall_m"] == pytest.approx(system.get(f"wall_{count - 1}.u"), rel=1e-9)
+    many = compiled.run(fmu, floor_fmu, 100, 0.1, 0.001)
+    # the allocator takes its pages at once: the first hundred pay for them
+    assert many["bytes_per_wall"] < 64 * 1024
