@@ -233,6 +233,13 @@ def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
     # an explicit master gives e first; the floor's answer comes step by step, in the end as if it had followed the impact
     assert found["Jacobi, held"][1] == pytest.approx(e, abs=1e-5)
     assert found["Jacobi, held"][-1] == pytest.approx(exchange(0.0), abs=1e-4)
+    # reactions at communication points do not see an impact between them
+    floor["coupling"] = "reactions"
+    blind = wall_on_floor(*archives, {"floor": floor, "wall": wall})
+    blind.initialize()
+    for _ in range(40):
+        blind.jacobi(step)
+    assert blind.get("wall.u_dot") / -speed == pytest.approx(e, abs=1e-4)
 
 
 def test_a_wall_overturns_and_the_building_goes_on(archives):

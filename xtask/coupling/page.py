@@ -30,7 +30,7 @@ INTRODUCTION = """
 <h1>Walls on floors: error against communication step and run time</h1>
 <p>Each point is one master at one communication step: its largest error of any displacement over that displacement's peak, against
 the same system integrated as one. Filled marks and full lines: linear inputs; open marks and broken lines: held
-inputs. Down is better; a run that is off by more than the peak is lost and not shown. The grey lines have the slopes 1 and 2.</p>
+inputs. Down is better; a run that is off by more than the peak is lost and not shown. The grey lines have the slopes of order 1 and 2.</p>
 <p>Run times are processor time of the master in Python (examples/coupling), for one simulated second. Point at a mark for its numbers.</p>
 """
 
@@ -119,14 +119,12 @@ def logarithmic(points, x_label, slopes=False):
         (low - margin, high + margin), (bottom, top), x_label, "largest error/peak", ticks, range(bottom, top + 1), tick_label, superscript
     )
     if slopes:
+        # in the lower right corner, where no errors are
+        start, length, base = high - 0.35 * (high - low), 0.35 * (high - low), bottom + 0.03 * (top - bottom)
         for order in (1, 2):
-            # from the upper right corner down, as far as the frame goes
-            length = min(high - low, (top - bottom) / order)
-            axes.line([(high - length, top - order * length), (high, top)], "#bbb", width=1)
-            end = high - length
-            axes.svg.append(
-                f'<text x="{axes.across(end) + 6:.1f}" y="{axes.up(top - order * length) - 4:.1f}" fill="#888">{order}</text>'
-            )
+            end = base + order * length
+            axes.line([(start, base), (high, end)], "#aaa", width=1)
+            axes.svg.append(f'<text x="{axes.across(high) + 4:.1f}" y="{axes.up(end) + 4:.1f}" fill="#777">{order}</text>')
     for scheme in dict.fromkeys(row[0] for row in shown):
         name, _, treatment = scheme.rpartition(", ")
         color, held = COLORS[name], treatment == "held"
