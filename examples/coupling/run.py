@@ -23,7 +23,7 @@ def pulse(t):
 
 
 def shake(make, archives, scheme, step, watched):
-    """History of a variable at multiples of 10 ms."""
+    """History of a variable at multiples of 10 ms, and when which walls overturned."""
     system = make(*archives, motion=pulse)
     system.initialize()
     steps, often = round(DURATION / step), round(0.01 / step)
@@ -32,21 +32,27 @@ def shake(make, archives, scheme, step, watched):
         SCHEMES[scheme](system, step)
         if index % often == 0:
             history.append(system.get(watched))
-    return history
+    fallen = {
+        name: unit.get("overturn_time")
+        for name, unit in system.units.items()
+        if "overturned" in unit.variables and unit.get("overturned")
+    }
+    return history, fallen
 
 
 def main():
     make, watched = SHAPES[sys.argv[1] if len(sys.argv) > 1 else "wall"]
     step = float(sys.argv[2]) if len(sys.argv) > 2 else 0.002
     with Archive(OUT / "wall.fmu") as wall, Archive(OUT / "floor.fmu") as floor:
-        best = shake(make, (wall, floor), "iterated, linear", step / 10, watched)
+        best, _ = shake(make, (wall, floor), "iterated, linear", step / 10, watched)
         peak = max(map(abs, best))
         print(f"{watched}: peak {peak * 1e3:.2f} mm; step {step} s\n{'scheme':<30}{'run time [s]':>14}{'error/peak':>14}")
         for scheme in SCHEMES:
             start = time.perf_counter()
-            history = shake(make, (wall, floor), scheme, step, watched)
+            history, fallen = shake(make, (wall, floor), scheme, step, watched)
             error = max(abs(a - b) for a, b in zip(history, best)) / peak
-            print(f"{scheme:<30}{time.perf_counter() - start:>14.2f}{error:>14.1e}")
+            falls = "".join(f"  {name} overturned at t = {moment:.3f} s" for name, moment in fallen.items())
+            print(f"{scheme:<30}{time.perf_counter() - start:>14.2f}{error:>14.1e}{falls}")
 
 
 if __name__ == "__main__":
