@@ -10,7 +10,7 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
     std::fs::write(folder.join("parapet.toml"), "inputs = [\"a_bottom\"]\n").unwrap();
     std::fs::write(folder.join("moved.toml"), "[motion]\nsynthetic = {}\n").unwrap();
     let wall = |text: &str| format!("{FLOOR}[[wall]]\nname = \"w\"\n{text}\n");
-    let cases: [(String, &[&str]); 9] = [
+    let cases: [(String, &[&str]); 10] = [
         (String::new(), &["[[floor]]"]),
         (format!("{FLOOR}mass = 0.0\n"), &["line 3", "mass", "0.001"]),
         (format!("{FLOOR}coupling = \"impulses\"\n"), &["line 3", "coupling", "stiffness"]),
@@ -20,6 +20,10 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
         (
             wall("scene = \"parapet.toml\"\nbottom = \"low\"\ntop = \"ground\"\ndrift = true"),
             &["line 8", "drift"],
+        ),
+        (
+            "[[floor]]\nname = \"low\"\n[[wall]]\nname = \"floor\"\nscene = \"parapet.toml\"\nbottom = \"low\"\n".into(),
+            &["line 4", "floor", "choose another"],
         ),
         (wall("scene = \"moved.toml\"\nbottom = \"low\""), &["moved.toml", "[motion]"]),
         (wall("scene = \"parapet.toml\"\nbottom = \"low\""), &["cargo xtask fmu"]),

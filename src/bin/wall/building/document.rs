@@ -9,6 +9,8 @@ use rocking_floor::variables::{IntegerVariable, RealVariable};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
+use super::FLOOR_SOURCE;
+
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
 /// Largest file that is read.
@@ -155,12 +157,18 @@ impl Building {
         let mut names = Vec::new();
         let mut floors: Vec<Floor> = Vec::new();
         for table in &floor {
-            let read = read_floor(table, &floors, source)?;
-            floors.push(take_name(read, &mut names, source)?);
+            let (name, floor) = read_floor(table, &floors, source)?;
+            check_name(&name, &mut names, source)?;
+            floors.push(floor);
         }
         let mut walls = Vec::new();
         for table in wall {
             check_name(&table.name, &mut names, source)?;
+            if super::source(table.name.get_ref()) == FLOOR_SOURCE {
+                let message =
+                    "a wall's FMU bears its name, and \"floor\" is that of the storeys; choose another name";
+                return Err(source.error(table.name.span(), message));
+            }
             walls.push(read_wall(table, &floors, source)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
@@ -178,20 +186,11 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'
         );
         return Err(source.error(name.span(), message));
     }
-    if names.contains(text) || (text == "floor" && !names.is_empty()) {
+    if names.contains(text) {
         return Err(source.error(name.span(), format!("name = {text:?} is there already; choose another")));
     }
     names.push(text.clone());
     Ok(())
-}
-
-fn take_name(
-    (name, floor): (Spanned<String>, Floor),
-    names: &mut Vec<String>,
-    source: &Source<'_>,
-) -> Result<Floor> {
-    check_name(&name, names, source)?;
-    Ok(floor)
 }
 
 fn read_floor(
