@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+mod building_command;
 mod calibration;
 mod capacity;
 mod cases;

@@ -37,7 +37,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
         ("rotations", fenced(rotations)),
         ("peers", fenced(&outlined(&peers))),
     ] {
-        text = replaced(&text, mark, &figures)?;
+        text = replaced(DOCUMENT, &text, mark, &figures)?;
     }
     std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
@@ -50,10 +50,13 @@ fn wall(arguments: &[&str]) -> Result<String> {
     output(&mut run, "see its message above")
 }
 
-/// What stands between `<!-- mark -->` and `<!-- end mark -->`, replaced.
-fn replaced(text: &str, mark: &str, figures: &str) -> Result<String> {
+/// What stands between `<!-- mark -->` and `<!-- end mark -->` in a document, replaced.
+///
+/// # Errors
+/// If the marks are not there.
+pub(crate) fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<String> {
     let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end {mark} -->"));
-    let missing = || format!("{DOCUMENT}: expected the marks `{}` and `{end}`", begin.trim_end());
+    let missing = || format!("{document}: expected the marks `{}` and `{end}`", begin.trim_end());
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
     Ok(format!("{before}{begin}{figures}{end}{after}"))

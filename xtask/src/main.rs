@@ -7,6 +7,7 @@
 
 mod bench;
 mod command;
+mod coupling;
 mod demo;
 mod figures;
 mod fmu;
@@ -27,6 +28,7 @@ The jobs of the project.
   cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
                                    (with its unit, if it states none), write histories and pages to fmu_out/
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and the peers; write docs/accuracy.md and the pages
+  cargo xtask coupling             measure walls on floors: schemes, steps, run time; write docs/coupling.md and its page
   cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
   cargo xtask bench [RECORD.AT2]   ns a sample of each path, and instructions where valgrind is installed
   cargo xtask bench --peers [RECORD.AT2]
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", record] => figures::run(Some(record)),
+        ["coupling"] => coupling::run(),
         ["test"] => test::run(),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),

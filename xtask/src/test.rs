@@ -19,10 +19,11 @@ type Part = fn() -> Result<()>;
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, Part); 5] = [
+    let parts: [(&str, Part); 6] = [
         ("Rust tests", rust),
         ("archive tests", archive),
         ("the FMU through FMPy", python),
+        ("systems in other masters", masters),
         ("the portable FMU", portable),
         ("the C boundary", conformance),
     ];
@@ -111,6 +112,19 @@ fn python() -> Result<()> {
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    succeed(&mut pytest, "see the failures above")
+}
+
+/// Wall and floor in masters from `PyPI`, in an environment of their own: not every platform has all of them.
+fn masters() -> Result<()> {
+    let unit = fmu::build(fmu::WALL, Linker::System)?;
+    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
+    let wall = wall_binary()?;
+    let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
+    let python = Environment::of("masters", "xtask/locks/masters.lock").map_err(missing)?;
+    let mut pytest = python.program("python");
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/masters"]);
+    pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
 }
 

@@ -128,7 +128,7 @@ impl Archive {
     /// A folder that is not there or not writable; what was at `path` then stays as it was.
     pub fn write(&self, path: &Path) -> Result<(), ArchiveError> {
         let write = |source| ArchiveError::Write { path: path.to_path_buf(), source };
-        let bytes = self.to_bytes().map_err(|error| write(error.into()))?;
+        let bytes = self.to_bytes().map_err(write)?;
         let name = path.file_name().ok_or_else(|| write(std::io::ErrorKind::InvalidInput.into()))?;
         // In the same folder, so that renaming does not copy.
         let mut part = std::ffi::OsString::from(".");
@@ -146,7 +146,11 @@ impl Archive {
     }
 
     /// The archive's bytes: sorted paths, deflate, no dates, equal permissions.
-    fn to_bytes(&self) -> zip::result::ZipResult<Vec<u8>> {
+    ///
+    /// # Errors
+    ///
+    /// Content beyond the limits of the format.
+    pub fn to_bytes(&self) -> std::io::Result<Vec<u8>> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(9))

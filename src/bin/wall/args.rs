@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Simulate(SimulateArguments),
     /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
     Package(PackageArguments),
+    /// Make a system (SSP) of storeys and walls: each wall the FMU of its scene, connected
+    Building(BuildingArguments),
     /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
     Describe(DescribeArguments),
     /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
@@ -140,6 +142,21 @@ pub(crate) struct PackageArguments {
     /// The general FMU to start from
     #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
     pub(crate) base: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BuildingArguments {
+    /// The building (TOML): its storeys, and its walls with their scenes
+    pub(crate) building: PathBuf,
+    /// The SSP to write
+    #[arg(short, long, value_name = "FILE", default_value = "fmu_out/building.ssp")]
+    pub(crate) output: PathBuf,
+    /// The general FMU of walls
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
+    pub(crate) wall_fmu: PathBuf,
+    /// The FMU of floors
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/floor.fmu")]
+    pub(crate) floor_fmu: PathBuf,
 }
 
 #[derive(Debug, Args)]

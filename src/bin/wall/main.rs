@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod args;
+mod building;
 mod calibrate;
 mod capacity;
 mod chart;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Package(arguments) => package::run(&arguments),
+        Command::Building(arguments) => building::run(&arguments),
         Command::Describe(arguments) => describe::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),

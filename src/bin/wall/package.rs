@@ -5,6 +5,7 @@
 //! library refuses to run without it.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use fmi2_export_build::archive::Archive;
@@ -28,17 +29,36 @@ pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
         );
     }
     Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
-    let mut archive = Archive::open(&arguments.base).with_context(
+    let (archive, counts) = of_scene(&scene, &arguments.base)?;
+    archive.write(&arguments.output)?;
+    output::to_stdout(&format!(
+        "{}: {}, {} of {} variables\n",
+        arguments.output.display(),
+        scene.title,
+        counts.kept,
+        counts.all
+    ))
+}
+
+/// Variables of a scene's FMU.
+pub(crate) struct Counts {
+    kept: usize,
+    all: usize,
+}
+
+/// The FMU of a scene, made from the general one at `base`.
+pub(crate) fn of_scene(scene: &Scene, path: &Path) -> Result<(Archive, Counts)> {
+    let mut archive = Archive::open(path).with_context(
         || "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base",
     )?;
     let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
     let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
     let base = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
     let Some(guid) = base.declared_guid().strip_prefix('{').and_then(|guid| guid.strip_suffix('}')) else {
-        bail!("{}: its guid {} is not of a general FMU", arguments.base.display(), base.declared_guid());
+        bail!("{}: its guid {} is not of a general FMU", path.display(), base.declared_guid());
     };
     if guid.contains('-') {
-        bail!("{}: is itself an FMU of a scene; give the general one with --base", arguments.base.display());
+        bail!("{}: is itself an FMU of a scene; give the general one with --base", path.display());
     }
     let mut motion = String::new();
     if let Some(excitation) = &scene.excitation {
@@ -51,19 +71,13 @@ pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
             motion.push_str(&table);
         }
     }
-    let text = scene::to_toml(&scene, &motion);
+    let text = scene::to_toml(scene, &motion);
     let guid = format!("{{{guid}-{}}}", scene::fingerprint(text.as_bytes()));
-    let reduced = reduce(&base, &scene, &guid)?;
+    let reduced = reduce(&base, scene, &guid)?;
     archive.insert("resources/scene.toml", text);
     archive.insert("modelDescription.xml", reduced.to_xml());
-    archive.write(&arguments.output)?;
-    let kept = reduced.variable_names().count();
-    output::to_stdout(&format!(
-        "{}: {}, {kept} of {} variables\n",
-        arguments.output.display(),
-        scene.title,
-        base.variable_names().count()
-    ))
+    let counts = Counts { kept: reduced.variable_names().count(), all: base.variable_names().count() };
+    Ok((archive, counts))
 }
 
 /// Puts a motion into the archive and returns the keys that read it.

@@ -1,0 +1,306 @@
+//! A building as it is written: storeys and walls, by their names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use fmi2_export::{Causality, Kind, VariableId};
+use rocking_floor::variables::{IntegerVariable, RealVariable};
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use super::FLOOR_SOURCE;
+
+/// The name that stands for the ground where a storey's would.
+const GROUND: &str = "ground";
+/// Largest file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+/// Bounds against a slip of the keyboard.
+const MOST_MEMBERS: usize = 10_000;
+const LONGEST_RUN: f64 = 1e7;
+
+/// What something stands on or leans on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Support {
+    Ground,
+    /// Index of a storey.
+    Floor(usize),
+}
+
+/// A storey.
+#[derive(Debug)]
+pub(super) struct Floor {
+    pub(super) name: String,
+    pub(super) base: Support,
+    /// In the order of the floor's description.
+    pub(super) parameters: Vec<Parameter>,
+}
+
+/// A start value of a storey.
+#[derive(Clone, Debug)]
+pub(super) struct Parameter {
+    pub(super) name: &'static str,
+    pub(super) unit: Option<&'static str>,
+    pub(super) value: Start,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Start {
+    Real(f64),
+    /// An item of an enumeration.
+    Integer(i32),
+}
+
+/// A wall and its place.
+#[derive(Debug)]
+pub(super) struct Member {
+    pub(super) name: String,
+    pub(super) scene: PathBuf,
+    pub(super) bottom: Support,
+    pub(super) top: Option<Support>,
+    /// The storey whose displacement is the drift between the supports.
+    pub(super) drift: Option<usize>,
+}
+
+/// Storeys, each on the ground or on one before it, and walls.
+#[derive(Debug)]
+pub(super) struct Building {
+    pub(super) title: String,
+    pub(super) stop_time: f64,
+    pub(super) step: f64,
+    /// The ground's acceleration is an input of the system.
+    pub(super) expose_ground: bool,
+    pub(super) floors: Vec<Floor>,
+    pub(super) walls: Vec<Member>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    title: Option<String>,
+    #[serde(default = "default_stop_time")]
+    stop_time: f64,
+    #[serde(default = "default_step")]
+    step: f64,
+    /// By default off: not every tool knows inputs of a system.
+    #[serde(default)]
+    expose_ground: bool,
+    #[serde(default)]
+    floor: Vec<BTreeMap<Spanned<String>, Spanned<Value>>>,
+    #[serde(default)]
+    wall: Vec<WallTable>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallTable {
+    name: Spanned<String>,
+    scene: PathBuf,
+    bottom: Spanned<String>,
+    top: Option<Spanned<String>>,
+    /// By default wherever a storey's own displacement is the drift.
+    drift: Option<Spanned<bool>>,
+}
+
+fn default_stop_time() -> f64 {
+    10.0
+}
+
+fn default_step() -> f64 {
+    0.001
+}
+
+/// A file's text, to name lines in messages.
+struct Source<'a> {
+    file: String,
+    text: &'a str,
+}
+
+impl Source<'_> {
+    fn error(&self, span: std::ops::Range<usize>, message: impl std::fmt::Display) -> anyhow::Error {
+        let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
+        let line = before.split(|&byte| byte == b'\n').count();
+        anyhow!("{}, line {line}: {message}", self.file)
+    }
+}
+
+impl Building {
+    /// Reads the file of a building.
+    pub(super) fn read(path: &Path) -> Result<Self> {
+        let context = || format!("{}: cannot be read", path.display());
+        let size = std::fs::metadata(path).with_context(context)?.len();
+        if size > MAX_FILE_BYTES {
+            bail!("{}: {size} bytes; a building has at most {MAX_FILE_BYTES}", path.display());
+        }
+        let text = std::fs::read_to_string(path).with_context(context)?;
+        let source = Source { file: path.display().to_string(), text: &text };
+        let document: Document = toml::from_str(&text).map_err(|error| {
+            source.error(error.span().unwrap_or(0..0), error.message().replace('\n', " "))
+        })?;
+        Self::from_document(document, &source, path)
+    }
+
+    fn from_document(document: Document, source: &Source<'_>, path: &Path) -> Result<Self> {
+        let Document { title, stop_time, step, expose_ground, floor, wall } = document;
+        if !(stop_time > 0.0 && stop_time <= LONGEST_RUN && step > 0.0 && step <= stop_time) {
+            bail!(
+                "{}: stop_time = {stop_time} s and step = {step} s; 0 < step <= stop_time <= {LONGEST_RUN} s is needed",
+                source.file
+            );
+        }
+        if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
+            bail!(
+                "{}: a building has at least one [[floor]] and at most {MOST_MEMBERS} members",
+                source.file
+            );
+        }
+        let mut names = Vec::new();
+        let mut floors: Vec<Floor> = Vec::new();
+        for table in &floor {
+            let (name, floor) = read_floor(table, &floors, source)?;
+            check_name(&name, &mut names, source)?;
+            floors.push(floor);
+        }
+        let mut walls = Vec::new();
+        for table in wall {
+            check_name(&table.name, &mut names, source)?;
+            if super::source(table.name.get_ref()) == FLOOR_SOURCE {
+                let message =
+                    "a wall's FMU bears its name, and \"floor\" is that of the storeys; choose another name";
+                return Err(source.error(table.name.span(), message));
+            }
+            walls.push(read_wall(table, &floors, source)?);
+        }
+        let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        Ok(Self { title: title.unwrap_or(stem), stop_time, step, expose_ground, floors, walls })
+    }
+}
+
+/// A name that FMUs, connectors and files can bear, and no other member has.
+fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'_>) -> Result<()> {
+    let text = name.get_ref();
+    let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !plain || !text.starts_with(|c: char| c.is_ascii_alphabetic()) || text == GROUND {
+        let message = format!(
+            "name = {text:?}: use letters, digits and _, a letter first, and not {GROUND:?}, which is taken"
+        );
+        return Err(source.error(name.span(), message));
+    }
+    if names.contains(text) {
+        return Err(source.error(name.span(), format!("name = {text:?} is there already; choose another")));
+    }
+    names.push(text.clone());
+    Ok(())
+}
+
+fn read_floor(
+    table: &BTreeMap<Spanned<String>, Spanned<Value>>,
+    before: &[Floor],
+    source: &Source<'_>,
+) -> Result<(Spanned<String>, Floor)> {
+    let mut name = None;
+    let mut base = Support::Ground;
+    let mut parameters = Vec::new();
+    for (key, value) in table {
+        let text = || match value.get_ref() {
+            Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
+            _ => Err(source.error(value.span(), format!("{} is a name in quotes", key.get_ref()))),
+        };
+        match key.get_ref().as_str() {
+            "name" => name = Some(text()?),
+            "on" => base = support("on", &text()?, before, source)?,
+            other => {
+                let parameter =
+                    parameter(other, value.get_ref()).map_err(|message| source.error(key.span(), message))?;
+                parameters.push(parameter);
+            }
+        }
+    }
+    let Some(name) = name else {
+        let span = table.keys().next().map_or(0..0, Spanned::span);
+        return Err(source.error(span, "a [[floor]] needs a name"));
+    };
+    Ok((name.clone(), Floor { name: name.into_inner(), base, parameters }))
+}
+
+/// A parameter of a storey, within the limits of the floor's description.
+fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String> {
+    let real = RealVariable::from_name(name).map(VariableId::variable);
+    let choice = IntegerVariable::from_name(name).map(VariableId::variable);
+    let known = real.or(choice).filter(|variable| variable.causality == Causality::Parameter);
+    let Some(variable) = known.filter(|variable| variable.name != "coupling") else {
+        let all = RealVariable::ALL.iter().map(|id| id.variable());
+        let all = all.filter(|variable| variable.causality == Causality::Parameter);
+        let names: Vec<_> = all.map(|variable| variable.name).collect();
+        return Err(format!(
+            "{name:?} is not for a [[floor]]: it has name, on, hysteresis, {}",
+            names.join(", ")
+        ));
+    };
+    let start = match (variable.kind, value) {
+        (Kind::Real { min, max, .. }, Value::Float(_) | Value::Integer(_)) => {
+            #[allow(
+                clippy::cast_precision_loss,
+                reason = "a whole number beyond 2⁵³ is beyond every limit too"
+            )]
+            let number = value.as_float().unwrap_or_else(|| value.as_integer().unwrap_or_default() as f64);
+            if !number.is_finite()
+                || min.is_some_and(|min| number < min)
+                || max.is_some_and(|max| number > max)
+            {
+                let limit = |limit: Option<f64>| limit.map_or("any".to_owned(), |limit| limit.to_string());
+                return Err(format!(
+                    "{name} = {number} is outside its limits, {} to {}",
+                    limit(min),
+                    limit(max)
+                ));
+            }
+            Start::Real(number)
+        }
+        (Kind::Enumeration { items, .. }, Value::String(text)) => {
+            let item = items.iter().find(|item| item.name == text);
+            let names: Vec<_> = items.iter().map(|item| item.name).collect();
+            let item = item.ok_or_else(|| format!("{name} = {text:?} is not one of {}", names.join(", ")))?;
+            Start::Integer(item.value)
+        }
+        (Kind::Real { .. }, _) => return Err(format!("{name} must be a number")),
+        _ => return Err(format!("{name} must be the name of a choice in quotes")),
+    };
+    Ok(Parameter { name: variable.name, unit: variable.unit, value: start })
+}
+
+fn support(key: &str, name: &Spanned<String>, floors: &[Floor], source: &Source<'_>) -> Result<Support> {
+    if name.get_ref() == GROUND {
+        return Ok(Support::Ground);
+    }
+    let found = floors.iter().position(|floor| floor.name == *name.get_ref());
+    found.map(Support::Floor).ok_or_else(|| {
+        let mut known: Vec<_> = vec![GROUND];
+        known.extend(floors.iter().map(|floor| floor.name.as_str()));
+        let message = format!(
+            "{key} = {:?} is no [[floor]] before this; there are {}",
+            name.get_ref(),
+            known.join(", ")
+        );
+        source.error(name.span(), message)
+    })
+}
+
+fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<Member> {
+    let bottom = support("bottom", &table.bottom, floors, source)?;
+    let top = table.top.as_ref().map(|top| support("top", top, floors, source)).transpose()?;
+    // a storey's displacement is relative to its base
+    let drift = match top {
+        Some(Support::Floor(index)) if floors[index].base == bottom => Some(index),
+        _ => None,
+    };
+    let wanted = table.drift.as_ref().is_none_or(|wanted| *wanted.get_ref());
+    if let (Some(wanted), None) = (&table.drift, drift)
+        && *wanted.get_ref()
+    {
+        let message = "drift = true needs a top on the storey just above the bottom: only its displacement is the drift";
+        return Err(source.error(wanted.span(), message));
+    }
+    let drift = drift.filter(|_| wanted);
+    Ok(Member { name: table.name.into_inner(), scene: table.scene, bottom, top, drift })
+}

@@ -1,0 +1,186 @@
+//! The system's description as XML: SSP 1.0, with types, units and start values inside.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use super::document::Start;
+use super::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
+
+const NAMESPACES: [(&str, &str); 4] = [
+    ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
+    ("ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription"),
+    ("ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues"),
+    // the step for libcosim
+    ("osp", "http://opensimulationplatform.com/SSP/OSPAnnotations"),
+];
+
+/// Units in SI base units, as in the model descriptions.
+const UNITS: [(&str, &str); 9] = [
+    ("1", ""),
+    ("m", r#" m="1""#),
+    ("m/s", r#" m="1" s="-1""#),
+    ("m/s2", r#" m="1" s="-2""#),
+    ("kg", r#" kg="1""#),
+    ("s", r#" s="1""#),
+    ("N", r#" kg="1" m="1" s="-2""#),
+    ("N/m", r#" kg="1" s="-2""#),
+    ("N.s/m", r#" kg="1" s="-1""#),
+];
+
+/// The text of `SystemStructure.ssd`.
+pub(super) fn text(system: &System) -> String {
+    let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    // writing to a String cannot fail
+    let _ = write(&mut xml, system);
+    xml
+}
+
+fn write(xml: &mut String, system: &System) -> std::fmt::Result {
+    let title = escaped(&system.title);
+    write!(xml, "<ssd:SystemStructureDescription version=\"1.0\" name=\"{title}\"")?;
+    writeln!(xml, " generationTool=\"rocking-wall {}\"", env!("CARGO_PKG_VERSION"))?;
+    let namespaces: Vec<_> =
+        NAMESPACES.iter().map(|(prefix, uri)| format!("  xmlns:{prefix}=\"{uri}\"")).collect();
+    writeln!(xml, "{}>", namespaces.join("\n"))?;
+    writeln!(xml, "  <ssd:System name=\"building\" description=\"{title}\">")?;
+    if system.expose_ground {
+        writeln!(xml, "    <ssd:Connectors>")?;
+        let ground = Connector {
+            name: GROUND_MOTION,
+            direction: Direction::Input,
+            kind: ConnectorKind::Real(Some("m/s2")),
+        };
+        write_connector(xml, "      ", &ground)?;
+        writeln!(xml, "    </ssd:Connectors>")?;
+    }
+    writeln!(xml, "    <ssd:Elements>")?;
+    for component in &system.components {
+        write_component(xml, component)?;
+    }
+    writeln!(xml, "    </ssd:Elements>\n    <ssd:Connections>")?;
+    for connection in &system.connections {
+        write!(xml, "      <ssd:Connection")?;
+        if let Some(from) = connection.from {
+            write!(xml, " startElement=\"{}\"", system.components[from].name)?;
+        }
+        let to = &system.components[connection.to].name;
+        let (output, input) = (connection.output, connection.input);
+        writeln!(xml, " startConnector=\"{output}\" endElement=\"{to}\" endConnector=\"{input}\"/>")?;
+    }
+    writeln!(xml, "    </ssd:Connections>\n  </ssd:System>")?;
+    write_units(xml, system)?;
+    writeln!(xml, "  <ssd:DefaultExperiment startTime=\"0\" stopTime=\"{:?}\">", system.stop_time)?;
+    writeln!(xml, "    <ssd:Annotations>\n      <ssc:Annotation type=\"com.opensimulationplatform\">")?;
+    writeln!(xml, "        <osp:Algorithm>")?;
+    writeln!(xml, "          <osp:FixedStepAlgorithm baseStepSize=\"{:?}\"/>", system.step)?;
+    writeln!(xml, "        </osp:Algorithm>\n      </ssc:Annotation>\n    </ssd:Annotations>")?;
+    writeln!(xml, "  </ssd:DefaultExperiment>\n</ssd:SystemStructureDescription>")
+}
+
+fn write_component(xml: &mut String, component: &Component) -> std::fmt::Result {
+    let Component { name, source, connectors, parameters } = component;
+    write!(xml, "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\"")?;
+    writeln!(xml, " source=\"{source}\" implementation=\"CoSimulation\">\n        <ssd:Connectors>")?;
+    for connector in connectors {
+        write_connector(xml, "          ", connector)?;
+    }
+    writeln!(xml, "        </ssd:Connectors>")?;
+    if !parameters.is_empty() {
+        writeln!(xml, "        <ssd:ParameterBindings>\n          <ssd:ParameterBinding>")?;
+        writeln!(xml, "            <ssd:ParameterValues>")?;
+        writeln!(xml, "              <ssv:ParameterSet version=\"1.0\" name=\"initialValues\">")?;
+        writeln!(xml, "                <ssv:Parameters>")?;
+        for parameter in parameters {
+            let value = match (parameter.value, parameter.unit) {
+                (Start::Real(value), Some(unit)) => {
+                    format!("<ssv:Real value=\"{value:?}\" unit=\"{unit}\"/>")
+                }
+                (Start::Real(value), None) => format!("<ssv:Real value=\"{value:?}\"/>"),
+                (Start::Integer(value), _) => format!("<ssv:Integer value=\"{value}\"/>"),
+            };
+            let name = parameter.name;
+            writeln!(xml, "                  <ssv:Parameter name=\"{name}\">{value}</ssv:Parameter>")?;
+        }
+        writeln!(xml, "                </ssv:Parameters>\n              </ssv:ParameterSet>")?;
+        writeln!(xml, "            </ssd:ParameterValues>\n          </ssd:ParameterBinding>")?;
+        writeln!(xml, "        </ssd:ParameterBindings>")?;
+    }
+    writeln!(xml, "      </ssd:Component>")
+}
+
+fn write_connector(xml: &mut String, indent: &str, connector: &Connector) -> std::fmt::Result {
+    let direction = match connector.direction {
+        Direction::Input => "input",
+        Direction::Output => "output",
+        Direction::Parameter => "parameter",
+    };
+    let kind = match connector.kind {
+        ConnectorKind::Real(Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
+        ConnectorKind::Real(None) => "<ssc:Real/>".to_owned(),
+        ConnectorKind::Integer => "<ssc:Integer/>".to_owned(),
+        ConnectorKind::Boolean => "<ssc:Boolean/>".to_owned(),
+    };
+    let name = connector.name;
+    writeln!(xml, "{indent}<ssd:Connector name=\"{name}\" kind=\"{direction}\">{kind}</ssd:Connector>")
+}
+
+/// The units that connectors and values name.
+fn write_units(xml: &mut String, system: &System) -> std::fmt::Result {
+    let connectors = system.components.iter().flat_map(|component| &component.connectors);
+    let mut used: BTreeSet<&str> = connectors
+        .filter_map(|connector| match connector.kind {
+            ConnectorKind::Real(unit) => unit,
+            ConnectorKind::Integer | ConnectorKind::Boolean => None,
+        })
+        .collect();
+    used.insert("m/s2");
+    writeln!(xml, "  <ssd:Units>")?;
+    for unit in used {
+        let base = UNITS.iter().find(|(name, _)| *name == unit).map_or("", |(_, base)| base);
+        writeln!(xml, "    <ssc:Unit name=\"{unit}\"><ssc:BaseUnit{base}/></ssc:Unit>")?;
+    }
+    writeln!(xml, "  </ssd:Units>")
+}
+
+/// Text inside an attribute.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '"' => escaped.push_str("&quot;"),
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use fmi2_export::{Causality, VariableId};
+    use rocking_floor::variables::RealVariable as FloorVariable;
+    use rocking_wall::variables::RealVariable;
+
+    use super::*;
+
+    #[test]
+    fn every_unit_of_a_connector_has_its_base_units() {
+        let known = |unit: Option<&str>| unit.is_none_or(|unit| UNITS.iter().any(|(name, _)| *name == unit));
+        for variable in FloorVariable::ALL.iter().map(|id| id.variable()) {
+            let connectable =
+                variable.causality == Causality::Parameter || variable.name.contains("reaction");
+            assert!(!connectable || known(variable.unit), "{}", variable.name);
+        }
+        for name in ["a_bottom", "drift", "reaction_top", "u", "u_dot", "u_ratio", "overturn_time"] {
+            let variable = RealVariable::from_name(name).map(VariableId::variable);
+            assert!(variable.is_some_and(|variable| known(variable.unit)), "{name}");
+        }
+    }
+
+    #[test]
+    fn titles_are_escaped() {
+        assert_eq!(escaped("a \"b\" <c> & d\n"), "a &quot;b&quot; &lt;c> &amp; d ");
+    }
+}

@@ -1,0 +1,211 @@
+//! From a building to components and connections: what moves a member, and what it loads.
+
+use anyhow::{Result, bail};
+use fmi2_export::{Kind, Variable, VariableId};
+use rocking_floor::variables::RealVariable as FloorVariable;
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::{BooleanVariable, RealVariable};
+
+use super::document::{Building, Floor, Member, Parameter, Start, Support};
+use super::{FLOOR_SOURCE, source};
+
+/// Inputs of a floor for what stands on it.
+const MOST_LOADS: usize = 8;
+/// Name of the system's own input, the ground's acceleration.
+pub(super) const GROUND_MOTION: &str = "a_g";
+
+/// What a tool may want to see of each member, beside what is connected.
+const SHOWN_OF_A_FLOOR: [&str; 3] = ["displacement", "velocity", "acceleration_absolute"];
+const SHOWN_OF_A_WALL: [&str; 4] = ["u", "u_dot", "u_ratio", "overturn_time"];
+
+/// A system of FMUs.
+#[derive(Debug)]
+pub(super) struct System {
+    pub(super) title: String,
+    pub(super) stop_time: f64,
+    pub(super) step: f64,
+    /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
+    pub(super) expose_ground: bool,
+    pub(super) components: Vec<Component>,
+    pub(super) connections: Vec<Connection>,
+}
+
+/// One FMU in it.
+#[derive(Debug)]
+pub(super) struct Component {
+    pub(super) name: String,
+    pub(super) source: String,
+    pub(super) connectors: Vec<Connector>,
+    pub(super) parameters: Vec<Parameter>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    Input,
+    Output,
+    Parameter,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Connector {
+    pub(super) name: &'static str,
+    pub(super) direction: Direction,
+    pub(super) kind: ConnectorKind,
+}
+
+/// The type of what passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ConnectorKind {
+    Real(Option<&'static str>),
+    Integer,
+    Boolean,
+}
+
+/// An output of one component to an input of another.
+#[derive(Clone, Debug)]
+pub(super) struct Connection {
+    /// `None` for the system's own input.
+    pub(super) from: Option<usize>,
+    pub(super) output: &'static str,
+    pub(super) to: usize,
+    pub(super) input: &'static str,
+}
+
+/// Components, storeys first, and their connections.
+pub(super) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
+    let floors = building.floors.iter().map(|floor| Component {
+        name: floor.name.clone(),
+        source: FLOOR_SOURCE.to_owned(),
+        connectors: Vec::new(),
+        parameters: floor.parameters.clone(),
+    });
+    let walls = building.walls.iter().map(|wall| Component {
+        name: wall.name.clone(),
+        source: source(&wall.name),
+        connectors: Vec::new(),
+        // they travel in its scene
+        parameters: Vec::new(),
+    });
+    let mut system = System {
+        title: building.title.clone(),
+        stop_time: building.stop_time,
+        step: building.step,
+        expose_ground: building.expose_ground,
+        components: floors.chain(walls).collect(),
+        connections: Vec::new(),
+    };
+    let mut loads = Loads { taken: vec![0; building.floors.len()], floors: &building.floors };
+    for (index, floor) in building.floors.iter().enumerate() {
+        system.move_by(floor.base, index, "a_g");
+        if let Some((below, input)) = loads.next(floor.base)? {
+            system.connect(Some(index), "reaction_bottom", below, input);
+        }
+    }
+    for (index, wall) in building.walls.iter().enumerate() {
+        system.place(building.floors.len() + index, wall, &mut loads)?;
+    }
+    system.list_connectors(building, scenes);
+    Ok(system)
+}
+
+/// The next free input of each storey for a reaction.
+struct Loads<'a> {
+    taken: Vec<usize>,
+    floors: &'a [Floor],
+}
+
+impl Loads<'_> {
+    fn next(&mut self, support: Support) -> Result<Option<(usize, &'static str)>> {
+        let Support::Floor(index) = support else { return Ok(None) };
+        self.taken[index] += 1;
+        let name = format!("reaction_{}", self.taken[index]);
+        let Some(variable) = FloorVariable::from_name(&name) else {
+            bail!(
+                "floor {:?}: more than {MOST_LOADS} storeys and walls stand on it or lean on it; divide it",
+                self.floors[index].name
+            );
+        };
+        Ok(Some((index, variable.variable().name)))
+    }
+}
+
+impl System {
+    fn connect(&mut self, from: Option<usize>, output: &'static str, to: usize, input: &'static str) {
+        self.connections.push(Connection { from, output, to, input });
+    }
+
+    /// A support's acceleration to an input.
+    fn move_by(&mut self, support: Support, to: usize, input: &'static str) {
+        match support {
+            Support::Ground if self.expose_ground => self.connect(None, GROUND_MOTION, to, input),
+            // an input connector without a connection is more than FMPy can read
+            Support::Ground => {}
+            Support::Floor(index) => self.connect(Some(index), "acceleration_absolute", to, input),
+        }
+    }
+
+    /// A wall between its supports.
+    fn place(&mut self, index: usize, wall: &Member, loads: &mut Loads<'_>) -> Result<()> {
+        let ends = [(Some(wall.bottom), "a_bottom", "reaction_bottom"), (wall.top, "a_top", "reaction_top")];
+        for (support, input, reaction) in ends {
+            let Some(support) = support else { continue };
+            self.move_by(support, index, input);
+            if let Some((floor, load)) = loads.next(support)? {
+                self.connect(Some(index), reaction, floor, load);
+            }
+        }
+        if let Some(floor) = wall.drift {
+            self.connect(Some(floor), "displacement", index, "drift");
+        }
+        Ok(())
+    }
+
+    /// The connectors of each component: what is connected, set, or worth showing.
+    fn list_connectors(&mut self, building: &Building, scenes: &[Scene]) {
+        let floors = building.floors.len();
+        let shown = |variable: &'static Variable, direction| Connector {
+            name: variable.name,
+            direction,
+            kind: match variable.kind {
+                Kind::Boolean { .. } => ConnectorKind::Boolean,
+                Kind::Integer { .. } | Kind::Enumeration { .. } => ConnectorKind::Integer,
+                Kind::Real { .. } | Kind::String { .. } => ConnectorKind::Real(variable.unit),
+            },
+        };
+        for (index, component) in self.components.iter_mut().enumerate() {
+            let is_floor = index < floors;
+            let find = |name: &str| {
+                let (floor, wall) = (FloorVariable::from_name(name), RealVariable::from_name(name));
+                let floor = floor.map(VariableId::variable).filter(|_| is_floor);
+                floor.or_else(|| wall.map(VariableId::variable).filter(|_| !is_floor))
+            };
+            let inputs = self.connections.iter().filter(|connection| connection.to == index);
+            let inputs = inputs.map(|connection| (connection.input, Direction::Input));
+            let outputs = self.connections.iter().filter(|connection| connection.from == Some(index));
+            let outputs = outputs.map(|connection| (connection.output, Direction::Output));
+            let more: &[&str] = if is_floor { &SHOWN_OF_A_FLOOR } else { &SHOWN_OF_A_WALL };
+            let more = more.iter().map(|name| (*name, Direction::Output));
+            for (name, direction) in inputs.chain(outputs).chain(more) {
+                let Some(variable) = find(name) else { continue };
+                let connector = shown(variable, direction);
+                if !component.connectors.contains(&connector) {
+                    component.connectors.push(connector);
+                }
+            }
+            if !is_floor && scenes[index - floors].uses("overturned") {
+                component.connectors.push(shown(BooleanVariable::Overturned.variable(), Direction::Output));
+            }
+            for parameter in &component.parameters {
+                let kind = match parameter.value {
+                    Start::Real(_) => ConnectorKind::Real(parameter.unit),
+                    Start::Integer(_) => ConnectorKind::Integer,
+                };
+                component.connectors.push(Connector {
+                    name: parameter.name,
+                    direction: Direction::Parameter,
+                    kind,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! `wall building`: what it refuses. What it makes is tested in other people's masters (tests/masters).
+
+use crate::command_line::{folder, refused};
+
+const FLOOR: &str = "[[floor]]\nname = \"low\"\n";
+
+#[test]
+fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
+    let folder = folder("building");
+    std::fs::write(folder.join("parapet.toml"), "inputs = [\"a_bottom\"]\n").unwrap();
+    std::fs::write(folder.join("moved.toml"), "[motion]\nsynthetic = {}\n").unwrap();
+    let wall = |text: &str| format!("{FLOOR}[[wall]]\nname = \"w\"\n{text}\n");
+    let cases: [(String, &[&str]); 10] = [
+        (String::new(), &["[[floor]]"]),
+        (format!("{FLOOR}mass = 0.0\n"), &["line 3", "mass", "0.001"]),
+        (format!("{FLOOR}coupling = \"impulses\"\n"), &["line 3", "coupling", "stiffness"]),
+        (format!("{FLOOR}hysteresis = \"cubic\"\n"), &["line 3", "cubic", "none, bilinear"]),
+        (format!("{FLOOR}on = \"high\"\n"), &["line 3", "high", "ground"]),
+        ("[[floor]]\nname = \"a b\"\n".into(), &["line 2", "a b", "letters"]),
+        (
+            wall("scene = \"parapet.toml\"\nbottom = \"low\"\ntop = \"ground\"\ndrift = true"),
+            &["line 8", "drift"],
+        ),
+        (
+            "[[floor]]\nname = \"low\"\n[[wall]]\nname = \"floor\"\nscene = \"parapet.toml\"\nbottom = \"low\"\n".into(),
+            &["line 4", "floor", "choose another"],
+        ),
+        (wall("scene = \"moved.toml\"\nbottom = \"low\""), &["moved.toml", "[motion]"]),
+        (wall("scene = \"parapet.toml\"\nbottom = \"low\""), &["cargo xtask fmu"]),
+    ];
+    for (text, words) in cases {
+        std::fs::write(folder.join("b.toml"), &text).unwrap();
+        refused(&folder, &["building", "b.toml", "-o", "b.ssp"], words);
+    }
+}

@@ -1,0 +1,156 @@
+"""Wall on floor and building in other people's masters; `wall building` makes both."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.ssp.ssd import read_ssd
+from lxml import etree
+
+from masters import MASTERS
+
+ROOT = Path(__file__).parents[2]
+STEP, STEPS = 0.001, 2000
+SCENES = ROOT / "scenes/building"
+WATCHED = {
+    "building": ["floor_1.displacement", "floor_2.displacement", "strip.u", "parapet.u"],
+    "wall_on_floor": ["storey.displacement", "wall.u"],
+}
+WALL_ON_FLOOR = """
+stop_time = 2.0
+[[floor]]
+name = "storey"
+mass = 2000.0
+stiffness = 4.0e6
+damping_ratio = 0.0
+velocity_start = 0.3
+[[wall]]
+name = "wall"
+scene = "parapet.toml"
+bottom = "storey"
+"""
+
+
+def program():
+    path = Path(os.environ.get("ROCKING_WALL_BIN", ROOT / "target/release/wall"))
+    assert path.is_file(), f"{path} is missing: run `cargo build --release --bin wall`"
+    return path
+
+
+def fmus():
+    places = [("ROCKING_WALL_FMU", "wall.fmu"), ("ROCKING_FLOOR_FMU", "floor.fmu")]
+    paths = [Path(os.environ.get(key, ROOT / "fmu_out" / name)) for key, name in places]
+    assert all(path.is_file() for path in paths), "run `cargo xtask fmu`"
+    return ["--wall-fmu", paths[0], "--floor-fmu", paths[1]]
+
+
+def make(source, output):
+    """The SSP of a building's file."""
+    subprocess.run([program(), "building", source, "-o", output, *fmus()], check=True, capture_output=True)
+    return output
+
+
+@pytest.fixture(scope="module")
+def buildings(tmp_path_factory):
+    """Both systems, from a start without forces: floors at speed without damping, walls that move with them.
+
+    Then all inputs are 0 at the start, however a master passes the loop of accelerations and reactions round before its first step.
+    """
+    made = {}
+    for name in WATCHED:
+        folder = tmp_path_factory.mktemp(name)
+        for scene in SCENES.glob("*.toml"):
+            shutil.copy(scene, folder)
+        text = re.sub("damping_ratio = .*", "damping_ratio = 0.0", (SCENES / "building.toml").read_text())
+        text = text if name == "building" else WALL_ON_FLOOR
+        (folder / "quiet.toml").write_text(text)
+        made[name] = make(folder / "quiet.toml", folder / "quiet.ssp")
+    return made
+
+
+def run(master, name, path):
+    output = path.with_name(f"{master}.npy")
+    command = [sys.executable, ROOT / "tests/masters/masters.py", master, path, str(STEP), str(STEPS), output, *WATCHED[name]]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr[-2000:]
+    return np.load(output)
+
+
+@pytest.fixture(scope="module")
+def expected(buildings):
+    return {name: run("own", name, path) for name, path in buildings.items()}
+
+
+@pytest.mark.parametrize("name", WATCHED)
+@pytest.mark.parametrize("master", [master for master in MASTERS if master != "own"])
+def test_masters_agree(buildings, expected, master, name):
+    """The same scheme and step give the same answer to 1e-9 of the peak: rounding of sums of times is all that differs."""
+    found = run(master, name, buildings[name])
+    peaks = np.abs(expected[name]).max(axis=0)
+    assert np.all(peaks > 1e-3), "something moves"
+    assert found.shape == expected[name].shape
+    assert np.abs(found - expected[name]).max(axis=0) / peaks == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_system_is_complete_and_its_bytes_repeat(tmp_path):
+    first, second = (make(SCENES / "building.toml", tmp_path / name) for name in ("a.ssp", "b.ssp"))
+    assert first.read_bytes() == second.read_bytes()
+    # against the schema of SSP 1.0
+    system = read_ssd(str(first), validate=True).system
+    assert [element.name for element in system.elements] == ["floor_1", "floor_2", "strip", "parapet"]
+    with zipfile.ZipFile(first) as archive:
+        names = archive.namelist()
+        description = etree.fromstring(archive.read("SystemStructure.ssd"))
+    assert names == sorted(names)
+    assert {element.source for element in system.elements} == set(names) - {"SystemStructure.ssd"}
+    prefix = "{http://ssp-standard.org/SSP1/SystemStructureDescription}"
+    connectors = list(description.iter(f"{prefix}Connector"))
+    types = {etree.QName(kind).localname for connector in connectors for kind in connector}
+    assert all(len(connector) == 1 for connector in connectors) and types == {"Real", "Boolean"}
+    connections = [dict(connection.attrib) for connection in description.iter(f"{prefix}Connection")]
+    assert {
+        "startElement": "floor_2", "startConnector": "displacement", "endElement": "strip", "endConnector": "drift"
+    } in connections  # fmt: skip
+    assert len(connections) == 9
+
+
+def test_a_system_may_have_the_grounds_motion_as_its_input(tmp_path):
+    for scene in SCENES.glob("*.toml"):
+        text = scene.read_text().replace("expose_ground = false", "expose_ground = true")
+        (tmp_path / scene.name).write_text(text)
+    system = read_ssd(str(make(tmp_path / "building.toml", tmp_path / "open.ssp"))).system
+    assert [(connector.name, connector.kind) for connector in system.connectors] == [("a_g", "input")]
+    assert (None, "a_g", "floor_1", "a_g") in [
+        (c.startElement, c.startConnector, c.endElement, c.endConnector) for c in system.connections
+    ]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("mass = 2.0e4", "mass = -1"), ["line 11", "mass", "-1"]),
+        (('on = "floor_1"', 'on = "floor_3"'), ["floor_3", "ground, floor_1"]),
+        (('name = "parapet"', 'name = "strip"'), ["strip", "choose another"]),
+        (('name = "parapet"', 'name = "a wall"'), ["a wall", "letters"]),
+        (('scene = "parapet.toml"', 'scene = "none.toml"'), ["none.toml"]),
+        (('scene = "parapet.toml"', 'scene = "strip.toml"'), ["parapet", "top"]),
+        (("velocity_start", "speed"), ["speed", "velocity_start"]),
+        (("step = 0.001", "step = 0"), ["step = 0"]),
+    ],
+)
+def test_bad_buildings_are_named(tmp_path, change, words):
+    for scene in SCENES.glob("*.toml"):
+        shutil.copy(scene, tmp_path)
+    text = (tmp_path / "building.toml").read_text()
+    assert change[0] in text
+    (tmp_path / "bad.toml").write_text(text.replace(*change))
+    command = [program(), "building", tmp_path / "bad.toml", "-o", tmp_path / "bad.ssp", *fmus()]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 2 and not (tmp_path / "bad.ssp").exists()
+    assert all(word in result.stderr for word in words), result.stderr

@@ -1,0 +1,155 @@
+"""Coupling error against communication step and run time, for each scheme and input treatment: a CSV, a page, a table.
+
+    python measure.py WALL.fmu FLOOR.fmu OUTPUT_FOLDER
+
+The truth is the system integrated as one (tests/python/monolith.py), the master that of examples/coupling. Run times are those of
+this master in Python: what they say about schemes is how many steps and sweeps each takes.
+"""
+
+import csv
+import math
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "tests/python")]
+import compiled  # noqa: E402
+import page  # noqa: E402
+from master import SCHEMES, Archive  # noqa: E402
+from monolith import Monolith, Wall  # noqa: E402
+from run import pulse  # noqa: E402
+from wiring import FLOOR, STOREYS, WALL, WALLS, building, wall_on_floor  # noqa: E402
+
+DURATION = 2.0
+GRID = 0.01
+STEPS = [0.01, 0.005, 0.0025, 0.00125, 0.000625]
+# Runs of which the fastest counts.
+REPEATS = 2
+# Off by more than the peak itself is lost, not inaccurate.
+LOST = 1.0
+
+
+def storey(ratio, frequency):
+    """A floor that the wall of the examples is `ratio` times as heavy as."""
+    mass = Wall(WALL, 0).mass / ratio
+    return {"mass": mass, "stiffness": mass * (2 * math.pi * frequency) ** 2, "damping_ratio": 0.05}
+
+
+def single(floor):
+    def make(wall, unit):
+        return wall_on_floor(wall, unit, {"floor": floor}, pulse)
+
+    return make, ["floor.displacement", "wall.u"], Monolith([floor], [Wall(WALL, 0)], pulse)
+
+
+def problems():
+    walls = [Wall(WALLS["strip"], 0, 1, drift=True), Wall(WALLS["parapet"], 1)]
+    return {
+        "A wall of 0.15 M on a floor of 5 Hz": single(FLOOR),
+        "A wall as heavy as its floor, 50 Hz": single(storey(1.0, 50.0)),
+        "A wall ten times as heavy as its floor, 50 Hz": single(storey(10.0, 50.0)),
+        "The building: two storeys, a strip wall, a parapet": (
+            lambda wall, unit: building(wall, unit, motion=pulse),
+            ["floor_1.displacement", "floor_2.displacement", "strip.u", "parapet.u"],
+            Monolith(STOREYS.values(), walls, pulse),
+        ),
+    }
+
+
+def run(make, archives, scheme, step, watched):
+    """Histories at multiples of GRID, and seconds of processor time."""
+    system = make(*archives)
+    system.initialize()
+    often, history = round(GRID / step), []
+    start = time.process_time()
+    try:
+        for index in range(1, round(DURATION / step) + 1):
+            SCHEMES[scheme](system, step)
+            if index % often == 0:
+                history.append([system.get(name) for name in watched])
+    except Exception as error:  # a master that is lost ends in numbers beyond any unit's limits, or finds no agreement
+        return None, str(error)
+    return np.array(history), time.process_time() - start
+
+
+def measure(archives):
+    """Rows: problem, scheme, step, error over the peak (NaN where lost), seconds."""
+    rows = []
+    times = GRID * np.arange(1, round(DURATION / GRID) + 1)
+    for name, (make, watched, monolith) in problems().items():
+        truth = monolith.solve(times)[:, : len(watched)]
+        peaks = np.abs(truth).max(axis=0)
+        for scheme in SCHEMES:
+            for step in STEPS:
+                seconds = math.inf
+                for _ in range(REPEATS):
+                    history, taken = run(make, archives, scheme, step, watched)
+                    if history is None:
+                        break
+                    seconds = min(seconds, taken)
+                error = math.nan if history is None else float((np.abs(history - truth) / peaks).max())
+                rows.append((name, scheme, step, error if error < LOST else math.nan, seconds))
+        print(f"measured: {name}", flush=True)
+    return rows
+
+
+def table(rows):
+    """Markdown: the errors at two steps, the observed order, and the time of a simulated second at 2.5 ms."""
+    lines = ["| system | scheme | error/peak at 5 ms | at 1.25 ms | order | ms a simulated s at 2.5 ms |", "|---|---|---|---|---|---|"]
+    for name in dict.fromkeys(row[0] for row in rows):
+        title = name
+        for scheme in SCHEMES:
+            found = {step: (error, seconds) for n, s, step, error, seconds in rows if (n, s) == (name, scheme)}
+            good = [(step, error) for step, (error, _) in found.items() if step <= 0.005 and math.isfinite(error)]
+            order = f"{np.polyfit(*np.log(np.array(good).T), 1)[0]:.2f}" if len(good) >= 3 else "—"
+            shown = [f"{found[s][0]:.0e}" if math.isfinite(found[s][0]) else "lost" for s in (0.005, 0.00125)]
+            cost = f"{found[0.0025][1] / DURATION * 1e3:.0f}" if math.isfinite(found[0.0025][0]) else "—"
+            lines.append(f"| {title} | {scheme} | {shown[0]} | {shown[1]} | {order} | {cost} |")
+            title = ""
+    return "\n".join(lines) + "\n"
+
+
+def fall(archives):
+    """Histories of u/u_ins in a building whose parapet overturns, and what the units say about it."""
+    log = []
+    system = building(*archives, {"parapet": {"u_dot_start": 0.85, "log": lambda *line: log.append(line)}}, pulse)
+    system.initialize()
+    times, step = [], 0.002
+    histories = {"strip": [], "parapet": []}
+    for _ in range(round(2.0 / step)):
+        SCHEMES["Jacobi, loop closed, linear"](system, step)
+        times.append(system.time)
+        for name, history in histories.items():
+            history.append(system.get(f"{name}.u_ratio"))
+    events = [(name, system.get(f"{name}.overturn_time")) for name in histories if system.get(f"{name}.overturned")]
+    assert events and any("overturned" in message for _, _, message in log)
+    return times, histories, events
+
+
+def main():
+    wall, floor, output = sys.argv[1:]
+    output = Path(output)
+    with Archive(wall) as wall_archive, Archive(floor) as floor_archive:
+        archives = wall_archive, floor_archive
+        rows = measure(archives)
+        accident = fall(archives)
+    with open(output / "coupling.csv", "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["system", "scheme", "step_s", "error_over_peak", "seconds"])
+        writer.writerows(rows)
+    (output / "coupling.html").write_text(page.text(rows, accident, DURATION))
+    hundred = compiled.run(wall, floor, 100, 10.0, 0.001)
+    # the allocator takes whole pages: only many walls tell what one needs
+    each = compiled.run(wall, floor, 2000, 0.001, 0.001)["bytes_per_wall"]
+    (output / "coupling.md").write_text(
+        table(rows)
+        + f"\n100 walls on two storeys, 10 s at steps of 1 ms, in the compiled master (one thread): {hundred['run_time_s']:.2f} s; "
+        f"{each / 1024:.1f} kB of memory for each wall.\n"
+    )
+
+
+if __name__ == "__main__":
+    main()

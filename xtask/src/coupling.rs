@@ -1,0 +1,32 @@
+//! `cargo xtask coupling`: coupling error against communication step and run time, with a page; figures of `docs/coupling.md`.
+
+use crate::command::succeed;
+use crate::figures;
+use crate::fmu::{self, Linker};
+use crate::python::Environment;
+use crate::{Result, root};
+
+const DOCUMENT: &str = "docs/coupling.md";
+const MARK: &str = "figures";
+
+/// Measures, writes the page, the CSV file and the figures of the document.
+///
+/// # Errors
+/// If a program fails, or the document lacks its mark.
+pub(crate) fn run() -> Result<()> {
+    let wall = fmu::build(fmu::WALL, Linker::System)?;
+    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
+    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let folder = root().join("fmu_out");
+    let mut measure = python.program("python");
+    measure.arg("xtask/coupling/measure.py").arg(wall).arg(floor).arg(&folder);
+    succeed(&mut measure, "see its message above")?;
+    let path = folder.join("coupling.md");
+    let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let document = root().join(DOCUMENT);
+    let text = std::fs::read_to_string(&document).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    let text = figures::replaced(DOCUMENT, &text, MARK, &table)?;
+    std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    println!("written {DOCUMENT}, fmu_out/coupling.html, fmu_out/coupling.csv");
+    Ok(())
+}
