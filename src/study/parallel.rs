@@ -33,3 +33,38 @@ pub fn each<E: Send>(
     });
     failure.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
+
+/// The results of pieces of work 0, 1, … below `count`, in their order, on `threads` threads.
+///
+/// # Errors
+/// That of the first piece, in their order, that failed.
+pub fn map<T: Send, E: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(usize) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    let next = AtomicUsize::new(0);
+    let places: Vec<Mutex<Option<Result<T, E>>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let labour = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(place) = places.get(index) else { return };
+            let result = work(index);
+            if result.is_err() {
+                // pieces before this one are under way or done; none after it can be the first to fail
+                next.store(count, Ordering::Relaxed);
+            }
+            if let Ok(mut place) = place.lock() {
+                *place = Some(result);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..threads.clamp(1, count.max(1)) {
+            scope.spawn(labour);
+        }
+        labour();
+    });
+    // a place left empty lies behind a failure
+    places.into_iter().filter_map(|place| place.into_inner().ok().flatten()).collect()
+}

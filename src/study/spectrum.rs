@@ -16,8 +16,6 @@
 mod axes;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fmi2_export::{Kind, VariableId};
 
@@ -26,6 +24,8 @@ use crate::solver::record::{Forcing, Passage, RecordSolver, Scaled};
 use crate::solver::{Memo, Method, Motion, Segment, SolverError, State};
 use crate::variables::{Mechanism, RealVariable};
 use crate::wall::{Parameters, Support, Wall};
+
+use super::parallel;
 
 pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
 
@@ -90,14 +90,14 @@ pub fn over_walls(
         .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
         .collect::<Result<_, _>>()?;
     let largest = motion.peak();
-    let run = |index: usize| {
+    let run = |index: usize| -> Result<Point, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
         let factor = wall.participation();
         let scaled = Scaled::new(motion.samples(), [-factor], largest);
         let [point] = wall.points(&scaled, motion)?;
         Ok(point)
     };
-    let points = in_parallel(walls.len(), threads, run)?;
+    let points = parallel::map(walls.len(), threads, run)?;
     Ok(RockingSpectrum::new(sizes, rows, &points))
 }
 
@@ -123,7 +123,7 @@ pub fn over_pulses(
     let (p, onset, factor) = (wall.motion.wall().rocking_rate(), wall.onset(), wall.participation());
     let blocks = rows.len().div_ceil(LANES);
     // column by column in blocks of rows
-    let run = |index: usize| {
+    let run = |index: usize| -> Result<[Point; LANES], SpectrumError> {
         let (column, block) = (index / blocks, index % blocks);
         let motion = form.motion(columns[column] * p / TAU)?;
         let amplitude = |lane: usize| rows.get(block * LANES + lane).copied().unwrap_or(0.0);
@@ -132,7 +132,7 @@ pub fn over_pulses(
             wall.points(&Scaled::new(motion.samples(), factors, motion.peak()), &motion)?;
         Ok(points)
     };
-    let found = in_parallel(columns.len() * blocks, threads, run)?;
+    let found = parallel::map(columns.len() * blocks, threads, run)?;
     let at = |row: usize, column: usize| found[column * blocks + row / LANES][row % LANES];
     let points: Vec<_> = (0..rows.len())
         .flat_map(|row| (0..columns.len()).map(move |column| (row, column)))
@@ -284,38 +284,4 @@ impl Prepared {
         state.displacement.abs() < end.of(state.displacement)
             && energy * (1.0 - ENERGY_ROUNDING) <= rim(1.0).min(rim(-1.0))
     }
-}
-
-/// Does `count` pieces of work on some threads; the results come in their order, an error is that of the first piece that
-/// failed.
-fn in_parallel<T: Send>(
-    count: usize,
-    threads: usize,
-    work: impl Fn(usize) -> Result<T, SpectrumError> + Sync,
-) -> Result<Vec<T>, SpectrumError> {
-    let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<Result<T, SpectrumError>>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let labour = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = slots.get(index) else { return };
-            let result = work(index);
-            let failed = result.is_err();
-            if let Ok(mut place) = slot.lock() {
-                *place = Some(result);
-            }
-            if failed {
-                // pieces before this one are under way or done; none after it can be the first to fail
-                next.store(count, Ordering::Relaxed);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..threads.clamp(1, count.max(1)) {
-            scope.spawn(labour);
-        }
-        labour();
-    });
-    // a place left empty lies behind a failure
-    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
 }
