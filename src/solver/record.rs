@@ -4,7 +4,7 @@
 //! branch, and so are two steps: that way each state waits for the one before the last only. A *plain* step applies the
 //! map of two and checks that at both ends u is so far from the corners, and either so far from the extremes seen before or
 //! |u̇| so large, that nothing can have happened in between. Everything else is looked at step by step: corners crossed and turning
-//! points passed in the ordinary way in [`careful`], the rest by [`Motion::advance`]'s own search.
+//! points passed in the ordinary way in the module `careful`, the rest by [`Motion::advance`]'s own search.
 //!
 //! The distance that suffices: let |p| ≤ P over the record, |f| ≤ f̂ between the corners, and |u̇| ≤ V at both ends of a
 //! step h. With A = max|ü| in the step, |u̇| ≤ V + A h/2 and u leaves its chord, and hence the branch, by no more than

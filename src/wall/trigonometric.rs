@@ -68,7 +68,7 @@ impl Kinematics {
     }
 }
 
-/// A wall in full rotations; see the [module](self) for the equation and its letters.
+/// A wall in full rotations; the equation and its letters are those of its module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRotations {
     /// b \[m\].
