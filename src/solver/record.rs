@@ -6,10 +6,12 @@
 //! |u̇| so large, that nothing can have happened in between. Everything else is looked at step by step: corners crossed and turning
 //! points passed in the ordinary way in the module `careful`, the rest by [`Motion::advance`]'s own search.
 //!
-//! The distance that suffices: let |p| ≤ P over the record, |f| ≤ f̂ between the corners, and |u̇| ≤ V at both ends of a
-//! step h. With A = max|ü| in the step, |u̇| ≤ V + A h/2 and u leaves its chord, and hence the branch, by no more than
-//! A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8, and the margin A h²/8 follows. A step that ends with
-//! |u̇| > A h has no turning point.
+//! The distance that suffices, over a plain stretch of length h, one step or two: let |p| ≤ P over the record, |f| ≤ f̂ between the
+//! corners, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4. With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u
+//! leaves its chord, which lies on the branch, by no more than A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A
+//! unless h is too long, and the margin A h²/8 from corners and extremes follows: f of a branch's line, followed beyond its ends.
+//! A stretch that starts or ends with |u̇| > A h has no turning point, so that its extremes are its ends; the one beyond the
+//! extremes seen before is taken in with the first step that is not plain, which comes before u turns.
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"

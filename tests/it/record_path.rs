@@ -20,8 +20,9 @@ fn together<const N: usize>(
     let motion = Motion::new(wall, method);
     let largest = forcing.iter().fold(0.0, |largest: f64, p| largest.max(p.abs()));
     let scaled = Scaled::<N>::new(forcing, std::array::from_fn(|i| 1.0 - 0.1 * i as f64), largest);
-    let starts = scaled.at(0).map(|first| motion.start_under(0.0, 0.0, first));
-    let mut history = vec![[0.0; N]];
+    let Parameters { u_start, u_dot_start, .. } = *parameters;
+    let starts = scaled.at(0).map(|first| motion.start_under(u_start, u_dot_start, first));
+    let mut history = vec![starts.map(|start| start.displacement)];
     let solver = RecordSolver::new(&motion, step);
     let passages = solver.run(starts, &scaled, false, |_, u, _| history.push(*u)).unwrap();
     (history, passages)
@@ -43,6 +44,17 @@ proptest! {
         prop_assert_eq!(one, many[0]);
     }
 
+    /// The same of walls on their way, for steps from far below any motion to longer than a swing.
+    #[test]
+    fn any_step_agrees(parameters in moving(), motion in motions(), exponent in -4.0_f64..1.0) {
+        let wall = Wall::new(&parameters).unwrap();
+        let body = wall.body();
+        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        let accelerations: Vec<f64> = motion.iter().map(|a| onset * a).collect();
+        let step = 10.0_f64.powf(exponent) / wall.rocking_rate();
+        agree(&parameters, &accelerations, step)?;
+    }
+
     /// Steps over a record and segments one by one agree to rounding: in u, in the extremes, in what happened.
     #[test]
     fn records_and_segments_agree(parameters in walls(), motion in motions(), refinement in 1_u32..40) {
@@ -56,30 +68,73 @@ proptest! {
             accelerations.extend((0..refinement).map(|part| onset * at(part)));
         }
         let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
-        let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
-        let (history, [passage]) = together::<1>(&parameters, &forcing, step);
-        let reference = segments(&parameters, &accelerations, step);
-        let probe = 1e-8;
-        let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
-        let changed = segments(&parameters, &changed, step);
-        let scale = wall.displacement_scale();
-        let standing = reference.iter().zip(&changed).take_while(|(a, b)| !a.state.overturned && !b.state.overturned).count();
-        let apart = |other: &dyn Fn(usize) -> f64| {
-            (0..standing).map(|i| (reference[i].state.displacement - other(i)).abs() / scale).fold(0.0, f64::max)
-        };
-        let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
-        prop_assume!(amplification < 1e5);
-        // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13 likewise
-        let end = reference[standing - 1];
-        let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
-        let difference = apart(&|i| history[i][0]);
-        prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
-        if standing == reference.len() {
-            let peaks = passage.state.peaks.largest() - end.state.peaks.largest();
-            prop_assert!(peaks.abs() / scale <= allowed, "peaks differ by {peaks:e} m");
-            prop_assert_eq!(passage.overturning, None);
-        }
+        agree(&parameters, &accelerations, step)?;
     }
+}
+
+/// Compares a run over a record with segments one by one.
+fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<(), TestCaseError> {
+    let wall = Wall::new(parameters).unwrap();
+    let body = wall.body();
+    let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
+    let (history, [passage]) = together::<1>(parameters, &forcing, step);
+    let reference = segments(parameters, accelerations, step);
+    let probe = 1e-8;
+    let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
+    let (u_start, u_dot_start) = (parameters.u_start * (1.0 + probe), parameters.u_dot_start * (1.0 + probe));
+    let changed = segments(&Parameters { u_start, u_dot_start, ..parameters.clone() }, &changed, step);
+    let scale = wall.displacement_scale();
+    let standing = reference
+        .iter()
+        .zip(&changed)
+        .take_while(|(a, b)| !a.state.overturned && !b.state.overturned)
+        .count();
+    let apart = |other: &dyn Fn(usize) -> f64| {
+        (0..standing).map(|i| (reference[i].state.displacement - other(i)).abs() / scale).fold(0.0, f64::max)
+    };
+    let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
+    prop_assume!(amplification < 1e5);
+    // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13 likewise
+    let end = reference[standing - 1];
+    let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
+    let difference = apart(&|i| history[i][0]);
+    prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
+    if standing == reference.len() {
+        let peaks = passage.state.peaks.largest() - end.state.peaks.largest();
+        prop_assert!(peaks.abs() / scale <= allowed, "peaks differ by {peaks:e} m");
+        prop_assert_eq!(passage.overturning, None);
+    }
+    Ok(())
+}
+
+/// A wall of a multilinear law of two to five corners, or another, that starts on its way.
+fn moving() -> impl Strategy<Value = Parameters> {
+    let points = proptest::collection::vec((0.02_f64..0.3, 0.05_f64..0.9), 2..5);
+    (walls(), points, any::<bool>(), -0.95_f64..0.95, -1.0_f64..1.0).prop_map(
+        |(mut parameters, points, multilinear, start, speed)| {
+            let secant = matches!(
+                parameters.damping_model,
+                DampingModel::ConstantRatio | DampingModel::StiffnessProportional
+            );
+            if multilinear && !secant {
+                let mut corner = 0.0;
+                let mut corners: Vec<[f64; 2]> = Vec::new();
+                for (width, force) in points {
+                    corner += width;
+                    corners.push([corner, force]);
+                }
+                corners.push([corner + 0.2, 0.0]);
+                let reach = corners[corners.len() - 1][0];
+                parameters.force_law = ForceLaw::Bilinear;
+                parameters.multilinear = Some(corners.iter().map(|[u, f]| [u / reach, *f]).collect());
+            }
+            let wall = Wall::new(&parameters).expect("a valid wall");
+            let u_ins = wall.body().instability;
+            parameters.u_start = start * u_ins.of(start);
+            parameters.u_dot_start = speed * wall.rocking_rate() * u_ins.of(speed);
+            parameters
+        },
+    )
 }
 
 fn segments(parameters: &Parameters, accelerations: &[f64], step: f64) -> Vec<Progress> {
