@@ -144,6 +144,9 @@ fn the_hunt_finds_the_collapse_of_a_fine_grid() {
 #[test]
 fn stepping_ends_at_the_first_overturning() {
     let stepping = study(Levels::ToOverturning { step: 0.3, top: 20.1 }, Model::figure_15());
+    // so that a fragility can count at them
+    assert_eq!(stepping.levels().shared().map(|levels| levels.len()), Some(67));
+    assert_eq!(HUNT.shared(), None);
     let fixed = study(Levels::Grid((1..=67).map(|k| 0.3 * f64::from(k)).collect()), Model::figure_15());
     for index in 0..fixed.count() {
         let (up, all) = (stepping.curve(fixed.case(index)).unwrap(), fixed.curve(fixed.case(index)).unwrap());

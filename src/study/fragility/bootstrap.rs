@@ -1,7 +1,7 @@
 //! How much medians and their ratios owe to the choice of records.
 
 use super::fit::{fit, fit_from};
-use super::{FitError, Observing, sample_median, value};
+use super::{Observing, sample_median, value};
 use crate::study::ida::Occurrence;
 use crate::study::random::Pcg;
 
@@ -9,10 +9,11 @@ use crate::study::random::Pcg;
 /// bootstrap. Chapman & Hall, 1993.
 ///
 /// A record is drawn with all its results, so that ratios between models keep what the models have in common.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Bootstrap {
-    /// Places of the records drawn, resample by resample.
-    draws: Vec<Vec<u32>>,
+    records: usize,
+    samples: usize,
+    seed: u64,
 }
 
 /// An estimate and its bootstrap interval.
@@ -28,36 +29,47 @@ impl Bootstrap {
     /// `samples` resamples of `records` records. The same seed gives the same draws.
     #[must_use]
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
-        let mut random = Pcg::new(seed);
-        let count = u32::try_from(records).unwrap_or(u32::MAX);
-        #[allow(clippy::cast_possible_truncation, reason = "below `count`")]
-        let mut draw = || (0..count).map(|_| random.below(count as usize) as u32).collect();
-        Self { draws: (0..samples).map(|_| draw()).collect() }
+        Self { records, samples, seed }
+    }
+
+    /// A number from each resample, which is told by the places of the records drawn.
+    fn each(&self, mut number: impl FnMut(&[usize]) -> f64) -> Vec<f64> {
+        let mut random = Pcg::new(self.seed);
+        let mut drawn = vec![0; self.records];
+        let resample = |_| {
+            drawn.fill_with(|| random.below(self.records));
+            number(&drawn)
+        };
+        (0..self.samples).map(resample).collect()
     }
 
     /// The medians of the resamples of one model's first exceedances.
+    ///
+    /// # Panics
+    /// If there are fewer first exceedances than records.
     #[must_use]
     pub fn medians(&self, occurrences: &[Occurrence]) -> Vec<f64> {
         let values: Vec<f64> = occurrences.iter().copied().map(value).collect();
-        let mut drawn = vec![0.0; values.len()];
-        let median = |draw: &Vec<u32>| {
-            for (place, &index) in drawn.iter_mut().zip(draw) {
-                *place = values[index as usize];
+        let mut resampled = vec![0.0; self.records];
+        self.each(|drawn| {
+            for (place, &index) in resampled.iter_mut().zip(drawn) {
+                *place = values[index];
             }
-            sample_median(&mut drawn)
-        };
-        self.draws.iter().map(median).collect()
+            sample_median(&mut resampled)
+        })
     }
 
     /// θ of the fits to the resamples; NaN where one has no fit.
+    ///
+    /// # Panics
+    /// As [`medians`](Self::medians).
     #[must_use]
     pub fn fitted_medians(&self, occurrences: &[Occurrence], observing: &Observing) -> Vec<f64> {
         let near = fit(&observing.observations(occurrences)).ok();
-        let fitted = |draw: &Vec<u32>| -> Result<f64, FitError> {
-            let drawn: Vec<Occurrence> = draw.iter().map(|&index| occurrences[index as usize]).collect();
-            Ok(fit_from(&observing.observations(&drawn), near)?.median)
-        };
-        self.draws.iter().map(|draw| fitted(draw).unwrap_or(f64::NAN)).collect()
+        self.each(|drawn| {
+            let resampled: Vec<Occurrence> = drawn.iter().map(|&index| occurrences[index]).collect();
+            fit_from(&observing.observations(&resampled), near).map_or(f64::NAN, |fit| fit.median)
+        })
     }
 }
 

@@ -52,7 +52,7 @@ impl From<Occurrence> for Observation {
 pub enum Observing {
     /// Each record's own intensity, known to a fraction of β.
     Exactly,
-    /// Stripes at the levels that all records were run at: what is known of a record is between which two it lies.
+    /// Stripes at levels that all records share: what is known of a record is between which two it lies.
     InStripes(Vec<f64>),
 }
 

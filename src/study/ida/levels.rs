@@ -40,6 +40,16 @@ pub enum Levels {
 }
 
 impl Levels {
+    /// The levels \[m/s²\] that every record sees, up to its collapse at least; `None` where each record has its own.
+    #[must_use]
+    pub fn shared(&self) -> Option<Vec<f64>> {
+        match self {
+            Self::Grid(levels) => Some(levels.clone()),
+            Self::ToOverturning { step, top } => Some(multiples(*step, *top).collect()),
+            Self::HuntAndFill { .. } => None,
+        }
+    }
+
     /// # Errors
     /// [`IdaError::Levels`] outside the limits.
     pub(super) fn check(&self) -> Result<(), IdaError> {
@@ -92,9 +102,7 @@ impl Levels {
         match self {
             Self::Grid(levels) => run(levels),
             Self::ToOverturning { step, top } => {
-                // half a rounding's room, so that a top of so many steps is among them
-                let levels = (1..=MOST_LEVELS).map(|k| k as f64 * step);
-                let mut runs = ascend(levels.take_while(|level| *level <= top * (1.0 + 1e-12)), &mut run)?;
+                let mut runs = ascend(multiples(*step, *top), &mut run)?;
                 let end = runs.iter().position(|level| level.overturning.is_some());
                 runs.truncate(end.map_or(runs.len(), |end| end + 1));
                 Ok(runs)
@@ -116,6 +124,11 @@ impl Levels {
             }
         }
     }
+}
+
+/// Multiples of a step up to a top, with half a rounding's room, so that a top of so many steps is among them.
+fn multiples(step: f64, top: f64) -> impl Iterator<Item = f64> {
+    (1..=MOST_LEVELS).map(move |k| k as f64 * step).take_while(move |level| *level <= top * (1.0 + 1e-12))
 }
 
 /// The levels of the hunt, the last one the top.

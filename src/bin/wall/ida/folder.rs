@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use rocking_wall::scene::{Scene, fingerprint, to_toml};
 use rocking_wall::study::document::Report;
-use rocking_wall::study::ida::{Case, Curve, Level, Levels, Study};
+use rocking_wall::study::ida::{Case, Curve, Level, Study};
 use serde::{Deserialize, Serialize};
 
 use crate::output;
@@ -107,10 +107,7 @@ impl Contents {
             measure: study.measure().name(),
             measure_details: format!("{:?}", study.measure()),
             levels: format!("{:?}", study.levels()),
-            grid: match study.levels() {
-                Levels::Grid(levels) => Some(levels.clone()),
-                _ => None,
-            },
+            grid: study.levels().shared(),
             tail_s: study.tail(),
             walls: walls.collect(),
             models: models
