@@ -79,7 +79,7 @@ impl Response {
         let (peaks, u_ins) = (progress.state.peaks, simulation.wall().body().instability);
         let summary = Summary {
             u_max: peaks.largest(),
-            u_ratio_max: (peaks.positive / u_ins.positive).max(peaks.negative / u_ins.negative),
+            u_ratio_max: peaks.ratio(u_ins),
             overturned: progress.state.overturned,
             overturn_time: progress.overturn_time,
             end_time: progress.time,

@@ -1,5 +1,7 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
+use crate::wall::Sides;
+
 /// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Kinematics {
@@ -22,6 +24,12 @@ impl Peaks {
     #[must_use]
     pub fn at(displacement: f64) -> Self {
         Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
+    }
+
+    /// Largest |u|/`u_ins`, each side by its own \[-\].
+    #[must_use]
+    pub fn ratio(&self, u_ins: Sides) -> f64 {
+        (self.positive / u_ins.positive).max(self.negative / u_ins.negative)
     }
 
     /// Largest |u| \[m\].

@@ -7,6 +7,7 @@ pub mod calibration;
 pub mod chart;
 pub mod document;
 pub mod fragility;
+mod free_motion;
 pub mod ida;
 pub mod parallel;
 mod random;

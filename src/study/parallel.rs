@@ -1,7 +1,17 @@
 //! Work shared by threads.
 
+use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Most threads: more would wait for one another, and a system that has no more to give would end the program.
+const MOST_THREADS: usize = 512;
+
+/// The threads asked for, or one for each core.
+#[must_use]
+pub fn threads(given: Option<NonZeroUsize>) -> NonZeroUsize {
+    given.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+}
 
 /// Does the work of each of some numbers, in their order, on `threads` threads; the first error ends it.
 ///
@@ -26,7 +36,7 @@ pub fn each<E: Send>(
         }
     };
     std::thread::scope(|scope| {
-        for _ in 1..threads.clamp(1, numbers.len().max(1)) {
+        for _ in 1..threads.clamp(1, numbers.len().clamp(1, MOST_THREADS)) {
             scope.spawn(labour);
         }
         labour();
@@ -60,7 +70,7 @@ pub fn map<T: Send, E: Send>(
         }
     };
     std::thread::scope(|scope| {
-        for _ in 1..threads.clamp(1, count.max(1)) {
+        for _ in 1..threads.clamp(1, count.clamp(1, MOST_THREADS)) {
             scope.spawn(labour);
         }
         labour();

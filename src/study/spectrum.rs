@@ -21,10 +21,11 @@ use fmi2_export::{Kind, VariableId};
 
 use crate::ground_motion::GroundMotion;
 use crate::solver::record::{Forcing, Passage, RecordSolver, Scaled};
-use crate::solver::{Memo, Method, Motion, Segment, SolverError, State};
+use crate::solver::{Memo, Method, Motion, Segment, SolverError};
 use crate::variables::{Mechanism, RealVariable};
 use crate::wall::{Parameters, Support, Wall};
 
+use super::free_motion::has_peaked;
 use super::parallel;
 
 pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
@@ -37,8 +38,6 @@ pub const MOST_POINTS: usize = 250_000;
 /// that after 100/p every peak has come.
 const FREE_STEP: f64 = 0.25;
 const MOST_FREE_STEPS: u32 = 400;
-/// Energy over that of the peak by which rounding may exceed it.
-const ENERGY_ROUNDING: f64 = 1e-13;
 
 /// What became of one wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -250,7 +249,7 @@ impl Prepared {
         let still = Segment { duration: step, from: Support::default(), to: Support::default() };
         let mut memo = Memo::default();
         for index in 0..MOST_FREE_STEPS {
-            if overturning.is_some() || self.has_peaked(&state) {
+            if overturning.is_some() || has_peaked(self.motion.wall(), &state) {
                 break;
             }
             let report = self.motion.advance(&mut state, &still, false, &mut memo)?;
@@ -263,25 +262,7 @@ impl Prepared {
         } else {
             state.peaks.positive > elastic.upper || state.peaks.negative > -elastic.lower
         };
-        let ratio = if overturning.is_some() { 1.0 } else { self.ratio(&state) };
+        let ratio = if overturning.is_some() { 1.0 } else { state.peaks.ratio(wall.body().instability) };
         Ok(Point { ratio, rocked, overturning })
-    }
-
-    fn ratio(&self, state: &State) -> f64 {
-        let u_ins = self.motion.wall().body().instability;
-        (state.peaks.positive / u_ins.positive).max(state.peaks.negative / u_ins.negative)
-    }
-
-    /// Whether free motion from here cannot raise `u_max/u_ins`: inside the well, with less energy than its rim or the peak has.
-    fn has_peaked(&self, state: &State) -> bool {
-        let wall = self.motion.wall();
-        let (ratio, u_ins, end) = (self.ratio(state), wall.body().instability, wall.force_end());
-        let energy = wall.energy(state.displacement, state.velocity);
-        let rim = |sign: f64| {
-            let peak = (ratio * u_ins.of(sign)).min(end.of(sign));
-            wall.energy(sign * peak, 0.0)
-        };
-        state.displacement.abs() < end.of(state.displacement)
-            && energy * (1.0 - ENERGY_ROUNDING) <= rim(1.0).min(rim(-1.0))
     }
 }

@@ -65,28 +65,23 @@ impl Damping {
         if !given && model != DampingModel::None && restitution <= 0.0 {
             return Err(ParameterError::Prediction { restitution });
         }
-        let choose = |value: f64, predicted: fn(f64, f64) -> f64| {
-            if given { value } else { predicted(force.elastic_fraction, restitution) }
-        };
-        let viscous = |predicted| {
-            if force.elastic_stiffness.is_none() {
-                return Err(ParameterError::NoElasticBranch { model: model.name() });
-            }
-            let ratio = choose(parameters.xi, predicted);
-            // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
-            Ok((ratio, 2.0 * omega1 * ratio))
+        let value = match (given, model) {
+            (false, _) => equivalence::predicted(model, force.elastic_fraction, restitution),
+            (true, DampingModel::FreeStandingBlock) => parameters.c_bar,
+            (true, _) => parameters.xi,
         };
         let (ratio, elastic) = match model {
             DampingModel::None => (0.0, 0.0),
-            DampingModel::ConstantCoefficient => viscous(equivalence::constant_coefficient)?,
-            DampingModel::ConstantRatio => viscous(equivalence::constant_ratio)?,
-            DampingModel::StiffnessProportional => viscous(equivalence::stiffness_proportional)?,
             DampingModel::FreeStandingBlock => {
-                let c_bar = choose(parameters.c_bar, |_, e| equivalence::free_standing_block(e));
                 // C = m_eff √(g/(h/2)) c̄
-                let c = (parameters.gravity / (body.height / 2.0)).sqrt() * c_bar;
+                let c = (parameters.gravity / (body.height / 2.0)).sqrt() * value;
                 (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c)
             }
+            _ if force.elastic_stiffness.is_none() => {
+                return Err(ParameterError::NoElasticBranch { model: model.name() });
+            }
+            // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
+            _ => (value, 2.0 * omega1 * value),
         };
         Ok(Self { model, ratio, elastic, omega1 })
     }

@@ -2,6 +2,8 @@
 //!
 //! Eqs. (20)–(22) were fitted over 0.005 < a₁ < 0.1.
 
+use crate::variables::DampingModel;
+
 /// Range of a₁ over which Eqs. (20)–(22) were fitted \[-\].
 pub const FITTED_A1: std::ops::RangeInclusive<f64> = 0.005..=0.1;
 
@@ -27,6 +29,18 @@ pub fn stiffness_proportional(a1: f64, restitution: f64) -> f64 {
 #[must_use]
 pub fn free_standing_block(restitution: f64) -> f64 {
     -1.55 * restitution.ln()
+}
+
+/// ξ, ξ₁ or c̄ of a damping model; 0 without one. Eqs. (20)–(23).
+#[must_use]
+pub fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
+    match model {
+        DampingModel::None => 0.0,
+        DampingModel::ConstantCoefficient => constant_coefficient(a1, restitution),
+        DampingModel::FreeStandingBlock => free_standing_block(restitution),
+        DampingModel::ConstantRatio => constant_ratio(a1, restitution),
+        DampingModel::StiffnessProportional => stiffness_proportional(a1, restitution),
+    }
 }
 
 /// Damping ratio of an elastic oscillator that decays like a rocking block over `impacts` impacts from the rotation

@@ -9,6 +9,8 @@ use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMo
 use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
+use crate::ida::{IdaArguments, MergeArguments};
+
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
 #[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
@@ -263,51 +265,6 @@ pub(crate) struct RecordFilesArguments {
     /// Draw the histories and the spectra, as SVG or PNG by the file's ending
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct IdaArguments {
-    /// Study file (TOML): walls, records, damping models, intensity, levels
-    pub(crate) study: PathBuf,
-    /// Folder of the results; without it the study's name and `_results`. Started again, a study goes on where it stopped
-    #[arg(short, long, value_name = "FOLDER")]
-    pub(crate) output: Option<PathBuf>,
-    /// Threads; all cores if none are given
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` puts them together
-    #[arg(long, value_name = "I/N")]
-    pub(crate) shard: Option<Shard>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct MergeArguments {
-    /// Folders of the shards, or the one they share
-    #[arg(required = true, value_name = "FOLDER")]
-    pub(crate) folders: Vec<PathBuf>,
-    /// Folder of the whole
-    #[arg(short, long, value_name = "FOLDER")]
-    pub(crate) output: Option<PathBuf>,
-}
-
-/// One of several parts of a study.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Shard {
-    /// From 1.
-    pub(crate) number: usize,
-    pub(crate) of: usize,
-}
-
-impl std::str::FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        match numbers {
-            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
-            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
-        }
-    }
 }
 
 #[derive(Debug, Args)]

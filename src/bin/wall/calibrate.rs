@@ -9,6 +9,7 @@ use clap::Args;
 use fmi2_export::Kind;
 use rocking_wall::study::calibration::{Calibration, Coefficient, Fit, Grid, STEP, calibrate};
 use rocking_wall::study::chart::{Axis, Chart, Series};
+use rocking_wall::study::parallel::threads;
 use rocking_wall::study::reproduce::facts::{FREE_STANDING, REGRESSIONS};
 use rocking_wall::study::reproduce::tables::abbreviation;
 use rocking_wall::variables::{DampingModel, ForceLaw, IntegerVariable};
@@ -16,6 +17,7 @@ use rocking_wall::wall::Parameters;
 
 use crate::args::SceneArguments;
 use crate::figure::escaped;
+use crate::template::filled;
 use crate::{chart, output};
 
 #[derive(Debug, Args)]
@@ -47,11 +49,6 @@ pub(crate) struct CalibrateArguments {
     /// Number of threads; without it one for each core
     #[arg(long, value_name = "COUNT")]
     pub(crate) threads: Option<NonZeroUsize>,
-}
-
-/// The threads asked for, or one for each core.
-pub(crate) fn threads(given: Option<NonZeroUsize>) -> NonZeroUsize {
-    given.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
 }
 
 /// Series that a chart holds without repeating a colour.
@@ -183,10 +180,10 @@ fn page(title: &str, found: &[Calibration]) -> String {
     }
     let figures: String = charts.iter().map(chart::figure).collect();
     let text: String = found.iter().map(table).collect();
-    include_str!("calibrate.html")
-        .replace("{{title}}", &escaped(title))
-        .replace("{{table}}", &escaped(&text))
-        .replace("{{figures}}", &figures)
+    filled(
+        include_str!("calibrate.html"),
+        &[("title", &escaped(title)), ("table", &escaped(&text)), ("figures", &figures)],
+    )
 }
 
 /// ξ over e for some of the a₁ and u₀.

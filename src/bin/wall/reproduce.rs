@@ -8,11 +8,12 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use rocking_wall::ground_motion::{ReadOptions, read};
 use rocking_wall::study::ida::NamedRecord;
+use rocking_wall::study::parallel::threads;
 use rocking_wall::study::reproduce::collapse::{Collapses, figure_15};
 use rocking_wall::study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
-use crate::calibrate::threads;
 use crate::figure::escaped;
+use crate::template::filled;
 use crate::{chart, output};
 
 #[derive(Debug, Args)]
@@ -128,13 +129,17 @@ fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
     for figure in drawn() {
         let _ = write!(links, "<a href=\"#figure-{0}\">{0}</a> ", figure.number);
     }
-    include_str!("reproduce.html")
-        .replace("{{agree}}", &agree.to_string())
-        .replace("{{all}}", &all.to_string())
-        .replace("{{links}}", &links)
-        .replace("{{missing}}", if collapses.is_some() { "" } else { MISSING })
-        .replace("{{tables}}", &tables)
-        .replace("{{figures}}", &figures)
+    filled(
+        include_str!("reproduce.html"),
+        &[
+            ("agree", &agree.to_string()),
+            ("all", &all.to_string()),
+            ("links", &links),
+            ("missing", if collapses.is_some() { "" } else { MISSING }),
+            ("tables", &tables),
+            ("figures", &figures),
+        ],
+    )
 }
 
 fn notes(notes: &[String]) -> String {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use anyhow::{Result, bail};
 use rocking_wall::ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::Scene;
+use rocking_wall::study::parallel;
 use rocking_wall::study::spectrum::{
     Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls,
 };
@@ -15,6 +16,7 @@ use crate::args::SpectrumArguments;
 use crate::figure::escaped;
 use crate::heat_map::{Axis, HeatMap, Paint, mixed, scale};
 use crate::output;
+use crate::template::filled;
 
 /// A spectrum and the words for it.
 struct Shown {
@@ -35,10 +37,7 @@ const MOST_VALUES: usize = 500;
 pub(crate) fn run(arguments: &SpectrumArguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
-    let threads = arguments
-        .threads
-        .or_else(|| std::thread::available_parallelism().ok())
-        .map_or(1, std::num::NonZeroUsize::get);
+    let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
         (Some(form), None, None) => pulses(arguments, &scene.parameters, form, threads)?,
@@ -299,12 +298,16 @@ fn page(shown: &Shown) -> String {
             (mixed(&ROCKING, ratio), (step % 2 == 0).then(|| format!("{ratio:.1}")))
         })
         .collect();
-    include_str!("spectrum.html")
-        .replace("{{title}}", &escaped(&shown.title))
-        .replace("{{subtitle}}", &escaped(&shown.notes.join("; ")))
-        .replace("{{axes}}", &escaped(&shown.axes))
-        .replace("{{still}}", STILL)
-        .replace("{{fallen}}", FALLEN)
-        .replace("{{scale}}", &scale("colours of u_max/u_ins", &swatches))
-        .replace("{{map}}", &map.draw())
+    filled(
+        include_str!("spectrum.html"),
+        &[
+            ("title", &escaped(&shown.title)),
+            ("subtitle", &escaped(&shown.notes.join("; "))),
+            ("axes", &escaped(&shown.axes)),
+            ("still", STILL),
+            ("fallen", FALLEN),
+            ("scale", &scale("colours of u_max/u_ins", &swatches)),
+            ("map", &map.draw()),
+        ],
+    )
 }

@@ -58,7 +58,7 @@ impl Case {
             let decay = Decay::new(&damped(damping))?;
             decay.difference(&reference, step).map_err(failed)
         };
-        let expected = predicted(model, self.a1, self.restitution);
+        let expected = equivalence::predicted(model, self.a1, self.restitution);
         let bracket = self.bracket(expected, error)?;
         let (damping, error) = minimum(error, bracket, TOLERANCE)?;
         Ok(Fit { a1, start, restitution, damping, error, samples: reference.len() })
@@ -113,15 +113,5 @@ impl Case {
         }
         let (low, high) = (scan[0].0, scan[scan.len() - 1].0);
         Err(CalibrationError::NoMinimum { restitution: self.restitution, a1: self.a1, low, high })
-    }
-}
-
-/// Eqs. (20)–(23).
-fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
-    match model {
-        DampingModel::ConstantCoefficient => equivalence::constant_coefficient(a1, restitution),
-        DampingModel::StiffnessProportional => equivalence::stiffness_proportional(a1, restitution),
-        DampingModel::FreeStandingBlock => equivalence::free_standing_block(restitution),
-        DampingModel::ConstantRatio | DampingModel::None => equivalence::constant_ratio(a1, restitution),
     }
 }

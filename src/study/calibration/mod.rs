@@ -16,7 +16,6 @@ mod matching;
 mod minimum;
 
 use std::num::NonZeroUsize;
-use std::sync::OnceLock;
 
 use crate::study::parallel;
 use crate::variables::{DampingModel, ForceLaw};
@@ -128,7 +127,8 @@ pub fn calibrate(
             cases.extend(grid.restitution.iter().map(|&restitution| Case { a1, start, restitution }));
         }
     }
-    let fits = in_parallel(&cases, threads, |case| case.fit(parameters, model, grid.step))?;
+    let fits =
+        parallel::map(cases.len(), threads.get(), |index| cases[index].fit(parameters, model, grid.step))?;
     let coefficients: Vec<Coefficient> = fits
         .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))
         .map(|fits| Coefficient { a1: fits[0].a1, start: fits[0].start, x: coefficient(fits) })
@@ -208,21 +208,4 @@ fn check(model: DampingModel, grid: &Grid) -> Result<(), CalibrationError> {
         }
     }
     Ok(())
-}
-
-/// The results of all cases in their order.
-fn in_parallel<C: Sync, R: Send + Sync>(
-    cases: &[C],
-    threads: NonZeroUsize,
-    work: impl Fn(&C) -> Result<R, CalibrationError> + Sync,
-) -> Result<Vec<R>, CalibrationError> {
-    let numbers: Vec<usize> = (0..cases.len()).collect();
-    let slots: Vec<OnceLock<R>> = cases.iter().map(|_| OnceLock::new()).collect();
-    parallel::each(&numbers, threads.get(), |index| {
-        let result = work(&cases[index])?;
-        // each number is worked on once, so that its slot is empty
-        slots[index].get_or_init(|| result);
-        Ok::<(), CalibrationError>(())
-    })?;
-    Ok(slots.into_iter().filter_map(OnceLock::into_inner).collect())
 }

@@ -9,11 +9,10 @@ mod levels;
 mod measure;
 mod model;
 
-use std::sync::OnceLock;
-
 use crate::ground_motion::{GroundMotion, GroundMotionError};
 use crate::solver::record::{RecordSolver, Scaled, Still};
 use crate::solver::{Method, Motion, SolverError, State};
+use crate::study::free_motion::has_peaked;
 use crate::study::parallel;
 use crate::wall::{ParameterError, Parameters, Support, Wall};
 
@@ -246,16 +245,9 @@ impl Study {
     /// All curves, in the order of their numbers, on `threads` threads; the same whatever their number.
     ///
     /// # Errors
-    /// The error of a run that could not be followed.
+    /// The error of the first combination, in their order, whose runs could not be followed.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
-        let curves: Vec<OnceLock<Curve>> = (0..self.count()).map(|_| OnceLock::new()).collect();
-        let numbers: Vec<usize> = (0..self.count()).collect();
-        parallel::each(&numbers, threads, |index| {
-            let curve = self.curve(self.case(index))?;
-            let _ = curves[index].set(curve);
-            Ok(())
-        })?;
-        Ok(curves.into_iter().filter_map(OnceLock::into_inner).collect())
+        parallel::map(self.count(), threads, |index| self.curve(self.case(index)))
     }
 }
 
@@ -312,6 +304,7 @@ impl Runs<'_> {
         let [intensity, peak] = self.intensity;
         // p = −λ a_g
         let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
+        let u_ins = self.motion.wall().body().instability;
         let factors = levels.map(|level| level / intensity * participation);
         let samples = self.record.samples();
         let starts = factors.map(|factor| self.motion.start_under(0.0, 0.0, factor * samples[0]));
@@ -323,7 +316,7 @@ impl Runs<'_> {
                 Some(time) => (passage.state, Some(time)),
                 None => self.free(solver, passage.state)?,
             };
-            runs[index] = Level { intensity: levels[index], demand: self.demand(&state), overturning };
+            runs[index] = Level { intensity: levels[index], demand: state.peaks.ratio(u_ins), overturning };
         }
         Ok(runs)
     }
@@ -331,24 +324,12 @@ impl Runs<'_> {
     /// The state after the free vibration that follows the record, and the time of overturning; what cannot go beyond the
     /// peak it has already seen, for lack of energy, is not followed.
     fn free(&self, solver: &RecordSolver<'_>, state: State) -> Result<(State, Option<f64>), SolverError> {
-        let wall = self.motion.wall();
-        let (sides, ends) = (wall.body().instability, wall.force_end());
-        let demand = self.demand(&state);
-        let reached = [demand * sides.positive, -demand * sides.negative];
-        let rising = reached.iter().all(|&u| u.abs() <= ends.of(u));
-        let energy = wall.energy(state.displacement, state.velocity);
-        if rising && reached.iter().all(|&u| energy <= wall.energy(u, 0.0)) {
+        if has_peaked(self.motion.wall(), &state) {
             return Ok((state, None));
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
         let [passage] = solver.run([state], &Still(count), true, |_, _, _| {})?;
         Ok((passage.state, passage.overturning.map(|time| self.record.duration() + time)))
-    }
-
-    /// Largest |u|/`u_ins`, each side by its own `u_ins`.
-    fn demand(&self, state: &State) -> f64 {
-        let sides = self.motion.wall().body().instability;
-        (state.peaks.positive / sides.positive).max(state.peaks.negative / sides.negative)
     }
 }

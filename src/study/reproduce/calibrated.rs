@@ -8,11 +8,9 @@ use crate::variables::{DampingModel, ForceLaw};
 use crate::wall::{Parameters, equivalence};
 
 use super::facts::{FIGURE_WALL, FREE_STANDING, REGRESSIONS, START};
-use super::tables::abbreviation;
+use super::tables::{RATIO_MODELS as MODELS, abbreviation};
 use super::{Cell, Figure, Table, spaced};
 
-const MODELS: [DampingModel; 3] =
-    [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
 /// u₀/`u_ins` of Figure 8, and a₁ of Figure 10: the drawings are lost.
 const STARTS: [f64; 4] = [0.3, 0.5, 0.7, START];
 const A1: [f64; 4] = [0.01, 0.03, 0.05, 0.10];

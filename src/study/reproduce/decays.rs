@@ -14,11 +14,8 @@ use super::facts::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
-use super::tables::abbreviation;
+use super::tables::{RATIO_MODELS as MODELS, abbreviation};
 use super::{Cell, Figure, ReproductionError, Table, history, spaced};
-
-const MODELS: [DampingModel; 3] =
-    [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the caption leaves out: with them `C_CDC` is the
 /// 300 kg/s of the text, and nothing else depends on them.

@@ -3,9 +3,9 @@
 use crate::study::chart::{Axis, Chart, Series};
 use crate::variables::{DampingModel, ForceLaw, Mechanism};
 use crate::wall::restitution::{analytic_parapet, analytic_vertical_spanning, calibration};
-use crate::wall::{ParameterError, Parameters, Wall};
+use crate::wall::{ParameterError, Parameters, Wall, equivalence};
 
-use super::tables::{abbreviation, predicted};
+use super::tables::{RATIO_MODELS, abbreviation};
 use super::{Figure, spaced};
 
 /// Figure 4: a) bilinear and b) trilinear law on the rigid-linear one.
@@ -51,23 +51,21 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
 /// Figure 13: ξ over the slenderness angle.
 pub(super) fn figure_13() -> Figure {
     let a1 = 0.06;
-    let models =
-        [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
     let curve = |model, mechanism, factor: f64| -> Vec<(f64, f64)> {
         let ratio = |angle: f64| {
             let analytic = match mechanism {
                 Mechanism::Parapet => analytic_parapet(angle),
                 Mechanism::VerticalSpanning => analytic_vertical_spanning(angle),
             };
-            predicted(model, a1, factor * analytic)
+            equivalence::predicted(model, a1, factor * analytic)
         };
         spaced([0.02, 0.35], 66).map(|angle| (angle, 100.0 * ratio(angle))).collect()
     };
     let (parapet, strip) = (Mechanism::Parapet, Mechanism::VerticalSpanning);
-    let charts = models.map(|model| Chart {
+    let charts = RATIO_MODELS.map(|model| Chart {
         title: format!("{}, a₁ = {a1}, a₃ = 1", abbreviation(model)),
         x: Axis::over("α or α₁ (rad)", [0.0, 0.35]),
-        y: Axis::over("damping ratio (%)", [0.0, if model == models[0] { 8.0 } else { 16.0 }]),
+        y: Axis::over("damping ratio (%)", [0.0, if model == RATIO_MODELS[0] { 8.0 } else { 16.0 }]),
         series: vec![
             Series::line("PW, e_an", 0, curve(model, parapet, 1.0)),
             Series::dashed("PW, 0.95 e_an", 0, curve(model, parapet, calibration(parapet))),

@@ -8,14 +8,9 @@ use super::facts::{
 };
 use super::{Cell, Table};
 
-/// ξ of Eqs. (20)–(22) \[-\].
-pub(super) fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
-    match model {
-        DampingModel::ConstantCoefficient => equivalence::constant_coefficient(a1, restitution),
-        DampingModel::StiffnessProportional => equivalence::stiffness_proportional(a1, restitution),
-        _ => equivalence::constant_ratio(a1, restitution),
-    }
-}
+/// The damping models of the paper that take a ratio ξ.
+pub(super) const RATIO_MODELS: [DampingModel; 3] =
+    [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
 
 /// The paper's name of a damping model.
 #[must_use]
@@ -37,7 +32,7 @@ pub fn table_3() -> Table {
         for (printed, restitutions) in [row.single_leaf, row.cavity].iter().zip(TABLE_3_RESTITUTION) {
             cells.push(Cell::words(format!("{:.3}", printed[0])));
             for (printed, e) in printed[1..].iter().zip(restitutions) {
-                cells.push(Cell::value(predicted(row.model, TABLE_3_A1, e), *printed, 3));
+                cells.push(Cell::value(equivalence::predicted(row.model, TABLE_3_A1, e), *printed, 3));
             }
         }
         cells

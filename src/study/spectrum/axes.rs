@@ -113,7 +113,7 @@ impl Slenderness {
 }
 
 impl PulseForm {
-    /// The pulse with a frequency \[Hz\] and the amplitude 1 m/s²; a Ricker pulse from where it is 1e-18 on.
+    /// The pulse with a frequency \[Hz\] and the amplitude 1 m/s²; a Ricker pulse from where it is −4e-17 on.
     #[must_use]
     pub fn pulse(self, frequency: f64) -> Pulse {
         let shape = match self {

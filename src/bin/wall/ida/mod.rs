@@ -10,21 +10,67 @@ mod progress;
 mod results;
 
 use std::fmt::Write;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
+use clap::Args;
 use rocking_wall::study::ida::{Occurrence, Study};
 use rocking_wall::study::parallel;
 
-use crate::args::{IdaArguments, MergeArguments};
 use crate::output;
 
 use folder::Folder;
 use load::load;
 use progress::Progress;
 use results::{Results, in_g};
+
+#[derive(Debug, Args)]
+pub(crate) struct IdaArguments {
+    /// Study file (TOML): walls, records, damping models, intensity, levels
+    pub(crate) study: PathBuf,
+    /// Folder of the results; without it the study's name and `_results`. Started again, a study goes on where it stopped
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Threads; all cores if none are given
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` puts them together
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of the shards, or the one they share
+    #[arg(required = true, value_name = "FOLDER")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Folder of the whole
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// One of several parts of a study.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shard {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) of: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
+        }
+    }
+}
 
 /// Most missing combinations that a message names.
 const NAMED: usize = 3;
@@ -37,7 +83,7 @@ pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
     let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
-    let threads = threads(arguments.threads);
+    let threads = parallel::threads(arguments.threads).get();
     let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
     let mine: Vec<usize> = (0..loaded.study.count()).filter(|index| index % shards == shard).collect();
     let missing: Vec<usize> = mine.iter().copied().filter(|&index| folder.curve(index).is_none()).collect();
@@ -81,7 +127,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
     if !missing.is_empty() {
         bail!("{}", not_whole(&target, &missing));
     }
-    finish(&target, threads(None))
+    finish(&target, parallel::threads(None).get())
 }
 
 /// Says what is missing.
@@ -104,10 +150,6 @@ fn not_whole(folder: &Folder, missing: &[usize]) -> String {
         contents.count(),
         names.join(", ")
     )
-}
-
-fn threads(given: Option<u16>) -> usize {
-    given.map(usize::from).or_else(|| std::thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
 }
 
 /// Time and amount of work of one model.

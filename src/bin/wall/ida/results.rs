@@ -1,7 +1,6 @@
 //! What the runs of a study say together, and its tables.
 
 use std::fmt::Write;
-use std::sync::OnceLock;
 
 use anyhow::Result;
 use rocking_wall::ground_motion::STANDARD_GRAVITY;
@@ -22,7 +21,6 @@ pub(crate) struct Results {
 impl Results {
     pub(super) fn new(manifest: Manifest, curves: Vec<Curve>, threads: usize) -> Result<Self> {
         let (walls, fractions) = (manifest.contents.walls.len(), manifest.report.fractions.len());
-        let places: Vec<OnceLock<Vec<Summary>>> = (0..walls * fractions).map(|_| OnceLock::new()).collect();
         let mut results = Self { manifest, curves, summaries: Vec::new() };
         let report = &results.manifest.report;
         let bootstrap =
@@ -30,15 +28,13 @@ impl Results {
         let observing = results.observing();
         let models = &results.contents().models;
         let reference = models.iter().position(|model| model.name == report.reference).unwrap_or(0);
-        let numbers: Vec<usize> = (0..walls * fractions).collect();
-        parallel::each(&numbers, threads, |index| -> Result<()> {
+        let summaries = parallel::map(walls * fractions, threads, |index| -> Result<_> {
             let (wall, fraction) = (index / fractions, report.fractions[index % fractions]);
             let occurrences: Vec<_> =
                 (0..models.len()).map(|model| results.occurrences(wall, model, fraction)).collect();
-            let _ = places[index].set(compare(&occurrences, reference, &observing, &bootstrap));
-            Ok(())
+            Ok(compare(&occurrences, reference, &observing, &bootstrap))
         })?;
-        results.summaries = places.into_iter().filter_map(OnceLock::into_inner).collect();
+        results.summaries = summaries;
         Ok(results)
     }
 
@@ -174,7 +170,7 @@ fn cell(value: f64) -> String {
 
 /// A name as a field of CSV.
 fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n']) {
+    if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))
     } else {
         name.to_owned()
