@@ -107,5 +107,5 @@ fn describe_writes_the_curve() {
     assert!(limits[3]["secant_period"].is_null());
     let refused_folder = crate::command_line::folder("capacity_refused");
     refused(&refused_folder, &["describe", "--thresholds", "2"], &["thresholds", "2"]);
-    refused(&refused_folder, &["describe", "--plot", "c.jpg"], &["c.jpg", ".svg or .png"]);
+    refused(&refused_folder, &["describe", "--csv", "c.csv", "--plot", "c.jpg"], &["c.jpg", ".svg or .png"]);
 }

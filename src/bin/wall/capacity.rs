@@ -1,15 +1,11 @@
 //! The static capacity curve in `wall describe`: table, JSON, CSV and plot.
 
 use std::fmt::Write;
-use std::path::Path;
 
-use anyhow::{Result, anyhow, bail};
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LegendPosition, LinePlot};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
+use kuva::render::render::{Scene, render_multiple};
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
@@ -115,12 +111,8 @@ impl Capacity {
         text
     }
 
-    /// The picture in the format of the path's ending: the curve of each side, and the secants of the first one.
-    pub(crate) fn draw(&self, path: &Path) -> Result<Vec<u8>> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        if !["svg", "png"].contains(&ending.as_str()) {
-            bail!("{}: a plot ends in .svg or .png", path.display());
-        }
+    /// The curve of each side, and the secants of the first one.
+    pub(crate) fn drawing(&self) -> Scene {
         let place = |point: &CapacityPoint| (1000.0 * point.displacement, point.force / 1000.0);
         let mut lines = Vec::new();
         for (side, color) in self.sides.iter().zip([CURVE, OTHER_CURVE]) {
@@ -151,13 +143,7 @@ impl Capacity {
             .with_tick_size(12)
             .with_legend_position(LegendPosition::InsideTopRight)
             .with_font_family("system-ui, sans-serif");
-        let scene = render_multiple(lines, layout);
-        match ending.as_str() {
-            "svg" => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
-            _ => PngBackend::new()
-                .render_scene(&scene)
-                .map_err(|reason| anyhow!("{}: {reason}", path.display())),
-        }
+        render_multiple(lines, layout)
     }
 }
 

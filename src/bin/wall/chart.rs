@@ -2,15 +2,12 @@
 
 use std::fmt::Write;
 
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
-use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
 use rocking_wall::study::chart::{Axis, Chart, Look, Series};
 
-use crate::figure::{escaped, fluid};
+use crate::figure::{MARGINS, escaped, inline, layout};
 
 /// Colours and marks, told apart by people who see fewer colours too.
 const COLORS: [(&str, MarkerShape, &str); 6] = [
@@ -24,7 +21,6 @@ const COLORS: [(&str, MarkerShape, &str); 6] = [
 /// Size \[px\].
 const WIDTH: f64 = 460.0;
 const HEIGHT: f64 = 300.0;
-const MARGINS: [f64; 4] = [70.0, 18.0, 12.0, 48.0];
 /// A line may leave out points no further from it than this \[px\].
 const TOLERANCE: f64 = 0.3;
 
@@ -72,22 +68,9 @@ fn svg(chart: &Chart) -> String {
             plots.push(Plot::Line(if *look == Look::Dashed { line.with_dashed() } else { line }));
         }
     }
-    let layout = Layout::auto_from_plots(&plots)
-        .with_width(WIDTH)
-        .with_height(HEIGHT)
-        .with_force_margins(left, right)
-        .with_force_margins_y(top, bottom)
-        .with_x_axis_min(x_range[0])
-        .with_x_axis_max(x_range[1])
-        .with_y_axis_min(y_range[0])
-        .with_y_axis_max(y_range[1])
-        .with_x_label(chart.x.label.as_str())
-        .with_y_label(chart.y.label.as_str())
-        .with_label_size(14)
-        .with_tick_size(12)
-        .with_font_family("system-ui, sans-serif");
-    let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
-    fluid(&svg, WIDTH, HEIGHT)
+    let labels = [chart.x.label.as_str(), chart.y.label.as_str()];
+    let layout = layout(&plots, [WIDTH, HEIGHT], [x_range, y_range], labels);
+    inline(plots, layout, [WIDTH, HEIGHT])
 }
 
 /// The range of an axis: its own, or that of the data with room around it.

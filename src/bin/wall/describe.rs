@@ -9,7 +9,7 @@ use rocking_wall::wall::{Wall, equivalence};
 
 use crate::args::DescribeArguments;
 use crate::capacity::Capacity;
-use crate::output;
+use crate::{figure, output};
 
 /// One derived number: name, symbol, value, unit.
 struct Fact(&'static str, &'static str, f64, &'static str);
@@ -23,11 +23,12 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
+    // the plot first, which may be refused
+    if let Some(path) = &arguments.plot {
+        output::to_file(path, &figure::file(path, || Ok(capacity.drawing()))?)?;
+    }
     if let Some(path) = &arguments.csv {
         output::to_file(path, capacity.csv().as_bytes())?;
-    }
-    if let Some(path) = &arguments.plot {
-        output::to_file(path, &capacity.draw(path)?)?;
     }
     let facts = facts(&wall);
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };

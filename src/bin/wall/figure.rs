@@ -1,15 +1,19 @@
-//! The plots of a page, by kuva, as inline SVG whose plot area is known to the pixel.
+//! Plots by kuva: inline SVG whose plot area is known to the pixel, for pages, and files.
 
+use std::path::Path;
+
+use anyhow::{Result, anyhow, bail};
+use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LinePlot, LineStyle};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
+use kuva::render::render::{Scene, render_multiple};
 
 /// Size of a plot and of the margins around its plot area \[px\]: left, right, top, bottom.
 pub(crate) const WIDTH: f64 = 620.0;
-const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
+pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
 
 /// Colours: the response, the backbone and limits, the motion.
 const RESPONSE: &str = "#1f5fa8";
@@ -88,26 +92,12 @@ impl Figure {
         height: f64,
     ) -> Self {
         let plots: Vec<Plot> = lines.into_iter().map(Plot::Line).collect();
-        let [left, right, top, bottom] = MARGINS;
-        let mut layout = Layout::auto_from_plots(&plots)
-            .with_width(WIDTH)
-            .with_height(height)
-            .with_force_margins(left, right)
-            .with_force_margins_y(top, bottom)
-            .with_x_axis_min(x_range[0])
-            .with_x_axis_max(x_range[1])
-            .with_y_axis_min(y_range[0])
-            .with_y_axis_max(y_range[1])
-            .with_x_label(x_label)
-            .with_y_label(y_label)
-            .with_label_size(14)
-            .with_tick_size(13)
-            .with_font_family("system-ui, sans-serif");
+        let size = [WIDTH, height];
+        let mut layout = layout(&plots, size, [x_range, y_range], [x_label, y_label]);
         for reference in references {
             layout = layout.with_reference_line(reference);
         }
-        let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
-        Self { svg: fluid(&svg, WIDTH, height), height, x_range, y_range }
+        Self { svg: inline(plots, layout, size), height, x_range, y_range }
     }
 
     /// Where the plot area lies, as parts of the width and height: left, right, top, bottom.
@@ -185,12 +175,49 @@ fn clipped(line: &[(f64, f64)], [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
     points
 }
 
+/// Axes over ranges of x and y, on a plot of a size \[px\]: what all plots of pages have in common.
+pub(crate) fn layout(
+    plots: &[Plot],
+    [width, height]: [f64; 2],
+    [x_range, y_range]: [[f64; 2]; 2],
+    [x_label, y_label]: [&str; 2],
+) -> Layout {
+    let [left, right, top, bottom] = MARGINS;
+    Layout::auto_from_plots(plots)
+        .with_width(width)
+        .with_height(height)
+        .with_force_margins(left, right)
+        .with_force_margins_y(top, bottom)
+        .with_x_axis_min(x_range[0])
+        .with_x_axis_max(x_range[1])
+        .with_y_axis_min(y_range[0])
+        .with_y_axis_max(y_range[1])
+        .with_x_label(x_label)
+        .with_y_label(y_label)
+        .with_label_size(14)
+        .with_tick_size(13)
+        .with_font_family("system-ui, sans-serif")
+}
+
 /// An SVG that takes the width of its place: instead of a size it has a view box.
-pub(crate) fn fluid(svg: &str, width: f64, height: f64) -> String {
+pub(crate) fn inline(plots: Vec<Plot>, layout: Layout, [width, height]: [f64; 2]) -> String {
+    let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
     let sized = format!("width=\"{width}\" height=\"{height}\"");
     let view = format!("viewBox=\"0 0 {width} {height}\"");
     assert!(svg.contains(&sized), "kuva writes the size as {sized}");
     svg.replacen(&sized, &view, 1)
+}
+
+/// A picture as a file of its own, in the format of its path's ending.
+pub(crate) fn file(path: &Path, draw: impl FnOnce() -> Result<Scene>) -> Result<Vec<u8>> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match ending.as_str() {
+        "svg" => Ok(SvgBackend::new().render_scene(&draw()?).into_bytes()),
+        "png" => {
+            PngBackend::new().render_scene(&draw()?).map_err(|reason| anyhow!("{}: {reason}", path.display()))
+        }
+        _ => bail!("{}: a plot ends in .svg or .png", path.display()),
+    }
 }
 
 /// Text for markup.

@@ -24,6 +24,7 @@ mod simulate;
 mod spectrum;
 mod stability;
 mod stability_page;
+mod template;
 mod work_precision;
 
 use std::process::ExitCode;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stderr, reason = "messages to the user")]
 
+use std::hash::{BuildHasher, RandomState};
 use std::io::Write;
 use std::path::Path;
 
@@ -15,7 +16,9 @@ pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
         _ => Path::new("."),
     };
     let name = path.file_name().with_context(context)?;
-    let part = folder.join(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
+    // unlike any other, also of processes with the same number on other machines
+    let own = RandomState::new().hash_one(std::process::id());
+    let part = folder.join(format!(".{}.{own:016x}.part", name.to_string_lossy()));
     let written = std::fs::write(&part, content).and_then(|()| std::fs::rename(&part, path));
     if written.is_err() {
         // nothing half-written stays behind; that it may never have been there is no matter

@@ -11,6 +11,7 @@ use rocking_wall::wall::Wall;
 use crate::demands;
 use crate::figure::{Color, Figure, escaped};
 use crate::linearisation::Counterpart;
+use crate::template::filled;
 
 const TEMPLATE: &str = include_str!("page.html");
 /// Frames the slider moves through.
@@ -46,32 +47,19 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     });
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
+    let figures = figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response);
     let page = [
-        ("{{title}}", escaped(&scene.title)),
-        ("{{subtitle}}", escaped(&subtitle)),
-        ("{{wall}}", drawing(scene, wall, response)),
-        ("{{last_frame}}", (frames.len() - 1).to_string()),
-        ("{{factors}}", factors(wall, response)),
-        ("{{facts}}", facts(scene, wall, response)),
-        (
-            "{{figures}}",
-            figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response),
-        ),
+        ("title", &*escaped(&scene.title)),
+        ("subtitle", &escaped(&subtitle)),
+        ("wall", &drawing(scene, wall, response)),
+        ("last_frame", &(frames.len() - 1).to_string()),
+        ("factors", &factors(wall, response)),
+        ("facts", &facts(scene, wall, response)),
+        ("figures", &figures),
         // a closing tag inside the data would end the script
-        ("{{data}}", data.to_string().replace("</", "<\\/")),
+        ("data", &data.to_string().replace("</", "<\\/")),
     ];
-    let mut html = String::with_capacity(200_000);
-    let mut rest = TEMPLATE;
-    while let Some(start) = rest.find("{{") {
-        let stop = rest[start..].find("}}").map_or(rest.len(), |length| start + length + 2);
-        html.push_str(&rest[..start]);
-        if let Some((_, content)) = page.iter().find(|(name, _)| *name == &rest[start..stop]) {
-            html.push_str(content);
-        }
-        rest = &rest[stop..];
-    }
-    html.push_str(rest);
-    Ok(html)
+    Ok(filled(TEMPLATE, &page))
 }
 
 /// Evenly spaced samples, the last one among them.

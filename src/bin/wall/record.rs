@@ -10,7 +10,7 @@ use rocking_wall::ground_motion::{
 use serde_json::{Value, json};
 
 use crate::args::RecordFilesArguments;
-use crate::{output, record_plot};
+use crate::{figure, output, record_plot};
 
 /// One channel of a file and what is told of it.
 struct Row {
@@ -88,7 +88,7 @@ fn show(rows: &[Row], arguments: &RecordFilesArguments, spectrum: Spectrum) -> R
     let mut written = Vec::new();
     if let Some(path) = &arguments.plot {
         let named: Vec<_> = rows.iter().map(|row| (row.name(), &row.record.motion)).collect();
-        output::to_file(path, &record_plot::draw(path, &named, spectrum)?)?;
+        output::to_file(path, &figure::file(path, || record_plot::drawing(&named, spectrum))?)?;
         written.push(path);
     }
     if let Some(path) = &arguments.csv {

@@ -1,14 +1,11 @@
 //! The plot of records: their histories and their response spectra.
 
-use std::path::Path;
-
-use anyhow::{Result, anyhow, bail};
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
+use anyhow::Result;
 use kuva::plot::{LegendPosition, LinePlot};
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
+use kuva::render::render::Scene;
 use rocking_wall::ground_motion::{GroundMotion, STANDARD_GRAVITY, Spectrum};
 
 use crate::figure::decimated;
@@ -28,12 +25,11 @@ const SPECTRA: f64 = 420.0;
 const PERIODS: u32 = 200;
 const LONGEST: f64 = 4.0;
 
-/// The picture in the format of the path's ending.
-pub(crate) fn draw(path: &Path, records: &[(String, &GroundMotion)], spectrum: Spectrum) -> Result<Vec<u8>> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if !["svg", "png"].contains(&ending.as_str()) {
-        bail!("{}: a plot ends in .svg or .png", path.display());
-    }
+/// Histories over spectra.
+///
+/// # Errors
+/// If a spectrum cannot be computed.
+pub(crate) fn drawing(records: &[(String, &GroundMotion)], spectrum: Spectrum) -> Result<Scene> {
     let spectra: Vec<Vec<(f64, f64)>> =
         records.iter().map(|(_, motion)| points(motion, spectrum)).collect::<Result<_>>()?;
     let longest = records.iter().map(|(_, motion)| motion.duration()).fold(0.0, f64::max);
@@ -58,11 +54,7 @@ pub(crate) fn draw(path: &Path, records: &[(String, &GroundMotion)], spectrum: S
         .with_cell_size(WIDTH, HISTORY)
         .with_row_height(rows - 1, SPECTRA)
         .with_spacing(4.0);
-    let scene = figure.render();
-    match ending.as_str() {
-        "svg" => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
-        _ => PngBackend::new().render_scene(&scene).map_err(|reason| anyhow!("{}: {reason}", path.display())),
-    }
+    Ok(figure.render())
 }
 
 /// Sa (g) over the period (s), from the peak ground acceleration at 0.

@@ -7,6 +7,7 @@ use rocking_wall::stability::{Axis, Cell, Extreme, Map};
 use crate::figure::escaped;
 use crate::heat_map::{Axis as CellAxis, HeatMap, Paint, mixed, scale};
 use crate::stability::axis_words;
+use crate::template::filled;
 
 /// Size of a cell \[px\].
 const CELL: [f64; 2] = [26.0, 20.0];
@@ -30,11 +31,15 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
             extreme.limit
         );
     }
-    include_str!("stability.html")
-        .replace("{{steps}}", &section(Axis::Step))
-        .replace("{{ratios}}", &section(Axis::Ratio))
-        .replace("{{scale}}", &colours())
-        .replace("{{extremes}}", &rows)
+    filled(
+        include_str!("stability.html"),
+        &[
+            ("steps", &section(Axis::Step)),
+            ("ratios", &section(Axis::Ratio)),
+            ("scale", &colours()),
+            ("extremes", &rows),
+        ],
+    )
 }
 
 fn figure(map: &Map) -> String {

@@ -4,16 +4,15 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
-use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::layout::TickFormat;
 use kuva::render::plots::Plot;
-use kuva::render::render::render_multiple;
 use rocking_wall::accuracy::{Measurement, Study};
 
 use crate::figure;
+use crate::template::filled;
 
 /// Colours and marks of the solvers.
 const SOLVERS: [(&str, &str, MarkerShape); 3] = [
@@ -55,10 +54,14 @@ pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) 
             plot(study)
         );
     }
-    include_str!("work_precision.html")
-        .replace("{{figures}}", &figures)
-        .replace("{{rotations}}", rotations)
-        .replace("{{peers}}", &peers_csv.map_or_else(String::new, peers))
+    filled(
+        include_str!("work_precision.html"),
+        &[
+            ("figures", &figures),
+            ("rotations", rotations),
+            ("peers", &peers_csv.map_or_else(String::new, peers)),
+        ],
+    )
 }
 
 /// Points of one solver or tool: run time \[ms\], error, and words for each.
@@ -159,28 +162,16 @@ fn drawing(series: &[Series], limit: Option<f64>) -> String {
     }
     let times = series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
     let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
-    let mut layout = Layout::auto_from_plots(&plots)
-        .with_width(WIDTH)
-        .with_height(HEIGHT)
+    let size = [WIDTH, HEIGHT];
+    let ranges = [[decade(low, f64::floor), decade(high, f64::ceil)], [exponent(FLOOR), 1.0]];
+    let mut layout = figure::layout(&plots, size, ranges, ["run time (ms)", "max error / u_ins"])
         .with_log_x()
-        .with_x_axis_min(decade(low, f64::floor))
-        .with_x_axis_max(decade(high, f64::ceil))
-        .with_y_axis_min(exponent(FLOOR))
-        .with_y_axis_max(1.0)
         .with_y_tick_step(3.0)
-        .with_y_tick_format(TickFormat::Custom(Arc::new(|exponent| format!("1e{exponent:.0}"))))
-        .with_force_margins(70.0, 18.0)
-        .with_force_margins_y(14.0, 48.0)
-        .with_x_label("run time (ms)")
-        .with_y_label("max error / u_ins")
-        .with_label_size(14)
-        .with_tick_size(13)
-        .with_font_family("system-ui, sans-serif");
+        .with_y_tick_format(TickFormat::Custom(Arc::new(|exponent| format!("1e{exponent:.0}"))));
     if let Some(limit) = limit {
         layout = layout.with_reference_line(ReferenceLine::horizontal(exponent(limit)).with_color("#777"));
     }
-    let svg = SvgBackend::new().render_scene(&render_multiple(plots, layout));
-    figure::fluid(&svg, WIDTH, HEIGHT)
+    figure::inline(plots, layout, size)
 }
 
 fn hover(study: &Study, row: &Measurement) -> String {

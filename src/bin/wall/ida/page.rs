@@ -6,6 +6,7 @@ use rocking_wall::study::fragility::{Interval, fractile, steps};
 use rocking_wall::study::ida::{Curve, Occurrence};
 
 use crate::figure::escaped;
+use crate::template::filled;
 
 use super::plot::Plot;
 use super::results::{Results, in_g};
@@ -64,24 +65,17 @@ pub(super) fn page(results: &Results) -> String {
         results.runs(),
         measure_words(results),
     );
-    let page = [
-        ("title", escaped(&results.manifest.title)),
-        ("facts", facts),
-        ("reading", reading(results)),
-        ("key", key),
-        ("program", escaped(&contents.program)),
-        ("sections", sections),
-    ];
-    let mut html = String::new();
-    let mut rest = include_str!("page.html");
-    // in one pass, so that braces in a title stay what they are
-    while let Some((before, after)) = rest.split_once("{{") {
-        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
-        html.push_str(before);
-        html.push_str(page.iter().find(|(known, _)| *known == name).map_or("", |(_, content)| content));
-        rest = after;
-    }
-    html + rest
+    filled(
+        include_str!("page.html"),
+        &[
+            ("title", &escaped(&results.manifest.title)),
+            ("facts", &facts),
+            ("reading", &reading(results)),
+            ("key", &key),
+            ("program", &escaped(&contents.program)),
+            ("sections", &sections),
+        ],
+    )
 }
 
 /// The intensity measure in words, with its periods.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::figure::escaped;
+use crate::heat_map::round_step;
 
 /// Margins around the plot area \[px\]: left, right, top, bottom.
 const MARGINS: [f64; 4] = [48.0, 12.0, 10.0, 42.0];
@@ -101,10 +102,7 @@ impl Plot {
 
 /// Round numbers within a range.
 fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
-    let rough = (high - low) / TICKS;
-    let power = 10.0_f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).into_iter().find(|step| *step >= rough);
-    let step = step.unwrap_or(power);
+    let step = round_step((high - low) / TICKS);
     let first = (low / step - 1e-9).ceil();
     // at most one more than twice the ticks aimed at
     (0..=10).map(|k| (first + f64::from(k)) * step).take_while(|tick| *tick <= high + 1e-9 * step).collect()

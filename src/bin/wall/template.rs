@@ -1,0 +1,49 @@
+//! Pages from templates with gaps `{{name}}`.
+
+/// Fills the gaps of a template with what is named so, in one pass: braces in a title stay what they are.
+///
+/// # Panics
+/// If a gap has no content, or content no gap.
+pub(crate) fn filled(template: &str, parts: &[(&str, &str)]) -> String {
+    let mut page =
+        String::with_capacity(template.len() + parts.iter().map(|part| part.1.len()).sum::<usize>());
+    let mut used = vec![false; parts.len()];
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let gap = after.split_once("}}");
+        let place = gap.and_then(|(name, _)| parts.iter().position(|part| part.0 == name));
+        let (Some((_, after)), Some(place)) = (gap, place) else {
+            panic!("a gap without content at {:?}", after.chars().take(20).collect::<String>())
+        };
+        page.push_str(before);
+        page.push_str(parts[place].1);
+        used[place] = true;
+        rest = after;
+    }
+    assert!(used.iter().all(|&used| used), "content without a gap: {used:?}");
+    page + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::filled;
+
+    #[test]
+    fn what_fills_a_gap_is_not_filled_again() {
+        let page =
+            filled("<b>{{title}}</b>{{body}}{{title}}", &[("body", "{{title}}"), ("title", "{{body}} {{")]);
+        assert_eq!(page, "<b>{{body}} {{</b>{{title}}{{body}} {{");
+    }
+
+    #[test]
+    #[should_panic(expected = "without content")]
+    fn a_gap_without_content_is_a_mistake() {
+        filled("{{titel}}", &[("title", "")]);
+    }
+
+    #[test]
+    #[should_panic(expected = "without a gap")]
+    fn content_without_a_gap_is_a_mistake() {
+        filled("{{title}}", &[("title", ""), ("body", "")]);
+    }
+}
