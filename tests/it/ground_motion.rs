@@ -5,7 +5,7 @@ mod record_at2;
 mod record_csv;
 mod record_file;
 mod record_formats;
-mod record_real;
+pub(crate) mod record_real;
 pub(crate) mod specimen;
 mod spectrum;
 mod synthetic;

@@ -2,10 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use rocking_wall::ground_motion::SyntheticMotion;
 use rocking_wall::study::chart::Chart;
-use rocking_wall::study::ida::NamedRecord;
-use rocking_wall::study::reproduce::collapse::figure_15;
 use rocking_wall::study::reproduce::tables::{table_3, table_4, table_5};
 use rocking_wall::study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
@@ -144,29 +141,4 @@ fn the_figures_show_what_the_paper_says() {
     let captions = &all.tables[6];
     assert_eq!(value(captions, 0, 1).agrees(), Some(true));
     within(captions, [3, 1], [-0.001, 0.001]);
-}
-
-/// The claim of Figure 15 on records that anyone can make. Five of them are too few for intervals, but Eq. (14) needs about a
-/// third more than CR.
-#[test]
-fn equation_14_is_not_conservative() {
-    let records = (1..=5).map(|seed| NamedRecord {
-        name: format!("synthetic {seed}"),
-        motion: SyntheticMotion { seed, duration: 20.0, ..SyntheticMotion::default() }.motion().unwrap(),
-    });
-    let found = figure_15(records.collect(), TWO).unwrap();
-    assert_eq!(found.figure.charts.len(), 9);
-    for (wall, models) in found.walls.iter().enumerate() {
-        let ratios: Vec<f64> = models.iter().map(|model| model.median_ratio.estimate).collect();
-        println!("wall {}: {:.3?}", wall + 1, ratios);
-        assert_eq!(ratios[0], 1.0);
-        assert!(ratios[4] > 1.05, "wall {}: {ratios:?}", wall + 1);
-        assert!(ratios[1..4].iter().all(|ratio| ratios[4] > *ratio), "wall {}: {ratios:?}", wall + 1);
-    }
-}
-
-#[test]
-fn a_study_without_records_is_refused() {
-    let error = figure_15(Vec::new(), TWO).unwrap_err().to_string();
-    assert!(error.contains("record"), "{error}");
 }

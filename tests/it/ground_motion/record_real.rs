@@ -14,7 +14,7 @@ use rocking_wall::ground_motion::{
 use super::record_formats::assert_clear_of;
 
 /// The folder of records; a folder that was asked for must be there.
-fn folder() -> Option<PathBuf> {
+pub(crate) fn folder() -> Option<PathBuf> {
     if let Some(folder) = env::var_os("ROCKING_WALL_RECORDS").map(PathBuf::from) {
         assert!(
             folder.join("index.csv").is_file(),
