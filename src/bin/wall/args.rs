@@ -9,6 +9,8 @@ use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMo
 use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
+use crate::output;
+
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
 #[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
@@ -364,6 +366,14 @@ impl SceneArguments {
         }
     }
 
+    /// Puts the scene's file before what is wrong with its parameters together.
+    pub(crate) fn named<T, E: Into<anyhow::Error>>(&self, outcome: Result<T, E>) -> Result<T> {
+        outcome.map_err(|error| match &self.scene {
+            Some(path) => error.into().context(path.display().to_string()),
+            None => error.into(),
+        })
+    }
+
     /// Applies `--set`, after a motion may have changed the start.
     pub(crate) fn apply(&self, scene: &mut Scene) -> Result<()> {
         for assignment in &self.set {
@@ -406,6 +416,9 @@ impl RecordArguments {
             format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
         };
         let record = read(path, &options)?;
+        for finding in &record.check().findings {
+            output::note(&format!("{}: {finding}", path.display()));
+        }
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }

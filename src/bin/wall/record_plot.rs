@@ -29,7 +29,12 @@ const PERIODS: u32 = 200;
 const LONGEST: f64 = 4.0;
 
 /// The picture in the format of the path's ending.
-pub(crate) fn draw(path: &Path, records: &[(String, &GroundMotion)], spectrum: Spectrum) -> Result<Vec<u8>> {
+pub(crate) fn draw(
+    path: &Path,
+    records: &[(String, &GroundMotion)],
+    spectrum: Spectrum,
+    damping: f64,
+) -> Result<Vec<u8>> {
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if !["svg", "png"].contains(&ending.as_str()) {
         bail!("{}: a plot ends in .svg or .png", path.display());
@@ -48,7 +53,8 @@ pub(crate) fn draw(path: &Path, records: &[(String, &GroundMotion)], spectrum: S
         }
     }
     let panel = spectrum_lines(records, spectra);
-    let layout = layout(&panel, ["period T (s)", "Sa (g)"], LONGEST);
+    let label = format!("Sa (g) at {} % damping", 100.0 * damping);
+    let layout = layout(&panel, ["period T (s)", &label], LONGEST);
     layouts.push(layout.with_legend_position(LegendPosition::InsideTopRight));
     panels.push(panel);
     let rows = panels.len();
