@@ -165,6 +165,7 @@ fn messages_name_the_file_once() {
     assert_eq!(message.matches("record.csv").count(), 1, "{message}");
     assert!(message.contains("shaken.toml, line 1") && message.contains("`unit`"), "{message}");
     refused(&folder, &["simulate", "--record", "record.csv"], &["--unit"]);
+    refused(&folder, &["simulate", "record.csv"], &["record.csv, line 1", "--record"]);
 }
 
 /// A record of 65 g is a slip of units: the run says so, as `wall record` does.

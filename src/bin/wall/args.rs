@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, Parser, Subcommand};
 use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
@@ -361,7 +361,13 @@ impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self) -> Result<Scene> {
         match &self.scene {
-            Some(path) => Ok(Scene::read(path)?),
+            Some(path) => Scene::read(path).map_err(|error| {
+                if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
+                    anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
+                } else {
+                    error.into()
+                }
+            }),
             None => Ok(Scene::default()),
         }
     }
