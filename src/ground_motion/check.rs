@@ -80,7 +80,8 @@ impl fmt::Display for Finding {
                 "baseline: the ground ends at {last:.3} m/s, its peak velocity is {peak:.3} m/s; correct the baseline"
             ),
             Self::Unit { peak, unit, others } => {
-                write!(f, "unit: a peak of {peak:.3e} g is not credible; are the samples really in {unit}?")?;
+                let shown = if *peak < 1e-2 { format!("{peak:.3e}") } else { format!("{peak:.2}") };
+                write!(f, "unit: a peak of {shown} g is not credible; are the samples really in {unit}?")?;
                 for (index, other) in others.iter().enumerate() {
                     write!(f, "{} {other}", if index == 0 { " Credible would be" } else { " or" })?;
                 }

@@ -33,7 +33,7 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> 
     }
     let parsed = if first.contains(',') { table(text, options)? } else { column(text, options)? };
     if options.unit.is_none() {
-        let remedy = "state it: m/s2, cm/s2, mm/s2 or g";
+        let remedy = "give `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g";
         return Err(Fault::new(number, "a stated unit (a CSV file has none)", "no unit", remedy));
     }
     Ok(parsed)
@@ -67,7 +67,7 @@ fn column(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
         return Err(Fault::new(line, format!("the column {}", excerpt(wanted)), found, "state no column"));
     }
     let Some(step) = options.step else {
-        let remedy = "state the step in seconds, or give the file a `time` column";
+        let remedy = "state the step in seconds as `step` (on the command line --record-step), or give the file a `time` column";
         return Err(Fault::new(last_line, "a stated step (one column has none)", "no step", remedy));
     };
     let comments = lines(text).map_while(|(_, line)| line.strip_prefix('#')).map(str::trim);

@@ -114,7 +114,9 @@ pub enum GroundMotionError {
         found: &'static str,
     },
     /// Several channels, and none was asked for.
-    #[error("{file}: expected one channel, found {found}; state the number of the one to read")]
+    #[error(
+        "{file}: expected one channel, found {found}; state the number of the one to read as `channel` (on the command line --channel)"
+    )]
     Channels {
         /// Name of the file.
         file: String,

@@ -101,7 +101,7 @@ pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> R
 /// The text of a scene file.
 pub(super) fn read_bounded(path: &Path, name: &str) -> Result<String, SceneError> {
     let fail = |reason: String| SceneError::File { file: name.to_owned(), reason };
-    let metadata = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?;
+    let metadata = std::fs::metadata(path).map_err(|error| fail(format!("cannot be read: {error}")))?;
     if !metadata.is_file() {
         return Err(fail("not a regular file; give a scene file (TOML)".into()));
     }

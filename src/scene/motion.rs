@@ -300,6 +300,7 @@ fn read_record(
     }
     let name = spec.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     notes.push(format!("record {name} ({})", record.format.description()));
+    notes.extend(record.check().findings.iter().map(ToString::to_string));
     Ok(record.motion)
 }
 

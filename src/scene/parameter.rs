@@ -87,13 +87,13 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
     if name == KINEMATICS {
         let text = value.as_str();
         let found = Kinematics::ALL.into_iter().find(|kinematics| Some(kinematics.name()) == text);
-        let shown = text.map_or_else(|| format!("{value:?}"), |text| format!("{text:?}"));
         let names = Kinematics::ALL.map(Kinematics::name).join(", ");
-        parameters.kinematics = found.ok_or_else(|| format!("{name} = {shown} is not one of {names}"))?;
+        parameters.kinematics =
+            found.ok_or_else(|| format!("{name} = {} is not one of {names}", shown(value)))?;
         return Ok(());
     }
     if let Some(variable) = RealVariable::from_name(name) {
-        let number = number(value).ok_or_else(|| format!("{name} = {value:?} is not a number"))?;
+        let number = number(value).ok_or_else(|| format!("{name} = {} is not a number", shown(value)))?;
         check_limits(variable.variable(), number)?;
         if let Some(field) = parameters.real_mut(variable) {
             *field = number;
@@ -108,10 +108,22 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
             return Ok(());
         }
         let names: Vec<_> = items.iter().map(|item| item.name).collect();
-        let shown = value.as_str().map_or_else(|| format!("{value:?}"), |text| format!("{text:?}"));
-        return Err(format!("{name} = {shown} is not one of {}", names.join(", ")));
+        return Err(format!("{name} = {} is not one of {}", shown(value), names.join(", ")));
     }
     Err(format!("{name} is not a parameter"))
+}
+
+/// A value as the file has it.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("{text:?}"),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => number.to_string(),
+        Value::Boolean(truth) => truth.to_string(),
+        Value::Datetime(time) => time.to_string(),
+        Value::Array(_) => "[…]".to_owned(),
+        Value::Table(_) => "{…}".to_owned(),
+    }
 }
 
 /// A number, whole or not.
@@ -126,7 +138,9 @@ fn number(value: &Value) -> Option<f64> {
 
 fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
     let Kind::Real { min, max, .. } = variable.kind else { return Ok(()) };
-    let (name, unit) = (variable.name, variable.unit.map_or(String::new(), |unit| format!(" {unit}")));
+    // the model description writes "1" for what has no unit
+    let unit = variable.unit.filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
+    let name = variable.name;
     if !number.is_finite() {
         return Err(format!("{name} = {number} must be a finite number"));
     }

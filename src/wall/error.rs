@@ -19,7 +19,7 @@ pub enum ParameterError {
     ElasticBranchTooLong { a1: f64, a3: f64 },
     /// u₁ ≥ u₂.
     #[error(
-        "d1 = {d1} must be smaller than {formula} = {limit} (softening = {softening}): no plateau is left; reduce d1 or a1"
+        "d1 = {d1} must be smaller than {formula} = {limit:.6} (softening = {softening}): no plateau is left; reduce d1 or a1"
     )]
     PlateauTooHigh { d1: f64, limit: f64, formula: &'static str, softening: &'static str },
     /// A point of a multilinear law.

@@ -1,5 +1,6 @@
 //! The program `wall`: one clear message for bad input, exit code 2, nothing left behind.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -133,7 +134,11 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--set", "xi"], &["NAME=VALUE"]);
     refused(&folder, &["simulate", "--set", "mass=3"], &["mass", "height"]);
     refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
+    refused(&folder, &["simulate", "--set", "xi=-1"], &["xi = -1 is below its limit 0\n"]);
+    refused(&folder, &["simulate", "--set", "xi=much"], &["xi = \"much\" is not a number"]);
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
+    refused(&folder, &["accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
+    refused(&folder, &["accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);
     refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
     refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
     let plain = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/plain_parapet.toml");
@@ -144,6 +149,41 @@ fn bad_arguments() {
     );
     std::fs::write(folder.join("broken.fmu"), "PK").unwrap();
     refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "broken.fmu"], &["broken.fmu"]);
+}
+
+/// A message tells each cause once, and names the file also where only the parameters together are at fault.
+#[test]
+fn messages_name_the_file_once() {
+    let folder = folder("messages");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    write("plateau.toml", "[force_law]\nforce_law = \"trilinear\"\na1 = 0.9\n");
+    refused(&folder, &["simulate", "plateau.toml"], &["plateau.toml: d1 = 0.85", "a3 - a1 = 0.100000 "]);
+    refused(&folder, &["describe", "plateau.toml"], &["plateau.toml: d1 = 0.85"]);
+    write("record.csv", "time,a\n0,0\n0.01,1\n");
+    write("shaken.toml", "[motion]\nrecord = \"record.csv\"\n");
+    let message = text(&wall(&folder, &["simulate", "shaken.toml"]).stderr);
+    assert_eq!(message.matches("record.csv").count(), 1, "{message}");
+    assert!(message.contains("shaken.toml, line 1") && message.contains("`unit`"), "{message}");
+    refused(&folder, &["simulate", "--record", "record.csv"], &["--unit"]);
+    refused(&folder, &["simulate", "record.csv"], &["record.csv, line 1", "--record"]);
+}
+
+/// A record of 65 g is a slip of units: the run says so, as `wall record` does.
+#[test]
+fn a_doubtful_record_is_noted() {
+    let folder = folder("doubtful");
+    let mut record = "time,a\n".to_owned();
+    for k in 0..=200 {
+        let (time, envelope) = (0.01 * f64::from(k), f64::from(k * (200 - k)) / 1e4);
+        writeln!(record, "{time:.2},{:.6}", 640.0 * envelope * (10.0 * time).sin()).unwrap();
+    }
+    std::fs::write(folder.join("record.csv"), record).unwrap();
+    let output =
+        wall(&folder, &["simulate", "--record", "record.csv", "--unit", "m/s2", "--html", "page.html"]);
+    assert_eq!(output.status.code(), Some(0));
+    let (summary, message) = (text(&output.stdout), text(&output.stderr));
+    assert!(message.contains("record.csv: unit: a peak of") && message.contains("cm/s2"), "{message}");
+    assert!(summary.contains("u_ins, in the fall\n") && summary.contains("mm, fallen\n"), "{summary}");
 }
 
 /// Every example scene runs, stands where it should, and says the same as its history.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use rocking_wall::accuracy::{Measurement, Problem, Study, defaults, measure};
 use rocking_wall::scene::Scene;
 
@@ -11,10 +11,18 @@ use crate::linearisation::Linearisation;
 use crate::{output, work_precision};
 
 pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
+    if !(0.0..=3600.0).contains(&arguments.budget) {
+        bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
+    }
     let problems = if arguments.scenes.is_empty() {
         let record = arguments.record.load()?;
         defaults(record.as_ref().map(|(motion, _)| motion))?
     } else {
+        if arguments.record.record.is_some() || arguments.record.synthetic {
+            bail!(
+                "--record and --synthetic replace the motion of the built-in scenes; a scene file states its own in [motion]"
+            );
+        }
         let read = |path: &std::path::PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
         arguments.scenes.iter().map(read).collect::<Result<_>>()?
     };
@@ -31,7 +39,10 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
         studies.push(study);
     }
     let rotations = Linearisation::measure()?;
-    output::to_stdout(&rotations.table())?;
+    // it is of walls of its own, not of the scenes given
+    if arguments.scenes.is_empty() || arguments.linearisation.is_some() {
+        output::to_stdout(&rotations.table())?;
+    }
     if let Some(path) = &arguments.csv {
         output::to_file(path, csv(&studies).as_bytes())?;
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, Parser, Subcommand};
 use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use rocking_wall::ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
@@ -10,6 +10,7 @@ use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
 use crate::ida::{IdaArguments, MergeArguments};
+use crate::output;
 
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
@@ -316,9 +317,23 @@ impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self) -> Result<Scene> {
         match &self.scene {
-            Some(path) => Ok(Scene::read(path)?),
+            Some(path) => Scene::read(path).map_err(|error| {
+                if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
+                    anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
+                } else {
+                    error.into()
+                }
+            }),
             None => Ok(Scene::default()),
         }
+    }
+
+    /// Puts the scene's file before what is wrong with its parameters together.
+    pub(crate) fn named<T, E: Into<anyhow::Error>>(&self, outcome: Result<T, E>) -> Result<T> {
+        outcome.map_err(|error| match &self.scene {
+            Some(path) => error.into().context(path.display().to_string()),
+            None => error.into(),
+        })
     }
 
     /// Applies `--set`, after a motion may have changed the start.
@@ -363,6 +378,9 @@ impl RecordArguments {
             format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
         };
         let record = read(path, &options)?;
+        for finding in &record.check().findings {
+            output::note(&format!("{}: {finding}", path.display()));
+        }
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }

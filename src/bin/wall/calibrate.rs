@@ -66,7 +66,8 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<()> {
     let models = models(&arguments.models, &scene.parameters)?;
     let mut found = Vec::with_capacity(models.len());
     for model in models {
-        let calibration = calibrate(&scene.parameters, model, &grid, threads(arguments.threads))?;
+        let calibration =
+            arguments.scene.named(calibrate(&scene.parameters, model, &grid, threads(arguments.threads)))?;
         output::to_stdout(&table(&calibration))?;
         found.push(calibration);
     }

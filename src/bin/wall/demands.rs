@@ -15,7 +15,7 @@ pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)>
     };
     peak("u", &demands.displacement, 1000.0, "mm");
     peak("u_dot", &demands.velocity, 1.0, "m/s");
-    peak("u_ddot", &demands.acceleration, 1.0, "m/s2");
+    peak("u_ddot", &demands.acceleration, 1.0, "m/s²");
     peak(if has_top { "bottom force" } else { "base force" }, &demands.reaction_bottom, 1e-3, "kN");
     if has_top {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
@@ -29,12 +29,14 @@ pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)>
         lines.push(("first reached".to_owned(), crossings.join(", ")));
     }
     lines.push(("half cycles".to_owned(), demands.half_cycles.to_string()));
-    lines.push(("residual u".to_owned(), format!("{} mm", figure(1000.0 * response.residual))));
+    let fallen = if response.summary.overturned { ", fallen" } else { "" };
+    lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
     lines
 }
 
 /// Four significant figures with a sign.
 fn figure(value: f64) -> String {
+    let value = value + 0.0; // no negative zero
     let digits = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     if !(-3.0..6.0).contains(&digits) {
         return format!("{value:+.3e}");

@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let parameters = &scene.parameters;
-    let wall = Wall::new(parameters)?;
+    let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
     let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
     check_thresholds(&fractions)?;

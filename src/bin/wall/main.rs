@@ -60,7 +60,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            output::report(&format!("{error:#}"));
+            output::report(&output::message(&error));
             ExitCode::from(BAD_INPUT)
         }
     }

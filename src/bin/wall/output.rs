@@ -36,6 +36,17 @@ pub(crate) fn to_stdout(text: &str) -> Result<()> {
     }
 }
 
+/// An error with its causes, outermost first; a cause that the message before it ends with is not told twice.
+pub(crate) fn message(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if !text.ends_with(&cause) {
+            text = if text.is_empty() { cause } else { format!("{text}: {cause}") };
+        }
+    }
+    text
+}
+
 /// An error for the user.
 pub(crate) fn report(message: &str) {
     eprintln!("wall: {message}");

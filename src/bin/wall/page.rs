@@ -5,8 +5,8 @@ use std::fmt::Write;
 use anyhow::{Result, bail};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::Wall;
+use rocking_wall::variables::{DampingModel, DampingSource, Impact, Mechanism};
+use rocking_wall::wall::{Parameters, Wall};
 
 use crate::demands;
 use crate::figure::{Color, Figure, escaped};
@@ -158,8 +158,12 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         Some(time) => format!("at t = {time:.3} s"),
         None => "no".to_owned(),
     };
+    let fallen = if summary.overturned { ", in the fall" } else { "" };
     let rows = [
-        ("largest |u|", format!("{:.1} mm, {:.3} u_ins", 1000.0 * summary.u_max, summary.u_ratio_max)),
+        (
+            "largest |u|",
+            format!("{:.1} mm, {:.3} u_ins{fallen}", 1000.0 * summary.u_max, summary.u_ratio_max),
+        ),
         ("overturned", overturned),
         (
             "wall",
@@ -182,9 +186,20 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
             ),
         ),
         ("kinematics", parameters.kinematics.name().to_owned()),
-        ("impact", format!("{}, e = {:.3}", parameters.impact.name(), wall.restitution())),
+        ("impact", impact(parameters, wall.restitution())),
     ];
     rows.iter().map(|(name, value)| row(name, value)).collect()
+}
+
+/// What happens at u = 0. Without impacts e matters only where the damping is predicted from it.
+fn impact(parameters: &Parameters, e: f64) -> String {
+    let predicted = parameters.damping_model != DampingModel::None
+        && parameters.damping_source == DampingSource::Predicted;
+    match parameters.impact {
+        Impact::Restitution => format!("restitution, e = {e:.3}"),
+        Impact::None if predicted => format!("none; the damping stands for e = {e:.3}"),
+        Impact::None => "none".to_owned(),
+    }
 }
 
 fn row(name: &str, value: &str) -> String {
@@ -202,15 +217,14 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
         response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
     };
-    // after overturning the ratio runs away: the plot ends a little beyond 1
-    let ratio = column(&|sample| sample.outputs.ratio.clamp(-1.25, 1.25));
+    let overturned = response.summary.overturn_time;
+    let ratio = standing(&response.samples, overturned);
     let motion = column(&|sample| sample.support.bottom);
     let ratios = || response.samples.iter().map(|sample| sample.outputs.ratio);
     let range = [ratios().fold(0.0, f64::min), ratios().fold(0.0, f64::max)];
     let u_ins = wall.body().instability;
     let backbone: Vec<_> =
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
-    let overturned = response.summary.overturn_time;
     [
         plot(
             "history",
@@ -232,6 +246,17 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
         ),
     ]
     .concat()
+}
+
+/// u/`u_ins` over time \[s\]; that of a wall which overturns leaves the plot a little beyond 1, not to be taken for a wall
+/// that comes to rest there.
+fn standing(samples: &[Sample], overturned: Option<f64>) -> Vec<(f64, f64)> {
+    const EDGE: f64 = 1.25;
+    let fallen = |sample: &Sample| {
+        overturned.is_some_and(|time| sample.time > time) && sample.outputs.ratio.abs() > EDGE
+    };
+    let end = samples.iter().position(fallen).map_or(samples.len(), |first| first + 1);
+    samples[..end].iter().map(|sample| (sample.time, sample.outputs.ratio.clamp(-EDGE, EDGE))).collect()
 }
 
 /// A rigid wall beside itself with the other kinematics; nothing for walls that have none.

@@ -36,10 +36,10 @@ pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
         }
     }
     if let ([failure], true) = (&failures[..], rows.is_empty()) {
-        bail!("{failure:#}");
+        bail!(output::message(failure));
     }
     for failure in &failures {
-        output::report(&format!("{failure:#}"));
+        output::report(&output::message(failure));
     }
     if !rows.is_empty() {
         show(&rows, arguments, spectrum)?;
@@ -88,7 +88,10 @@ fn show(rows: &[Row], arguments: &RecordFilesArguments, spectrum: Spectrum) -> R
     let mut written = Vec::new();
     if let Some(path) = &arguments.plot {
         let named: Vec<_> = rows.iter().map(|row| (row.name(), &row.record.motion)).collect();
-        output::to_file(path, &figure::file(path, || record_plot::drawing(&named, spectrum))?)?;
+        output::to_file(
+            path,
+            &figure::file(path, || record_plot::drawing(&named, spectrum, arguments.damping))?,
+        )?;
         written.push(path);
     }
     if let Some(path) = &arguments.csv {

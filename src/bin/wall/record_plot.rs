@@ -29,7 +29,11 @@ const LONGEST: f64 = 4.0;
 ///
 /// # Errors
 /// If a spectrum cannot be computed.
-pub(crate) fn drawing(records: &[(String, &GroundMotion)], spectrum: Spectrum) -> Result<Scene> {
+pub(crate) fn drawing(
+    records: &[(String, &GroundMotion)],
+    spectrum: Spectrum,
+    damping: f64,
+) -> Result<Scene> {
     let spectra: Vec<Vec<(f64, f64)>> =
         records.iter().map(|(_, motion)| points(motion, spectrum)).collect::<Result<_>>()?;
     let longest = records.iter().map(|(_, motion)| motion.duration()).fold(0.0, f64::max);
@@ -44,7 +48,8 @@ pub(crate) fn drawing(records: &[(String, &GroundMotion)], spectrum: Spectrum) -
         }
     }
     let panel = spectrum_lines(records, spectra);
-    let layout = layout(&panel, ["period T (s)", "Sa (g)"], LONGEST);
+    let label = format!("Sa (g) at {} % damping", 100.0 * damping);
+    let layout = layout(&panel, ["period T (s)", &label], LONGEST);
     layouts.push(layout.with_legend_position(LegendPosition::InsideTopRight));
     panels.push(panel);
     let rows = panels.len();

@@ -13,7 +13,7 @@ use crate::{demands, output, page};
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
     let scene = arguments.scene()?;
-    let response = Response::of(&scene)?;
+    let response = arguments.scene.named(Response::of(&scene))?;
     for warning in &response.warnings {
         output::note(&warning.to_string());
     }
@@ -93,7 +93,8 @@ fn table(scene: &Scene, response: &Response) -> String {
     if !scene.motion_notes.is_empty() {
         line("motion", scene.motion_notes.join(", "));
     }
-    line("largest |u|", format!("{:.6} m, {:.4} u_ins", summary.u_max, summary.u_ratio_max));
+    let fallen = if summary.overturned { ", in the fall" } else { "" };
+    line("largest |u|", format!("{:.6} m, {:.4} u_ins{fallen}", summary.u_max, summary.u_ratio_max));
     line(
         "overturned",
         summary.overturn_time.map_or_else(|| "no".to_owned(), |time| format!("at t = {time:.4} s")),

@@ -87,7 +87,7 @@ fn pulses(
     arguments.record.load()?;
     let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
     let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
-    let wall = Wall::new(parameters)?;
+    let wall = arguments.scene.named(Wall::new(parameters))?;
     let body = wall.body();
     let onset = body.strength.positive / (body.participation * body.effective_mass);
     Ok(Shown {

@@ -1,6 +1,7 @@
 //! Which intensities a curve is run at.
 
 use super::{IdaError, LANES, Level};
+use crate::ground_motion::STANDARD_GRAVITY;
 
 /// Most levels of one curve.
 const MOST_LEVELS: usize = 2000;
@@ -39,6 +40,12 @@ pub enum Levels {
     },
 }
 
+/// In both units: a study may state either.
+fn acceleration(value: f64) -> String {
+    let rounded = |value: f64| format!("{value:.5e}").parse().unwrap_or(value);
+    format!("{} m/s² ({} g)", rounded(value), rounded(value / STANDARD_GRAVITY))
+}
+
 impl Levels {
     /// The levels \[m/s²\] that every record sees, up to its collapse at least; `None` where each record has its own.
     #[must_use]
@@ -53,15 +60,20 @@ impl Levels {
     /// # Errors
     /// [`IdaError::Levels`] outside the limits.
     pub(super) fn check(&self) -> Result<(), IdaError> {
-        let within = |name, value: f64, [least, most]: [f64; 2], limit| {
+        let within = |name, value: f64, shown: &dyn Fn(f64) -> String, [least, most]: [f64; 2]| {
             if value >= least && value <= most {
-                Ok(())
-            } else {
-                Err(IdaError::Levels { name, value, limit })
+                return Ok(());
             }
+            let limit = if least == f64::MIN_POSITIVE {
+                format!("above 0 and at most {}", shown(most))
+            } else {
+                format!("from {} to {}", shown(least), shown(most))
+            };
+            Err(IdaError::Levels { name, value: shown(value), limit })
         };
-        let count = |value: f64| within("number", value, [1.0, MOST_LEVELS as f64], "from 1 to 2000");
-        let top = |top| within("top", top, [1e-6, HIGHEST], "from 1e-6 to 1e4 m/s²");
+        let plain = |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned();
+        let count = |value: f64| within("number", value, &plain, [1.0, MOST_LEVELS as f64]);
+        let top = |top| within("top", top, &acceleration, [1e-6, HIGHEST]);
         match self {
             Self::Grid(levels) => {
                 count(levels.len() as f64)?;
@@ -71,8 +83,8 @@ impl Levels {
                     // NaN is not above anything either
                     let rises = level > before;
                     if !rises {
-                        let limit = "above 0 and above the level before it";
-                        return Err(IdaError::Levels { name: "a value", value: level, limit });
+                        let limit = "above 0 and above the level before it".to_owned();
+                        return Err(IdaError::Levels { name: "a value", value: acceleration(level), limit });
                     }
                     before = level;
                 }
@@ -80,15 +92,15 @@ impl Levels {
             }
             Self::ToOverturning { step, top: highest } => {
                 top(*highest)?;
-                within("step", *step, [f64::MIN_POSITIVE, *highest], "above 0 and at most the top")?;
+                within("step", *step, &acceleration, [f64::MIN_POSITIVE, *highest])?;
                 count(highest / step)
             }
             Self::HuntAndFill { first, increase, top: highest, resolution, gap } => {
                 top(*highest)?;
-                within("first", *first, [f64::MIN_POSITIVE, *highest], "above 0 and at most the top")?;
-                within("increase", *increase, [0.0, *highest], "from 0 to the top")?;
-                within("resolution", *resolution, [1e-6, 1.0], "from 1e-6 to 1")?;
-                within("gap", *gap, [0.01, 1.0], "from 0.01 to 1")?;
+                within("first", *first, &acceleration, [f64::MIN_POSITIVE, *highest])?;
+                within("increase", *increase, &acceleration, [0.0, *highest])?;
+                within("resolution", *resolution, &plain, [1e-6, 1.0])?;
+                within("gap", *gap, &plain, [0.01, 1.0])?;
                 count(hunt([*first, *increase, *highest]).count() as f64)
             }
         }

@@ -63,7 +63,7 @@ pub enum IdaError {
     Still { record: String, intensity: f64 },
     /// The levels.
     #[error("{name} of the levels is {value}; it must be {limit}")]
-    Levels { name: &'static str, value: f64, limit: &'static str },
+    Levels { name: &'static str, value: String, limit: String },
     /// The free vibration after a record.
     #[error("the tail is {value} s; it must be from 0 to 1000 s")]
     Tail { value: f64 },

@@ -17,6 +17,8 @@ pub(super) struct Loaded {
     pub(super) title: String,
     pub(super) study: Study,
     pub(super) report: Report,
+    /// What a quick check doubts about its records.
+    pub(super) doubts: Vec<String>,
 }
 
 pub(super) fn load(path: &Path) -> Result<Loaded> {
@@ -30,13 +32,14 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
         Outline::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
     let walls = walls.into_iter().map(|entry| wall(entry, folder, &name)).collect::<Result<Vec<_>>>()?;
-    let records = all_records(&records, folder, &name)?;
+    let mut doubts = Vec::new();
+    let records = all_records(&records, folder, &name, &mut doubts)?;
     unlike(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
     unlike(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
     let study = Study::new(walls, records, models, measure, levels)
         .and_then(|study| study.with_tail(tail))
         .with_context(|| name.clone())?;
-    Ok(Loaded { title, study, report })
+    Ok(Loaded { title, study, report, doubts })
 }
 
 fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
@@ -52,7 +55,12 @@ fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
     Ok(NamedWall { name: entry.name.unwrap_or(own_name), parameters })
 }
 
-fn all_records(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<NamedRecord>> {
+fn all_records(
+    entry: &RecordsEntry,
+    folder: &Path,
+    study: &str,
+    doubts: &mut Vec<String>,
+) -> Result<Vec<NamedRecord>> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (pattern, line) in &entry.files {
         let found =
@@ -68,7 +76,9 @@ fn all_records(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<N
     }
     let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
     for path in &paths {
-        let motion = read(path, &entry.options)?.motion;
+        let record = read(path, &entry.options)?;
+        doubts.extend(record.check().findings.iter().map(|finding| format!("{}: {finding}", path.display())));
+        let motion = record.motion;
         let name = short(path);
         // of two files with one name each goes by its whole path
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
@@ -97,7 +107,9 @@ fn files(path: &Path) -> Result<Vec<PathBuf>> {
     found.retain(|path| visible(path));
     found.sort();
     if found.is_empty() {
-        bail!("no such file, and none that fits; name records beside the study file, such as records/*.AT2");
+        bail!(
+            "no such file, none that fits, or a folder without files; name records beside the study file, such as records/*.AT2"
+        );
     }
     Ok(found)
 }

@@ -83,6 +83,9 @@ pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
     let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
+    for doubt in &loaded.doubts {
+        output::note(doubt);
+    }
     let threads = parallel::threads(arguments.threads).get();
     let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
     let mine: Vec<usize> = (0..loaded.study.count()).filter(|index| index % shards == shard).collect();

@@ -38,6 +38,24 @@ fn titles_are_text() {
     assert!(!html.contains("<b>\"A\""));
 }
 
+/// After the fall the line leaves the plot: drawn on along the edge it would look like a wall at rest there.
+#[test]
+fn the_line_of_a_fallen_wall_ends() {
+    let mut scene = Scene::default();
+    scene.set("u_start", "0.21").unwrap();
+    let response = Response::of(&scene).unwrap();
+    let line = super::standing(&response.samples, response.summary.overturn_time);
+    let (before, last) = (line[line.len() - 2], line[line.len() - 1]);
+    assert!(before.1 <= 1.25 && last.1 == 1.25 && last.0 < 10.0, "{before:?}, {last:?}");
+}
+
+#[test]
+fn the_restitution_shown_is_one_that_matters() {
+    assert!(page(|_| {}).contains("none; the damping stands for e = 0.936"));
+    let given = page(|scene| scene.set("damping_source", "given").unwrap());
+    assert!(given.contains("<td>impact</td><td>none</td>"));
+}
+
 #[test]
 fn an_empty_response_is_refused() {
     let scene = Scene::default();
