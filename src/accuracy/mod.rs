@@ -268,8 +268,7 @@ impl Runner<'_> {
         mut observe: impl FnMut(usize, f64),
     ) -> Result<Passage, SolverError> {
         let solver = RecordSolver::new(motion, self.problem.step / parts as f64);
-        let largest = forcing.iter().fold(0.0_f64, |largest, p| largest.max(p.abs()));
-        let scaled = Scaled::new(forcing, [factor], largest);
+        let scaled = Scaled::new(forcing, [factor]);
         let first = Forcing::<1>::at(&scaled, 0)[0];
         let start =
             motion.start_under(self.problem.parameters.u_start, self.problem.parameters.u_dot_start, first);

@@ -6,16 +6,19 @@
 //! |u̇| so large, that nothing can have happened in between. Everything else is looked at step by step: corners crossed and turning
 //! points passed in the ordinary way in the module `careful`, the rest by [`Motion::advance`]'s own search.
 //!
-//! The distance that suffices, over a plain stretch of length h, one step or two: let |p| ≤ P over the record, |f| ≤ f̂ between the
-//! corners, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4. With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u
-//! leaves its chord, which lies on the branch, by no more than A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A
-//! unless h is too long, and the margin A h²/8 from corners and extremes follows: f of a branch's line, followed beyond its ends.
-//! A stretch that starts or ends with |u̇| > A h has no turning point, so that its extremes are its ends; the one beyond the
-//! extremes seen before is taken in with the first step that is not plain, which comes before u turns.
+//! The distance that suffices, over a plain stretch of length h, one step or two: let |p| ≤ P over the next 256 samples, |f| ≤ f̂
+//! between the corners and up to four times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
+//! With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves its chord, which lies on the branch, by no more than A h²/8, so
+//! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 from corners and
+//! extremes follows: f of a branch's line, followed beyond its ends. A stretch that starts or ends with |u̇| > A h has no turning
+//! point, so that its extremes are its ends; the one beyond the extremes seen before is taken in with the first step that is
+//! not plain, which comes before u turns.
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
 )]
+
+use std::ops::Range;
 
 mod careful;
 mod lanes;
@@ -33,8 +36,8 @@ pub trait Forcing<const N: usize> {
     fn count(&self) -> usize;
     /// The forcing of each run at a sample.
     fn at(&self, index: usize) -> [f64; N];
-    /// Largest |p| of each run.
-    fn largest(&self) -> [f64; N];
+    /// Largest |p| of each run over a range of samples.
+    fn largest(&self, range: Range<usize>) -> [f64; N];
 }
 
 /// One record, scaled differently for each run.
@@ -42,14 +45,13 @@ pub trait Forcing<const N: usize> {
 pub struct Scaled<'a, const N: usize> {
     samples: &'a [f64],
     factors: [f64; N],
-    largest: f64,
 }
 
 impl<'a, const N: usize> Scaled<'a, N> {
-    /// `samples` \[m/s²\] times each of `factors`; `largest` is the largest |sample|.
+    /// `samples` \[m/s²\] times each of `factors`.
     #[must_use]
-    pub fn new(samples: &'a [f64], factors: [f64; N], largest: f64) -> Self {
-        Self { samples, factors, largest }
+    pub fn new(samples: &'a [f64], factors: [f64; N]) -> Self {
+        Self { samples, factors }
     }
 }
 
@@ -63,8 +65,16 @@ impl<const N: usize> Forcing<N> for Scaled<'_, N> {
         self.factors.map(|factor| factor * sample)
     }
 
-    fn largest(&self) -> [f64; N] {
-        self.factors.map(|factor| factor.abs() * self.largest)
+    fn largest(&self, range: Range<usize>) -> [f64; N] {
+        // eight side by side: one maximum after another would take longer than the steps
+        let (rows, rest) = self.samples[range].as_chunks::<8>();
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        let mut columns = [0.0; 8];
+        for row in rows {
+            columns = std::array::from_fn(|i| larger(columns[i], row[i].abs()));
+        }
+        let largest = columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()));
+        self.factors.map(|factor| factor.abs() * largest)
     }
 }
 
@@ -84,7 +94,7 @@ impl<const N: usize> Forcing<N> for Still {
         [0.0; N]
     }
 
-    fn largest(&self) -> [f64; N] {
+    fn largest(&self, _range: Range<usize>) -> [f64; N] {
         [0.0; N]
     }
 }
@@ -157,8 +167,6 @@ struct StepMap {
     double: Affine,
     /// Corners of the branch.
     corners: [f64; 2],
-    /// f̂ \[m/s²\].
-    force: f64,
     /// A = `growth` (P + c V + f̂) over one step and over two; infinite where they are too long for the argument.
     growth: [f64; 2],
     oscillator: Oscillator,
@@ -180,7 +188,6 @@ impl StepMap {
             single: Affine::single(&oscillator, step),
             double: Affine::double(&oscillator, step),
             corners: [branch.lower, branch.upper],
-            force: branch.restoring(branch.lower).abs().max(branch.restoring(branch.upper).abs()),
             growth: [growth(step), growth(2.0 * step)],
             oscillator,
             inverse_damping: 1.0 / c,
@@ -217,7 +224,7 @@ impl<'a> RecordSolver<'a> {
         until_overturning: bool,
         mut observe: impl FnMut(usize, &[f64; N], &[f64; N]),
     ) -> Result<[Passage; N], SolverError> {
-        let mut lanes = Lanes::new(self, states, forcing.largest(), until_overturning);
+        let mut lanes = Lanes::new(self, states, until_overturning);
         if forcing.count() > 0 {
             wide::follow(&mut lanes, forcing, &mut observe)?;
         }

@@ -188,10 +188,6 @@ fn pulse(wall: &Wall, strength: f64) -> (Vec<f64>, f64) {
     ((0..4000).map(sample).collect(), step)
 }
 
-fn largest(forcing: &[f64]) -> f64 {
-    forcing.iter().fold(0.0, |largest: f64, p| largest.max(p.abs()))
-}
-
 /// Displacements over `u_ins` under a record of forcing, and the time of overturning.
 fn history(
     parameters: &Parameters,
@@ -202,7 +198,7 @@ fn history(
     let motion = Motion::new(Wall::new(parameters)?, method);
     let solver = RecordSolver::new(&motion, step);
     let start = motion.start_under(0.0, 0.0, forcing[0]);
-    let scaled = Scaled::new(forcing, [1.0], largest(forcing));
+    let scaled = Scaled::new(forcing, [1.0]);
     let mut displacements = vec![0.0];
     let scale = motion.wall().displacement_scale();
     let [passage] = solver.run([start], &scaled, true, |_, u, _| displacements.push(u[0] / scale))?;

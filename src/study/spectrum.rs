@@ -88,11 +88,10 @@ pub fn over_walls(
         .flat_map(|&row| sizes.iter().map(move |&column| (row, column)))
         .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
         .collect::<Result<_, _>>()?;
-    let largest = motion.peak();
     let run = |index: usize| -> Result<Point, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
         let factor = wall.participation();
-        let scaled = Scaled::new(motion.samples(), [-factor], largest);
+        let scaled = Scaled::new(motion.samples(), [-factor]);
         let [point] = wall.points(&scaled, motion)?;
         Ok(point)
     };
@@ -127,8 +126,7 @@ pub fn over_pulses(
         let motion = form.motion(columns[column] * p / TAU)?;
         let amplitude = |lane: usize| rows.get(block * LANES + lane).copied().unwrap_or(0.0);
         let factors = std::array::from_fn(|lane| -factor * onset * amplitude(lane));
-        let points: [Point; LANES] =
-            wall.points(&Scaled::new(motion.samples(), factors, motion.peak()), &motion)?;
+        let points: [Point; LANES] = wall.points(&Scaled::new(motion.samples(), factors), &motion)?;
         Ok(points)
     };
     let found = parallel::map(columns.len() * blocks, threads, run)?;

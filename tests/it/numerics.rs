@@ -52,7 +52,7 @@ fn end_of_run(
     let motion = Motion::new(wall, method);
     let start = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
     let solver = RecordSolver::new(&motion, step);
-    let scaled = Scaled::new(&forcing, [1.0], 2.0 * forced.strength * onset);
+    let scaled = Scaled::new(&forcing, [1.0]);
     let [passage] = solver.run([start], &scaled, false, |_, _, _| {}).unwrap();
     passage.state.displacement / motion.wall().displacement_scale()
 }
@@ -223,12 +223,11 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
     let motion_of = Motion::new(wall, method);
     let forcing: Vec<f64> = motion.iter().map(|p| factor * onset * p).collect();
-    let largest = forcing.iter().fold(0.0, |largest: f64, p| largest.max(p.abs()));
     let solver = RecordSolver::new(&motion_of, step);
     let start = motion_of.start_under(0.0, 0.0, forcing[0]);
     let mut history = vec![0.0];
     let scale = motion_of.wall().displacement_scale();
-    let scaled = Scaled::new(&forcing, [1.0], largest);
+    let scaled = Scaled::new(&forcing, [1.0]);
     solver.run([start], &scaled, false, |_, u, _| history.push(u[0] / scale)).unwrap();
     history
 }

@@ -18,8 +18,7 @@ fn together<const N: usize>(
     let wall = Wall::new(parameters).unwrap();
     let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
     let motion = Motion::new(wall, method);
-    let largest = forcing.iter().fold(0.0, |largest: f64, p| largest.max(p.abs()));
-    let scaled = Scaled::<N>::new(forcing, std::array::from_fn(|i| 1.0 - 0.1 * i as f64), largest);
+    let scaled = Scaled::<N>::new(forcing, std::array::from_fn(|i| 1.0 - 0.1 * i as f64));
     let Parameters { u_start, u_dot_start, .. } = *parameters;
     let starts = scaled.at(0).map(|first| motion.start_under(u_start, u_dot_start, first));
     let mut history = vec![starts.map(|start| start.displacement)];

@@ -46,7 +46,7 @@ impl<const N: usize> Lanes<'_, N> {
         self.rest[i].state.peaks.include(start[0]);
         let [lower, upper] = map.corners;
         let within = end[0] > lower && end[0] < upper;
-        if within && self.is_steady(i, [start[1], end[1]]) {
+        if within && self.is_steady(i, start[1], end) {
             self.arrive(i, end);
             return Ok(());
         }
@@ -76,14 +76,6 @@ impl<const N: usize> Lanes<'_, N> {
             return Ok(());
         }
         self.search(i, index, p, Some(to))
-    }
-
-    /// The end of a step on the same branch.
-    #[inline(always)]
-    fn arrive(&mut self, i: usize, end: [f64; 2]) {
-        self.rest[i].state.peaks.include(end[0]);
-        self.set_state(i, end);
-        self.bound(i);
     }
 
     /// A step on which u, monotone, leaves the branch through corners where nothing but the stiffness changes, and then

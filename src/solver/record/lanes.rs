@@ -1,6 +1,7 @@
 //! Runs of one wall side by side, two steps at a time as long as they are plain.
 
 use super::super::event::Peaks;
+use super::super::oscillator::Oscillator;
 use super::super::{Memo, Phase, SolverError, State, Work};
 use super::{Affine, Forcing, Passage, RecordSolver, StepMap};
 
@@ -49,7 +50,10 @@ struct Range<const N: usize> {
 #[derive(Clone, Copy)]
 pub(super) struct Lane {
     pub(super) state: State,
-    pub(super) largest_forcing: f64,
+    /// Largest |u| up to which f̂ is taken \[m\].
+    reach: f64,
+    /// P over the stretch of the record at hand \[m/s²\].
+    largest_forcing: f64,
     pub(super) overturning: Option<f64>,
     /// Work of the steps that were searched, and their number.
     pub(super) work: Work,
@@ -62,6 +66,10 @@ pub(super) struct Lane {
 
 /// c V over P + f̂: the largest speed V of a plain step. Walls stay far below, as they do below the terminal speed.
 const BRAKING: f64 = 0.25;
+/// The |u| up to which f̂ is taken, over the largest so far.
+const ROOM: f64 = 4.0;
+/// Samples for which P is taken together, an even number.
+const STRETCH: usize = 256;
 
 impl<const N: usize> Wide<N> {
     const STILL: Self = Self { terms: [[[0.0; N]; 2]; 5] };
@@ -132,15 +140,11 @@ impl<const N: usize> Range<N> {
 }
 
 impl<'a, const N: usize> Lanes<'a, N> {
-    pub(super) fn new(
-        solver: &'a RecordSolver<'a>,
-        states: [State; N],
-        largest: [f64; N],
-        until_overturning: bool,
-    ) -> Self {
+    pub(super) fn new(solver: &'a RecordSolver<'a>, states: [State; N], until_overturning: bool) -> Self {
         let lane = |index: usize| Lane {
             state: states[index],
-            largest_forcing: largest[index],
+            reach: f64::INFINITY,
+            largest_forcing: f64::INFINITY,
             overturning: states[index].overturned.then_some(0.0),
             work: Work::default(),
             searched: 0,
@@ -181,6 +185,10 @@ impl<'a, const N: usize> Lanes<'a, N> {
         let mut now = self.now;
         let mut p = forcing.at(0);
         while index + 1 < last && self.running > 0 {
+            if index.is_multiple_of(STRETCH) {
+                self.now = now;
+                self.look_ahead(forcing.largest(index..(index + STRETCH).min(last) + 1));
+            }
             let [next, after] = [forcing.at(index + 1), forcing.at(index + 2)];
             let (middle, end, plain) = self.pair(&now, [&p, &next, &after]);
             let mut states = [middle, end];
@@ -195,6 +203,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
         }
         self.now = now;
         if index < last && self.running > 0 {
+            self.look_ahead(forcing.largest(index..last + 1));
             let to = forcing.at(last);
             for i in 0..N {
                 self.step(i, index, [p[i], to[i]])?;
@@ -202,6 +211,15 @@ impl<'a, const N: usize> Lanes<'a, N> {
             observe(last, &self.now[0], &self.now[1]);
         }
         Ok(())
+    }
+
+    /// Takes up the largest forcing of the next stretch.
+    fn look_ahead(&mut self, largest: [f64; N]) {
+        for (i, largest) in largest.into_iter().enumerate() {
+            self.rest[i].largest_forcing = largest;
+            self.ready_anew(i);
+        }
+        self.all_inside = self.inside.iter().all(|&inside| inside);
     }
 
     /// Two plain steps of each lane: the states between and after them, and whether they are plain as far as the end tells.
@@ -287,7 +305,6 @@ impl<'a, const N: usize> Lanes<'a, N> {
             self.single.load(i, &map.single);
             self.double.load(i, &map.double);
             self.force_at_zero[i] = map.force_at_zero;
-            self.measure(i, map);
         } else {
             self.single.load(i, &Affine::STILL);
             self.double.load(i, &Affine::STILL);
@@ -295,29 +312,66 @@ impl<'a, const N: usize> Lanes<'a, N> {
             self.single_range.fill(i, still);
             self.double_range.fill(i, still);
         }
+        self.ready(i);
+    }
+
+    /// Goes on from the end of a step on the same branch.
+    #[inline(always)]
+    pub(super) fn arrive(&mut self, i: usize, end: [f64; 2]) {
+        let lane = &mut self.rest[i];
+        lane.state.peaks.include(end[0]);
+        let near_the_edge = 2.0 * end[0].abs() > lane.reach;
+        self.set_state(i, end);
+        if near_the_edge {
+            self.ready_anew(i);
+        } else {
+            self.bound(i);
+        }
+    }
+
+    /// The range of plain steps with the branch, the forcing and the extremes at hand.
+    #[inline(always)]
+    fn ready(&mut self, i: usize) {
+        if let (None, Some(map)) = (self.rest[i].stopped, self.map(i)) {
+            self.measure(i, map);
+        }
         self.bound(i);
+    }
+
+    /// [`Self::ready`], out of the way of steps that seldom need it.
+    #[inline(never)]
+    fn ready_anew(&mut self, i: usize) {
+        self.ready(i);
     }
 
     /// The range of plain steps on the present branch.
     #[inline(always)]
     fn measure(&mut self, i: usize, map: &StepMap) {
-        let damping = map.oscillator.damping;
-        let driving = self.rest[i].largest_forcing + map.force;
+        let Oscillator { damping, stiffness, .. } = map.oscillator;
+        let step = self.solver.step;
+        let lane = &mut self.rest[i];
+        let forcing = lane.largest_forcing;
+        lane.reach = ROOM * (lane.state.peaks.largest() + forcing * step * step);
+        let ends = [map.corners[0].max(-lane.reach), map.corners[1].min(lane.reach)];
+        let force = ends.map(|u| (map.force_at_zero + stiffness * u).abs());
+        let driving = forcing + force[0].max(force[1]);
         let fastest = BRAKING * driving * map.inverse_damping;
         let braking = if damping > 0.0 { BRAKING * driving } else { 0.0 };
-        let step = self.solver.step;
         let ranges = [&mut self.single_range, &mut self.double_range];
         for ((range, growth), steps) in ranges.into_iter().zip(map.growth).zip([1.0, 2.0]) {
-            range.set(i, steps * step, map.corners, growth * (driving + braking), fastest);
+            range.set(i, steps * step, ends, growth * (driving + braking), fastest);
         }
     }
 
     /// Whether u̇ keeps its sign over a step, by what |ü| can be at most: so it does between two velocities of one sign that
     /// are larger together than A h.
     #[inline(always)]
-    pub(super) fn is_steady(&self, i: usize, [v0, v1]: [f64; 2]) -> bool {
+    pub(super) fn is_steady(&self, i: usize, v0: f64, [u1, v1]: [f64; 2]) -> bool {
         let Range { slow, fastest, .. } = &self.single_range;
-        v0 * v1 > 0.0 && v0.abs() + v1.abs() > slow[i] && v0.abs().max(v1.abs()) <= fastest[i]
+        u1.abs() <= self.rest[i].reach
+            && v0 * v1 > 0.0
+            && v0.abs() + v1.abs() > slow[i]
+            && v0.abs().max(v1.abs()) <= fastest[i]
     }
 
     /// The range of plain steps with the present extremes.

@@ -85,8 +85,8 @@ pub struct Study {
     tail: f64,
     /// Wall by wall, model by model.
     motions: Vec<Motion>,
-    /// Intensity and peak acceleration of each record as it is \[m/s²\].
-    intensities: Vec<[f64; 2]>,
+    /// Intensity of each record as it is \[m/s²\].
+    intensities: Vec<f64>,
 }
 
 /// One wall, record and model of a study, by their places.
@@ -131,7 +131,7 @@ impl Study {
                 source: Box::new(source),
             })?;
             if intensity > 0.0 && intensity.is_finite() {
-                Ok([intensity, record.motion.peak()])
+                Ok(intensity)
             } else {
                 Err(IdaError::Still { record: record.name.clone(), intensity })
             }
@@ -191,7 +191,7 @@ impl Study {
     /// Intensity of a record as it is \[m/s²\].
     #[must_use]
     pub fn intensity(&self, record: usize) -> f64 {
-        self.intensities[record][0]
+        self.intensities[record]
     }
 
     /// The wall of a combination, its damping and impact those of the model.
@@ -267,8 +267,8 @@ fn motion(wall: &NamedWall, model: &Model) -> Result<Motion, IdaError> {
 struct Runs<'a> {
     motion: &'a Motion,
     record: &'a GroundMotion,
-    /// Intensity and peak of the record as it is \[m/s²\].
-    intensity: [f64; 2],
+    /// Intensity of the record as it is \[m/s²\].
+    intensity: f64,
     tail: f64,
 }
 
@@ -301,14 +301,13 @@ impl Runs<'_> {
         solver: &RecordSolver<'_>,
         levels: [f64; N],
     ) -> Result<[Level; N], SolverError> {
-        let [intensity, peak] = self.intensity;
         // p = −λ a_g
         let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
         let u_ins = self.motion.wall().body().instability;
-        let factors = levels.map(|level| level / intensity * participation);
+        let factors = levels.map(|level| level / self.intensity * participation);
         let samples = self.record.samples();
         let starts = factors.map(|factor| self.motion.start_under(0.0, 0.0, factor * samples[0]));
-        let forcing = Scaled::new(samples, factors, peak);
+        let forcing = Scaled::new(samples, factors);
         let passages = solver.run(starts, &forcing, true, |_, _, _| {})?;
         let mut runs = [Level { intensity: 0.0, demand: 0.0, overturning: None }; N];
         for (index, passage) in passages.iter().enumerate() {

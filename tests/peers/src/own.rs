@@ -65,7 +65,7 @@ fn follow<const N: usize>(
     let motion = motion.map_err(ToString::to_string)?;
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let factors = std::array::from_fn(|lane| participation * (1.0 - 0.05 * lane as f64));
-    let forcing = Scaled::<N>::new(problem.motion.samples(), factors, problem.peak);
+    let forcing = Scaled::<N>::new(problem.motion.samples(), factors);
     let states = [motion.start(0.0, 0.0, Support::default()); N];
     let passages = RecordSolver::new(motion, problem.motion.step())
         .run(states, &forcing, false, |index, u, _| observe(index, u[0]))

@@ -32,8 +32,6 @@ pub(crate) struct Problem {
     pub(crate) scene: String,
     pub(crate) parameters: Parameters,
     pub(crate) motion: GroundMotion,
-    /// Largest |`a_g`| \[m/s²\].
-    pub(crate) peak: f64,
     pub(crate) equation: Equation,
     /// Displacement at every sample of the motion \[m\].
     pub(crate) reference: Vec<f64>,
@@ -110,8 +108,7 @@ impl Problem {
         if reference.iter().any(|u| u.abs() > equation.u_ins) {
             return Err(failed(&"the wall overturns, so that its errors mean nothing; give another record"));
         }
-        let peak = motion.peak();
-        Ok(Self { scene, parameters, motion, peak, equation, reference })
+        Ok(Self { scene, parameters, motion, equation, reference })
     }
 
     /// Writes the problem, its samples and its reference into a folder.
