@@ -358,7 +358,7 @@ impl Model for Unit {
         let ratio = 1.0 / self.wall().body().instability.of(self.outputs().displacement);
         let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
         let (by_u, by_velocity, along) = match known {
-            V::U => (1.0, 0.0, self.simulation.by_displacement()),
+            V::U => (1.0, 0.0, self.simulation.by_displacement(self.support())),
             V::UDot => (0.0, 1.0, self.simulation.by_velocity()),
             V::AG => (0.0, 0.0, support(1.0, 1.0, 0.0)),
             V::ABottom => (0.0, 0.0, support(1.0, 0.0, 0.0)),
