@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fmi2_export::{
-    Environment, Experiment, Failure, Interface, Log, Model, StateReader, StateWriter,
+    Environment, Experiment, Failure, Interface, Kind, Log, Model, StateReader, StateWriter,
     Step as CommunicationStep, VariableId,
 };
 
@@ -235,7 +235,12 @@ impl Unit {
 const MOST_SEGMENTS: usize = 100_000_000;
 
 fn start(parameters: &Parameters, experiment: Experiment, support: Support) -> Result<Simulation, Failure> {
-    Simulation::new(parameters, experiment.tolerance, experiment.start, support)
+    // an importer may ask for less than rounding, which no step would reach
+    let tolerance = experiment.tolerance.map(|given| match RealVariable::Tolerance.variable().kind {
+        Kind::Real { min: Some(least), .. } => given.max(least),
+        _ => given,
+    });
+    Simulation::new(parameters, tolerance, experiment.start, support)
         .map_err(|error| Failure::from(error.to_string()))
 }
 

@@ -406,6 +406,16 @@ def test_the_tighter_tolerance_applies(unpacked):
     assert end(1e-3, 1e-12) == fine
 
 
+def test_a_tolerance_below_rounding_is_the_least(unpacked):
+    """The least that the parameter may be; asked for less, a step would look for it for minutes."""
+
+    def end(tolerance):
+        with Unit(unpacked) as unit:
+            return unit.start(importer_tolerance=tolerance).step(0.1).get("u", "u_dot")
+
+    assert end(1e-300) == end(1e-15)
+
+
 # --- log ------------------------------------------------------------------------------------------------------------
 
 
