@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fmi2_export::{
-    Environment, Experiment, Failure, Interface, Log, Model, StateReader, StateWriter,
+    Environment, Experiment, Failure, Interface, Kind, Log, Model, StateReader, StateWriter,
     Step as CommunicationStep, VariableId,
 };
 
@@ -235,7 +235,12 @@ impl Unit {
 const MOST_SEGMENTS: usize = 100_000_000;
 
 fn start(parameters: &Parameters, experiment: Experiment, support: Support) -> Result<Simulation, Failure> {
-    Simulation::new(parameters, experiment.tolerance, experiment.start, support)
+    // an importer may ask for less than rounding, which no step would reach
+    let tolerance = experiment.tolerance.map(|given| match RealVariable::Tolerance.variable().kind {
+        Kind::Real { min: Some(least), .. } => given.max(least),
+        _ => given,
+    });
+    Simulation::new(parameters, tolerance, experiment.start, support)
         .map_err(|error| Failure::from(error.to_string()))
 }
 
@@ -358,7 +363,7 @@ impl Model for Unit {
         let ratio = 1.0 / self.wall().body().instability.of(self.outputs().displacement);
         let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
         let (by_u, by_velocity, along) = match known {
-            V::U => (1.0, 0.0, self.simulation.by_displacement()),
+            V::U => (1.0, 0.0, self.simulation.by_displacement(self.support())),
             V::UDot => (0.0, 1.0, self.simulation.by_velocity()),
             V::AG => (0.0, 0.0, support(1.0, 1.0, 0.0)),
             V::ABottom => (0.0, 0.0, support(1.0, 0.0, 0.0)),

@@ -78,19 +78,20 @@ impl Simulation {
         }
     }
 
-    /// Partial derivatives of the outputs with respect to u at fixed u̇ and supports.
+    /// Partial derivatives of the outputs with respect to u at fixed u̇ and under the supports' present motion.
     ///
     /// # Panics
     /// As the other derivatives, if the wall moves in full rotations.
     #[must_use]
-    pub fn by_displacement(&self) -> Sensitivity {
+    pub fn by_displacement(&self, support: Support) -> Sensitivity {
         let State { displacement, velocity, branch, phase, .. } = self.record.state;
         if phase != Phase::Moving {
             return Sensitivity::default();
         }
         let branch = &self.wall().branches()[branch];
         let damping = branch.continued_damping(displacement).1 * velocity;
-        let couple = if self.record.drift { self.wall().body().couple(1.0, 0.0) } else { 0.0 };
+        let drift = self.record.drift || support.drift != 0.0;
+        let couple = if drift { self.wall().body().couple(1.0, 0.0) } else { 0.0 };
         self.sensitivity(Support::default(), -(branch.stiffness + damping), branch.stiffness, damping, couple)
     }
 
@@ -108,7 +109,7 @@ impl Simulation {
         self.sensitivity(Support::default(), -damping, 0.0, damping, 0.0)
     }
 
-    /// Derivatives of the outputs along a change of the supports' motion.
+    /// Derivatives of the outputs along a change of the supports' motion. A change of drift brings its couple.
     ///
     /// # Panics
     /// If the wall moves in full rotations.
@@ -117,7 +118,7 @@ impl Simulation {
         let body = self.wall().body();
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
-        let couple = if self.record.drift { body.couple(0.0, change.drift) } else { 0.0 };
+        let couple = body.couple(0.0, change.drift);
         match self.record.state.phase {
             Phase::Moving => self.sensitivity(change, forcing, -pull, 0.0, couple),
             Phase::Resting => self.sensitivity(change, 0.0, forcing - pull, 0.0, couple),
@@ -132,7 +133,7 @@ impl Simulation {
     #[must_use]
     pub fn rates(&self, support: Support, support_rate: Support) -> Sensitivity {
         let now = self.outputs(support);
-        let along_u = self.by_displacement();
+        let along_u = self.by_displacement(support);
         let along_v = self.by_velocity();
         let along_support = self.by_support(support_rate);
         let sum = |pick: fn(&Sensitivity) -> f64| {

@@ -10,8 +10,8 @@ pub const INDICATORS: usize = 3;
 
 /// Part of the scale of an indicator by which it goes beyond its corner.
 ///
-/// Far above rounding, and what it adds to the energy at a jump of the rigid force, 2 · 10⁻¹² F₀ `u_ins`, far below any
-/// solver's tolerance.
+/// Far above rounding, and far below any solver's tolerance. Where the force of a rigid wall jumps, [`Motion::event`] takes
+/// back what the way beyond the corner adds to the energy.
 const MARGIN: f64 = 1e-12;
 
 /// Bounces lower than this many margins are rest: a solver of tolerance 1e-9 or so tells them from nothing no more.
@@ -137,25 +137,46 @@ impl Motion {
     /// A passage of u = 0: restitution, and rest for a rigid wall whose bounces have become too low to follow.
     fn pass(&self, state: &mut State, forcing: f64, event: &mut Event) {
         let before = state.velocity;
-        state.velocity *= self.wall.passage_factor();
         event.work.impacts += 1;
         if self.wall.is_rigid() {
-            let [lowest, highest] = self.rest_band;
-            let in_band = (lowest..=highest).contains(&forcing);
-            let pull = if state.velocity > 0.0 { highest - forcing } else { forcing - lowest };
-            // height of the next bounce, u̇²/2 over the deceleration
-            let lowest_bounce = REST_MARGINS * MARGIN * self.wall.displacement_scale();
-            let low = 0.5 * state.velocity * state.velocity <= pull * lowest_bounce;
-            if state.velocity.abs() < self.rest_speed || (in_band && low) {
-                self.settle(state, forcing, 0.0);
-                event.stopped = state.phase == Phase::Resting;
+            self.pass_jump(state, forcing, event);
+        } else {
+            state.velocity *= self.wall.passage_factor();
+            if state.velocity == 0.0 && forcing != 0.0 {
+                // e = 0: it stops here and leaves with the forcing
+                state.branch = self.wall.branch_of(0.0, forcing);
+                state.displacement = 0.0;
             }
-        } else if state.velocity == 0.0 && forcing != 0.0 {
-            // e = 0: it stops here and leaves with the forcing
-            state.branch = self.wall.branch_of(0.0, forcing);
-            state.displacement = 0.0;
         }
         event.velocity_jump += state.velocity - before;
+    }
+
+    /// The passage where the force jumps.
+    ///
+    /// The solver comes here a margin or more late, and the force of the old side has acted all that way. The velocity is
+    /// corrected to what an impact at u = 0 makes of it: else each bounce would gain energy, and never become low.
+    fn pass_jump(&self, state: &mut State, forcing: f64, event: &mut Event) {
+        let [lowest, highest] = self.rest_band;
+        let in_band = (lowest..=highest).contains(&forcing);
+        let late = state.displacement.abs();
+        // accelerations towards the way it goes on the old side, and against it on the new one
+        let (push, pull) = if state.velocity > 0.0 {
+            (forcing - lowest, highest - forcing)
+        } else {
+            (highest - forcing, forcing - lowest)
+        };
+        let arriving = (state.velocity * state.velocity - 2.0 * push * late).max(0.0);
+        let leaving = arriving * self.wall.passage_factor().powi(2);
+        let now = leaving - 2.0 * pull * late;
+        // height of the next bounce, u̇²/2 over the deceleration
+        let lowest_bounce = REST_MARGINS * MARGIN * self.wall.displacement_scale();
+        let low = in_band && (now <= 0.0 || 0.5 * leaving <= pull * lowest_bounce);
+        if low || leaving.sqrt() < self.rest_speed {
+            self.settle(state, forcing, 0.0);
+            event.stopped = state.phase == Phase::Resting;
+        } else {
+            state.velocity = now.max(0.0).sqrt().copysign(state.velocity);
+        }
     }
 }
 

@@ -10,13 +10,16 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
     std::fs::write(folder.join("parapet.toml"), "inputs = [\"a_bottom\"]\n").unwrap();
     std::fs::write(folder.join("moved.toml"), "[motion]\nsynthetic = {}\n").unwrap();
     let wall = |text: &str| format!("{FLOOR}[[wall]]\nname = \"w\"\n{text}\n");
-    let cases: [(String, &[&str]); 10] = [
+    let cases: [(String, &[&str]); 12] = [
         (String::new(), &["[[floor]]"]),
         (format!("{FLOOR}mass = 0.0\n"), &["line 3", "mass", "0.001"]),
         (format!("{FLOOR}coupling = \"impulses\"\n"), &["line 3", "coupling", "stiffness"]),
         (format!("{FLOOR}hysteresis = \"cubic\"\n"), &["line 3", "cubic", "none, bilinear"]),
         (format!("{FLOOR}on = \"high\"\n"), &["line 3", "high", "ground"]),
         ("[[floor]]\nname = \"a b\"\n".into(), &["line 2", "a b", "letters"]),
+        (format!("[[floor]]\nname = \"{}\"\n", "a".repeat(101)), &["line 2", "101", "at most 100"]),
+        // one file on machines that do not tell letters' cases apart
+        (format!("{FLOOR}[[floor]]\nname = \"LOW\"\n"), &["line 4", "LOW", "choose another"]),
         (
             wall("scene = \"parapet.toml\"\nbottom = \"low\"\ntop = \"ground\"\ndrift = true"),
             &["line 8", "drift"],

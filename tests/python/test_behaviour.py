@@ -368,6 +368,30 @@ def test_directional_derivatives(unpacked, model, state, shape):
                 assert found == pytest.approx(expected, abs=2e-6 * size), f"d {unknown} / d {known}"
 
 
+def test_directional_derivatives_know_the_first_drift(unpacked):
+    """A drift that is set between steps brings its couple at once, to the reactions and to their derivatives."""
+    ends = ["reaction_bottom", "reaction_top"]
+    with Unit(unpacked) as unit:
+        unit.start(**STRIP | {"u_start": 0.0, "overburden": 1000.0})
+        unknowns = [unit.reference(name) for name in ends]
+
+        def slopes(known):
+            return list(unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0]))
+
+        # at u = 0 the reactions are linear in the drift from the first one on: differences err by rounding
+        expected = [(a - b) / 2e-4 for a, b in zip(unit.set(drift=1e-4).get(*ends), unit.set(drift=-1e-4).get(*ends), strict=True)]
+        assert slopes("drift") == pytest.approx(expected, rel=1e-9)
+        weight = unit.get("mass") * 9.81
+        with_couple = slopes("u")
+        assert unit.set(drift=0.0).get(*ends) == [0.0, 0.0]
+        assert slopes("drift") == pytest.approx(expected, rel=1e-9)
+        without = slopes("u")
+        couple = [a - b for a, b in zip(with_couple, without, strict=True)]
+        # R_b holds -G, R_t G, with G = -W u/(2h) - ...
+        each = weight / (2 * unit.get("height"))
+        assert couple == pytest.approx([each, -each], rel=1e-9)
+
+
 def test_the_tighter_tolerance_applies(unpacked):
     def end(tolerance, parameter):
         with Unit(unpacked) as unit:
@@ -380,6 +404,16 @@ def test_the_tighter_tolerance_applies(unpacked):
     assert coarse != fine
     assert end(1e-12, 1e-3) == fine
     assert end(1e-3, 1e-12) == fine
+
+
+def test_a_tolerance_below_rounding_is_the_least(unpacked):
+    """The least that the parameter may be; asked for less, a step would look for it for minutes."""
+
+    def end(tolerance):
+        with Unit(unpacked) as unit:
+            return unit.start(importer_tolerance=tolerance).step(0.1).get("u", "u_dot")
+
+    assert end(1e-300) == end(1e-15)
 
 
 # --- log ------------------------------------------------------------------------------------------------------------

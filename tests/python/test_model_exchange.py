@@ -142,6 +142,18 @@ def test_restitution_ends_in_rest(unpacked):
     assert still[0] == pytest.approx(still[1], abs=0.02), "at rest by the same sample but one"
 
 
+@pytest.mark.parametrize("settings", [{}, {"overburden": 5000.0, "overburden_eccentricity": 0.05}], ids=["alike", "two sides"])
+def test_bounces_found_exactly_end_in_rest(unpacked, settings):
+    """A solver that locates each impact to rounding leaves no error to end the bounces: energy must fall by e² at each."""
+    with Exchange(unpacked) as exchange:
+        exchange.run(**RIGID, **settings, u_start=0.02)
+        e, scale = exchange.get("restitution_used", "u_ins_negative")
+        count = exchange.integrate(10.0, 1e-8)
+        assert exchange.states() == exchange.derivatives() == [0.0, 0.0]
+        # bounces of the height h are e² h high the next time, down to 4e-12 u_ins
+        assert count < math.log(4e-12 * scale / 0.02) / math.log(e**2) + 10
+
+
 def record():
     noise = np.random.default_rng(3)
     time = np.arange(0, 8, 0.01)

@@ -176,6 +176,9 @@ impl Building {
     }
 }
 
+/// Letters of a name, which with the ending of an FMU makes a file name.
+const LONGEST_NAME: usize = 100;
+
 /// A name that FMUs, connectors and files can bear, and no other member has.
 fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'_>) -> Result<()> {
     let text = name.get_ref();
@@ -186,8 +189,14 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'
         );
         return Err(source.error(name.span(), message));
     }
-    if names.contains(text) {
-        return Err(source.error(name.span(), format!("name = {text:?} is there already; choose another")));
+    if text.len() > LONGEST_NAME {
+        let message = format!("name has {} letters; use at most {LONGEST_NAME}", text.len());
+        return Err(source.error(name.span(), message));
+    }
+    // Strip.fmu and strip.fmu are one file on many machines
+    if let Some(other) = names.iter().find(|other| other.eq_ignore_ascii_case(text)) {
+        let message = format!("name = {text:?}: there is {other:?} already; choose another");
+        return Err(source.error(name.span(), message));
     }
     names.push(text.clone());
     Ok(())
