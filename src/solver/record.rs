@@ -30,6 +30,8 @@ use super::{Method, Motion, SolverError, State, Work, is_constant};
 use lanes::Lanes;
 use short::Short;
 
+use crate::wall::Branch;
+
 /// Forcing p of `N` runs at the samples of a record \[m/s²\].
 pub trait Forcing<const N: usize> {
     /// Number of samples.
@@ -178,7 +180,8 @@ struct StepMap {
 }
 
 impl StepMap {
-    fn new(branch: &crate::wall::Branch, oscillator: Oscillator, step: f64) -> Self {
+    /// On a branch through u = 0 without ends.
+    fn new(oscillator: Oscillator, step: f64) -> Self {
         let (c, k) = (oscillator.damping, oscillator.stiffness);
         let growth = |length: f64| {
             let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
@@ -187,13 +190,20 @@ impl StepMap {
         Self {
             single: Affine::single(&oscillator, step),
             double: Affine::double(&oscillator, step),
-            corners: [branch.lower, branch.upper],
+            corners: [f64::NEG_INFINITY, f64::INFINITY],
             growth: [growth(step), growth(2.0 * step)],
             oscillator,
             inverse_damping: 1.0 / c,
-            force_at_zero: branch.restoring(0.0),
+            force_at_zero: 0.0,
             short: Short::new(&oscillator, step),
         }
+    }
+
+    /// The same on a branch with that oscillator.
+    fn on(mut self, branch: &Branch) -> Self {
+        self.corners = [branch.lower, branch.upper];
+        self.force_at_zero = branch.restoring(0.0);
+        self
     }
 }
 
@@ -201,15 +211,21 @@ impl<'a> RecordSolver<'a> {
     /// Prepares steps of `step` \[s\].
     #[must_use]
     pub fn new(motion: &'a Motion, step: f64) -> Self {
-        let maps = motion.wall.branches().iter().zip(&motion.oscillators).map(|(branch, &oscillator)| {
+        let mut maps: Vec<Option<StepMap>> = Vec::with_capacity(motion.oscillators.len());
+        for (branch, &oscillator) in motion.wall.branches().iter().zip(&motion.oscillators) {
             let affine = match motion.method {
                 Method::Exact => true,
                 Method::Adaptive { .. } => branch.stiffness > 0.0 && is_constant(branch.damping),
                 Method::Newmark { .. } => false,
             };
-            (affine && !oscillator.is_spread(2.0 * step)).then(|| StepMap::new(branch, oscillator, step))
-        });
-        Self { motion, step, maps: maps.collect() }
+            let map = (affine && !oscillator.is_spread(2.0 * step)).then(|| {
+                // branches on both sides of the wall share their oscillator
+                let known = maps.iter().flatten().find(|map| map.oscillator == oscillator);
+                known.copied().unwrap_or_else(|| StepMap::new(oscillator, step)).on(branch)
+            });
+            maps.push(map);
+        }
+        Self { motion, step, maps }
     }
 
     /// Moves `N` walls from their states through a record; `until_overturning` stops each when it overturns. `observe` is

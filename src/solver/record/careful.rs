@@ -278,7 +278,7 @@ mod tests {
         for slowness in 0..400 {
             // u̇ at the end of the step from 0.1 to 1e-5
             let last = 10.0_f64.powf(-1.0 - 0.01 * f64::from(slowness));
-            let back = StepMap::new(&branch(2.0), Oscillator::new(-damping, stiffness), step);
+            let back = StepMap::new(Oscillator::new(-damping, stiffness), step).on(&branch(2.0));
             let Some(short) = &back.short else { panic!("a short step") };
             // the motion back in time from there
             let start = short.after(
@@ -292,7 +292,7 @@ mod tests {
                 Kinematics { displacement, velocity, acceleration: -displacement - damping * velocity };
             for depth in 1..40 {
                 let corner = 1.0 - 10.0_f64.powf(-0.2 * f64::from(depth) - 1.5);
-                let map = StepMap::new(&branch(corner), oscillator, step);
+                let map = StepMap::new(oscillator, step).on(&branch(corner));
                 let Some(short) = &map.short else { panic!("a short step") };
                 let stretch = Stretch { from, to: short.after(step, from, 0.0), length: step, rate: 0.0 };
                 let Some((time, _)) = passage(&map, short, &stretch, corner) else { continue };
