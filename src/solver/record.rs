@@ -143,9 +143,9 @@ impl Affine {
         Self { terms: [of_u, of_v, [h - j, g - h / step], [j, h / step], [0.0; 2]] }
     }
 
-    /// Two steps h: the closed form over 2h, and the forcing of both.
-    fn double(oscillator: &Oscillator, step: f64) -> Self {
-        let [one_u, one_v, first, second, _] = Self::single(oscillator, step).terms;
+    /// Two steps h: the closed form over 2h, and the forcing of both, each as in `one`.
+    fn double(one: &Self, oscillator: &Oscillator, step: f64) -> Self {
+        let [one_u, one_v, first, second, _] = one.terms;
         let [two_u, two_v, ..] = Self::single(oscillator, 2.0 * step).terms;
         // what the first step changed, moved on by the second
         let onward = |[u, v]: [f64; 2], part: usize| [u, v][part] + (one_u[part] * u + one_v[part] * v);
@@ -187,9 +187,10 @@ impl StepMap {
             let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
             if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
         };
+        let single = Affine::single(&oscillator, step);
         Self {
-            single: Affine::single(&oscillator, step),
-            double: Affine::double(&oscillator, step),
+            single,
+            double: Affine::double(&single, &oscillator, step),
             corners: [f64::NEG_INFINITY, f64::INFINITY],
             growth: [growth(step), growth(2.0 * step)],
             oscillator,

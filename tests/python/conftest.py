@@ -10,20 +10,23 @@ from unit import Unit
 ROOT = Path(__file__).parents[2]
 
 
+def built(variable, default, command):
+    """Path that an environment variable names, or the default one; the command makes it."""
+    path = Path(os.environ.get(variable, ROOT / default))
+    assert path.is_file(), f"{path} is missing: run `{command}`"
+    return path
+
+
 @pytest.fixture(scope="session")
 def fmu():
     """Path of the general FMU."""
-    path = Path(os.environ.get("ROCKING_WALL_FMU", ROOT / "fmu_out/wall.fmu"))
-    assert path.is_file(), f"{path} is missing: run `cargo xtask fmu`"
-    return path
+    return built("ROCKING_WALL_FMU", "fmu_out/wall.fmu", "cargo xtask fmu")
 
 
 @pytest.fixture(scope="session")
 def wall():
     """Path of the program `wall`."""
-    path = Path(os.environ.get("ROCKING_WALL_BIN", ROOT / "target/release/wall"))
-    assert path.is_file(), f"{path} is missing: run `cargo build --release --bin wall`"
-    return path
+    return built("ROCKING_WALL_BIN", "target/release/wall", "cargo build --release --bin wall")
 
 
 @pytest.fixture(scope="session")
@@ -43,9 +46,7 @@ def unit(unpacked):
 @pytest.fixture(scope="session")
 def floor_fmu():
     """Path of the floor's FMU."""
-    path = Path(os.environ.get("ROCKING_FLOOR_FMU", ROOT / "fmu_out/floor.fmu"))
-    assert path.is_file(), f"{path} is missing: run `cargo xtask fmu`"
-    return path
+    return built("ROCKING_FLOOR_FMU", "fmu_out/floor.fmu", "cargo xtask fmu")
 
 
 @pytest.fixture(scope="session")

@@ -11,6 +11,7 @@ use rocking_wall::simulation::Excitation;
 
 use crate::ida::{IdaArguments, MergeArguments};
 use crate::output;
+use crate::spectrum::SpectrumArguments;
 
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
@@ -266,51 +267,6 @@ pub(crate) struct RecordFilesArguments {
     /// Draw the histories and the spectra, as SVG or PNG by the file's ending
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct SpectrumArguments {
-    #[command(flatten)]
-    pub(crate) scene: SceneArguments,
-    #[command(flatten)]
-    pub(crate) record: RecordArguments,
-    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless spectrum over
-    /// `omega_p/p` and `a_p/a_0`
-    #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
-    pub(crate) pulse: Option<String>,
-    /// Frequency of the pulse in Hz, for a spectrum over walls
-    #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
-    pub(crate) frequency: Option<f64>,
-    /// Amplitude of the pulse in m/s2, for a spectrum over walls
-    #[arg(long, value_name = "M_PER_S2", requires_all = ["pulse", "frequency"])]
-    pub(crate) amplitude: Option<f64>,
-    /// Heights in m [default: 0.5:8:31]
-    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "radii")]
-    pub(crate) heights: Option<String>,
-    /// Semi-diagonals R of a parapet in m, instead of heights
-    #[arg(long, value_name = "FROM:TO:COUNT")]
-    pub(crate) radii: Option<String>,
-    /// Slenderness h/b [default: 4:20:33]
-    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "angles")]
-    pub(crate) ratios: Option<String>,
-    /// Slenderness angles alpha = atan(b/h) of a parapet in rad, instead of h/b
-    #[arg(long, value_name = "FROM:TO:COUNT")]
-    pub(crate) angles: Option<String>,
-    /// `omega_p/p` of the dimensionless spectrum [default: 0.5:10:39]
-    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
-    pub(crate) frequency_ratios: Option<String>,
-    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden [default: 0.5:10:39]
-    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
-    pub(crate) amplitude_ratios: Option<String>,
-    /// Threads [default: one a core]; the result does not depend on them
-    #[arg(long, value_name = "COUNT")]
-    pub(crate) threads: Option<std::num::NonZeroUsize>,
-    /// Write the points as CSV
-    #[arg(long, value_name = "FILE")]
-    pub(crate) csv: Option<PathBuf>,
-    /// Write a page with the heat map
-    #[arg(long, value_name = "FILE")]
-    pub(crate) html: Option<PathBuf>,
 }
 
 impl SceneArguments {

@@ -183,7 +183,12 @@ fn page(title: &str, found: &[Calibration]) -> String {
     let text: String = found.iter().map(table).collect();
     filled(
         include_str!("calibrate.html"),
-        &[("title", &escaped(title)), ("table", &escaped(&text)), ("figures", &figures)],
+        &[
+            ("chart_style", chart::STYLE),
+            ("title", &escaped(title)),
+            ("table", &escaped(&text)),
+            ("figures", &figures),
+        ],
     )
 }
 

@@ -9,6 +9,9 @@ use rocking_wall::study::chart::{Axis, Chart, Look, Series};
 
 use crate::figure::{MARGINS, escaped, inline, layout};
 
+/// How charts and their legends look on a page.
+pub(crate) const STYLE: &str = include_str!("chart.css");
+
 /// Colours and marks, told apart by people who see fewer colours too.
 const COLORS: [(&str, MarkerShape, &str); 6] = [
     ("#1f5fa8", MarkerShape::Circle, "●"),

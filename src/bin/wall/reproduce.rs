@@ -132,6 +132,7 @@ fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
     filled(
         include_str!("reproduce.html"),
         &[
+            ("chart_style", chart::STYLE),
             ("agree", &agree.to_string()),
             ("all", &all.to_string()),
             ("links", &links),

@@ -169,7 +169,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
         for index in 0..N {
             lanes.load(index);
         }
-        lanes.all_inside = lanes.inside.iter().all(|&inside| inside);
+        lanes.all_inside = all(&lanes.inside);
         lanes
     }
 
@@ -219,7 +219,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             self.rest[i].largest_forcing = largest;
             self.ready_anew(i);
         }
-        self.all_inside = self.inside.iter().all(|&inside| inside);
+        self.all_inside = all(&self.inside);
     }
 
     /// Two plain steps of each lane: the states between and after them, and whether they are plain as far as the end tells.
@@ -236,7 +236,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             }
             plain[i] = self.double_range.holds(i, [end[0][i], end[1][i]]);
         }
-        (middle, end, plain.iter().fold(true, |all, &one| all & one))
+        (middle, end, all(&plain))
     }
 
     /// Two steps where some are not plain: those lanes go step by step.
@@ -257,7 +257,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
             }
             self.inside[i] = self.double_range.holds(i, self.state(i));
         }
-        self.all_inside = self.inside.iter().all(|&inside| inside);
+        self.all_inside = all(&self.inside);
         Ok(())
     }
 
@@ -395,4 +395,10 @@ impl<'a, const N: usize> Lanes<'a, N> {
             Passage { state, overturning, work, stilled }
         })
     }
+}
+
+/// Whether all hold, without a branch for each.
+#[inline(always)]
+fn all<const N: usize>(each: &[bool; N]) -> bool {
+    each.iter().fold(true, |all, &one| all & one)
 }
