@@ -9,13 +9,14 @@ use std::time::Instant;
 
 use rocking_wall::ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, Scaled};
+use rocking_wall::solver::record::{LANES, RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 const RUNS: usize = 200;
-const LANES: usize = 8;
+/// Runs of one batch.
+const BATCH: usize = 64;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
@@ -67,27 +68,32 @@ fn wall(
     let samples = record.samples();
     let count = samples.len() - 1;
     let solver = RecordSolver::new(&motion, record.step());
-    let start = motion.start(0.0, 0.0, Support::default());
+    let state = motion.start(0.0, 0.0, Support::default());
+    let start = |factor: f64| Start { state, factor: factor * participation };
     let run = |factor: f64| {
-        let forcing = Scaled::new(black_box(samples), [factor * participation]);
-        solver.run([start], &forcing, false, |_, _, _| {}).expect("a bounded motion")[0]
+        let forcing = Samples(black_box(samples));
+        solver.run(start(factor), &forcing, false, |_, _, _| {}).expect("a bounded motion")
     };
     let passage = run(scale);
     let one = least(count, || run(scale).state.displacement);
-    let spread: [f64; LANES] = std::array::from_fn(|i| scale * (0.65 + 0.05 * i as f64) * participation);
-    let many = least(count * LANES, || {
-        let forcing = Scaled::new(black_box(samples), spread);
-        let passages = solver.run([start; LANES], &forcing, false, |_, _, _| {}).expect("a bounded motion");
-        passages[0].state.displacement
+    let batch = batch(scale, start);
+    let many = least(count * BATCH, || {
+        let passages = solver.run_many(&batch, &Samples(black_box(samples)), false);
+        passages.expect("bounded motions")[0].state.displacement
     });
     println!(
-        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {LANES} at once {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
+        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} by {LANES} {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
         model.name(),
         one / bare,
         passage.work.corners,
         passage.state.peaks.largest() / motion.wall().displacement_scale(),
         if passage.overturning.is_some() { ", overturned" } else { "" },
     );
+}
+
+/// Runs whose factors go from 0.65 of a scale to the scale.
+fn batch(scale: f64, start: impl Fn(f64) -> Start) -> Vec<Start> {
+    (0..BATCH).map(|i| start(scale * (0.65 + 0.35 * i as f64 / (BATCH - 1) as f64))).collect()
 }
 
 /// uₙ₊₁ = A uₙ + b₀ aₙ + b₁ aₙ₊₁, the piecewise-exact recurrence.
@@ -135,7 +141,8 @@ fn count(path: &str, runs: u32) -> u64 {
     let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
     let motion = Motion::new(wall, method);
     let solver = RecordSolver::new(&motion, record.step());
-    let start = motion.start(0.0, 0.0, Support::default());
+    let state = motion.start(0.0, 0.0, Support::default());
+    let start = |factor: f64| Start { state, factor: factor * participation };
     for _ in 0..runs {
         let samples = black_box(record.samples());
         match path {
@@ -150,19 +157,16 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(simulation.progress().state);
             }
             "record" | "adaptive" => {
-                let forcing = Scaled::new(samples, [participation]);
-                black_box(solver.run([start], &forcing, false, |_, _, _| {}).expect("a bounded motion"));
+                let passage = solver.run(start(1.0), &Samples(samples), false, |_, _, _| {});
+                black_box(passage.expect("a bounded motion"));
             }
-            "eight" => {
-                let factors: [f64; LANES] = std::array::from_fn(|i| (0.65 + 0.05 * i as f64) * participation);
-                let forcing = Scaled::new(samples, factors);
-                black_box(
-                    solver.run([start; LANES], &forcing, false, |_, _, _| {}).expect("a bounded motion"),
-                );
+            "batch" => {
+                let passages = solver.run_many(&batch(1.0, start), &Samples(samples), false);
+                black_box(passages.expect("bounded motions"));
             }
-            other => panic!("no path {other}: segments, record, eight, adaptive"),
+            other => panic!("no path {other}: segments, record, batch, adaptive"),
         }
     }
-    let lanes = if path == "eight" { LANES } else { 1 };
+    let lanes = if path == "batch" { BATCH } else { 1 };
     (record.samples().len() - 1) as u64 * u64::from(runs) * lanes as u64
 }

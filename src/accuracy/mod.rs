@@ -11,7 +11,7 @@ use std::time::Instant;
 pub use problem::{Problem, defaults};
 
 use crate::ground_motion::GroundMotionError;
-use crate::solver::record::{Forcing, Passage, RecordSolver, Scaled};
+use crate::solver::record::{Passage, RecordSolver, Samples, Start};
 use crate::solver::{Method, Motion, SolverError, Work};
 use crate::wall::{ParameterError, Wall};
 
@@ -268,12 +268,10 @@ impl Runner<'_> {
         mut observe: impl FnMut(usize, f64),
     ) -> Result<Passage, SolverError> {
         let solver = RecordSolver::new(motion, self.problem.step / parts as f64);
-        let scaled = Scaled::new(forcing, [factor]);
-        let first = Forcing::<1>::at(&scaled, 0)[0];
-        let start =
-            motion.start_under(self.problem.parameters.u_start, self.problem.parameters.u_dot_start, first);
-        let [passage] = solver.run([start], &scaled, true, |index, u, _| observe(index, u[0]))?;
-        Ok(passage)
+        let parameters = &self.problem.parameters;
+        let first = factor * forcing[0];
+        let state = motion.start_under(parameters.u_start, parameters.u_dot_start, first);
+        solver.run(Start { state, factor }, &Samples(forcing), true, |index, u, _| observe(index, u))
     }
 
     /// Least run time of at least three runs.

@@ -2,17 +2,19 @@
 //!
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made once for each
 //! branch, and so are two steps: that way each state waits for the one before the last only. A *plain* step applies the
-//! map of two and checks that at both ends u is so far from the corners, and either so far from the extremes seen before or
-//! |u̇| so large, that nothing can have happened in between. Everything else is looked at step by step: corners crossed and turning
-//! points passed in the ordinary way in the module `careful`, the rest by [`Motion::advance`]'s own search.
+//! map, of two where it can, and checks that u at both ends is so far from the corners that none can have been reached in between.
+//! Everything else is looked at step by step: corners crossed and turning points passed in the ordinary way in the module
+//! `careful`, the rest by [`Motion::advance`]'s own search.
 //!
 //! The distance that suffices, over a plain stretch of length h, one step or two: let |p| ≤ P over the next 256 samples, |f| ≤ f̂
 //! between the corners and up to four times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
 //! With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves its chord, which lies on the branch, by no more than A h²/8, so
-//! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 from corners and
-//! extremes follows: f of a branch's line, followed beyond its ends. A stretch that starts or ends with |u̇| > A h has no turning
-//! point, so that its extremes are its ends; the one beyond the extremes seen before is taken in with the first step that is
-//! not plain, which comes before u turns.
+//! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 follows: f of a
+//! branch's line, followed beyond its ends.
+//!
+//! Extremes are known at the ends of plain steps, and beyond them up to that margin, which is small beside the extremes of the whole
+//! run. Few of its 256-sample stretches can hold them: those are gone through a second time, and there steps that come
+//! within the margin of the extremes known are looked at one by one (module `stretches`).
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
@@ -23,6 +25,7 @@ use std::ops::Range;
 mod careful;
 mod lanes;
 mod short;
+mod stretches;
 mod wide;
 
 use super::oscillator::Oscillator;
@@ -32,53 +35,54 @@ use short::Short;
 
 use crate::wall::Branch;
 
-/// Forcing p of `N` runs at the samples of a record \[m/s²\].
-pub trait Forcing<const N: usize> {
+/// Forcing p at the samples of a record \[m/s²\], before a run's factor.
+pub trait Forcing {
     /// Number of samples.
     fn count(&self) -> usize;
-    /// The forcing of each run at a sample.
-    fn at(&self, index: usize) -> [f64; N];
-    /// Largest |p| of each run over a range of samples.
-    fn largest(&self, range: Range<usize>) -> [f64; N];
+    /// The forcing at a sample.
+    fn at(&self, index: usize) -> f64;
+    /// The forcing at so many samples after one, at most twice the length of a stretch.
+    fn after(&self, index: usize, count: usize) -> &[f64];
+    /// Largest |p| over a range of samples.
+    fn largest(&self, range: Range<usize>) -> f64;
 }
 
-/// One record, scaled differently for each run.
+/// Samples of forcing \[m/s²\].
 #[derive(Clone, Copy, Debug)]
-pub struct Scaled<'a, const N: usize> {
-    samples: &'a [f64],
-    factors: [f64; N],
-}
+pub struct Samples<'a>(
+    /// One after another.
+    pub &'a [f64],
+);
 
-impl<'a, const N: usize> Scaled<'a, N> {
-    /// `samples` \[m/s²\] times each of `factors`.
-    #[must_use]
-    pub fn new(samples: &'a [f64], factors: [f64; N]) -> Self {
-        Self { samples, factors }
-    }
-}
-
-impl<const N: usize> Forcing<N> for Scaled<'_, N> {
+impl Forcing for Samples<'_> {
     fn count(&self) -> usize {
-        self.samples.len()
+        self.0.len()
     }
 
-    fn at(&self, index: usize) -> [f64; N] {
-        let sample = self.samples[index];
-        self.factors.map(|factor| factor * sample)
+    #[inline(always)]
+    fn at(&self, index: usize) -> f64 {
+        self.0[index]
     }
 
-    fn largest(&self, range: Range<usize>) -> [f64; N] {
+    #[inline(always)]
+    fn after(&self, index: usize, count: usize) -> &[f64] {
+        &self.0[index + 1..][..count]
+    }
+
+    fn largest(&self, range: Range<usize>) -> f64 {
         // eight side by side: one maximum after another would take longer than the steps
-        let (rows, rest) = self.samples[range].as_chunks::<8>();
+        let (rows, rest) = self.0[range].as_chunks::<8>();
         let larger = |a: f64, b: f64| if b > a { b } else { a };
         let mut columns = [0.0; 8];
         for row in rows {
             columns = std::array::from_fn(|i| larger(columns[i], row[i].abs()));
         }
-        let largest = columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()));
-        self.factors.map(|factor| factor.abs() * largest)
+        columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()))
     }
 }
+
+/// As much of no motion as is asked for at once.
+static STILL: [f64; 2 * stretches::STRETCH] = [0.0; 2 * stretches::STRETCH];
 
 /// No motion at all.
 #[derive(Clone, Copy, Debug)]
@@ -87,18 +91,33 @@ pub struct Still(
     pub usize,
 );
 
-impl<const N: usize> Forcing<N> for Still {
+impl Forcing for Still {
     fn count(&self) -> usize {
         self.0
     }
 
-    fn at(&self, _index: usize) -> [f64; N] {
-        [0.0; N]
+    #[inline(always)]
+    fn at(&self, _index: usize) -> f64 {
+        0.0
     }
 
-    fn largest(&self, _range: Range<usize>) -> [f64; N] {
-        [0.0; N]
+    #[inline(always)]
+    fn after(&self, _index: usize, count: usize) -> &[f64] {
+        &STILL[..count]
     }
+
+    fn largest(&self, _range: Range<usize>) -> f64 {
+        0.0
+    }
+}
+
+/// A run through a record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// The state at the first sample.
+    pub state: State,
+    /// By which the forcing is multiplied.
+    pub factor: f64,
 }
 
 /// What became of one run.
@@ -131,9 +150,6 @@ struct Affine {
 }
 
 impl Affine {
-    /// Nothing moves.
-    const STILL: Self = Self { terms: [[0.0; 2]; 5] };
-
     /// One step h: q₂ does not count.
     fn single(oscillator: &Oscillator, step: f64) -> Self {
         let (c, k) = (oscillator.damping, oscillator.stiffness);
@@ -179,7 +195,26 @@ struct StepMap {
     short: Option<Short>,
 }
 
+/// Runs side by side, of however many.
+pub const LANES: usize = 8;
+/// Share of steps that were searched up to which runs are quicker side by side than one after the other: about 2.4 ns
+/// a step less for plain steps against about 90 ns more for each of the others (`cargo bench --bench record`).
+const MOST_SEARCHED: f64 = 0.025;
+
 impl StepMap {
+    /// A over one step and over two, where the forcing and the branch's force together are up to `driving`.
+    #[inline(always)]
+    fn most(&self, driving: f64) -> [f64; 2] {
+        let braking = if self.oscillator.damping > 0.0 { lanes::BRAKING } else { 0.0 };
+        self.growth.map(|growth| growth * (driving + braking * driving))
+    }
+
+    /// V.
+    #[inline(always)]
+    fn fastest(&self, driving: f64) -> f64 {
+        lanes::BRAKING * driving * self.inverse_damping
+    }
+
     /// On a branch through u = 0 without ends.
     fn new(oscillator: Oscillator, step: f64) -> Self {
         let (c, k) = (oscillator.damping, oscillator.stiffness);
@@ -229,22 +264,80 @@ impl<'a> RecordSolver<'a> {
         Self { motion, step, maps }
     }
 
-    /// Moves `N` walls from their states through a record; `until_overturning` stops each when it overturns. `observe` is
-    /// shown u and u̇ of all runs at each sample after the first.
+    /// Largest |f| between the corners of the branches that have maps, for |u| up to `reach` \[m/s²\].
+    fn largest_force(&self, reach: f64) -> f64 {
+        let mut largest = 0.0_f64;
+        for map in self.maps.iter().flatten() {
+            let [lower, upper] = [map.corners[0].max(-reach), map.corners[1].min(reach)];
+            if lower <= upper {
+                let force = |u: f64| (map.force_at_zero + map.oscillator.stiffness * u).abs();
+                largest = largest.max(force(lower)).max(force(upper));
+            }
+        }
+        largest
+    }
+
+    /// Moves a wall through a record; `until_overturning` stops it when it overturns. `observe` is shown u and u̇ at each sample
+    /// after the first.
     ///
     /// # Errors
-    /// [`SolverError`] of the first run that could not be followed.
-    pub fn run<const N: usize, F: Forcing<N>>(
+    /// [`SolverError`] if the motion could not be followed.
+    pub fn run<F: Forcing>(
         &self,
-        states: [State; N],
+        start: Start,
         forcing: &F,
         until_overturning: bool,
-        mut observe: impl FnMut(usize, &[f64; N], &[f64; N]),
-    ) -> Result<[Passage; N], SolverError> {
-        let mut lanes = Lanes::new(self, states, until_overturning);
-        if forcing.count() > 0 {
-            wide::follow(&mut lanes, forcing, &mut observe)?;
+        mut observe: impl FnMut(usize, f64, f64),
+    ) -> Result<Passage, SolverError> {
+        let (mut passages, _) = self.follow::<F, 1>(&[start], forcing, until_overturning, &mut observe)?;
+        Ok(passages.remove(0))
+    }
+
+    /// Moves walls through a record, each as if it were alone: side by side where most of their steps are plain.
+    ///
+    /// # Errors
+    /// [`SolverError`] of a run that could not be followed: that under the strongest motion, else the first.
+    pub fn run_many<F: Forcing>(
+        &self,
+        starts: &[Start],
+        forcing: &F,
+        until_overturning: bool,
+    ) -> Result<Vec<Passage>, SolverError> {
+        // the run under the strongest motion tells which way is quicker; the outcome is the same
+        let strength = |(_, start): &(usize, &Start)| start.factor.abs();
+        let strongest = starts.iter().enumerate().max_by(|a, b| strength(a).total_cmp(&strength(b)));
+        let Some((place, strongest)) = strongest else { return Ok(Vec::new()) };
+        let (trial, searched) =
+            self.follow::<F, 1>(&[*strongest], forcing, until_overturning, &mut |_, _, _| {})?;
+        let others = [&starts[..place], &starts[place + 1..]].concat();
+        let (mut passages, _) = if searched <= MOST_SEARCHED {
+            self.follow::<F, LANES>(&others, forcing, until_overturning, &mut |_, _, _| {})?
+        } else {
+            self.follow::<F, 1>(&others, forcing, until_overturning, &mut |_, _, _| {})?
+        };
+        passages.insert(place, trial[0]);
+        Ok(passages)
+    }
+
+    /// The outcome of runs, and the share of their steps that were searched.
+    fn follow<F: Forcing, const N: usize>(
+        &self,
+        starts: &[Start],
+        forcing: &F,
+        until_overturning: bool,
+        observe: &mut impl FnMut(usize, f64, f64),
+    ) -> Result<(Vec<Passage>, f64), SolverError> {
+        if forcing.count() == 0 {
+            let still = |start: &Start| Passage {
+                state: start.state,
+                overturning: start.state.overturned.then_some(0.0),
+                work: Work::default(),
+                stilled: false,
+            };
+            return Ok((starts.iter().map(still).collect(), 0.0));
         }
-        Ok(lanes.passages(forcing.count().saturating_sub(1) as u64))
+        let mut lanes = Lanes::<F, N>::new(self, starts, forcing, until_overturning);
+        wide::follow(&mut lanes, observe);
+        lanes.passages()
     }
 }

@@ -1,7 +1,7 @@
 //! Extremes: what happens at the edges, each with the figure that proves it and the limit derived for it.
 
 use super::{FreeMotion, StabilityError};
-use crate::solver::record::{RecordSolver, Scaled, Still};
+use crate::solver::record::{RecordSolver, Samples, Start, Still};
 use crate::solver::{Memo, Method, Motion, Phase, Segment, State};
 use crate::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
 use crate::wall::{Parameters, Support, Wall};
@@ -153,7 +153,8 @@ fn undamped_at_once() -> Outcome {
 fn undamped_in_steps() -> Outcome {
     let free = released(&free(), Method::Exact, 0.9)?;
     let solver = RecordSolver::new(&free.motion, 5e-3);
-    let [passage] = solver.run([free.state], &Still(20_000_001), false, |_, _, _| {})?;
+    let start = Start { state: free.state, factor: 1.0 };
+    let passage = solver.run(start, &Still(20_000_001), false, |_, _, _| {})?;
     let State { displacement, velocity, .. } = passage.state;
     Ok((free.motion.wall().energy(displacement, velocity) / free.first_energy - 1.0).abs())
 }
@@ -197,11 +198,10 @@ fn history(
 ) -> Result<(Vec<f64>, Option<f64>), StabilityError> {
     let motion = Motion::new(Wall::new(parameters)?, method);
     let solver = RecordSolver::new(&motion, step);
-    let start = motion.start_under(0.0, 0.0, forcing[0]);
-    let scaled = Scaled::new(forcing, [1.0]);
+    let start = Start { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut displacements = vec![0.0];
     let scale = motion.wall().displacement_scale();
-    let [passage] = solver.run([start], &scaled, true, |_, u, _| displacements.push(u[0] / scale))?;
+    let passage = solver.run(start, &Samples(forcing), true, |_, u, _| displacements.push(u / scale))?;
     Ok((displacements, passage.overturning))
 }
 

@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmi2_export::{Kind, VariableId};
 
 use crate::ground_motion::GroundMotion;
-use crate::solver::record::{Forcing, Passage, RecordSolver, Scaled};
+use crate::solver::record::{LANES, Passage, RecordSolver, Samples, Start};
 use crate::solver::{Memo, Method, Motion, Segment, SolverError};
 use crate::variables::{Mechanism, RealVariable};
 use crate::wall::{Parameters, Support, Wall};
@@ -30,8 +30,6 @@ use super::parallel;
 
 pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
 
-/// Runs side by side.
-const LANES: usize = 8;
 /// Most points of a spectrum.
 pub const MOST_POINTS: usize = 250_000;
 /// Steps of the free motion after the record, over 1/p, and their number: a wall near the instability leaves it as e^{pt}, so
@@ -88,14 +86,12 @@ pub fn over_walls(
         .flat_map(|&row| sizes.iter().map(move |&column| (row, column)))
         .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
         .collect::<Result<_, _>>()?;
-    let run = |index: usize| -> Result<Point, SpectrumError> {
+    let run = |index: usize| -> Result<Vec<Point>, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
         let factor = wall.participation();
-        let scaled = Scaled::new(motion.samples(), [-factor]);
-        let [point] = wall.points(&scaled, motion)?;
-        Ok(point)
+        wall.points(&[-factor], motion)
     };
-    let points = parallel::map(walls.len(), threads, run)?;
+    let points = parallel::map(walls.len(), threads, run)?.concat();
     Ok(RockingSpectrum::new(sizes, rows, &points))
 }
 
@@ -121,13 +117,12 @@ pub fn over_pulses(
     let (p, onset, factor) = (wall.motion.wall().rocking_rate(), wall.onset(), wall.participation());
     let blocks = rows.len().div_ceil(LANES);
     // column by column in blocks of rows
-    let run = |index: usize| -> Result<[Point; LANES], SpectrumError> {
+    let run = |index: usize| -> Result<Vec<Point>, SpectrumError> {
         let (column, block) = (index / blocks, index % blocks);
         let motion = form.motion(columns[column] * p / TAU)?;
-        let amplitude = |lane: usize| rows.get(block * LANES + lane).copied().unwrap_or(0.0);
-        let factors = std::array::from_fn(|lane| -factor * onset * amplitude(lane));
-        let points: [Point; LANES] = wall.points(&Scaled::new(motion.samples(), factors), &motion)?;
-        Ok(points)
+        let amplitudes = rows.iter().skip(block * LANES).take(LANES);
+        let factors: Vec<f64> = amplitudes.map(|amplitude| -factor * onset * amplitude).collect();
+        wall.points(&factors, &motion)
     };
     let found = parallel::map(columns.len() * blocks, threads, run)?;
     let at = |row: usize, column: usize| found[column * blocks + row / LANES][row % LANES];
@@ -223,21 +218,19 @@ impl Prepared {
         body.strength.positive / (body.participation * body.effective_mass)
     }
 
-    /// Runs through a motion and the free motion after it.
-    fn points<const N: usize>(
-        &self,
-        forcing: &Scaled<'_, N>,
-        motion: &GroundMotion,
-    ) -> Result<[Point; N], SpectrumError> {
+    /// Runs through a motion, its accelerations times each of `factors` the forcing, and the free motion after it.
+    fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
         let failed = |source| SpectrumError::Run { height: self.height, thickness: self.thickness, source };
-        let states = forcing.at(0).map(|first| self.motion.start_under(0.0, 0.0, first));
+        let samples = motion.samples();
+        let start =
+            |&factor: &f64| Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor };
+        let starts: Vec<_> = factors.iter().map(start).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let passages = solver.run(states, forcing, true, |_, _, _| {}).map_err(failed)?;
-        let mut points = [Point { ratio: 0.0, rocked: false, overturning: None }; N];
-        for (point, passage) in points.iter_mut().zip(passages) {
-            *point = self.followed(passage, motion.duration()).map_err(failed)?;
-        }
-        Ok(points)
+        let passages = solver.run_many(&starts, &Samples(samples), true).map_err(failed)?;
+        passages
+            .into_iter()
+            .map(|passage| self.followed(passage, motion.duration()).map_err(failed))
+            .collect()
     }
 
     /// Follows the free motion after a record of some duration \[s\].

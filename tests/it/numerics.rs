@@ -7,7 +7,7 @@ use rocking_wall::accuracy::{Setting, defaults, measure_at};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, Scaled};
+use rocking_wall::solver::record::{RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
 use rocking_wall::variables::{
     DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
@@ -50,10 +50,10 @@ fn end_of_run(
         |index: u32| forced.strength * onset * raise * libm::sin(forced.rate * step * f64::from(index));
     let forcing: Vec<f64> = (0..=count).map(sample).collect();
     let motion = Motion::new(wall, method);
-    let start = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
+    let state = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
     let solver = RecordSolver::new(&motion, step);
-    let scaled = Scaled::new(&forcing, [1.0]);
-    let [passage] = solver.run([start], &scaled, false, |_, _, _| {}).unwrap();
+    let start = Start { state, factor: 1.0 };
+    let passage = solver.run(start, &Samples(&forcing), false, |_, _, _| {}).unwrap();
     passage.state.displacement / motion.wall().displacement_scale()
 }
 
@@ -224,11 +224,10 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let motion_of = Motion::new(wall, method);
     let forcing: Vec<f64> = motion.iter().map(|p| factor * onset * p).collect();
     let solver = RecordSolver::new(&motion_of, step);
-    let start = motion_of.start_under(0.0, 0.0, forcing[0]);
+    let start = Start { state: motion_of.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut history = vec![0.0];
     let scale = motion_of.wall().displacement_scale();
-    let scaled = Scaled::new(&forcing, [1.0]);
-    solver.run([start], &scaled, false, |_, u, _| history.push(u[0] / scale)).unwrap();
+    solver.run(start, &Samples(&forcing), false, |_, u, _| history.push(u / scale)).unwrap();
     history
 }
 

@@ -2,45 +2,65 @@
 
 use proptest::prelude::*;
 use rocking_wall::simulation::{Progress, Simulation};
-use rocking_wall::solver::record::{Forcing, Passage, RecordSolver, Scaled};
+use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 use crate::properties::{configuration, motions, walls};
 
-/// Histories of u and what became of each run, for factors 1, 0.9, 0.8 … on one motion of forcing.
-fn together<const N: usize>(
-    parameters: &Parameters,
-    forcing: &[f64],
-    step: f64,
-) -> (Vec<[f64; N]>, [Passage; N]) {
+/// A wall's motion and the start of a run under a forcing.
+fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, Start) {
     let wall = Wall::new(parameters).unwrap();
     let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
     let motion = Motion::new(wall, method);
-    let scaled = Scaled::<N>::new(forcing, std::array::from_fn(|i| 1.0 - 0.1 * i as f64));
     let Parameters { u_start, u_dot_start, .. } = *parameters;
-    let starts = scaled.at(0).map(|first| motion.start_under(u_start, u_dot_start, first));
-    let mut history = vec![starts.map(|start| start.displacement)];
+    let state = motion.start_under(u_start, u_dot_start, factor * forcing[0]);
+    (motion, Start { state, factor })
+}
+
+/// The history of u, and what became of the run.
+fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Passage) {
+    let (motion, start) = prepared(parameters, forcing, factor);
+    let mut history = vec![start.state.displacement];
     let solver = RecordSolver::new(&motion, step);
-    let passages = solver.run(starts, &scaled, false, |_, u, _| history.push(*u)).unwrap();
-    (history, passages)
+    let samples = Samples(forcing);
+    let observe = |index: usize, u, _| {
+        assert_eq!(index, history.len());
+        history.push(u);
+    };
+    let passage = solver.run(start, &samples, false, observe).unwrap();
+    assert_eq!(history.len(), forcing.len());
+    (history, passage)
 }
 
 proptest! {
     #![proptest_config(configuration())]
 
-    /// A run gives the same bits alone and beside others.
+    /// A run gives the same bits alone and beside others, whatever their number and place.
     #[test]
-    fn lanes_do_not_disturb_each_other(parameters in walls(), motion in motions()) {
+    fn lanes_do_not_disturb_each_other(
+        parameters in prop_oneof![walls(), moving()],
+        motion in motions(),
+        refinement in 1_u32..20,
+        count in 2_usize..20,
+        until in any::<bool>(),
+    ) {
         let wall = Wall::new(&parameters).unwrap();
         let onset = wall.body().strength.positive / wall.body().effective_mass;
-        let forcing: Vec<f64> = motion.iter().map(|p| p * onset).collect();
-        let step = 0.3 / wall.rocking_rate();
-        let (alone, [one]) = together::<1>(&parameters, &forcing, step);
-        let (beside, many) = together::<8>(&parameters, &forcing, step);
-        prop_assert!(alone.iter().zip(&beside).all(|(a, b)| a[0].to_bits() == b[0].to_bits()));
-        prop_assert_eq!(one, many[0]);
+        let forcing: Vec<f64> = refined(&motion, refinement).iter().map(|p| p * onset).collect();
+        let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
+        let factors: Vec<f64> = (0..count).map(|i| 1.3 - 0.15 * i as f64).collect();
+        let started: Vec<_> = factors.iter().map(|&factor| prepared(&parameters, &forcing, factor)).collect();
+        let starts: Vec<_> = started.iter().map(|(_, start)| *start).collect();
+        let solver = RecordSolver::new(&started[0].0, step);
+        let together = solver.run_many(&starts, &Samples(&forcing), until).unwrap();
+        prop_assert_eq!(together.len(), count);
+        for (start, passage) in starts.iter().zip(together) {
+            let one = solver.run(*start, &Samples(&forcing), until, |_, _, _| {}).unwrap();
+            prop_assert_eq!(one, passage);
+            prop_assert_eq!(one.state.displacement.to_bits(), passage.state.displacement.to_bits());
+        }
     }
 
     /// The same of walls on their way, for steps from far below any motion to longer than a swing.
@@ -61,14 +81,20 @@ proptest! {
         let body = wall.body();
         let onset = body.strength.positive / (body.participation * body.effective_mass);
         // fine steps are plain ones, coarse ones are searched
-        let mut accelerations = Vec::new();
-        for ends in motion.windows(2) {
-            let at = |part: u32| ends[0] + (ends[1] - ends[0]) * f64::from(part) / f64::from(refinement);
-            accelerations.extend((0..refinement).map(|part| onset * at(part)));
-        }
+        let accelerations: Vec<f64> = refined(&motion, refinement).iter().map(|a| onset * a).collect();
         let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
         agree(&parameters, &accelerations, step)?;
     }
+}
+
+/// A broken line with each interval cut into `parts`.
+fn refined(motion: &[f64], parts: u32) -> Vec<f64> {
+    let mut refined = Vec::new();
+    for ends in motion.windows(2) {
+        let at = |part: u32| ends[0] + (ends[1] - ends[0]) * f64::from(part) / f64::from(parts);
+        refined.extend((0..parts).map(at));
+    }
+    refined
 }
 
 /// Compares a run over a record with segments one by one.
@@ -76,7 +102,7 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     let wall = Wall::new(parameters).unwrap();
     let body = wall.body();
     let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
-    let (history, [passage]) = together::<1>(parameters, &forcing, step);
+    let (history, passage) = alone(parameters, &forcing, step, 1.0);
     let reference = segments(parameters, accelerations, step);
     let probe = 1e-8;
     let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
@@ -96,7 +122,7 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13 likewise
     let end = reference[standing - 1];
     let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
-    let difference = apart(&|i| history[i][0]);
+    let difference = apart(&|i| history[i]);
     prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
     if standing == reference.len() {
         let peaks = passage.state.peaks.largest() - end.state.peaks.largest();
@@ -163,7 +189,7 @@ fn a_run_counts_what_happened() {
     let onset = wall.body().strength.positive / wall.body().effective_mass;
     let forcing: Vec<f64> =
         (0..2000_u32).map(|i| onset * (f64::from(i) / 1500.0) * libm::sin(0.02 * f64::from(i))).collect();
-    let (_, [passage]) = together::<1>(&parameters, &forcing, 0.01);
+    let (_, passage) = alone(&parameters, &forcing, 0.01, 1.0);
     let accelerations: Vec<f64> =
         forcing.iter().map(|p| p / wall.body().forcing(Support::rigid(1.0))).collect();
     let reference = segments(&parameters, &accelerations, 0.01);

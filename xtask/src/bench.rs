@@ -51,7 +51,7 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     )?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
     println!("\ninstructions a sample, walls of Table 5 under the embedded motion");
-    for path in ["segments", "record", "eight", "adaptive"] {
+    for path in ["segments", "record", "batch", "adaptive"] {
         let [few, many] = [FEW, MANY].map(|runs| instructions(&binary, path, runs));
         let (few, many) = (few?, many?);
         println!(

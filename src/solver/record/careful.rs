@@ -3,9 +3,9 @@
 use super::super::event::{Kinematics, Peaks, Verdict, crossing, settle};
 use super::super::run::Run;
 use super::super::{Report, SolverError, Work};
-use super::StepMap;
 use super::lanes::Lanes;
 use super::short::Short;
+use super::{Forcing, StepMap};
 
 /// Largest correction δ of a first guess, over the step h: beyond, the general search takes over. The expansions to the fourth
 /// derivative leave out (ωδ)⁴ of u̇, 1e-16/24 even for ωh = 1.
@@ -29,21 +29,14 @@ struct Stretch {
     rate: f64,
 }
 
-impl<const N: usize> Lanes<'_, N> {
+impl<F: Forcing, const N: usize> Lanes<'_, F, N> {
     /// A step that may reach a corner or a new extreme, and its end if it does not leave its branch.
     #[inline(always)]
-    pub(super) fn careful(
-        &mut self,
-        i: usize,
-        index: usize,
-        p: [f64; 2],
-        end: [f64; 2],
-    ) -> Result<(), SolverError> {
+    pub(super) fn careful(&mut self, i: usize, p: [f64; 2], end: [f64; 2]) -> Result<(), SolverError> {
         let start = self.state(i);
-        let Some(map) = self.map(i) else { return self.search(i, index, p, None) };
+        let Some(map) = self.map(i) else { return self.search(i, p, None) };
         let step = self.solver.step;
-        // plain steps before left out extremes that a steady motion went past
-        self.rest[i].state.peaks.include(start[0]);
+        self.take_in_nodes(i);
         let [lower, upper] = map.corners;
         let within = end[0] > lower && end[0] < upper;
         if within && self.is_steady(i, start[1], end) {
@@ -75,7 +68,7 @@ impl<const N: usize> Lanes<'_, N> {
         if matches!(verdict, Verdict::Monotone) && self.cross(i, stretch) {
             return Ok(());
         }
-        self.search(i, index, p, Some(to))
+        self.search(i, p, Some(to))
     }
 
     /// A step on which u, monotone, leaves the branch through corners where nothing but the stiffness changes, and then
@@ -96,7 +89,8 @@ impl<const N: usize> Lanes<'_, N> {
                 Some((map, map.short.as_ref()?))
             });
             let [Some((map, short)), Some((ahead, short_ahead))] = shorts else { return false };
-            let Some((time, start)) = passage(map, short, &stretch, corner.displacement) else {
+            let change = ahead.oscillator.stiffness - map.oscillator.stiffness;
+            let Some((time, start)) = passage(map, short, &stretch, corner.displacement, change) else {
                 return false;
             };
             let remaining = stretch.length - time;
@@ -126,6 +120,7 @@ impl<const N: usize> Lanes<'_, N> {
                         impacts: 0,
                     });
                     self.load(i);
+                    self.look_around(i);
                     return true;
                 }
                 (false, Verdict::Monotone) => {}
@@ -137,13 +132,7 @@ impl<const N: usize> Lanes<'_, N> {
 
     /// A step through the search for events.
     #[cold]
-    fn search(
-        &mut self,
-        i: usize,
-        index: usize,
-        p: [f64; 2],
-        known_end: Option<Kinematics>,
-    ) -> Result<(), SolverError> {
+    fn search(&mut self, i: usize, p: [f64; 2], known_end: Option<Kinematics>) -> Result<(), SolverError> {
         let (motion, step) = (self.solver.motion, self.solver.step);
         let start = self.state(i);
         let lane = &mut self.rest[i];
@@ -156,13 +145,11 @@ impl<const N: usize> Lanes<'_, N> {
         lane.searched += 1;
         lane.stilled |= stilled;
         if let (Some(offset), None) = (overturning, lane.overturning) {
-            lane.overturning = Some(index as f64 * step + offset);
-            if self.until_overturning {
-                lane.stopped = Some(index + 1);
-                self.running -= 1;
-            }
+            lane.overturning = Some(self.pairs.index[i] as f64 * step + offset);
+            self.overturned(i);
         }
         self.load(i);
+        self.look_around(i);
         Ok(())
     }
 }
@@ -189,18 +176,33 @@ fn turn(peaks: &mut Peaks, map: &StepMap, stretch: &Stretch) -> bool {
     true
 }
 
-/// When u, monotone, passes `corner`, and the motion there; `None` where that is not found at once.
+/// When u, monotone, passes `corner`, beyond which the stiffness is greater by `change`, and the motion there; `None` where
+/// that is not found at once.
+///
+/// The corner need not be met to the last bit: who changes branches δu from it, with ü for the branch ahead, has been driven by a
+/// force that was wrong by |change| δu at most for a time δu/u̇, so that u̇ is wrong by |change| δu²/(2 u̇).
 #[inline(always)]
-fn passage(map: &StepMap, short: &Short, stretch: &Stretch, corner: f64) -> Option<(f64, Kinematics)> {
+fn passage(
+    map: &StepMap,
+    short: &Short,
+    stretch: &Stretch,
+    corner: f64,
+    change: f64,
+) -> Option<(f64, Kinematics)> {
     let Stretch { from, length, rate, .. } = *stretch;
     let mut guess = length * share(stretch, corner);
     for _ in 0..MOST_GUESSES {
         let near = short.after(guess, from, rate);
-        let Kinematics { velocity, acceleration, .. } = near;
+        let Kinematics { displacement, velocity, acceleration } = near;
+        let beyond = displacement - corner;
+        if change.abs() * beyond * beyond <= 0.5 * f64::EPSILON * velocity * velocity {
+            let acceleration = acceleration - change * beyond;
+            return (0.0..length).contains(&guess).then_some((guess, Kinematics { acceleration, ..near }));
+        }
         let jerk = map.oscillator.jerk(near, rate);
         // u(δ) = corner, from the value on by the derivatives there
         let pace = 1.0 / velocity;
-        let first = (corner - near.displacement) * pace;
+        let first = -beyond * pace;
         let bend = 0.5 * acceleration * first * pace;
         let shift = first * (1.0 - bend * (1.0 - 2.0 * bend) - jerk * first * first * pace / 6.0);
         let time = guess + shift;
@@ -236,7 +238,8 @@ fn share(stretch: &Stretch, bound: f64) -> f64 {
     let (d, dv, db) = (1.0 - w0 - b0, w1 - w0 - 2.0 * b0, b1 - b0);
     let (c3, c4, c5) = (10.0 * d - 4.0 * dv + db, -15.0 * d + 7.0 * dv - 2.0 * db, 6.0 * d - 3.0 * dv + db);
     let s = (bound - from.displacement) / rise;
-    s * (w0 + s * (b0 + s * (c3 + s * (c4 + s * c5))))
+    let square = s * s;
+    s * ((w0 + s * b0) + square * ((c3 + s * c4) + square * c5))
 }
 
 /// Time of the one zero of u̇ in a stretch, by the cubic through u̇ and ü at its ends.
@@ -261,7 +264,8 @@ mod tests {
     use crate::solver::oscillator::Oscillator;
     use crate::wall::{Branch, BranchDamping};
 
-    /// Corners passed shortly before u turns: at the time found u is at the corner, to the rounding of u.
+    /// Corners passed shortly before u turns, beyond which the force stays the same: at the end of the step the motion is that
+    /// from the corner found by halving, to the rounding of u.
     #[test]
     fn slow_passages_are_as_exact_as_fast_ones() {
         let (damping, stiffness, step) = (0.05, 1.0, 0.5);
@@ -274,6 +278,8 @@ mod tests {
             stiffness,
             damping: BranchDamping::Constant(damping),
         };
+        let ahead = StepMap::new(Oscillator::new(damping, 0.0), step);
+        let Some(short_ahead) = &ahead.short else { panic!("a short step") };
         let (mut found, mut worst) = (0, 0.0_f64);
         for slowness in 0..400 {
             // u̇ at the end of the step from 0.1 to 1e-5
@@ -295,13 +301,26 @@ mod tests {
                 let map = StepMap::new(oscillator, step).on(&branch(corner));
                 let Some(short) = &map.short else { panic!("a short step") };
                 let stretch = Stretch { from, to: short.after(step, from, 0.0), length: step, rate: 0.0 };
-                let Some((time, _)) = passage(&map, short, &stretch, corner) else { continue };
+                let Some((time, there)) = passage(&map, short, &stretch, corner, -stiffness) else {
+                    continue;
+                };
                 found += 1;
-                worst = worst.max((short.after(time, from, 0.0).displacement - corner).abs());
+                let (mut low, mut high) = (0.0, step);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    let beyond = short.after(middle, from, 0.0).displacement > corner;
+                    (low, high) = if beyond { (low, middle) } else { (middle, high) };
+                }
+                let exact = Kinematics { displacement: corner, ..short.after(low, from, 0.0) };
+                let [ours, theirs] = [(time, there), (low, exact)]
+                    .map(|(time, start)| short_ahead.after(step - time, start, 0.0));
+                worst = worst
+                    .max((ours.displacement - theirs.displacement).abs())
+                    .max((ours.velocity - theirs.velocity).abs());
             }
         }
         assert!(found > 10_000, "{found}");
-        // u at the guess, at the time found and here round, by a few units each
+        // u and u̇, of order 1, at the corner and at the end round by a few units each
         assert!(worst <= 8.0 * f64::EPSILON, "{worst:e}");
     }
 }

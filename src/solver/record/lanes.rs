@@ -1,31 +1,56 @@
-//! Runs of one wall side by side, two steps at a time as long as they are plain.
+//! Runs of one wall side by side, each at its own place in the record, two steps at a time as long as they are plain.
 
-use super::super::event::Peaks;
-use super::super::oscillator::Oscillator;
-use super::super::{Memo, Phase, SolverError, State, Work};
-use super::{Affine, Forcing, Passage, RecordSolver, StepMap};
+use super::super::{Phase, SolverError, State};
+use super::stretches::{Lane, STRETCH};
+use super::{Affine, Forcing, Passage, RecordSolver, Start, StepMap};
 
-/// u and u̇ of each run.
-pub(super) type States<const N: usize> = [[f64; N]; 2];
-
-/// Runs side by side.
-pub(super) struct Lanes<'a, const N: usize> {
+/// Runs side by side. A lane that cannot go on by plain steps *waits* where it is until enough of them do.
+pub(super) struct Lanes<'a, F, const N: usize> {
     pub(super) solver: &'a RecordSolver<'a>,
-    now: States<N>,
+    pub(super) forcing: &'a F,
+    pub(super) starts: &'a [Start],
+    pub(super) until_overturning: bool,
+    /// Largest |p| over each stretch of the record, before a run's factor \[m/s²\].
+    pub(super) largest: Vec<f64>,
+    pub(super) pairs: Pairs<N>,
+    /// The first sample at which each lane begins no pair of steps.
+    pub(super) limit: [usize; N],
+    /// The factor of the forcing.
+    pub(super) factor: [f64; N],
     /// Coefficients of one and of two steps on each lane's branch.
     single: Wide<N>,
     double: Wide<N>,
     /// f(0) of each lane's branch \[m/s²\].
     force_at_zero: [f64; N],
-    /// Where one and two plain steps may start and end.
-    single_range: Range<N>,
-    double_range: Range<N>,
-    /// Whether two plain steps may start from the present state.
-    inside: [bool; N],
-    all_inside: bool,
+    /// Where pairs of steps may start and end, u and |u̇|.
+    low: [f64; N],
+    high: [f64; N],
+    fastest: [f64; N],
+    /// Whether a lane cannot begin a pair of steps, or tried one that is not plain, or is idle.
+    pub(super) waits: [bool; N],
     pub(super) rest: [Lane; N],
+    /// The next run to begin, and the number of those under way.
+    pub(super) next: usize,
     pub(super) running: usize,
-    pub(super) until_overturning: bool,
+    pub(super) passages: Vec<Option<Passage>>,
+    /// Steps of the runs that have ended, and those among them that were searched.
+    pub(super) steps: u64,
+    pub(super) searched: u64,
+    /// The first of the runs that could not be followed.
+    pub(super) failure: Option<(usize, SolverError)>,
+}
+
+/// What pairs of plain steps change.
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<const N: usize> {
+    /// u and u̇.
+    pub(super) now: [[f64; N]; 2],
+    /// The sample each lane is at, and the forcing there \[m/s²\].
+    pub(super) index: [usize; N],
+    pub(super) forcing_now: [f64; N],
+    /// The extremes of u at the ends of the plain steps of this stretch \[m\].
+    pub(super) highest: [f64; N],
+    pub(super) lowest: [f64; N],
 }
 
 /// [`Affine`] of each lane.
@@ -33,43 +58,10 @@ struct Wide<const N: usize> {
     terms: [[[f64; N]; 2]; 5],
 }
 
-/// Where a plain step, or two, may start and end.
-struct Range<const N: usize> {
-    /// Of u, so far from the corners.
-    low: [f64; N],
-    high: [f64; N],
-    /// Of u where |u̇| is `slow` or less, so far from the extremes seen before.
-    lowest: [f64; N],
-    highest: [f64; N],
-    slow: [f64; N],
-    /// V, of |u̇|.
-    fastest: [f64; N],
-}
-
-/// What a plain step does not touch.
-#[derive(Clone, Copy)]
-pub(super) struct Lane {
-    pub(super) state: State,
-    /// Largest |u| up to which f̂ is taken \[m\].
-    reach: f64,
-    /// P over the stretch of the record at hand \[m/s²\].
-    largest_forcing: f64,
-    pub(super) overturning: Option<f64>,
-    /// Work of the steps that were searched, and their number.
-    pub(super) work: Work,
-    pub(super) searched: u64,
-    pub(super) stilled: bool,
-    /// The sample at which the run stopped.
-    pub(super) stopped: Option<usize>,
-    pub(super) memo: Memo,
-}
-
 /// c V over P + f̂: the largest speed V of a plain step. Walls stay far below, as they do below the terminal speed.
-const BRAKING: f64 = 0.25;
+pub(super) const BRAKING: f64 = 0.25;
 /// The |u| up to which f̂ is taken, over the largest so far.
 const ROOM: f64 = 4.0;
-/// Samples for which P is taken together, an even number.
-const STRETCH: usize = 256;
 
 impl<const N: usize> Wide<N> {
     const STILL: Self = Self { terms: [[[0.0; N]; 2]; 5] };
@@ -97,198 +89,262 @@ impl<const N: usize> Wide<N> {
     }
 }
 
-impl<const N: usize> Range<N> {
-    const EMPTY: Self = Self {
-        low: [0.0; N],
-        high: [0.0; N],
-        lowest: [0.0; N],
-        highest: [0.0; N],
-        slow: [0.0; N],
-        fastest: [0.0; N],
-    };
-
-    #[allow(clippy::needless_bitwise_bool, reason = "no branches, so that lanes go side by side")]
-    #[inline(always)]
-    fn holds(&self, i: usize, [u, v]: [f64; 2]) -> bool {
-        let speed = v.abs();
-        let no_new_extreme = (speed > self.slow[i]) | ((u >= self.lowest[i]) & (u <= self.highest[i]));
-        (u >= self.low[i]) & (u <= self.high[i]) & (speed <= self.fastest[i]) & no_new_extreme
-    }
-
-    /// For stretches of `length` on a branch between `corners`, in which |ü| stays below `most` and |u̇| starts and ends
-    /// below `fastest`.
-    #[inline(always)]
-    fn set(&mut self, i: usize, length: f64, corners: [f64; 2], most: f64, fastest: f64) {
-        let margin = 0.125 * length * length * most;
-        (self.low[i], self.high[i]) = (corners[0] + margin, corners[1] - margin);
-        (self.slow[i], self.fastest[i]) = (most * length, fastest);
-    }
-
-    /// With the extremes seen so far.
-    #[inline]
-    fn bound(&mut self, i: usize, length: f64, peaks: Peaks) {
-        let margin = 0.125 * length * self.slow[i];
-        (self.lowest[i], self.highest[i]) = (margin - peaks.negative, peaks.positive - margin);
-    }
-
-    /// Every state, or none.
-    fn fill(&mut self, i: usize, all: bool) {
-        let bound = if all { f64::INFINITY } else { f64::NEG_INFINITY };
-        (self.low[i], self.high[i]) = (-bound, bound);
-        (self.slow[i], self.fastest[i]) = (-1.0, f64::INFINITY);
-    }
-}
-
-impl<'a, const N: usize> Lanes<'a, N> {
-    pub(super) fn new(solver: &'a RecordSolver<'a>, states: [State; N], until_overturning: bool) -> Self {
-        let lane = |index: usize| Lane {
-            state: states[index],
-            reach: f64::INFINITY,
-            largest_forcing: f64::INFINITY,
-            overturning: states[index].overturned.then_some(0.0),
-            work: Work::default(),
-            searched: 0,
-            stilled: false,
-            stopped: None,
-            memo: Memo::default(),
-        };
-        let mut lanes = Self {
+impl<'a, F: Forcing, const N: usize> Lanes<'a, F, N> {
+    pub(super) fn new(
+        solver: &'a RecordSolver<'a>,
+        starts: &'a [Start],
+        forcing: &'a F,
+        until_overturning: bool,
+    ) -> Self {
+        let last = forcing.count().saturating_sub(1);
+        // a pair of steps may go one sample beyond its stretch
+        let largest = (0..last.div_ceil(STRETCH).max(1))
+            .map(|stretch| forcing.largest(stretch * STRETCH..((stretch + 1) * STRETCH + 1).min(last) + 1));
+        Self {
             solver,
-            now: [[0.0; N]; 2],
+            forcing,
+            starts,
+            until_overturning,
+            largest: largest.collect(),
+            pairs: Pairs {
+                now: [[0.0; N]; 2],
+                index: [0; N],
+                forcing_now: [0.0; N],
+                highest: [0.0; N],
+                lowest: [0.0; N],
+            },
+            limit: [0; N],
+            factor: [0.0; N],
             single: Wide::STILL,
             double: Wide::STILL,
             force_at_zero: [0.0; N],
-            single_range: Range::EMPTY,
-            double_range: Range::EMPTY,
-            inside: [false; N],
-            all_inside: false,
-            rest: std::array::from_fn(lane),
-            running: N,
-            until_overturning,
-        };
-        for index in 0..N {
-            lanes.load(index);
+            low: [f64::INFINITY; N],
+            high: [f64::INFINITY; N],
+            fastest: [0.0; N],
+            waits: [true; N],
+            rest: std::array::from_fn(|_| Lane::idle()),
+            next: 0,
+            running: 0,
+            passages: vec![None; starts.len()],
+            steps: 0,
+            searched: 0,
+            failure: None,
         }
-        lanes.all_inside = all(&lanes.inside);
-        lanes
     }
 
-    /// Follows all lanes to the end of the record, or until none runs.
+    /// Follows all runs to their ends; `observe` is shown u and u̇ at each sample after the first, of single runs.
     #[inline(always)]
-    pub(super) fn follow<F: Forcing<N>>(
-        &mut self,
-        forcing: &F,
-        observe: &mut impl FnMut(usize, &[f64; N], &[f64; N]),
-    ) -> Result<(), SolverError> {
-        let last = forcing.count() - 1;
-        let mut index = 0;
-        let mut now = self.now;
-        let mut p = forcing.at(0);
-        while index + 1 < last && self.running > 0 {
-            if index.is_multiple_of(STRETCH) {
-                self.now = now;
-                self.look_ahead(forcing.largest(index..(index + STRETCH).min(last) + 1));
+    pub(super) fn follow(&mut self, observe: &mut impl FnMut(usize, f64, f64)) {
+        for i in 0..N {
+            if self.begin(i) {
+                self.running += 1;
+                self.go_on(i, observe);
             }
-            let [next, after] = [forcing.at(index + 1), forcing.at(index + 2)];
-            let (middle, end, plain) = self.pair(&now, [&p, &next, &after]);
-            let mut states = [middle, end];
-            if !(self.all_inside & plain) {
-                self.now = now;
-                self.with_care(index, &mut states, [&p, &next, &after])?;
-            }
-            observe(index + 1, &states[0][0], &states[0][1]);
-            observe(index + 2, &states[1][0], &states[1][1]);
-            (now, p) = (states[1], after);
-            index += 2;
         }
-        self.now = now;
-        if index < last && self.running > 0 {
-            self.look_ahead(forcing.largest(index..last + 1));
-            let to = forcing.at(last);
+        while self.running > 0 {
+            self.plain(observe);
             for i in 0..N {
-                self.step(i, index, [p[i], to[i]])?;
+                if self.waits[i] && !self.rest[i].is_idle() {
+                    if self.pairs.index[i] < self.limit[i] {
+                        self.step(i, observe);
+                    }
+                    self.go_on(i, observe);
+                }
             }
-            observe(last, &self.now[0], &self.now[1]);
         }
-        Ok(())
     }
 
-    /// Takes up the largest forcing of the next stretch.
-    fn look_ahead(&mut self, largest: [f64; N]) {
-        for (i, largest) in largest.into_iter().enumerate() {
-            self.rest[i].largest_forcing = largest;
-            self.ready_anew(i);
+    /// The outcome of all runs, and the share of their steps that were searched.
+    pub(super) fn passages(self) -> Result<(Vec<Passage>, f64), SolverError> {
+        if let Some((_, error)) = self.failure {
+            return Err(error);
         }
-        self.all_inside = all(&self.inside);
+        let searched = self.searched as f64 / self.steps.max(1) as f64;
+        Ok((self.passages.into_iter().flatten().collect(), searched))
     }
 
-    /// Two plain steps of each lane: the states between and after them, and whether they are plain as far as the end tells.
+    /// Pairs of plain steps, until half the lanes wait or one comes to its limit.
+    ///
+    /// Lanes that wait are taken along, and held where they are: no branches, so that the compiler makes vectors of the lanes.
+    #[allow(clippy::needless_range_loop, reason = "lanes by their numbers")]
     #[inline(always)]
-    fn pair(&self, now: &States<N>, p: [&[f64; N]; 3]) -> (States<N>, States<N>, bool) {
-        let (mut middle, mut end) = ([[0.0; N]; 2], [[0.0; N]; 2]);
-        let mut plain = [false; N];
-        for i in 0..N {
-            let q = p.map(|p| p[i] - self.force_at_zero[i]);
-            let state = [now[0][i], now[1][i]];
-            for part in 0..2 {
-                middle[part][i] = self.single.one_step(i, part, state, [q[0], q[1]]);
-                end[part][i] = self.double.two_steps(i, part, state, q);
+    fn plain(&mut self, observe: &mut impl FnMut(usize, f64, f64)) {
+        let enough = (self.running / 2) as u64;
+        let room = |i: usize| self.limit[i].saturating_sub(self.pairs.index[i]).div_ceil(2);
+        let pairs = (0..N).filter(|&i| !self.waits[i]).map(room).min().unwrap_or(0);
+        let ahead: [&[[f64; 2]]; N] = std::array::from_fn(|i| {
+            // those that wait may be near the end; what they read is of no use
+            let index = if self.waits[i] { 0 } else { self.pairs.index[i] };
+            &self.forcing.after(index, 2 * pairs).as_chunks().0[..pairs]
+        });
+        // apart from the rest, so that they stay in registers
+        let Pairs { mut now, mut highest, mut lowest, .. } = self.pairs;
+        let mut q: [f64; N] = std::array::from_fn(|i| self.pairs.forcing_now[i] - self.force_at_zero[i]);
+        // all ones or all zeros
+        let mut goes = self.waits.map(|waits| u64::from(!waits).wrapping_neg());
+        let mut gone = [0_u64; N];
+        for pair in 0..pairs {
+            let (mut next, mut after) = ([0.0; N], [0.0; N]);
+            for i in 0..N {
+                [next[i], after[i]] = ahead[i][pair];
             }
-            plain[i] = self.double_range.holds(i, [end[0][i], end[1][i]]);
+            let mut end = [[0.0; N]; 2];
+            for i in 0..N {
+                next[i] = self.factor[i] * next[i] - self.force_at_zero[i];
+                after[i] = self.factor[i] * after[i] - self.force_at_zero[i];
+                for part in 0..2 {
+                    let state = [now[0][i], now[1][i]];
+                    end[part][i] = self.double.two_steps(i, part, state, [q[i], next[i], after[i]]);
+                }
+                goes[i] &= u64::from(self.holds(i, [end[0][i], end[1][i]])).wrapping_neg();
+            }
+            if N == 1 {
+                if goes[0] == 0 {
+                    break;
+                }
+                if !self.rest[0].looks_back() {
+                    let index = self.pairs.index[0] + 2 * pair;
+                    let state = [now[0][0], now[1][0]];
+                    let middle = [0, 1].map(|part| self.single.one_step(0, part, state, [q[0], next[0]]));
+                    observe(index + 1, middle[0], middle[1]);
+                    observe(index + 2, end[0][0], end[1][0]);
+                }
+                now = end;
+                gone[0] += 1;
+            }
+            let mut going = 0_u64;
+            for i in 0..N {
+                if N > 1 {
+                    let select = |new: f64, old: f64| {
+                        f64::from_bits((new.to_bits() & goes[i]) | (old.to_bits() & !goes[i]))
+                    };
+                    now[0][i] = select(end[0][i], now[0][i]);
+                    now[1][i] = select(end[1][i], now[1][i]);
+                    gone[i] = gone[i].wrapping_sub(goes[i]);
+                    going = going.wrapping_sub(goes[i]);
+                }
+                q[i] = after[i];
+                highest[i] = if now[0][i] > highest[i] { now[0][i] } else { highest[i] };
+                lowest[i] = if now[0][i] < lowest[i] { now[0][i] } else { lowest[i] };
+            }
+            if N > 1 && going <= enough {
+                break;
+            }
         }
-        (middle, end, all(&plain))
+        let Pairs { mut index, mut forcing_now, .. } = self.pairs;
+        for i in 0..N {
+            #[allow(clippy::cast_possible_truncation, reason = "no more than the samples of the record")]
+            let gone = gone[i] as usize;
+            index[i] += 2 * gone;
+            forcing_now[i] = self.factor[i] * self.forcing.at(index[i]);
+            self.waits[i] = goes[i] == 0 || index[i] >= self.limit[i];
+        }
+        self.pairs = Pairs { now, index, forcing_now, highest, lowest };
     }
 
-    /// Two steps where some are not plain: those lanes go step by step.
+    /// Whether a pair of plain steps may end so, or begin.
+    #[allow(clippy::needless_bitwise_bool, reason = "no branches, so that lanes go side by side")]
     #[inline(always)]
-    fn with_care(
-        &mut self,
-        index: usize,
-        states: &mut [States<N>; 2],
-        p: [&[f64; N]; 3],
-    ) -> Result<(), SolverError> {
-        for i in 0..N {
-            if self.inside[i] && self.double_range.holds(i, states[1].map(|of| of[i])) {
-                continue;
+    fn holds(&self, i: usize, [u, v]: [f64; 2]) -> bool {
+        (u >= self.low[i]) & (u <= self.high[i]) & (v.abs() <= self.fastest[i])
+    }
+
+    /// Goes on until the lane may try a pair of steps, or is idle.
+    #[inline(never)]
+    fn go_on(&mut self, i: usize, observe: &mut impl FnMut(usize, f64, f64)) {
+        loop {
+            if self.rest[i].state.phase == Phase::Landed {
+                self.lie(i, observe);
             }
-            for (part, state) in states.iter_mut().enumerate() {
-                self.step(i, index + part, [p[part][i], p[part + 1][i]])?;
-                (state[0][i], state[1][i]) = (self.now[0][i], self.now[1][i]);
+            while self.pairs.index[i] >= self.rest[i].until {
+                if !self.turn_page(i) {
+                    return;
+                }
             }
-            self.inside[i] = self.double_range.holds(i, self.state(i));
+            if self.open(i) {
+                return;
+            }
+            self.step(i, observe);
         }
-        self.all_inside = all(&self.inside);
-        Ok(())
     }
 
     /// One step of one lane, plain or not.
     #[inline(always)]
-    fn step(&mut self, i: usize, index: usize, p: [f64; 2]) -> Result<(), SolverError> {
+    fn step(&mut self, i: usize, observe: &mut impl FnMut(usize, f64, f64)) {
+        let index = self.pairs.index[i];
+        let p = [self.pairs.forcing_now[i], self.factor[i] * self.forcing.at(index + 1)];
+        if let Err(error) = self.move_one(i, p) {
+            self.give_up(i, error);
+            return;
+        }
+        self.pairs.index[i] = index + 1;
+        self.pairs.forcing_now[i] = p[1];
+        if !self.rest[i].looks_back() {
+            let [u, v] = self.state(i);
+            observe(index + 1, u, v);
+        }
+    }
+
+    #[inline(always)]
+    fn move_one(&mut self, i: usize, p: [f64; 2]) -> Result<(), SolverError> {
         let q = p.map(|p| p - self.force_at_zero[i]);
-        let state = self.state(i);
-        let end = [0, 1].map(|part| self.single.one_step(i, part, state, q));
-        if self.single_range.holds(i, state) && self.single_range.holds(i, end) {
-            self.set_state(i, end);
-            return Ok(());
+        let start = self.state(i);
+        let end = [0, 1].map(|part| self.single.one_step(i, part, start, q));
+        if let Some([low, high]) = self.range(i, 0) {
+            let holds = |[u, v]: [f64; 2]| u >= low && u <= high && v.abs() <= self.fastest[i];
+            if holds(start) && holds(end) {
+                self.set_state(i, end);
+                self.take_in(i, start[0]);
+                self.take_in(i, end[0]);
+                return Ok(());
+            }
         }
-        if self.rest[i].stopped.is_some() {
-            return Ok(());
-        }
-        self.careful(i, index, p, end)
+        self.careful(i, p, end)
     }
 
     /// u and u̇ of a lane.
     #[inline]
     pub(super) fn state(&self, i: usize) -> [f64; 2] {
-        self.now.map(|of| of[i])
+        let [u, v] = &self.pairs.now;
+        [u[i], v[i]]
+    }
+
+    pub(super) fn whole_state(&self, i: usize) -> State {
+        let [displacement, velocity] = self.state(i);
+        State { displacement, velocity, ..self.rest[i].state }
     }
 
     #[inline]
     pub(super) fn set_state(&mut self, i: usize, [u, v]: [f64; 2]) {
-        (self.now[0][i], self.now[1][i]) = (u, v);
+        (self.pairs.now[0][i], self.pairs.now[1][i]) = (u, v);
+    }
+
+    /// Takes a displacement between plain steps into the extremes of the stretch.
+    #[inline(always)]
+    fn take_in(&mut self, i: usize, u: f64) {
+        self.pairs.highest[i] = self.pairs.highest[i].max(u);
+        self.pairs.lowest[i] = self.pairs.lowest[i].min(u);
+    }
+
+    /// Forgets the ends of plain steps.
+    pub(super) fn forget_nodes(&mut self, i: usize) {
+        (self.pairs.highest[i], self.pairs.lowest[i]) = (f64::NEG_INFINITY, f64::INFINITY);
+    }
+
+    /// Takes the ends of plain steps so far into the extremes.
+    #[inline(always)]
+    pub(super) fn take_in_nodes(&mut self, i: usize) {
+        let (highest, lowest, u) = (self.pairs.highest[i], self.pairs.lowest[i], self.pairs.now[0][i]);
+        let peaks = &mut self.rest[i].state.peaks;
+        peaks.include(u);
+        if highest >= lowest {
+            peaks.include(highest);
+            peaks.include(lowest);
+        }
     }
 
     /// The map of steps on the branch a lane is on.
+    #[inline(always)]
     pub(super) fn map(&self, i: usize) -> Option<&'a StepMap> {
         let State { phase, branch, .. } = self.rest[i].state;
         let solver = self.solver;
@@ -298,68 +354,91 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// Takes up the state and the branch of a lane.
     #[inline(always)]
     pub(super) fn load(&mut self, i: usize) {
-        let Lane { state, stopped, .. } = self.rest[i];
-        self.set_state(i, [state.displacement, state.velocity]);
-        let still = stopped.is_some() || state.phase == Phase::Landed;
-        if let (false, Some(map)) = (still, self.map(i)) {
-            self.single.load(i, &map.single);
-            self.double.load(i, &map.double);
-            self.force_at_zero[i] = map.force_at_zero;
-        } else {
-            self.single.load(i, &Affine::STILL);
-            self.double.load(i, &Affine::STILL);
-            // nothing will ever happen, or anything may
-            self.single_range.fill(i, still);
-            self.double_range.fill(i, still);
+        let State { displacement, velocity, .. } = self.rest[i].state;
+        self.set_state(i, [displacement, velocity]);
+        if let Some(map) = self.map(i) {
+            self.take_up(i, map);
         }
-        self.ready(i);
+    }
+
+    /// Takes up the branch of a lane.
+    #[inline(always)]
+    pub(super) fn take_up(&mut self, i: usize, map: &StepMap) {
+        self.single.load(i, &map.single);
+        self.double.load(i, &map.double);
+        self.force_at_zero[i] = map.force_at_zero;
+        self.brake(i);
+    }
+
+    /// The forces a lane may meet on its way.
+    pub(super) fn measure(&mut self, i: usize) {
+        self.take_in_nodes(i);
+        let step = self.solver.step;
+        let room = if self.rest[i].looks_back() { 1.0 } else { ROOM };
+        let lane = &mut self.rest[i];
+        lane.reach = room * (lane.state.peaks.largest() + lane.largest_forcing * step * step);
+        lane.largest_force = self.solver.largest_force(lane.reach);
+        self.brake(i);
+    }
+
+    /// What motion on the present branch can be at most.
+    #[inline(always)]
+    fn brake(&mut self, i: usize) {
+        let Some(map) = self.map(i) else { return };
+        let lane = &mut self.rest[i];
+        let driving = lane.largest_forcing + lane.largest_force;
+        self.fastest[i] = map.fastest(driving);
+        let step = self.solver.step;
+        let most = map.most(driving);
+        lane.margins = [0.125 * step * step * most[0], 0.5 * step * step * most[1]];
+        lane.slow = most[0] * step;
+        lane.growth = lane.growth.max(map.growth[1]);
+        lane.driving = lane.driving.max(driving);
+    }
+
+    /// Where one plain step, or two, may start and end.
+    #[inline(always)]
+    fn range(&self, i: usize, part: usize) -> Option<[f64; 2]> {
+        let map = self.map(i)?;
+        let lane = &self.rest[i];
+        let Lane { reach, margins, state: State { peaks, .. }, .. } = *lane;
+        let margin = margins[part];
+        let [lower, upper] = [map.corners[0].max(-reach), map.corners[1].min(reach)];
+        Some(if lane.looks_back() {
+            [lower.max(-peaks.negative) + margin, upper.min(peaks.positive) - margin]
+        } else {
+            [lower + margin, upper - margin]
+        })
+    }
+
+    /// Lets a lane begin pairs of steps, if it may; tells whether.
+    #[inline(always)]
+    fn open(&mut self, i: usize) -> bool {
+        self.waits[i] = true;
+        if let (true, Some([low, high])) = (self.pairs.index[i] < self.limit[i], self.range(i, 1)) {
+            (self.low[i], self.high[i]) = (low, high);
+            let state = self.state(i);
+            if self.holds(i, state) {
+                self.take_in(i, state[0]);
+                self.waits[i] = false;
+            }
+        }
+        !self.waits[i]
     }
 
     /// Goes on from the end of a step on the same branch.
     #[inline(always)]
     pub(super) fn arrive(&mut self, i: usize, end: [f64; 2]) {
-        let lane = &mut self.rest[i];
-        lane.state.peaks.include(end[0]);
-        let near_the_edge = 2.0 * end[0].abs() > lane.reach;
+        self.rest[i].state.peaks.include(end[0]);
         self.set_state(i, end);
-        if near_the_edge {
-            self.ready_anew(i);
-        } else {
-            self.bound(i);
-        }
+        self.look_around(i);
     }
 
-    /// The range of plain steps with the branch, the forcing and the extremes at hand.
+    /// Measures anew where u has grown.
     #[inline(always)]
-    fn ready(&mut self, i: usize) {
-        if let (None, Some(map)) = (self.rest[i].stopped, self.map(i)) {
-            self.measure(i, map);
-        }
-        self.bound(i);
-    }
-
-    /// [`Self::ready`], out of the way of steps that seldom need it.
-    #[inline(never)]
-    fn ready_anew(&mut self, i: usize) {
-        self.ready(i);
-    }
-
-    /// The range of plain steps on the present branch.
-    #[inline(always)]
-    fn measure(&mut self, i: usize, map: &StepMap) {
-        let Oscillator { damping, stiffness, .. } = map.oscillator;
-        let step = self.solver.step;
-        let lane = &mut self.rest[i];
-        let forcing = lane.largest_forcing;
-        lane.reach = ROOM * (lane.state.peaks.largest() + forcing * step * step);
-        let ends = [map.corners[0].max(-lane.reach), map.corners[1].min(lane.reach)];
-        let force = ends.map(|u| (map.force_at_zero + stiffness * u).abs());
-        let driving = forcing + force[0].max(force[1]);
-        let fastest = BRAKING * driving * map.inverse_damping;
-        let braking = if damping > 0.0 { BRAKING * driving } else { 0.0 };
-        let ranges = [&mut self.single_range, &mut self.double_range];
-        for ((range, growth), steps) in ranges.into_iter().zip(map.growth).zip([1.0, 2.0]) {
-            range.set(i, steps * step, ends, growth * (driving + braking), fastest);
+    pub(super) fn look_around(&mut self, i: usize) {
+        if 2.0 * self.pairs.now[0][i].abs() > self.rest[i].reach && !self.rest[i].looks_back() {
+            self.measure(i);
         }
     }
 
@@ -367,38 +446,10 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// are larger together than A h.
     #[inline(always)]
     pub(super) fn is_steady(&self, i: usize, v0: f64, [u1, v1]: [f64; 2]) -> bool {
-        let Range { slow, fastest, .. } = &self.single_range;
-        u1.abs() <= self.rest[i].reach
+        let Lane { slow, reach, .. } = self.rest[i];
+        u1.abs() <= reach
             && v0 * v1 > 0.0
-            && v0.abs() + v1.abs() > slow[i]
-            && v0.abs().max(v1.abs()) <= fastest[i]
+            && v0.abs() + v1.abs() > slow
+            && v0.abs().max(v1.abs()) <= self.fastest[i]
     }
-
-    /// The range of plain steps with the present extremes.
-    #[inline(always)]
-    pub(super) fn bound(&mut self, i: usize) {
-        let (peaks, step) = (self.rest[i].state.peaks, self.solver.step);
-        self.single_range.bound(i, step, peaks);
-        self.double_range.bound(i, 2.0 * step, peaks);
-        self.inside[i] = self.double_range.holds(i, self.state(i));
-    }
-
-    pub(super) fn passages(&self, steps: u64) -> [Passage; N] {
-        std::array::from_fn(|i| {
-            let Lane { mut state, overturning, mut work, searched, stilled, stopped, .. } = self.rest[i];
-            if stopped.is_none() {
-                [state.displacement, state.velocity] = self.state(i);
-                state.peaks.include(state.displacement);
-            }
-            // a plain step is one piece of motion
-            work.pieces += stopped.map_or(steps, |index| index as u64) - searched;
-            Passage { state, overturning, work, stilled }
-        })
-    }
-}
-
-/// Whether all hold, without a branch for each.
-#[inline(always)]
-fn all<const N: usize>(each: &[bool; N]) -> bool {
-    each.iter().fold(true, |all, &one| all & one)
 }

@@ -8,28 +8,25 @@
 
 use super::Forcing;
 use super::lanes::Lanes;
-use crate::solver::SolverError;
 
 /// [`Lanes::follow`], with vectors as wide as can be had.
-pub(super) fn follow<const N: usize, F: Forcing<N>>(
-    lanes: &mut Lanes<'_, N>,
-    forcing: &F,
-    observe: &mut impl FnMut(usize, &[f64; N], &[f64; N]),
-) -> Result<(), SolverError> {
+pub(super) fn follow<F: Forcing, const N: usize>(
+    lanes: &mut Lanes<'_, F, N>,
+    observe: &mut impl FnMut(usize, f64, f64),
+) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has AVX2, as was just found.
-        return unsafe { follow_avx2(lanes, forcing, observe) };
+        return unsafe { follow_avx2(lanes, observe) };
     }
-    lanes.follow(forcing, observe)
+    lanes.follow(observe);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn follow_avx2<const N: usize, F: Forcing<N>>(
-    lanes: &mut Lanes<'_, N>,
-    forcing: &F,
-    observe: &mut impl FnMut(usize, &[f64; N], &[f64; N]),
-) -> Result<(), SolverError> {
-    lanes.follow(forcing, observe)
+fn follow_avx2<F: Forcing, const N: usize>(
+    lanes: &mut Lanes<'_, F, N>,
+    observe: &mut impl FnMut(usize, f64, f64),
+) {
+    lanes.follow(observe);
 }

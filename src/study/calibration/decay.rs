@@ -1,6 +1,6 @@
 //! A free vibration, and how far two of them are apart.
 
-use crate::solver::record::{RecordSolver, Still};
+use crate::solver::record::{RecordSolver, Start, Still};
 use crate::solver::{Memo, Method, Motion, Segment, SolverError, State};
 use crate::wall::{ParameterError, Parameters, Support, Wall};
 
@@ -63,8 +63,9 @@ impl Decay {
         let u_ins = self.motion.wall().body().instability;
         let solver = RecordSolver::new(&self.motion, step);
         let mut sum = 0.0;
-        solver.run([self.state], &Still(reference.len() + 1), false, |index, u: &[f64; 1], _| {
-            sum += (reference[index - 1] - u[0].abs() / u_ins.of(u[0])).powi(2);
+        let start = Start { state: self.state, factor: 1.0 };
+        solver.run(start, &Still(reference.len() + 1), false, |index, u, _| {
+            sum += (reference[index - 1] - u.abs() / u_ins.of(u)).powi(2);
         })?;
         Ok(sum)
     }

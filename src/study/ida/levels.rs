@@ -1,7 +1,8 @@
 //! Which intensities a curve is run at.
 
-use super::{IdaError, LANES, Level};
+use super::{IdaError, Level};
 use crate::ground_motion::STANDARD_GRAVITY;
+use crate::solver::record::LANES;
 
 /// Most levels of one curve.
 const MOST_LEVELS: usize = 2000;

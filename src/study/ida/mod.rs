@@ -10,7 +10,7 @@ mod measure;
 mod model;
 
 use crate::ground_motion::{GroundMotion, GroundMotionError};
-use crate::solver::record::{RecordSolver, Scaled, Still};
+use crate::solver::record::{Passage, RecordSolver, Samples, Start, Still};
 use crate::solver::{Method, Motion, SolverError, State};
 use crate::study::free_motion::has_peaked;
 use crate::study::parallel;
@@ -23,9 +23,6 @@ pub use model::{Damping, Model, Source};
 
 /// Free vibration after a record unless stated otherwise \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
-
-/// Levels that run side by side.
-const LANES: usize = 8;
 
 /// A wall of a study; its damping and impact are those of the study's models, its start is upright and at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -275,49 +272,25 @@ struct Runs<'a> {
 impl Runs<'_> {
     /// The record scaled to each of some intensities \[m/s²\].
     fn at(&self, levels: &[f64]) -> Result<Vec<Level>, SolverError> {
-        let solver = RecordSolver::new(self.motion, self.record.step());
-        let mut runs = Vec::with_capacity(levels.len());
-        let mut rest = levels;
-        while let Some((part, after)) = rest.split_first_chunk::<LANES>() {
-            runs.extend(self.side_by_side(&solver, *part)?);
-            rest = after;
-        }
-        if let Some((part, after)) = rest.split_first_chunk::<4>() {
-            runs.extend(self.side_by_side(&solver, *part)?);
-            rest = after;
-        }
-        if let Some((part, after)) = rest.split_first_chunk::<2>() {
-            runs.extend(self.side_by_side(&solver, *part)?);
-            rest = after;
-        }
-        if let [level] = rest {
-            runs.extend(self.side_by_side(&solver, [*level])?);
-        }
-        Ok(runs)
-    }
-
-    fn side_by_side<const N: usize>(
-        &self,
-        solver: &RecordSolver<'_>,
-        levels: [f64; N],
-    ) -> Result<[Level; N], SolverError> {
         // p = −λ a_g
         let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
         let u_ins = self.motion.wall().body().instability;
-        let factors = levels.map(|level| level / self.intensity * participation);
         let samples = self.record.samples();
-        let starts = factors.map(|factor| self.motion.start_under(0.0, 0.0, factor * samples[0]));
-        let forcing = Scaled::new(samples, factors);
-        let passages = solver.run(starts, &forcing, true, |_, _, _| {})?;
-        let mut runs = [Level { intensity: 0.0, demand: 0.0, overturning: None }; N];
-        for (index, passage) in passages.iter().enumerate() {
+        let start = |level: &f64| {
+            let factor = level / self.intensity * participation;
+            Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor }
+        };
+        let starts: Vec<_> = levels.iter().map(start).collect();
+        let solver = RecordSolver::new(self.motion, self.record.step());
+        let passages = solver.run_many(&starts, &Samples(samples), true)?;
+        let level = |(&intensity, passage): (&f64, &Passage)| {
             let (state, overturning) = match passage.overturning {
                 Some(time) => (passage.state, Some(time)),
-                None => self.free(solver, passage.state)?,
+                None => self.free(&solver, passage.state)?,
             };
-            runs[index] = Level { intensity: levels[index], demand: state.peaks.ratio(u_ins), overturning };
-        }
-        Ok(runs)
+            Ok(Level { intensity, demand: state.peaks.ratio(u_ins), overturning })
+        };
+        levels.iter().zip(&passages).map(level).collect()
     }
 
     /// The state after the free vibration that follows the record, and the time of overturning; what cannot go beyond the
@@ -328,7 +301,7 @@ impl Runs<'_> {
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
-        let [passage] = solver.run([state], &Still(count), true, |_, _, _| {})?;
+        let passage = solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
         Ok((passage.state, passage.overturning.map(|time| self.record.duration() + time)))
     }
 }

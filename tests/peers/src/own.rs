@@ -1,6 +1,6 @@
 //! The project's own solvers, over the record in one go, several runs at once, and step by step as a co-simulation does.
 
-use rocking_wall::solver::record::{RecordSolver, Scaled};
+use rocking_wall::solver::record::{RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
@@ -10,8 +10,8 @@ use crate::problem::{Problem, run, start, with_solver};
 
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const SUBSTEPS: [u32; 4] = [1, 4, 16, 64];
-/// Runs at once: the scene itself, then seven with smaller factors.
-const LANES: usize = 8;
+/// Runs at once: the scene itself, then others with factors down to 0.65.
+const BATCH: usize = 64;
 
 pub(crate) fn measure(problem: &Problem, rows: &mut Rows) {
     let step = problem.motion.step();
@@ -34,44 +34,50 @@ pub(crate) fn measure(problem: &Problem, rows: &mut Rows) {
 }
 
 fn both_ways(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters) {
-    over_record::<1>(problem, rows, setting, parameters);
-    over_record::<LANES>(problem, rows, &format!("{setting} {LANES} at once"), parameters);
+    over_record(problem, rows, setting, parameters, 1);
+    over_record(problem, rows, &format!("{setting} {BATCH} at once"), parameters, BATCH);
     by_step(problem, rows, &format!("{setting} by step"), parameters);
 }
 
-/// `N` runs at once; the history is that of the first, which is the scene, and the time is that of one run without it.
-fn over_record<const N: usize>(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters) {
+/// So many runs at once. The history is that of the scene by itself, which is the same to the last bit; the time is that of a run
+/// without it.
+fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters, count: usize) {
     let motion = Wall::new(parameters).and_then(|wall| {
         let method = Method::new(parameters, &wall, parameters.tolerance)?;
         Ok(Motion::new(wall, method))
     });
     let length = problem.motion.samples().len();
+    let alone = |observe: &mut dyn FnMut(usize, f64)| {
+        let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
+        let samples = Samples(problem.motion.samples());
+        let passage = solver.run(starts[0], &samples, false, |index, u, _| observe(index, u));
+        std::hint::black_box(passage.map_err(|error| error.to_string())?);
+        Ok(())
+    };
     let record = |history: &mut Vec<f64>| {
         history.clear();
         history.resize(length, 0.0);
-        follow::<N>(problem, motion.as_ref(), |index, u| history[index] = u)
+        alone(&mut |index, u| history[index] = u)
     };
-    rows.measure_many(problem, "rocking-wall", setting, N, record, || {
-        follow::<N>(problem, motion.as_ref(), |_, _| {})
+    rows.measure_many(problem, "rocking-wall", setting, count, record, || {
+        let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
+        let passages = solver.run_many(&starts, &Samples(problem.motion.samples()), false);
+        std::hint::black_box(passages.map_err(|error| error.to_string())?);
+        Ok(())
     });
 }
 
-/// Makes `N` runs; `observe` is shown the samples of the first.
-fn follow<const N: usize>(
+/// The solver and the starts of so many runs, the first of them the scene.
+fn prepared<'a>(
     problem: &Problem,
-    motion: Result<&Motion, &ParameterError>,
-    mut observe: impl FnMut(usize, f64),
-) -> Result<(), String> {
+    motion: Result<&'a Motion, &ParameterError>,
+    count: usize,
+) -> Result<(RecordSolver<'a>, Vec<Start>), String> {
     let motion = motion.map_err(ToString::to_string)?;
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
-    let factors = std::array::from_fn(|lane| participation * (1.0 - 0.05 * lane as f64));
-    let forcing = Scaled::<N>::new(problem.motion.samples(), factors);
-    let states = [motion.start(0.0, 0.0, Support::default()); N];
-    let passages = RecordSolver::new(motion, problem.motion.step())
-        .run(states, &forcing, false, |index, u, _| observe(index, u[0]))
-        .map_err(|error| error.to_string())?;
-    std::hint::black_box(passages);
-    Ok(())
+    let state = motion.start(0.0, 0.0, Support::default());
+    let start = |run| Start { state, factor: participation * (1.0 - 0.35 * run as f64 / BATCH as f64) };
+    Ok((RecordSolver::new(motion, problem.motion.step()), (0..count).map(start).collect()))
 }
 
 fn by_step(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters) {
