@@ -35,6 +35,12 @@ use short::Short;
 
 use crate::wall::Branch;
 
+/// Runs side by side, of however many.
+pub const LANES: usize = 8;
+/// Share of steps that were searched up to which runs are quicker side by side than one after the other: about 2 ns
+/// a step less for plain steps against about 90 ns more for each of the others (`cargo bench --bench record`).
+const MOST_SEARCHED: f64 = 0.025;
+
 /// Forcing p at the samples of a record \[m/s²\], before a run's factor.
 pub trait Forcing {
     /// Number of samples.
@@ -195,12 +201,6 @@ struct StepMap {
     short: Option<Short>,
 }
 
-/// Runs side by side, of however many.
-pub const LANES: usize = 8;
-/// Share of steps that were searched up to which runs are quicker side by side than one after the other: about 2.4 ns
-/// a step less for plain steps against about 90 ns more for each of the others (`cargo bench --bench record`).
-const MOST_SEARCHED: f64 = 0.025;
-
 impl StepMap {
     /// A over one step and over two, where the forcing and the branch's force together are up to `driving`.
     #[inline(always)]
@@ -289,7 +289,9 @@ impl<'a> RecordSolver<'a> {
         until_overturning: bool,
         mut observe: impl FnMut(usize, f64, f64),
     ) -> Result<Passage, SolverError> {
-        let (mut passages, _) = self.follow::<F, 1>(&[start], forcing, until_overturning, &mut observe)?;
+        let largest = stretches::largest_forcing(forcing);
+        let (mut passages, _) =
+            self.follow::<F, 1>(&[start], forcing, &largest, until_overturning, &mut observe)?;
         Ok(passages.remove(0))
     }
 
@@ -307,23 +309,27 @@ impl<'a> RecordSolver<'a> {
         let strength = |(_, start): &(usize, &Start)| start.factor.abs();
         let strongest = starts.iter().enumerate().max_by(|a, b| strength(a).total_cmp(&strength(b)));
         let Some((place, strongest)) = strongest else { return Ok(Vec::new()) };
+        let largest = stretches::largest_forcing(forcing);
+        let unseen = &mut |_, _, _| {};
         let (trial, searched) =
-            self.follow::<F, 1>(&[*strongest], forcing, until_overturning, &mut |_, _, _| {})?;
+            self.follow::<F, 1>(&[*strongest], forcing, &largest, until_overturning, unseen)?;
         let others = [&starts[..place], &starts[place + 1..]].concat();
         let (mut passages, _) = if searched <= MOST_SEARCHED {
-            self.follow::<F, LANES>(&others, forcing, until_overturning, &mut |_, _, _| {})?
+            self.follow::<F, LANES>(&others, forcing, &largest, until_overturning, unseen)?
         } else {
-            self.follow::<F, 1>(&others, forcing, until_overturning, &mut |_, _, _| {})?
+            self.follow::<F, 1>(&others, forcing, &largest, until_overturning, unseen)?
         };
         passages.insert(place, trial[0]);
         Ok(passages)
     }
 
-    /// The outcome of runs, and the share of their steps that were searched.
+    /// The outcome of runs, `N` side by side, and the share of their steps that were searched; `largest` as of
+    /// [`stretches::largest_forcing`].
     fn follow<F: Forcing, const N: usize>(
         &self,
         starts: &[Start],
         forcing: &F,
+        largest: &[f64],
         until_overturning: bool,
         observe: &mut impl FnMut(usize, f64, f64),
     ) -> Result<(Vec<Passage>, f64), SolverError> {
@@ -336,7 +342,7 @@ impl<'a> RecordSolver<'a> {
             };
             return Ok((starts.iter().map(still).collect(), 0.0));
         }
-        let mut lanes = Lanes::<F, N>::new(self, starts, forcing, until_overturning);
+        let mut lanes = Lanes::<F, N>::new(self, starts, forcing, largest, until_overturning);
         wide::follow(&mut lanes, observe);
         lanes.passages()
     }

@@ -1,7 +1,7 @@
 //! Runs of one wall side by side, each at its own place in the record, two steps at a time as long as they are plain.
 
 use super::super::{Phase, SolverError, State};
-use super::stretches::{Lane, STRETCH};
+use super::stretches::Lane;
 use super::{Affine, Forcing, Passage, RecordSolver, Start, StepMap};
 
 /// Runs side by side. A lane that cannot go on by plain steps *waits* where it is until enough of them do.
@@ -11,7 +11,7 @@ pub(super) struct Lanes<'a, F, const N: usize> {
     pub(super) starts: &'a [Start],
     pub(super) until_overturning: bool,
     /// Largest |p| over each stretch of the record, before a run's factor \[m/s²\].
-    pub(super) largest: Vec<f64>,
+    pub(super) largest: &'a [f64],
     pub(super) pairs: Pairs<N>,
     /// The first sample at which each lane begins no pair of steps.
     pub(super) limit: [usize; N],
@@ -94,18 +94,15 @@ impl<'a, F: Forcing, const N: usize> Lanes<'a, F, N> {
         solver: &'a RecordSolver<'a>,
         starts: &'a [Start],
         forcing: &'a F,
+        largest: &'a [f64],
         until_overturning: bool,
     ) -> Self {
-        let last = forcing.count().saturating_sub(1);
-        // a pair of steps may go one sample beyond its stretch
-        let largest = (0..last.div_ceil(STRETCH).max(1))
-            .map(|stretch| forcing.largest(stretch * STRETCH..((stretch + 1) * STRETCH + 1).min(last) + 1));
         Self {
             solver,
             forcing,
             starts,
             until_overturning,
-            largest: largest.collect(),
+            largest,
             pairs: Pairs {
                 now: [[0.0; N]; 2],
                 index: [0; N],
@@ -357,17 +354,11 @@ impl<'a, F: Forcing, const N: usize> Lanes<'a, F, N> {
         let State { displacement, velocity, .. } = self.rest[i].state;
         self.set_state(i, [displacement, velocity]);
         if let Some(map) = self.map(i) {
-            self.take_up(i, map);
+            self.single.load(i, &map.single);
+            self.double.load(i, &map.double);
+            self.force_at_zero[i] = map.force_at_zero;
+            self.brake(i);
         }
-    }
-
-    /// Takes up the branch of a lane.
-    #[inline(always)]
-    pub(super) fn take_up(&mut self, i: usize, map: &StepMap) {
-        self.single.load(i, &map.single);
-        self.double.load(i, &map.double);
-        self.force_at_zero[i] = map.force_at_zero;
-        self.brake(i);
     }
 
     /// The forces a lane may meet on its way.

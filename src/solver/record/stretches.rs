@@ -8,6 +8,13 @@ use super::{Forcing, Passage, Start};
 /// Samples for which P is taken together.
 pub(super) const STRETCH: usize = 256;
 
+/// Largest |p| over each stretch of a record, and the sample after it, to which a pair of steps may go.
+pub(super) fn largest_forcing(forcing: &impl Forcing) -> Vec<f64> {
+    let last = forcing.count().saturating_sub(1);
+    let over = |stretch: usize| stretch * STRETCH..((stretch + 1) * STRETCH + 1).min(last) + 1;
+    (0..last.div_ceil(STRETCH)).map(|stretch| forcing.largest(over(stretch))).collect()
+}
+
 /// What a plain step does not touch.
 pub(super) struct Lane {
     /// The run under way.
