@@ -78,7 +78,7 @@ fn wall(
     let one = least(count, || run(scale).state.displacement);
     let batch = batch(scale, start);
     let many = least(count * BATCH, || {
-        let passages = solver.run_many(&batch, &Samples(black_box(samples)), false);
+        let passages = solver.batch(&Samples(black_box(samples))).run(&batch, false);
         passages.expect("bounded motions")[0].state.displacement
     });
     println!(
@@ -161,7 +161,7 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(passage.expect("a bounded motion"));
             }
             "batch" => {
-                let passages = solver.run_many(&batch(1.0, start), &Samples(samples), false);
+                let passages = solver.batch(&Samples(samples)).run(&batch(1.0, start), false);
                 black_box(passages.expect("bounded motions"));
             }
             other => panic!("no path {other}: segments, record, batch, adaptive"),

@@ -22,24 +22,20 @@
 
 use std::ops::Range;
 
+mod batch;
 mod careful;
-mod lanes;
+mod lane;
 mod short;
 mod stretches;
 mod wide;
 
 use super::oscillator::Oscillator;
 use super::{Method, Motion, SolverError, State, Work, is_constant};
-use lanes::Lanes;
+pub use batch::{Batch, LANES};
+use lane::{Lane, Plain};
 use short::Short;
 
 use crate::wall::Branch;
-
-/// Runs side by side, of however many.
-pub const LANES: usize = 8;
-/// Share of steps that were searched up to which runs are quicker side by side than one after the other: about 2 ns
-/// a step less for plain steps against about 90 ns more for each of the others (`cargo bench --bench record`).
-const MOST_SEARCHED: f64 = 0.025;
 
 /// Forcing p at the samples of a record \[m/s²\], before a run's factor.
 pub trait Forcing {
@@ -47,8 +43,8 @@ pub trait Forcing {
     fn count(&self) -> usize;
     /// The forcing at a sample.
     fn at(&self, index: usize) -> f64;
-    /// The forcing at so many samples after one, at most twice the length of a stretch.
-    fn after(&self, index: usize, count: usize) -> &[f64];
+    /// The forcing at so many samples from one on.
+    fn from(&self, index: usize, count: usize) -> &[f64];
     /// Largest |p| over a range of samples.
     fn largest(&self, range: Range<usize>) -> f64;
 }
@@ -71,8 +67,8 @@ impl Forcing for Samples<'_> {
     }
 
     #[inline(always)]
-    fn after(&self, index: usize, count: usize) -> &[f64] {
-        &self.0[index + 1..][..count]
+    fn from(&self, index: usize, count: usize) -> &[f64] {
+        &self.0[index..][..count]
     }
 
     fn largest(&self, range: Range<usize>) -> f64 {
@@ -108,7 +104,7 @@ impl Forcing for Still {
     }
 
     #[inline(always)]
-    fn after(&self, _index: usize, count: usize) -> &[f64] {
+    fn from(&self, _index: usize, count: usize) -> &[f64] {
         &STILL[..count]
     }
 
@@ -165,6 +161,21 @@ impl Affine {
         Self { terms: [of_u, of_v, [h - j, g - h / step], [j, h / step], [0.0; 2]] }
     }
 
+    /// u or u̇ after one step.
+    #[inline(always)]
+    fn one_step(&self, part: usize, [u, v]: [f64; 2], q: [f64; 2]) -> f64 {
+        let c = |term: usize| self.terms[term][part];
+        // the products with the state last: they are what the next step waits for
+        [u, v][part] + ((c(2) * q[0] + c(3) * q[1]) + (c(0) * u + c(1) * v))
+    }
+
+    /// u or u̇ after two steps.
+    #[inline(always)]
+    fn two_steps(&self, part: usize, [u, v]: [f64; 2], q: [f64; 3]) -> f64 {
+        let c = |term: usize| self.terms[term][part];
+        [u, v][part] + (((c(2) * q[0] + c(3) * q[1]) + c(4) * q[2]) + (c(0) * u + c(1) * v))
+    }
+
     /// Two steps h: the closed form over 2h, and the forcing of both, each as in `one`.
     fn double(one: &Self, oscillator: &Oscillator, step: f64) -> Self {
         let [one_u, one_v, first, second, _] = one.terms;
@@ -205,14 +216,14 @@ impl StepMap {
     /// A over one step and over two, where the forcing and the branch's force together are up to `driving`.
     #[inline(always)]
     fn most(&self, driving: f64) -> [f64; 2] {
-        let braking = if self.oscillator.damping > 0.0 { lanes::BRAKING } else { 0.0 };
+        let braking = if self.oscillator.damping > 0.0 { lane::BRAKING } else { 0.0 };
         self.growth.map(|growth| growth * (driving + braking * driving))
     }
 
     /// V.
     #[inline(always)]
     fn fastest(&self, driving: f64) -> f64 {
-        lanes::BRAKING * driving * self.inverse_damping
+        lane::BRAKING * driving * self.inverse_damping
     }
 
     /// On a branch through u = 0 without ends.
@@ -290,60 +301,23 @@ impl<'a> RecordSolver<'a> {
         mut observe: impl FnMut(usize, f64, f64),
     ) -> Result<Passage, SolverError> {
         let largest = stretches::largest_forcing(forcing);
-        let (mut passages, _) =
-            self.follow::<F, 1>(&[start], forcing, &largest, until_overturning, &mut observe)?;
-        Ok(passages.remove(0))
+        self.run_with(start, forcing, &largest, until_overturning, &mut observe)
     }
 
-    /// Moves walls through a record, each as if it were alone: side by side where most of their steps are plain.
-    ///
-    /// # Errors
-    /// [`SolverError`] of a run that could not be followed: that under the strongest motion, else the first.
-    pub fn run_many<F: Forcing>(
+    /// The same, `largest` as of [`stretches::largest_forcing`].
+    fn run_with<F: Forcing>(
         &self,
-        starts: &[Start],
-        forcing: &F,
-        until_overturning: bool,
-    ) -> Result<Vec<Passage>, SolverError> {
-        // the run under the strongest motion tells which way is quicker; the outcome is the same
-        let strength = |(_, start): &(usize, &Start)| start.factor.abs();
-        let strongest = starts.iter().enumerate().max_by(|a, b| strength(a).total_cmp(&strength(b)));
-        let Some((place, strongest)) = strongest else { return Ok(Vec::new()) };
-        let largest = stretches::largest_forcing(forcing);
-        let unseen = &mut |_, _, _| {};
-        let (trial, searched) =
-            self.follow::<F, 1>(&[*strongest], forcing, &largest, until_overturning, unseen)?;
-        let others = [&starts[..place], &starts[place + 1..]].concat();
-        let (mut passages, _) = if searched <= MOST_SEARCHED {
-            self.follow::<F, LANES>(&others, forcing, &largest, until_overturning, unseen)?
-        } else {
-            self.follow::<F, 1>(&others, forcing, &largest, until_overturning, unseen)?
-        };
-        passages.insert(place, trial[0]);
-        Ok(passages)
-    }
-
-    /// The outcome of runs, `N` side by side, and the share of their steps that were searched; `largest` as of
-    /// [`stretches::largest_forcing`].
-    fn follow<F: Forcing, const N: usize>(
-        &self,
-        starts: &[Start],
+        start: Start,
         forcing: &F,
         largest: &[f64],
         until_overturning: bool,
         observe: &mut impl FnMut(usize, f64, f64),
-    ) -> Result<(Vec<Passage>, f64), SolverError> {
+    ) -> Result<Passage, SolverError> {
         if forcing.count() == 0 {
-            let still = |start: &Start| Passage {
-                state: start.state,
-                overturning: start.state.overturned.then_some(0.0),
-                work: Work::default(),
-                stilled: false,
-            };
-            return Ok((starts.iter().map(still).collect(), 0.0));
+            let overturning = start.state.overturned.then_some(0.0);
+            return Ok(Passage { state: start.state, overturning, work: Work::default(), stilled: false });
         }
-        let mut lanes = Lanes::<F, N>::new(self, starts, forcing, largest, until_overturning);
-        wide::follow(&mut lanes, observe);
-        lanes.passages()
+        let mut lane = Lane::new(self, forcing, largest, until_overturning, Plain::PAIRS, start);
+        wide::follow(&mut lane, observe)
     }
 }

@@ -226,7 +226,7 @@ impl Prepared {
             |&factor: &f64| Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor };
         let starts: Vec<_> = factors.iter().map(start).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let passages = solver.run_many(&starts, &Samples(samples), true).map_err(failed)?;
+        let passages = solver.batch(&Samples(samples)).run(&starts, true).map_err(failed)?;
         passages
             .into_iter()
             .map(|passage| self.followed(passage, motion.duration()).map_err(failed))

@@ -37,12 +37,13 @@ fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (V
 proptest! {
     #![proptest_config(configuration())]
 
-    /// A run gives the same bits alone and beside others, whatever their number and place.
+    /// A run of a batch gives the same bits by itself and beside others, whatever their number and place, and agrees with
+    /// a run by itself over the record.
     #[test]
     fn lanes_do_not_disturb_each_other(
         parameters in prop_oneof![walls(), moving()],
         motion in motions(),
-        refinement in 1_u32..20,
+        refinement in 1_u32..40,
         count in 2_usize..20,
         until in any::<bool>(),
     ) {
@@ -54,12 +55,15 @@ proptest! {
         let started: Vec<_> = factors.iter().map(|&factor| prepared(&parameters, &forcing, factor)).collect();
         let starts: Vec<_> = started.iter().map(|(_, start)| *start).collect();
         let solver = RecordSolver::new(&started[0].0, step);
-        let together = solver.run_many(&starts, &Samples(&forcing), until).unwrap();
+        let samples = Samples(&forcing);
+        let batch = solver.batch(&samples);
+        let together = batch.run(&starts, until).unwrap();
         prop_assert_eq!(together.len(), count);
         for (start, passage) in starts.iter().zip(together) {
-            let one = solver.run(*start, &Samples(&forcing), until, |_, _, _| {}).unwrap();
+            let one = batch.run(&[*start], until).unwrap()[0];
             prop_assert_eq!(one, passage);
             prop_assert_eq!(one.state.displacement.to_bits(), passage.state.displacement.to_bits());
+            passages_agree(&wall, &solver, &samples, *start, until, &passage)?;
         }
     }
 
@@ -85,6 +89,51 @@ proptest! {
         let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
         agree(&parameters, &accelerations, step)?;
     }
+}
+
+/// Compares a run of a batch with one by itself, where a little more of the forcing does not change what happens.
+fn passages_agree(
+    wall: &Wall,
+    solver: &RecordSolver<'_>,
+    samples: &Samples<'_>,
+    start: Start,
+    until: bool,
+    passage: &Passage,
+) -> Result<(), TestCaseError> {
+    let run = |factor: f64, probe: f64| {
+        let mut state = start.state;
+        state.displacement *= 1.0 + probe;
+        state.velocity *= 1.0 + probe;
+        solver.run(Start { state, factor }, samples, until, |_, _, _| {}).unwrap()
+    };
+    let (scale, rate) = (wall.displacement_scale(), wall.rocking_rate());
+    let one = run(start.factor, 0.0);
+    let apart = |a: &Passage, b: &Passage| {
+        let of = |f: &dyn Fn(&Passage) -> f64| (f(a) - f(b)).abs();
+        of(&|p| p.state.displacement)
+            .max(of(&|p| p.state.velocity) / rate)
+            .max(of(&|p| p.state.peaks.positive))
+            .max(of(&|p| p.state.peaks.negative))
+            / scale
+    };
+    let mut amplification = 1.0_f64;
+    for probe in [1e-8, -1e-8] {
+        let changed = run(start.factor * (1.0 + probe), probe);
+        if changed.overturning.is_some() != one.overturning.is_some() || (until && one.overturning.is_some())
+        {
+            return Ok(());
+        }
+        amplification = amplification.max(apart(&one, &changed) / 1e-8);
+    }
+    if amplification > 1e5 {
+        return Ok(());
+    }
+    // as of `agree`
+    let allowed = amplification * (32.0 * f64::EPSILON * (one.work.pieces + 1) as f64 + 1e-13);
+    let difference = apart(&one, passage);
+    prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
+    prop_assert_eq!(one.overturning.is_some(), passage.overturning.is_some());
+    Ok(())
 }
 
 /// A broken line with each interval cut into `parts`.

@@ -3,7 +3,7 @@
 use super::super::event::{Kinematics, Peaks, Verdict, crossing, settle};
 use super::super::run::Run;
 use super::super::{Report, SolverError, Work};
-use super::lanes::Lanes;
+use super::lane::Lane;
 use super::short::Short;
 use super::{Forcing, StepMap};
 
@@ -29,21 +29,24 @@ struct Stretch {
     rate: f64,
 }
 
-impl<F: Forcing, const N: usize> Lanes<'_, F, N> {
+impl<'a, F: Forcing> Lane<'a, F> {
     /// A step that may reach a corner or a new extreme, and its end if it does not leave its branch.
     #[inline(always)]
-    pub(super) fn careful(&mut self, i: usize, p: [f64; 2], end: [f64; 2]) -> Result<(), SolverError> {
-        let start = self.state(i);
-        let Some(map) = self.map(i) else { return self.search(i, p, None) };
+    pub(super) fn careful(
+        &mut self,
+        map: &'a StepMap,
+        p: [f64; 2],
+        end: [f64; 2],
+    ) -> Result<(), SolverError> {
+        let start = self.now;
         let step = self.solver.step;
-        self.take_in_nodes(i);
+        self.take_in_nodes();
         let [lower, upper] = map.corners;
         let within = end[0] > lower && end[0] < upper;
-        if within && self.is_steady(i, start[1], end) {
-            self.arrive(i, end);
+        if within && self.is_steady(start[1], end) {
+            self.arrive(end);
             return Ok(());
         }
-        let lane = &mut self.rest[i];
         let kinematics = |[displacement, velocity]: [f64; 2], p: f64| Kinematics {
             displacement,
             velocity,
@@ -54,29 +57,29 @@ impl<F: Forcing, const N: usize> Lanes<'_, F, N> {
         let (from, to) = (kinematics(start, p[0]), kinematics(end, p[1]));
         let stretch = Stretch { from, to, length: step, rate: (p[1] - p[0]) / step };
         let bounds = map.oscillator.bounds(from, stretch.rate, step);
-        let verdict = settle([from, to], step, bounds, map.corners, &lane.state.peaks);
+        let verdict = settle([from, to], step, bounds, map.corners, &self.state.peaks);
         let done = match verdict {
             Verdict::Quiet => true,
             Verdict::Monotone => within,
-            Verdict::Turning => within && turn(&mut lane.state.peaks, map, &stretch),
+            Verdict::Turning => within && turn(&mut self.state.peaks, map, &stretch),
             Verdict::Split => false,
         };
         if done {
-            self.arrive(i, end);
+            self.arrive(end);
             return Ok(());
         }
-        if matches!(verdict, Verdict::Monotone) && self.cross(i, stretch) {
+        if matches!(verdict, Verdict::Monotone) && self.cross(stretch) {
             return Ok(());
         }
-        self.search(i, p, Some(to))
+        self.search(p, Some(to))
     }
 
     /// A step on which u, monotone, leaves the branch through corners where nothing but the stiffness changes, and then
     /// stays on a branch: the ordinary case of a corner, without the general search. Tells whether it was that.
     #[inline(always)]
-    fn cross(&mut self, i: usize, mut stretch: Stretch) -> bool {
+    fn cross(&mut self, mut stretch: Stretch) -> bool {
         let motion = self.solver.motion;
-        let mut state = self.rest[i].state;
+        let mut state = self.state;
         let upwards = stretch.to.displacement > stretch.from.displacement;
         for corners in 1..=MOST_CROSSINGS {
             let corner = motion.wall.corners()[state.branch + usize::from(upwards)];
@@ -111,16 +114,15 @@ impl<F: Forcing, const N: usize> Lanes<'_, F, N> {
                 (true, _) => {
                     (state.displacement, state.velocity) = (end.displacement, end.velocity);
                     state.peaks.include(end.displacement);
-                    let lane = &mut self.rest[i];
-                    lane.state = state;
-                    lane.searched += 1;
-                    lane.work.add(Work {
+                    self.state = state;
+                    self.searched += 1;
+                    self.work.add(Work {
                         pieces: 1 + u64::from(corners),
                         corners: u64::from(corners),
                         impacts: 0,
                     });
-                    self.load(i);
-                    self.look_around(i);
+                    self.load();
+                    self.look_around();
                     return true;
                 }
                 (false, Verdict::Monotone) => {}
@@ -132,24 +134,23 @@ impl<F: Forcing, const N: usize> Lanes<'_, F, N> {
 
     /// A step through the search for events.
     #[cold]
-    fn search(&mut self, i: usize, p: [f64; 2], known_end: Option<Kinematics>) -> Result<(), SolverError> {
+    pub(super) fn search(&mut self, p: [f64; 2], known_end: Option<Kinematics>) -> Result<(), SolverError> {
         let (motion, step) = (self.solver.motion, self.solver.step);
-        let start = self.state(i);
-        let lane = &mut self.rest[i];
-        [lane.state.displacement, lane.state.velocity] = start;
-        let run = Run::new(motion, lane.state, step, p, false, &mut lane.memo);
+        let start = self.now;
+        [self.state.displacement, self.state.velocity] = start;
+        let run = Run::new(motion, self.state, step, p, false, &mut self.memo);
         let (state, report) = run.ending_at(known_end).finish()?;
         let Report { overturning, work, stilled, .. } = report;
-        lane.state = state;
-        lane.work.add(work);
-        lane.searched += 1;
-        lane.stilled |= stilled;
-        if let (Some(offset), None) = (overturning, lane.overturning) {
-            lane.overturning = Some(self.pairs.index[i] as f64 * step + offset);
-            self.overturned(i);
+        self.state = state;
+        self.work.add(work);
+        self.searched += 1;
+        self.stilled |= stilled;
+        if let (Some(offset), None) = (overturning, self.overturning) {
+            self.overturning = Some(self.index as f64 * step + offset);
+            self.overturned();
         }
-        self.load(i);
-        self.look_around(i);
+        self.load();
+        self.look_around();
         Ok(())
     }
 }

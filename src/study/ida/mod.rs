@@ -10,7 +10,7 @@ mod measure;
 mod model;
 
 use crate::ground_motion::{GroundMotion, GroundMotionError};
-use crate::solver::record::{Passage, RecordSolver, Samples, Start, Still};
+use crate::solver::record::{Batch, Passage, RecordSolver, Samples, Start, Still};
 use crate::solver::{Method, Motion, SolverError, State};
 use crate::study::free_motion::has_peaked;
 use crate::study::parallel;
@@ -221,9 +221,15 @@ impl Study {
     /// # Errors
     /// [`IdaError::Run`] if a run could not be followed.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
+        let motion = &self.motions[case.wall * self.models.len() + case.model];
+        let record = &self.records[case.record].motion;
+        let solver = RecordSolver::new(motion, record.step());
+        let samples = Samples(record.samples());
         let runs = Runs {
-            motion: &self.motions[case.wall * self.models.len() + case.model],
-            record: &self.records[case.record].motion,
+            motion,
+            record,
+            solver: &solver,
+            batch: solver.batch(&samples),
             intensity: self.intensities[case.record],
             tail: self.tail,
         };
@@ -264,6 +270,8 @@ fn motion(wall: &NamedWall, model: &Model) -> Result<Motion, IdaError> {
 struct Runs<'a> {
     motion: &'a Motion,
     record: &'a GroundMotion,
+    solver: &'a RecordSolver<'a>,
+    batch: Batch<'a, Samples<'a>>,
     /// Intensity of the record as it is \[m/s²\].
     intensity: f64,
     tail: f64,
@@ -281,12 +289,11 @@ impl Runs<'_> {
             Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor }
         };
         let starts: Vec<_> = levels.iter().map(start).collect();
-        let solver = RecordSolver::new(self.motion, self.record.step());
-        let passages = solver.run_many(&starts, &Samples(samples), true)?;
+        let passages = self.batch.run(&starts, true)?;
         let level = |(&intensity, passage): (&f64, &Passage)| {
             let (state, overturning) = match passage.overturning {
                 Some(time) => (passage.state, Some(time)),
-                None => self.free(&solver, passage.state)?,
+                None => self.free(passage.state)?,
             };
             Ok(Level { intensity, demand: state.peaks.ratio(u_ins), overturning })
         };
@@ -295,13 +302,13 @@ impl Runs<'_> {
 
     /// The state after the free vibration that follows the record, and the time of overturning; what cannot go beyond the
     /// peak it has already seen, for lack of energy, is not followed.
-    fn free(&self, solver: &RecordSolver<'_>, state: State) -> Result<(State, Option<f64>), SolverError> {
+    fn free(&self, state: State) -> Result<(State, Option<f64>), SolverError> {
         if has_peaked(self.motion.wall(), &state) {
             return Ok((state, None));
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / self.record.step()).ceil() as usize + 1;
-        let passage = solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
+        let passage = self.solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
         Ok((passage.state, passage.overturning.map(|time| self.record.duration() + time)))
     }
 }

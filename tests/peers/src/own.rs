@@ -61,7 +61,7 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
     };
     rows.measure_many(problem, "rocking-wall", setting, count, record, || {
         let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
-        let passages = solver.run_many(&starts, &Samples(problem.motion.samples()), false);
+        let passages = solver.batch(&Samples(problem.motion.samples())).run(&starts, false);
         std::hint::black_box(passages.map_err(|error| error.to_string())?);
         Ok(())
     });
