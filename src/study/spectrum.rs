@@ -20,7 +20,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmi2_export::{Kind, VariableId};
 
 use crate::ground_motion::GroundMotion;
-use crate::solver::record::{LANES, Passage, RecordSolver, Samples, Start};
+use crate::solver::record::{Passage, RecordSolver, Samples, Start};
 use crate::solver::{Memo, Method, Motion, Segment, SolverError};
 use crate::variables::{Mechanism, RealVariable};
 use crate::wall::{Parameters, Support, Wall};
@@ -86,12 +86,11 @@ pub fn over_walls(
         .flat_map(|&row| sizes.iter().map(move |&column| (row, column)))
         .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
         .collect::<Result<_, _>>()?;
-    let run = |index: usize| -> Result<Vec<Point>, SpectrumError> {
+    let run = |index: usize| -> Result<Point, SpectrumError> {
         let wall = Prepared::new(&walls[index])?;
-        let factor = wall.participation();
-        wall.points(&[-factor], motion)
+        wall.point(-wall.participation(), motion)
     };
-    let points = parallel::map(walls.len(), threads, run)?.concat();
+    let points = parallel::map(walls.len(), threads, run)?;
     Ok(RockingSpectrum::new(sizes, rows, &points))
 }
 
@@ -115,20 +114,15 @@ pub fn over_pulses(
     }
     let wall = Prepared::new(&upright(parameters))?;
     let (p, onset, factor) = (wall.motion.wall().rocking_rate(), wall.onset(), wall.participation());
-    let blocks = rows.len().div_ceil(LANES);
-    // column by column in blocks of rows
-    let run = |index: usize| -> Result<Vec<Point>, SpectrumError> {
-        let (column, block) = (index / blocks, index % blocks);
+    let run = |column: usize| -> Result<Vec<Point>, SpectrumError> {
         let motion = form.motion(columns[column] * p / TAU)?;
-        let amplitudes = rows.iter().skip(block * LANES).take(LANES);
-        let factors: Vec<f64> = amplitudes.map(|amplitude| -factor * onset * amplitude).collect();
+        let factors: Vec<f64> = rows.iter().map(|amplitude| -factor * onset * amplitude).collect();
         wall.points(&factors, &motion)
     };
-    let found = parallel::map(columns.len() * blocks, threads, run)?;
-    let at = |row: usize, column: usize| found[column * blocks + row / LANES][row % LANES];
+    let found = parallel::map(columns.len(), threads, run)?;
     let points: Vec<_> = (0..rows.len())
         .flat_map(|row| (0..columns.len()).map(move |column| (row, column)))
-        .map(|(r, c)| at(r, c))
+        .map(|(row, column)| found[column][row])
         .collect();
     Ok(RockingSpectrum::new(columns, rows, &points))
 }
@@ -218,19 +212,33 @@ impl Prepared {
         body.strength.positive / (body.participation * body.effective_mass)
     }
 
-    /// Runs through a motion, its accelerations times each of `factors` the forcing, and the free motion after it.
-    fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
-        let failed = |source| SpectrumError::Run { height: self.height, thickness: self.thickness, source };
-        let samples = motion.samples();
-        let start =
-            |&factor: &f64| Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor };
-        let starts: Vec<_> = factors.iter().map(start).collect();
+    /// Runs through a motion, its accelerations times `factor` the forcing, and the free motion after it.
+    fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
+        let samples = Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let passages = solver.batch(&Samples(samples)).run(&starts, true).map_err(failed)?;
-        passages
-            .into_iter()
-            .map(|passage| self.followed(passage, motion.duration()).map_err(failed))
-            .collect()
+        let passage = solver.run(self.start(factor, motion), &samples, true, |_, _, _| {});
+        passage
+            .and_then(|passage| self.followed(passage, motion.duration()))
+            .map_err(|error| self.failed(error))
+    }
+
+    /// The same for each of many factors.
+    fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
+        let samples = Samples(motion.samples());
+        let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
+        let solver = RecordSolver::new(&self.motion, motion.step());
+        let passages = solver.batch(&samples).run(&starts, true).map_err(|error| self.failed(error))?;
+        let followed =
+            |passage| self.followed(passage, motion.duration()).map_err(|error| self.failed(error));
+        passages.into_iter().map(followed).collect()
+    }
+
+    fn start(&self, factor: f64, motion: &GroundMotion) -> Start {
+        Start { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
+    }
+
+    fn failed(&self, source: SolverError) -> SpectrumError {
+        SpectrumError::Run { height: self.height, thickness: self.thickness, source }
     }
 
     /// Follows the free motion after a record of some duration \[s\].
