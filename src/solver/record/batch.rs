@@ -9,6 +9,8 @@
 //! It agrees with [`RecordSolver::run`] to rounding.
 
 #[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
 mod avx512;
 mod corners;
 mod lanes;
@@ -79,7 +81,7 @@ fn follow<F: Forcing>(lanes: &mut Lanes<'_, F>) {
             // SAFETY: the processor has AVX-512, as was just found.
             return unsafe { follow_avx512(lanes) };
         }
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if avx2::is_there() {
             // SAFETY: the processor has AVX2, as was just found.
             return unsafe { follow_avx2(lanes) };
         }
@@ -94,7 +96,77 @@ fn follow_avx512<F: Forcing>(lanes: &mut Lanes<'_, F>) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx2,popcnt")]
 fn follow_avx2<F: Forcing>(lanes: &mut Lanes<'_, F>) {
-    lanes.follow::<vector::Portable>();
+    lanes.follow::<avx2::Halves>();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Samples;
+    use super::*;
+    use crate::solver::{Method, Motion};
+    use crate::variables::DampingModel;
+    use crate::wall::{Parameters, Support, Wall};
+
+    /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
+    fn shaking() -> Vec<f64> {
+        let at = |n: i32| {
+            let t = 5e-3 * f64::from(n);
+            (t / 5.0).min(1.0) * (2.2 * (5.1 * t).sin() + 1.1 * (17.0 * t).cos() + 0.4 * (90.0 * t).sin())
+        };
+        (0..6000).map(at).collect()
+    }
+
+    /// A wall of 6 m, its first corner at a share a₁ of its instability.
+    fn motion(a1: f64) -> Motion {
+        let damping_model = DampingModel::ConstantCoefficient;
+        let parameters =
+            Parameters { height: 6.0, thickness: 0.6, a1, damping_model, ..Parameters::default() };
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
+        Motion::new(wall, method)
+    }
+
+    /// Factors of the forcing, more than there are lanes.
+    fn starts(motion: &Motion) -> Vec<Start> {
+        let state = motion.start(0.0, 0.0, Support::default());
+        (0..21).map(|i| Start { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
+    }
+
+    /// Side by side, with many corners passed, and the same bits as on a processor without vectors.
+    #[test]
+    fn runs_do_not_depend_on_the_processor() {
+        let motion = motion(0.018);
+        let samples = shaking();
+        let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Samples(&samples));
+        let batch = solver.batch(&samples);
+        let responses = batch.responses.as_ref().expect("short steps");
+        let starts = starts(&motion);
+        let mut lanes = Lanes::new(&solver, &samples, &batch.largest, responses, &starts, false);
+        lanes.follow::<vector::Portable>();
+        let portable = lanes.passages().expect("bounded motions");
+        assert_eq!(batch.run(&starts, false).expect("bounded motions"), portable);
+        let corners: u64 = portable.iter().map(|passage| passage.work.corners).sum();
+        let overturned = portable.iter().filter(|passage| passage.overturning.is_some()).count();
+        assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
+    }
+
+    /// Steps that are long beside the wall's period, few samples or many branches make no lanes.
+    #[test]
+    fn what_does_not_suit_goes_one_by_one() {
+        let samples = shaking();
+        let all = Samples(&samples);
+        let (soft, stiff) = (motion(0.018), motion(1e-4));
+        assert!(RecordSolver::new(&soft, 5e-3).batch(&all).is_side_by_side());
+        assert!(!RecordSolver::new(&stiff, 5e-3).batch(&all).is_side_by_side());
+        assert!(!RecordSolver::new(&soft, 5e-3).batch(&Samples(&samples[..15])).is_side_by_side());
+        let solver = RecordSolver::new(&stiff, 5e-3);
+        let starts = starts(&stiff);
+        let together = solver.batch(&all).run(&starts, false).expect("bounded motions");
+        for (start, passage) in starts.iter().zip(together) {
+            assert_eq!(solver.run(*start, &all, false, |_, _, _| {}).expect("a bounded motion"), passage);
+        }
+        assert_eq!(solver.batch(&Samples(&[])).run(&starts, false).expect("no motion").len(), starts.len());
+    }
 }

@@ -294,17 +294,25 @@ mod tests {
 
     #[test]
     #[cfg(target_arch = "x86_64")]
-    #[allow(unsafe_code, reason = "AVX-512 is there, as is asked first")]
-    fn avx_512_gives_the_same_bits() {
+    #[allow(unsafe_code, reason = "each processor's own is asked for first")]
+    fn every_processor_gives_the_same_bits() {
+        use super::super::{avx2, avx512};
+
+        #[target_feature(enable = "avx2")]
+        fn halves() -> Vec<u64> {
+            outcome::<avx2::Halves>()
+        }
         #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
         fn wide() -> Vec<u64> {
-            outcome::<super::super::avx512::Wide>()
+            outcome::<avx512::Wide>()
         }
-        if super::super::avx512::is_there() {
-            // SAFETY: the processor has it, as was just found.
+        if avx2::is_there() {
+            // SAFETY: the processor has AVX2, as was just found.
+            assert_eq!(outcome::<Portable>(), unsafe { halves() });
+        }
+        if avx512::is_there() {
+            // SAFETY: the processor has AVX-512, as was just found.
             assert_eq!(outcome::<Portable>(), unsafe { wide() });
-        } else {
-            eprintln!("no AVX-512 here");
         }
     }
 }
