@@ -1,13 +1,13 @@
-//! Motion over a record: many steps of one length, for several runs of one wall side by side.
+//! Motion over a record: many steps of one length, of one run ([`RecordSolver::run`]) or of many ([`Batch`]).
 //!
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made once for each
-//! branch, and so are two steps: that way each state waits for the one before the last only. A *plain* step applies the
-//! map, of two where it can, and checks that u at both ends is so far from the corners that none can have been reached in between.
+//! branch, and so are two steps, or four: that way a state waits for fewer before it. A *plain* step applies the map, of several where
+//! it can, and checks that u at both ends is so far from the corners that none can have been reached in between.
 //! Everything else is looked at step by step: corners crossed and turning points passed in the ordinary way in the module
 //! `careful`, the rest by [`Motion::advance`]'s own search.
 //!
-//! The distance that suffices, over a plain stretch of length h, one step or two: let |p| ≤ P over the next 256 samples, |f| ≤ f̂
-//! between the corners and up to four times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
+//! The distance that suffices, over a plain stretch of length h, one step or several: let |p| ≤ P over the next 256 samples, |f| ≤ f̂
+//! between the corners and up to some times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
 //! With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves its chord, which lies on the branch, by no more than A h²/8, so
 //! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 follows: f of a
 //! branch's line, followed beyond its ends.
