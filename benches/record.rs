@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use rocking_wall::ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{LANES, RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -77,12 +77,14 @@ fn wall(
     let passage = run(scale);
     let one = least(count, || run(scale).state.displacement);
     let batch = batch(scale, start);
+    let side_by_side = solver.batch(&Samples(samples)).is_side_by_side();
+    let way = if side_by_side { "side by side" } else { "one by one  " };
     let many = least(count * BATCH, || {
         let passages = solver.batch(&Samples(black_box(samples))).run(&batch, false);
         passages.expect("bounded motions")[0].state.displacement
     });
     println!(
-        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} by {LANES} {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
+        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
         model.name(),
         one / bare,
         passage.work.corners,

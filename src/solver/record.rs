@@ -6,8 +6,8 @@
 //! Everything else is looked at step by step: corners crossed and turning points passed in the ordinary way in the module
 //! `careful`, the rest by [`Motion::advance`]'s own search.
 //!
-//! The distance that suffices, over a plain stretch of length h, one step or several: let |p| ≤ P over the next 256 samples, |f| ≤ f̂
-//! between the corners and up to some times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
+//! The distance that suffices, over a plain stretch of length h, one step or several: let |p| ≤ P over the next 256 samples (and three
+//! more, to which steps taken at once may go), |f| ≤ f̂ between the corners and up to some times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
 //! With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves its chord, which lies on the branch, by no more than A h²/8, so
 //! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 follows: f of a
 //! branch's line, followed beyond its ends.
@@ -202,7 +202,7 @@ struct StepMap {
     double: Affine,
     /// Corners of the branch.
     corners: [f64; 2],
-    /// A = `growth` (P + c V + f̂) over one step and over two; infinite where they are too long for the argument.
+    /// Of [`growth`], over one step and over two.
     growth: [f64; 2],
     oscillator: Oscillator,
     /// 1/c \[s\].
@@ -210,6 +210,13 @@ struct StepMap {
     /// f(0), of the branch's line \[m/s²\].
     force_at_zero: f64,
     short: Option<Short>,
+}
+
+/// A over P + c V + f̂, over a length of time: 1/(1 − c h/2 − |k| h²/8), infinite where that is too long for the argument.
+fn growth(oscillator: &Oscillator, length: f64) -> f64 {
+    let (c, k) = (oscillator.damping, oscillator.stiffness);
+    let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
+    if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
 }
 
 impl StepMap {
@@ -228,19 +235,14 @@ impl StepMap {
 
     /// On a branch through u = 0 without ends.
     fn new(oscillator: Oscillator, step: f64) -> Self {
-        let (c, k) = (oscillator.damping, oscillator.stiffness);
-        let growth = |length: f64| {
-            let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
-            if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
-        };
         let single = Affine::single(&oscillator, step);
         Self {
             single,
             double: Affine::double(&single, &oscillator, step),
             corners: [f64::NEG_INFINITY, f64::INFINITY],
-            growth: [growth(step), growth(2.0 * step)],
+            growth: [growth(&oscillator, step), growth(&oscillator, 2.0 * step)],
             oscillator,
-            inverse_damping: 1.0 / c,
+            inverse_damping: 1.0 / oscillator.damping,
             force_at_zero: 0.0,
             short: Short::new(&oscillator, step),
         }

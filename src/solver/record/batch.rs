@@ -152,7 +152,43 @@ mod tests {
         assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
     }
 
-    /// Steps that are long beside the wall's period, few samples or many branches make no lanes.
+    /// Walls that turn shortly before a corner, within what four steps keep away from it but not one: the turning point is found,
+    /// alone as beside others.
+    #[test]
+    fn extremes_before_a_corner_are_found() {
+        let (motion, step) = (motion(0.018), 5e-3);
+        let wall = motion.wall();
+        let corner =
+            wall.corners().iter().map(|corner| corner.displacement).find(|u| *u > 0.0).expect("a corner");
+        let pull = wall.branches()[wall.branch_of(0.5 * corner, 0.0)].restoring(corner);
+        let start = |u: f64, v: f64| {
+            let mut state = motion.start(u, v, Support::default());
+            // it has been further out on the other side: nothing there asks for a second look
+            state.peaks.negative = corner;
+            Start { state, factor: 1.0 }
+        };
+        let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
+        let still = Samples(&still);
+        let batch = solver.batch(&still);
+        assert!(batch.is_side_by_side());
+        let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
+        for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
+            for speed in
+                (0..12).map(|i| 0.25 * f64::from(i)).take_while(|speed| 0.5 * speed * speed < distance)
+            {
+                let turning = start(corner - distance * pull * step * step, speed * pull * step);
+                let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
+                let alone = batch.run(&[turning], false).expect("a bounded motion")[0];
+                assert_eq!(alone, batch.run(&starts, false).expect("bounded motions")[0]);
+                let single = solver.run(turning, &still, false, |_, _, _| {}).expect("a bounded motion");
+                let missed = single.state.peaks.positive - alone.state.peaks.positive;
+                // a few roundings of u
+                assert!(missed.abs() <= 8.0 * f64::EPSILON * corner, "{distance} {speed}: {missed:e} m");
+            }
+        }
+    }
+
+    /// Steps that are long beside the wall's period, and few samples, make no lanes.
     #[test]
     fn what_does_not_suit_goes_one_by_one() {
         let samples = shaking();

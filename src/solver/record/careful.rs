@@ -9,16 +9,16 @@ use super::{Forcing, StepMap};
 
 /// Largest correction δ of a first guess, over the step h: beyond, the general search takes over. The expansions to the fourth
 /// derivative leave out (ωδ)⁴ of u̇, 1e-16/24 even for ωh = 1.
-const SMALL_SHIFT: f64 = 1e-4;
+pub(super) const SMALL_SHIFT: f64 = 1e-4;
 /// Largest ü δ/(2 u̇) of a correction on the way to a corner: the inversion leaves out 5 times its cube, 5e-12 of δ. Only where u
 /// all but turns at the corner is it larger.
-const SMALL_BEND: f64 = 1e-4;
+pub(super) const SMALL_BEND: f64 = 1e-4;
 /// Evaluations of the motion on the way to a corner.
-const MOST_GUESSES: u32 = 4;
+pub(super) const MOST_GUESSES: u32 = 4;
 /// Corners crossed in one step without the general search.
 const MOST_CROSSINGS: u32 = 4;
 /// Ratios of the mean velocity of a crossing to those at its ends for which time is well told from u.
-const EVEN: std::ops::Range<f64> = 0.3..3.0;
+pub(super) const EVEN: std::ops::Range<f64> = 0.3..3.0;
 
 /// A stretch of a step, its forcing changing at `rate` \[m/s³\].
 #[derive(Clone, Copy)]

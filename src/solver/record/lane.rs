@@ -1,4 +1,5 @@
-//! One run of a wall through a record, two steps at a time as long as they are plain.
+//! One run of a wall through a record: by itself two steps at a time as long as they are plain; side by side with others what is
+//! not plain (module `batch`).
 
 use super::super::event::Peaks;
 use super::super::{Memo, Phase, SolverError, State, Work};
@@ -63,7 +64,7 @@ pub(super) struct Lane<'a, F> {
 pub(super) struct Plain {
     /// Their number.
     pub(super) steps: usize,
-    /// A over P + c V + f̂ over so many, at most, of branches the lane does not know of.
+    /// The least [`growth`](super::growth) over them to reckon with: that of steps taken for the lane, not by it.
     pub(super) growth: f64,
 }
 

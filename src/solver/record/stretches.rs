@@ -7,15 +7,15 @@ use super::{Forcing, Passage};
 /// Samples for which P is taken together.
 pub(super) const STRETCH: usize = 256;
 
-/// Plain steps that may be taken at once.
-pub(super) const MOST_AT_ONCE: usize = 4;
+/// Plain steps that are taken at once side by side.
+pub(super) const AT_ONCE: usize = 4;
 /// Most of the reach of f̂ over the largest |u| so far.
 const FAR: f64 = 16.0;
 
 /// Largest |p| over each stretch of a record, and the samples after it, to which plain steps taken at once may go.
 pub(super) fn largest_forcing(forcing: &impl Forcing) -> Vec<f64> {
     let last = forcing.count().saturating_sub(1);
-    let over = |stretch: usize| stretch * STRETCH..((stretch + 1) * STRETCH + MOST_AT_ONCE - 1).min(last) + 1;
+    let over = |stretch: usize| stretch * STRETCH..((stretch + 1) * STRETCH + AT_ONCE - 1).min(last) + 1;
     (0..last.div_ceil(STRETCH)).map(|stretch| forcing.largest(over(stretch))).collect()
 }
 

@@ -1,16 +1,16 @@
-//! The way through a record, compiled for the vectors of the processor at hand.
+//! The way of a run through a record, compiled for AVX2 where the processor has it.
 //!
-//! Wider vectors round like narrow ones, so that a run gives the same bits on every processor.
+//! The instructions round alike, so that a run gives the same bits on every processor.
 #![allow(
     unsafe_code,
-    reason = "the wide version may run only where the processor has it, which no type can tell"
+    reason = "that version may run only where the processor has it, which no type can tell"
 )]
 
 use super::super::SolverError;
 use super::lane::Lane;
 use super::{Forcing, Passage};
 
-/// [`Lane::follow`], with vectors as wide as can be had.
+/// [`Lane::follow`], with AVX2 if that can be had.
 pub(super) fn follow<F: Forcing>(
     lane: &mut Lane<'_, F>,
     observe: &mut impl FnMut(usize, f64, f64),

@@ -20,7 +20,7 @@ pub(super) fn is_there() -> bool {
     std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt")
 }
 
-/// Numbers of lanes 0 to 3 and 4 to 7.
+/// Numbers of lanes 0 to 3 and 4 to 7; to be used only in functions that are entered after [`is_there`].
 #[derive(Clone, Copy)]
 pub(super) struct Halves([__m256d; 2]);
 

@@ -1,7 +1,7 @@
 //! Eight numbers in one register of AVX-512.
 //!
-//! Each operation is one instruction, and becomes that only inside a function compiled for AVX-512: [`Wide`] is for those, and
-//! they are entered after [`is_there`] has said so.
+//! Operations become instructions only inside a function compiled for AVX-512, and may run only there: [`Wide`] is for those
+//! functions, which are entered after [`is_there`] has said so.
 #![allow(unsafe_code, reason = "instructions a processor may lack, which no type can tell")]
 
 use std::arch::x86_64::{
@@ -23,7 +23,7 @@ pub(super) fn is_there() -> bool {
         && std::arch::is_x86_feature_detected!("popcnt")
 }
 
-/// Eight numbers.
+/// Eight numbers; to be used only in functions that are entered after [`is_there`].
 #[derive(Clone, Copy)]
 pub(super) struct Wide(__m512d);
 

@@ -1,16 +1,8 @@
 //! Corners passed by several lanes at once.
 
+use super::super::careful::{EVEN, MOST_GUESSES, SMALL_BEND, SMALL_SHIFT};
 use super::responses::{By, Found, Responses};
 use super::vector::Vector;
-
-/// Largest correction of a time over the step h: what the expansions leave out is below rounding, as in the module `careful`.
-const SMALL_SHIFT: f64 = 1e-4;
-/// Largest ü δ/(2 u̇) of a correction δ.
-const SMALL_BEND: f64 = 1e-4;
-/// Evaluations of the motion on the way to a corner.
-const MOST_GUESSES: usize = 4;
-/// Ratios of the mean velocity of a crossing to those at its ends for which time is well told from u.
-const EVEN: [f64; 2] = [0.3, 3.0];
 
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 24] = {
@@ -147,7 +139,7 @@ impl<V: Vector> Leaving<V> {
         let s = (corner - u) * inverse;
         let square = s * s;
         let quintic = s * ((w0 + s * b0) + square * ((c3 + s * c4) + square * c5));
-        let [least, most] = EVEN.map(number);
+        let (least, most) = (number(EVEN.start), number(EVEN.end));
         let even = least.at_most(w0) & w0.below(most) & least.at_most(w1) & w1.below(most);
         V::choose(even, quintic, s)
     }

@@ -5,9 +5,10 @@
 //! does never depends on the others.
 
 use super::super::lane::{Lane, Plain};
+use super::super::stretches::AT_ONCE;
 use super::super::{Forcing, Passage, RecordSolver, SolverError, Start, Work};
 use super::corners::{Arrival, Leaving};
-use super::responses::{AT_ONCE, By, ROWS_AHEAD, Responses};
+use super::responses::{By, ROWS_AHEAD, Responses};
 use super::vector::{Row, Vector, WIDTH};
 
 /// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much as some thirty of
@@ -38,7 +39,7 @@ pub(super) struct Lanes<'a, F> {
     failure: Option<(usize, SolverError)>,
 }
 
-/// What the lanes do not hold themselves while they go side by side.
+/// The lanes' numbers while they go side by side; [`Lane`] hears of them by [`Lanes::tell`].
 struct Rows {
     /// The sample, and the first at which no plain steps begin.
     index: Row,
@@ -79,7 +80,6 @@ impl<'a, F: Forcing> Lanes<'a, F> {
         starts: &'a [Start],
         until_overturning: bool,
     ) -> Self {
-        let zero = Row::ZERO;
         Self {
             solver,
             forcing,
@@ -89,25 +89,7 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             until_overturning,
             alone: [const { None }; WIDTH],
             runs: [0; WIDTH],
-            rows: Rows {
-                index: zero,
-                limit: zero,
-                factor: zero,
-                u: zero,
-                v: zero,
-                branch: zero,
-                highest: zero,
-                lowest: zero,
-                largest_forcing: zero,
-                driving: zero,
-                half_reach: zero,
-                known: [zero; 2],
-                corners: zero,
-                range: [zero; 2],
-                range4: [zero; 2],
-                fastest: zero,
-                slow: zero,
-            },
+            rows: Rows::ZERO,
             busy: 0,
             ready: 0,
             ended: 0,
@@ -322,9 +304,9 @@ impl<'a, F: Forcing> Lanes<'a, F> {
         let mut goes = V::mask(self.ready);
         let (mut u, mut v) = (V::load(&rows.u), V::load(&rows.v));
         let (mut kept_u, mut kept_v, mut kept_gone) = (u, v, V::splat(0.0));
-        let (highest, lowest) = (V::load(&rows.highest), V::load(&rows.lowest));
-        let mut highest = V::choose(goes, highest.max(u), highest);
-        let mut lowest = V::choose(goes, lowest.min(u), lowest);
+        let started = goes;
+        let known_nodes = [V::load(&rows.highest), V::load(&rows.lowest)];
+        let (mut highest, mut lowest) = (known_nodes[0].max(u), known_nodes[1].min(u));
         let mut gone = V::splat(0.0);
         let few = FEW.min(self.busy.count_ones() - 1);
         #[allow(clippy::needless_range_loop, reason = "eight tables at once")]
@@ -346,8 +328,8 @@ impl<'a, F: Forcing> Lanes<'a, F> {
         }
         kept_u.store(&mut rows.u);
         kept_v.store(&mut rows.v);
-        highest.store(&mut rows.highest);
-        lowest.store(&mut rows.lowest);
+        V::choose(started, highest, known_nodes[0]).store(&mut rows.highest);
+        V::choose(started, lowest, known_nodes[1]).store(&mut rows.lowest);
         let index = start + kept_gone;
         index.store(&mut rows.index);
         self.sort(kept_u, index, goes);
@@ -387,7 +369,10 @@ impl<'a, F: Forcing> Lanes<'a, F> {
         let (mut u, mut v, mut count) = (V::load(&rows.u), V::load(&rows.v), zero);
         let (mut from, mut p0) = ([u, v], forcing(0));
         let mut from_holds = holds(u, v);
-        let mut goes = V::mask(waiting);
+        let waits = V::mask(waiting);
+        let mut goes = waits;
+        let known_nodes = [V::load(&rows.highest), V::load(&rows.lowest)];
+        let (mut highest, mut lowest) = (known_nodes[0].max(u), known_nodes[1].min(u));
         let mut leaving = V::mask(0);
         let (mut beyond, mut ends) = ([zero; 2], [zero; 2]);
         for n in 1..=AT_ONCE {
@@ -413,6 +398,7 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             u = V::choose(stays, to[0], u);
             v = V::choose(stays, to[1], v);
             count = V::choose(stays, count + one, count);
+            (highest, lowest) = (highest.max(u), lowest.min(u));
             goes = stays;
             if V::bits(goes) == 0 {
                 break;
@@ -439,10 +425,8 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             let corners = V::load(&rows.corners);
             V::choose(lanes, corners + one, corners).store(&mut rows.corners);
         }
-        let waited = V::mask(waiting);
-        let (highest, lowest) = (V::load(&rows.highest), V::load(&rows.lowest));
-        V::choose(waited, highest.max(u), highest).store(&mut rows.highest);
-        V::choose(waited, lowest.min(u), lowest).store(&mut rows.lowest);
+        V::choose(waits, highest.max(u), known_nodes[0]).store(&mut rows.highest);
+        V::choose(waits, lowest.min(u), known_nodes[1]).store(&mut rows.lowest);
         u.store(&mut rows.u);
         v.store(&mut rows.v);
         (index + count).store(&mut rows.index);
@@ -451,6 +435,26 @@ impl<'a, F: Forcing> Lanes<'a, F> {
 }
 
 impl Rows {
+    const ZERO: Self = Self {
+        index: Row::ZERO,
+        limit: Row::ZERO,
+        factor: Row::ZERO,
+        u: Row::ZERO,
+        v: Row::ZERO,
+        branch: Row::ZERO,
+        highest: Row::ZERO,
+        lowest: Row::ZERO,
+        largest_forcing: Row::ZERO,
+        driving: Row::ZERO,
+        half_reach: Row::ZERO,
+        known: [Row::ZERO; 2],
+        corners: Row::ZERO,
+        range: [Row::ZERO; 2],
+        range4: [Row::ZERO; 2],
+        fastest: Row::ZERO,
+        slow: Row::ZERO,
+    };
+
     /// What follows from the forces a lane may meet.
     fn set_reach<F: Forcing>(&mut self, i: usize, lane: &Lane<'_, F>) {
         self.driving.0[i] = lane.largest_forcing + lane.largest_force;

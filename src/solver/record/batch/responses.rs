@@ -4,18 +4,16 @@
 //! that of the record itself: a table of it, from each sample on, leaves a run two products for each of u and u̇.
 
 use super::super::lane::BRAKING;
-use super::super::stretches::{MOST_AT_ONCE, STRETCH};
-use super::super::{Affine, Forcing, RecordSolver, StepMap};
+use super::super::stretches::{AT_ONCE, STRETCH};
+use super::super::{Affine, Forcing, RecordSolver, StepMap, growth};
 use super::vector::{Column, Row, Vector, WIDTH};
 
-/// Steps taken at once.
-pub(super) const AT_ONCE: usize = MOST_AT_ONCE;
 /// Rows a lane may read on, from wherever it is: those of a stretch, and one.
 pub(super) const ROWS_AHEAD: usize = STRETCH / AT_ONCE + 1;
 /// (c + √|k|) h of the longest steps; beyond, four at once reach a corner too often to be worth it.
 const LONGEST: f64 = 0.25;
-/// The least of 1 − c h/2 − |k| h²/8 over four steps.
-const LEAST_SLACK: f64 = 0.5;
+/// Most of [`growth`] over four steps.
+const MOST_GROWTH: f64 = 2.0;
 /// Samples of a record up to which tables are made: 1 MB for each oscillator.
 const MOST_SAMPLES: usize = 1 << 16;
 /// Share of the leading term that may be left out of a series.
@@ -91,9 +89,10 @@ impl Responses {
         let reach = |map: &StepMap| (map.oscillator.damping + map.oscillator.stiffness.abs().sqrt()) * step;
         let longest = maps.iter().map(|map| reach(map)).fold(0.0, f64::max);
         let growths: Vec<f64> =
-            maps.iter().map(|map| growth(map, AT_ONCE as f64 * step)).collect::<Option<_>>()?;
+            maps.iter().map(|map| growth(&map.oscillator, AT_ONCE as f64 * step)).collect();
+        let most_growth = growths.iter().copied().fold(0.0, f64::max);
         let short = maps.iter().all(|map| map.short.is_some());
-        if !short || longest > LONGEST {
+        if !short || longest > LONGEST || most_growth > MOST_GROWTH {
             return None;
         }
         let mut responses = Self {
@@ -101,7 +100,7 @@ impl Responses {
             rows: Vec::new(),
             stride: count / AT_ONCE + 1 + ROWS_AHEAD,
             terms: terms(longest),
-            growth: growths.iter().copied().fold(0.0, f64::max),
+            growth: most_growth,
         };
         let first = |branch: usize| {
             maps.iter().position(|map| map.oscillator == maps[branch].oscillator).unwrap_or(branch)
@@ -199,13 +198,6 @@ impl Responses {
     }
 }
 
-/// 1/(1 − c h/2 − |k| h²/8), of [`StepMap::growth`].
-fn growth(map: &StepMap, length: f64) -> Option<f64> {
-    let (c, k) = (map.oscillator.damping, map.oscillator.stiffness);
-    let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
-    (slack >= LEAST_SLACK).then(|| 1.0 / slack)
-}
-
 /// Terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
 fn terms(reach: f64) -> usize {
     let (mut terms, mut share) = (0, 1.0);
@@ -234,7 +226,7 @@ impl<V: Vector> Found<'_, V> {
 mod tests {
     use super::*;
 
-    /// c h + √k h of walls in use; 0.25²⁄₆ and so on, written out.
+    /// The first term left out is negligible, the last one kept is not.
     #[test]
     fn series_end_where_their_terms_are_negligible() {
         let left_out = |reach: f64, n: usize| (0..n).fold(1.0, |share, m| share * reach / (m as f64 + 2.0));

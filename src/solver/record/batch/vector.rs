@@ -25,7 +25,7 @@ pub(super) trait Vector:
 {
     /// Yes or no for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
-    /// One of eight places for each lane.
+    /// A place of a column for each lane.
     type Places: Copy;
 
     /// The same number for all.
@@ -42,7 +42,7 @@ pub(super) trait Vector:
     /// The smaller; `other` where one is not a number.
     fn min(self, other: Self) -> Self;
     fn abs(self) -> Self;
-    /// Each as a place: a whole number from 0 to 7.
+    /// Each as a place: a whole number that is not negative, taken modulo eight.
     fn places(self) -> Self::Places;
     /// The number at each place of a column.
     fn look_up(places: Self::Places, column: &Column) -> Self;
@@ -268,7 +268,7 @@ mod tests {
                     keep(V::splat(f64::from(V::bits(mask))));
                 }
             }
-            let places = V::load(&Row(std::array::from_fn(|i| ((from + 3 * i) % WIDTH) as f64)));
+            let places = V::load(&Row(std::array::from_fn(|i| (from + 3 * i) as f64)));
             keep(V::look_up(places.places(), &column));
             keep(V::load(&Row(places.whole().map(|number| number as f64))));
         }
