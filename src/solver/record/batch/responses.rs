@@ -120,6 +120,7 @@ impl Responses {
         Some(responses)
     }
 
+    /// Enters what is looked up by a branch, but for its response.
     fn fill_in(&mut self, branch: usize, map: &StepMap, growth: f64, solver: &RecordSolver<'_>) {
         let step = solver.step;
         let (c, k) = (map.oscillator.damping, map.oscillator.stiffness);
