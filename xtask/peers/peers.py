@@ -18,6 +18,7 @@ from pathlib import Path
 
 RUNS = 15
 FEWEST_RUNS = 3
+SHORTEST = 0.1  # seconds of repeated runs at least: a machine is disturbed for milliseconds now and then
 PATIENCE = 0.8  # seconds of repeated runs; a longer first run is not repeated, a warm-up changes nothing there
 
 
@@ -79,7 +80,7 @@ def measure(writer, problem, tool, setting, run, prepare=None, timed=None):
 def repeat(prepare, timed):
     """The least time of several runs."""
     least, spent, count = float("inf"), 0.0, 0
-    while count < FEWEST_RUNS or (count < RUNS and spent < PATIENCE):
+    while count < FEWEST_RUNS or (spent < PATIENCE and (count < RUNS or spent < SHORTEST)):
         prepare()
         start = time.perf_counter()
         timed()

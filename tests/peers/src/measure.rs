@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 
 use crate::problem::Problem;
 
-/// Runs after the warm-up, unless they take longer than [`PATIENCE`].
+/// Runs after the warm-up: at least so many and for [`SHORTEST`], unless that takes longer than [`PATIENCE`].
 const RUNS: usize = 25;
+/// A machine is disturbed for milliseconds now and then.
+const SHORTEST: Duration = Duration::from_millis(100);
 const FEWEST_RUNS: usize = 3;
 const PATIENCE: Duration = Duration::from_millis(800);
 
@@ -64,8 +66,10 @@ impl Rows {
         let Errors { max, rms, peak, overturned } = Errors::of(&history, problem);
         let began = Instant::now();
         let mut least = f64::INFINITY;
-        for repetition in 0..RUNS {
-            if repetition >= FEWEST_RUNS && began.elapsed() > PATIENCE {
+        for repetition in 0_usize.. {
+            let spent = began.elapsed();
+            let enough = repetition >= RUNS && spent > SHORTEST;
+            if enough || (repetition >= FEWEST_RUNS && spent > PATIENCE) {
                 break;
             }
             let start = Instant::now();
