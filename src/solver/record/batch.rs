@@ -136,6 +136,11 @@ mod tests {
 
     /// Side by side, with many corners passed, and the same bits as on a processor without vectors.
     #[test]
+    #[allow(unsafe_code, reason = "AVX2 is asked for first")]
+    #[allow(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method is for one lifetime, the closure for all"
+    )]
     fn runs_do_not_depend_on_the_processor() {
         let motion = motion(0.018);
         let samples = shaking();
@@ -143,10 +148,18 @@ mod tests {
         let batch = solver.batch(&samples);
         let responses = batch.responses.as_ref().expect("short steps");
         let starts = starts(&motion);
-        let mut lanes = Lanes::new(&solver, &samples, &batch.largest, responses, &starts, false);
-        lanes.follow::<vector::Portable>();
-        let portable = lanes.passages().expect("bounded motions");
+        let by = |follow: fn(&mut Lanes<'_, Samples<'_>>)| {
+            let mut lanes = Lanes::new(&solver, &samples, &batch.largest, responses, &starts, false);
+            follow(&mut lanes);
+            lanes.passages().expect("bounded motions")
+        };
+        let portable = by(|lanes| lanes.follow::<vector::Portable>());
         assert_eq!(batch.run(&starts, false).expect("bounded motions"), portable);
+        #[cfg(target_arch = "x86_64")]
+        if avx2::is_there() {
+            // SAFETY: the processor has AVX2, as was just found.
+            assert_eq!(by(|lanes| unsafe { follow_avx2(lanes) }), portable);
+        }
         let corners: u64 = portable.iter().map(|passage| passage.work.corners).sum();
         let overturned = portable.iter().filter(|passage| passage.overturning.is_some()).count();
         assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
