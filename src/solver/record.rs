@@ -6,11 +6,11 @@
 //! Everything else is looked at step by step: corners crossed and turning points passed in the ordinary way in the module
 //! `careful`, the rest by [`Motion::advance`]'s own search.
 //!
-//! The distance that suffices, over a plain stretch of length h, one step or several: let |p| ≤ P over the next 256 samples (and three
-//! more, to which steps taken at once may go), |f| ≤ f̂ between the corners and up to some times the largest |u| so far, and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4.
-//! With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves its chord, which lies on the branch, by no more than A h²/8, so
-//! that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A unless h is too long, and the margin A h²/8 follows: f of a
-//! branch's line, followed beyond its ends.
+//! The distance that suffices, over a plain stretch of length h, one step or several: let |p| ≤ P over the next 256 samples (and
+//! three more, to which steps taken at once may go), |f| ≤ f̂ between the corners and up to some times the largest |u| so far,
+//! and |u̇| ≤ V at both ends of the stretch, with c V = (P + f̂)/4. With A = max|ü| in the stretch, |u̇| ≤ V + A h/2, and u leaves
+//! its chord, which lies on the branch, by no more than A h²/8, so that A ≤ P + c (V + A h/2) + f̂ + |k| A h²/8. This bounds A
+//! unless h is too long, and the margin A h²/8 follows: f of a branch's line, followed beyond its ends.
 //!
 //! Extremes are known at the ends of plain steps, and beyond them up to that margin, which is small beside the extremes of the whole
 //! run. Few of its 256-sample stretches can hold them: those are gone through a second time, and there steps that come

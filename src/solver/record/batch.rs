@@ -2,7 +2,7 @@
 //!
 //! Where the wall and the step allow it, eight runs go side by side, each number of theirs in one place of a vector: the response
 //! of the branches to the record is taken once for all (module `responses`), plain steps go four at once and corners are passed
-//! several at once (`lanes`, `corners`). Where a step is long beside the wall's shortest period runs go one by one: there four
+//! several at once (`lanes`, `rounds`, `corners`). Where a step is long beside the wall's shortest period runs go one by one: there four
 //! steps would reach a corner too often.
 //!
 //! What becomes of a run depends on the wall, the record, the step and its start, never on the other runs or on the processor.
@@ -15,6 +15,7 @@ mod avx512;
 mod corners;
 mod lanes;
 mod responses;
+mod rounds;
 mod vector;
 
 use super::{Forcing, Passage, RecordSolver, SolverError, Start, stretches};
@@ -57,13 +58,13 @@ impl<F: Forcing> Batch<'_, F> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn run(&self, starts: &[Start], until_overturning: bool) -> Result<Vec<Passage>, SolverError> {
-        let Self { solver, forcing, largest, responses } = self;
-        let Some(responses) = responses else {
+        let Some(responses) = &self.responses else {
+            let Self { solver, forcing, largest, .. } = self;
             let run =
                 |&start| solver.run_with(start, *forcing, largest, until_overturning, &mut |_, _, _| {});
             return starts.iter().map(run).collect();
         };
-        let mut lanes = Lanes::new(solver, *forcing, largest, responses, starts, until_overturning);
+        let mut lanes = Lanes::new(self, responses, starts, until_overturning);
         follow(&mut lanes);
         lanes.passages()
     }
@@ -149,7 +150,7 @@ mod tests {
         let responses = batch.responses.as_ref().expect("short steps");
         let starts = starts(&motion);
         let by = |follow: fn(&mut Lanes<'_, Samples<'_>>)| {
-            let mut lanes = Lanes::new(&solver, &samples, &batch.largest, responses, &starts, false);
+            let mut lanes = Lanes::new(&batch, responses, &starts, false);
             follow(&mut lanes);
             lanes.passages().expect("bounded motions")
         };

@@ -78,6 +78,12 @@ pub(super) const BRAKING: f64 = 0.25;
 /// The |u| up to which f̂ is taken, over the largest so far.
 const ROOM: f64 = 4.0;
 
+/// Whether plain steps may start or end so.
+#[inline(always)]
+fn holds([low, high]: [f64; 2], fastest: f64, [u, v]: [f64; 2]) -> bool {
+    u >= low && u <= high && v.abs() <= fastest
+}
+
 impl<'a, F: Forcing> Lane<'a, F> {
     /// A run at its start.
     pub(super) fn new(
@@ -153,14 +159,14 @@ impl<'a, F: Forcing> Lane<'a, F> {
         let looks_back = self.looks_back();
         // apart from the rest, so that they stay in registers
         let (single, double, force_at_zero) = (map.single, map.double, map.force_at_zero);
-        let (factor, [low, high], fastest) = (self.factor, self.range, self.fastest);
+        let (factor, range, fastest) = (self.factor, self.range, self.fastest);
         let (mut now, mut highest, mut lowest) = (self.now, self.highest, self.lowest);
         let mut q = self.forcing_now - force_at_zero;
         let mut gone = 0;
         for &[next, after] in ahead {
             let [next, after] = [next, after].map(|p: f64| factor * p - force_at_zero);
             let end = [0, 1].map(|part| double.two_steps(part, now, [q, next, after]));
-            if !(end[0] >= low && end[0] <= high && end[1].abs() <= fastest) {
+            if !holds(range, fastest, end) {
                 break;
             }
             if !looks_back {
@@ -214,9 +220,8 @@ impl<'a, F: Forcing> Lane<'a, F> {
         let q = p.map(|p| p - map.force_at_zero);
         let start = self.now;
         let end = [0, 1].map(|part| map.single.one_step(part, start, q));
-        let [low, high] = self.range(map, 0);
-        let holds = |[u, v]: [f64; 2]| u >= low && u <= high && v.abs() <= self.fastest;
-        if holds(start) && holds(end) {
+        let range = self.range(map, 0);
+        if holds(range, self.fastest, start) && holds(range, self.fastest, end) {
             self.now = end;
             self.take_in(start[0]);
             self.take_in(end[0]);
@@ -315,10 +320,9 @@ impl<'a, F: Forcing> Lane<'a, F> {
             return false;
         }
         self.range = self.range(map, 1);
-        let ([low, high], [u, v]) = (self.range, self.now);
-        let opens = u >= low && u <= high && v.abs() <= self.fastest;
+        let opens = holds(self.range, self.fastest, self.now);
         if opens {
-            self.take_in(u);
+            self.take_in(self.now[0]);
         }
         opens
     }

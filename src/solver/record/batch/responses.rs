@@ -12,8 +12,6 @@ use super::vector::{Column, Row, Vector, WIDTH};
 pub(super) const ROWS_AHEAD: usize = STRETCH / AT_ONCE + 1;
 /// (c + √|k|) h of the longest steps; beyond, four at once reach a corner too often to be worth it.
 const LONGEST: f64 = 0.25;
-/// Most of [`growth`] over four steps.
-const MOST_GROWTH: f64 = 2.0;
 /// Samples of a record up to which tables are made: 1 MB for each oscillator.
 const MOST_SAMPLES: usize = 1 << 16;
 /// Share of the leading term that may be left out of a series.
@@ -88,13 +86,13 @@ impl Responses {
         let step = solver.step;
         let reach = |map: &StepMap| (map.oscillator.damping + map.oscillator.stiffness.abs().sqrt()) * step;
         let longest = maps.iter().map(|map| reach(map)).fold(0.0, f64::max);
+        if longest > LONGEST {
+            return None;
+        }
+        // at most 1/(1 − 2 · 0.25)
         let growths: Vec<f64> =
             maps.iter().map(|map| growth(&map.oscillator, AT_ONCE as f64 * step)).collect();
         let most_growth = growths.iter().copied().fold(0.0, f64::max);
-        let short = maps.iter().all(|map| map.short.is_some());
-        if !short || longest > LONGEST || most_growth > MOST_GROWTH {
-            return None;
-        }
         let mut responses = Self {
             columns: [Row::ZERO; COLUMNS],
             rows: Vec::new(),
