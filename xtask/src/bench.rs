@@ -183,9 +183,9 @@ fn report(rows: &[Row<'_>], missing: &[String]) -> String {
 
 fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::Result {
     let Some((own, base)) = own_run(rows) else {
-        return writeln!(text, "\n{scene}: our own solver has no row");
+        return writeln!(text, "\n{scene}: rocking-wall has no row");
     };
-    writeln!(text, "\n{scene}; times beside {own}, {:.3} ms", base.seconds * 1e3)?;
+    writeln!(text, "\n{scene}; times relative to {own}, {:.3} ms", base.seconds * 1e3)?;
     writeln!(
         text,
         "{:<14}{:<26}{:>12}{:>18}{:>12}",
@@ -220,14 +220,18 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         let (seconds, error) = (figures.seconds, figures.error);
         writeln!(
             text,
-            "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; its error is {error:.1e} u_ins",
+            "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error {error:.1e} u_ins",
             seconds * 1e3,
             seconds / base.seconds
         )?;
         let batch = rows.iter().find(|row| row.tool == OURS && row.setting == BATCH);
         if let Some(batch) = batch.and_then(|row| row.figures) {
             let ratio = seconds / batch.seconds;
-            writeln!(text, "and {ratio:.0} times a run of our {BATCH}, {:.4} ms", batch.seconds * 1e3)?;
+            writeln!(
+                text,
+                "and {ratio:.0} times a run of rocking-wall exact in a batch of 64, {:.4} ms",
+                batch.seconds * 1e3
+            )?;
         }
     }
     Ok(())
@@ -244,7 +248,7 @@ fn own_run(rows: &[&Row<'_>]) -> Option<(String, Figures)> {
         })
         .min_by(|(_, one), (_, other)| one.seconds.total_cmp(&other.seconds))
     };
-    exact.or_else(cheapest).map(|(setting, figures)| (format!("our {setting}"), figures))
+    exact.or_else(cheapest).map(|(setting, figures)| (format!("{OURS} {setting}"), figures))
 }
 
 /// Whether the time is that of one run by itself, not its share of several.

@@ -6,10 +6,10 @@ use crate::command::{cargo, output};
 use crate::{Result, bench, root};
 
 const DOCUMENT: &str = "docs/accuracy.md";
-/// What the last table of `wall accuracy` begins with.
+/// First words of the last table of `wall accuracy`.
 const ROTATIONS: &str = "small rotations: their period";
 
-/// Measures and writes everything; `record` goes under the walls of Table 5.
+/// Measures and writes everything; `record` is the motion of the walls of Table 5.
 ///
 /// # Errors
 /// If a program fails, or the document lacks a mark.
@@ -50,7 +50,7 @@ fn wall(arguments: &[&str]) -> Result<String> {
     output(&mut run, "see its message above")
 }
 
-/// What stands between `<!-- mark -->` and `<!-- end mark -->` in a document, replaced.
+/// Replaces the text between `<!-- mark -->` and `<!-- end mark -->` in a document.
 ///
 /// # Errors
 /// If the marks are not there.
@@ -62,7 +62,8 @@ pub(crate) fn replaced(document: &str, text: &str, mark: &str, figures: &str) ->
     Ok(format!("{before}{begin}{figures}{end}{after}"))
 }
 
-/// Of each scene our own run over the record, `OpenSeesPy` at the record's step, and the cheapest good setting of each tool.
+/// Keeps of each scene the run of rocking-wall, `OpenSeesPy` at the record's step, and each tool's cheapest good
+/// setting.
 fn outlined(table: &str) -> String {
     let mut text = String::new();
     for scene in table.split("\n\n") {
@@ -80,10 +81,10 @@ fn outlined(table: &str) -> String {
     text
 }
 
-/// One row for each scene: the solver `automatic` takes, and Newmark at the record's step and at its finest.
+/// Makes one row for each scene: the solver that `automatic` selects, Newmark at the record's step and at its finest.
 fn condensed(csv: &str) -> String {
     let mut table = String::from(
-        "| scene | solver | time ms | max error/u_ins | Newmark, record's step | time ms | Newmark, 1/300 of it | time ms |\n\
+        "| scene | solver | time [ms] | error | Newmark: error | time [ms] | fine: error | time [ms] |\n\
          |---|---|---|---|---|---|---|---|\n",
     );
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).filter_map(fields).collect();
@@ -112,7 +113,7 @@ fn condensed(csv: &str) -> String {
     table
 }
 
-/// The fields of a line whose first one is quoted.
+/// Splits a line whose first field is quoted.
 fn fields(line: &str) -> Option<Vec<&str>> {
     let (scene, rest) = line.strip_prefix('"')?.split_once("\",")?;
     Some(std::iter::once(scene).chain(rest.split(',')).collect())

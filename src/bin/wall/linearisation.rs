@@ -76,7 +76,7 @@ impl Linearisation {
             let _ = writeln!(
                 text,
                 "  Figure 2, {name}, e = {restitution}: first impact at {linear:.5} s instead of {full:.5} s \
-                 ({:.2} % short); over {duration} s at most {:.3} u_ins apart, amplitudes within {:.1e} u_ins",
+                 ({:.2} % short);\n    over {duration} s at most {:.3} u_ins apart, amplitudes within {:.1e} u_ins",
                 100.0 * (1.0 - linear / full),
                 history.largest_difference(),
                 history.largest_amplitude_difference()
