@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use fmi2_export::{Environment, Interface, Log, Model, Step};
-use rocking_wall::ground_motion::SyntheticMotion;
+use ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;

@@ -5,10 +5,10 @@ mod outputs;
 
 use std::sync::Arc;
 
-use crate::ground_motion::GroundMotion;
 use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, Start, State, Work};
 use crate::variables::Mechanism;
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
+use ground_motion::GroundMotion;
 
 pub use events::Handled;
 pub use outputs::{Outputs, Sensitivity};

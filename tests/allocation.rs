@@ -8,9 +8,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use fmi2_export::{Environment, Interface, Log, Model, ModelExchange, Step};
+use ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use rocking_wall::ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;

@@ -88,7 +88,10 @@ impl Document {
 }
 
 /// Reads a TOML text; what is wrong with it is told with its line.
-pub(crate) fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
+///
+/// # Errors
+/// [`SceneError::Line`] where the text is not such a document.
+pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
     toml::from_str(place.text()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().replace('\n', " ");

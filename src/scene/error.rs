@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::ground_motion::GroundMotionError;
 use crate::solver::SolverError;
 use crate::wall::ParameterError;
+use ground_motion::GroundMotionError;
 
 /// Why a scene cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -40,36 +40,47 @@ pub enum SceneError {
 }
 
 /// A scene's file and text, to turn byte ranges into lines.
-pub(crate) struct Place<'a> {
+pub struct Place<'a> {
     name: &'a str,
     text: &'a str,
 }
 
 impl<'a> Place<'a> {
-    pub(crate) fn new(name: &'a str, text: &'a str) -> Self {
+    /// The text of a file, or of a part of one, under its name.
+    #[must_use]
+    pub fn new(name: &'a str, text: &'a str) -> Self {
         Self { name, text }
     }
 
-    pub(crate) fn name(&self) -> &'a str {
+    /// The file's name.
+    #[must_use]
+    pub fn name(&self) -> &'a str {
         self.name
     }
 
-    pub(crate) fn text(&self) -> &'a str {
+    /// Its text.
+    #[must_use]
+    pub fn text(&self) -> &'a str {
         self.text
     }
 
     /// The 1-based line of a byte range.
-    pub(crate) fn line(&self, span: Range<usize>) -> usize {
+    #[must_use]
+    pub fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         before.split(|&byte| byte == b'\n').count()
     }
 
-    pub(crate) fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
+    /// An error that names the file and the line of a byte range.
+    pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
         SceneError::Line { file: self.name.to_owned(), line: self.line(span), message: message.into() }
     }
 
     /// A positive number up to `limit`, or `natural` where none is given.
-    pub(crate) fn within(
+    ///
+    /// # Errors
+    /// [`SceneError::Line`] for a number outside the limits.
+    pub fn within(
         &self,
         key: &str,
         given: Option<&Spanned<f64>>,

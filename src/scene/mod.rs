@@ -22,9 +22,9 @@ pub use error::SceneError;
 pub use motion::fingerprint;
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 
-pub(crate) use document::parse_toml;
-pub(crate) use error::Place;
-pub(crate) use parameter::apply_group;
+pub use document::parse_toml;
+pub use error::Place;
+pub use parameter::apply_group;
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::ground_motion::{
+use crate::simulation::Excitation;
+use ground_motion::{
     Format, GroundMotion, GroundMotionError, Pulse, ReadOptions, Shape, SyntheticMotion, Unit, read,
 };
-use crate::simulation::Excitation;
 
 use super::error::Place;
 use super::{DEFAULT_TAIL, SceneError};
@@ -16,7 +16,6 @@ use super::{DEFAULT_TAIL, SceneError};
 /// `[motion]`: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct MotionTable {
     /// Record file, beside the scene file: in any format the library reads.
     pub record: Option<PathBuf>,
@@ -59,7 +58,6 @@ pub struct MotionTable {
 /// `[motion.top]`: the record of the top support; trimmed and timed like the bottom one.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[allow(missing_docs, reason = "as in MotionTable")]
 pub struct TopTable {
     pub record: PathBuf,
@@ -77,7 +75,6 @@ pub struct TopTable {
 /// Ricker pulse a = A (1 − 2z²) exp(−z²), z = π f (t − t₀).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct RickerTable {
     /// A (m/s²).
     pub amplitude: f64,
@@ -90,7 +87,6 @@ pub struct RickerTable {
 /// Harmonic motion a = A sin(2π f t + φ).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct HarmonicTable {
     /// A (m/s²).
     pub amplitude: f64,
@@ -106,7 +102,6 @@ pub struct HarmonicTable {
 /// One or half a cycle of a = A sin(2π f t).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct SineTable {
     /// A (m/s²).
     pub amplitude: f64,
@@ -117,7 +112,6 @@ pub struct SineTable {
 /// The project's synthetic motion; every key has a default.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct SyntheticTable {
     /// Seed of the noise: another seed is another motion.
     pub seed: Option<u64>,

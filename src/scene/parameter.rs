@@ -19,7 +19,10 @@ const MULTILINEAR: &str = "multilinear";
 const KINEMATICS_GROUP: &str = "geometry";
 
 /// Applies one table.
-pub(crate) fn apply_group(
+///
+/// # Errors
+/// [`SceneError::Line`] for a key or a value that cannot be used.
+pub fn apply_group(
     parameters: &mut Parameters,
     group: &str,
     entries: &Group,

@@ -2,9 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use rocking_wall::study::calibration::{Calibration, CalibrationError, Grid, PowerLaw, calibrate};
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::Parameters;
+use study::calibration::{Calibration, CalibrationError, Grid, PowerLaw, calibrate};
 
 const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 

@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use rocking_wall::ground_motion::{GroundMotion, Pulse, Shape};
+use ground_motion::{GroundMotion, Pulse, Shape};
 use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Segment, Work};
 use rocking_wall::variables::{
@@ -19,7 +19,7 @@ use serde_json::Value;
 const WIDTH: f64 = 1.0;
 
 fn folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/cases")
+    crate::root().join("tests/data/cases")
 }
 
 struct Case {

@@ -141,7 +141,7 @@ fn bad_arguments() {
     refused(&folder, &["accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);
     refused(&folder, &["simulate", "--stop-time", "-1"], &["--stop-time"]);
     refused(&folder, &["simulate", "--csv", "no/such/folder.csv"], &["folder.csv"]);
-    let plain = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/plain_parapet.toml");
+    let plain = &crate::root().join("scenes/plain_parapet.toml").display().to_string();
     refused(
         &folder,
         &["package", plain, "-o", "x.fmu", "--base", "none.fmu"],
@@ -190,7 +190,7 @@ fn a_doubtful_record_is_noted() {
 #[test]
 fn example_scenes() {
     let folder = folder("example_scenes");
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let scenes = crate::root().join("scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(scenes).unwrap() {
         let scene = entry.unwrap().path();
@@ -245,7 +245,7 @@ fn machine_readable_output() {
 fn a_scene_survives_being_written() {
     use rocking_wall::scene::{Scene, to_toml};
     for name in ["plain_parapet", "strip_between_floors", "quadrilinear_strip"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
+        let path = crate::root().join(format!("scenes/{name}.toml"));
         let mut scene = Scene::read(&path).unwrap();
         scene.excitation = None;
         let written = to_toml(&scene, "");

@@ -1,6 +1,6 @@
 //! Every extreme keeps its limit.
 
-use rocking_wall::stability::extremes;
+use study::stability::extremes;
 
 #[test]
 fn every_extreme_keeps_its_limit() {

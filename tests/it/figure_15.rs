@@ -5,11 +5,11 @@
 
 use std::path::PathBuf;
 
-use rocking_wall::ground_motion::{ReadOptions, SyntheticMotion, read};
-use rocking_wall::study::fragility::Summary;
-use rocking_wall::study::ida::NamedRecord;
-use rocking_wall::study::parallel::threads;
-use rocking_wall::study::reproduce::collapse::figure_15;
+use ground_motion::{ReadOptions, SyntheticMotion, read};
+use study::fragility::Summary;
+use study::ida::NamedRecord;
+use study::parallel::threads;
+use study::reproduce::collapse::figure_15;
 
 use crate::ground_motion::record_real::folder;
 

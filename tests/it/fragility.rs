@@ -1,10 +1,10 @@
 //! Fragilities: fits, medians, bootstrap.
 
-use rocking_wall::study::fragility::{
+use study::fragility::{
     Bootstrap, FitError, Interval, Lognormal, Observation, Observing, cumulative, fit, median, quantile,
     steps,
 };
-use rocking_wall::study::ida::Occurrence;
+use study::ida::Occurrence;
 
 const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
 

@@ -10,8 +10,8 @@ pub(crate) mod specimen;
 mod spectrum;
 mod synthetic;
 
+use ground_motion::{GroundMotion, Unit};
 use proptest::prelude::*;
-use rocking_wall::ground_motion::{GroundMotion, Unit};
 
 /// Velocity and displacement at each sample of a record, integrated without error from the values at time zero.
 fn integrated(motion: &GroundMotion, start: [f64; 2]) -> Vec<[f64; 2]> {

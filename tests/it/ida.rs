@@ -1,14 +1,14 @@
 //! Incremental dynamic analysis in memory.
 
-use rocking_wall::ground_motion::{GroundMotion, Pulse, Shape, SyntheticMotion};
+use ground_motion::{GroundMotion, Pulse, Shape, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
-use rocking_wall::study::ida::{
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::{Parameters, Support};
+use study::ida::{
     Curve, Damping, IdaError, IntensityMeasure, Level, Levels, Model, NamedRecord, NamedWall, Occurrence,
     Source, Study,
 };
-use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Parameters, Support};
 
 /// Two walls of Table 5 of the paper.
 fn walls() -> Vec<NamedWall> {

@@ -263,7 +263,7 @@ fn other_studies_and_bad_ones_are_refused() {
 #[test]
 fn the_example_is_a_study() {
     let folder = folder("ida_example");
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/table_5.toml");
+    let file = crate::root().join("studies/table_5.toml");
     // one of its 900 combinations; all of them take seconds in a release build
     let file = file.to_str().unwrap();
     let printed = succeed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);

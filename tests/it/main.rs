@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+use std::path::Path;
+
 mod building_command;
 mod calibration;
 mod capacity;
@@ -28,3 +30,8 @@ mod reproduce;
 mod rocking_spectrum;
 mod trigonometric;
 mod wiring;
+
+/// The root of the workspace.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}

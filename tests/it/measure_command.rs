@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::command_line::{folder, refused, text, wall};
 
 fn scene() -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/plain_parapet.toml").display().to_string()
+    crate::root().join("scenes/plain_parapet.toml").display().to_string()
 }
 
 /// The lines of a CSV after its header, split; the first field may be quoted.

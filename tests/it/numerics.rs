@@ -1,9 +1,6 @@
 //! Orders, energy, dimensionless groups, work.
 
-use std::path::Path;
-
 use proptest::prelude::*;
-use rocking_wall::accuracy::{Setting, defaults, measure_at};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
@@ -13,6 +10,7 @@ use rocking_wall::variables::{
     DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
 };
 use rocking_wall::wall::{Parameters, Support, Wall};
+use study::accuracy::{Setting, defaults, measure_at};
 
 use crate::properties::{configuration, motions};
 
@@ -265,7 +263,7 @@ fn work_of_the_scenes() {
         ("quadrilinear_strip", Work { pieces: 35644, corners: 44, impacts: 0 }),
         ("strip_between_floors", Work { pieces: 3000, corners: 0, impacts: 0 }),
     ];
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let scenes = crate::root().join("scenes");
     let work = |name: &str| {
         let scene = Scene::read(&scenes.join(name).with_extension("toml")).unwrap();
         Response::of(&scene).unwrap().summary.work

@@ -2,9 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use rocking_wall::study::chart::Chart;
-use rocking_wall::study::reproduce::tables::{table_3, table_4, table_5};
-use rocking_wall::study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
+use study::chart::Chart;
+use study::reproduce::tables::{table_3, table_4, table_5};
+use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
 const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 /// Half a unit of the third decimal, and room for a tie.

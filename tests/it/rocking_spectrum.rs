@@ -1,14 +1,14 @@
 //! Rocking spectra: closed-form overturning thresholds, dimensionless groups, rest, threads, and `wall spectrum`.
 
-use rocking_wall::ground_motion::{GroundMotion, SyntheticMotion};
+use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
-use rocking_wall::study::spectrum::{
-    PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, over_pulses, over_walls,
-};
 use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
 use rocking_wall::wall::Parameters;
+use study::spectrum::{
+    PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, over_pulses, over_walls,
+};
 
 use crate::command_line::{folder, refused, text, wall};
 

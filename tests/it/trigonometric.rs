@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use rocking_wall::accuracy::linearisation::{STARTS, figure_2, figure_2_wall, figure_3, period};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::solver::{Memo, Method, Motion, Segment, State};
 use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
+use study::accuracy::linearisation::{STARTS, figure_2, figure_2_wall, figure_3, period};
 
 use crate::command_line::{folder, refused, text, wall};
 

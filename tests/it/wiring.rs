@@ -8,14 +8,10 @@ use rocking_wall::variables::{BooleanVariable, IntegerVariable, RealVariable};
 
 const XML: &str = "modelDescription/modelDescription.xml";
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 /// Variants of the enums are named in the matches of these files, which have no `_` arm for what is left over.
 #[test]
 fn every_variable_is_named_where_it_is_wired() {
-    let read = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
+    let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
     let wiring = read("src/unit.rs") + &read("src/wall/parameters.rs");
     let real = RealVariable::ALL.iter().map(|variable| format!("{variable:?}"));
     let integer = IntegerVariable::ALL.iter().map(|variable| format!("{variable:?}"));
@@ -34,15 +30,7 @@ fn check_with(folder: &Path, xml: &str) -> (bool, String) {
     std::fs::write(folder.join(XML), xml).unwrap();
     let output = Command::new(env!("CARGO"))
         .current_dir(folder)
-        .args([
-            "check",
-            "--quiet",
-            "--offline",
-            "--lib",
-            "--no-default-features",
-            "--package",
-            "rocking-wall",
-        ])
+        .args(["check", "--quiet", "--offline", "--lib", "--package", "rocking-wall"])
         .env("CARGO_TARGET_DIR", folder.join("target"))
         .output()
         .unwrap();
@@ -65,7 +53,7 @@ fn copy(from: &Path, to: &Path) {
 fn workspace_copy() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wiring");
     for part in ["src", "crates", "modelDescription", "xtask", "tests/conformance"] {
-        copy(&root().join(part), &folder.join(part));
+        copy(&crate::root().join(part), &folder.join(part));
     }
     // the manifest names these; empty ones will do
     for file in ["tests/it/main.rs", "tests/allocation.rs", "benches/step.rs", "benches/record.rs"] {
@@ -73,7 +61,7 @@ fn workspace_copy() -> PathBuf {
         std::fs::write(folder.join(file), "").unwrap();
     }
     for file in ["Cargo.toml", "Cargo.lock", "build.rs", "clippy.toml"] {
-        std::fs::copy(root().join(file), folder.join(file)).unwrap();
+        std::fs::copy(crate::root().join(file), folder.join(file)).unwrap();
     }
     folder
 }
@@ -82,7 +70,7 @@ fn workspace_copy() -> PathBuf {
 #[test]
 fn the_compiler_holds_description_and_code_together() {
     let folder = workspace_copy();
-    let original = std::fs::read_to_string(root().join(XML)).unwrap();
+    let original = std::fs::read_to_string(crate::root().join(XML)).unwrap();
     let (builds, message) = check_with(&folder, &original);
     assert!(builds, "{message}");
     // an input, an output, a parameter, a calculated parameter, an enumeration, a Boolean; renamed, so that the

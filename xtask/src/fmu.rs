@@ -92,7 +92,7 @@ fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
         }
     }
     build.args(["--release", "--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
-    build.args(["--no-default-features", "--features", "fmu"]);
+    build.args(["--features", "fmu"]);
     build.env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build);
     succeed(&mut build, "see the compiler's message above")?;

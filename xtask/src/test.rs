@@ -19,9 +19,8 @@ type Part = fn() -> Result<()>;
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, Part); 6] = [
+    let parts: [(&str, Part); 5] = [
         ("Rust tests", rust),
-        ("archive tests", archive),
         ("the FMU through FMPy", python),
         ("systems in other masters", masters),
         ("the portable FMU", portable),
@@ -87,10 +86,6 @@ fn browser() -> Option<PathBuf> {
 
 fn rust() -> Result<()> {
     run_tests(cargo().args(["test", "--locked"]))
-}
-
-fn archive() -> Result<()> {
-    run_tests(cargo().args(["test", "--locked", "--package", "fmi2-export-build", "--features", "archive"]))
 }
 
 fn run_tests(command: &mut std::process::Command) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rocking_wall::ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
+use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
 
 use super::integrated;
 

@@ -1,7 +1,7 @@
 //! PEER AT2 files: the variants in use, and what is refused.
 
+use ground_motion::{Format, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse};
 use proptest::prelude::*;
-use rocking_wall::ground_motion::{Format, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse};
 
 const HEADER: &str = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1/1/2000, Station, 90\n";
 const UNITS: &str = "ACCELERATION TIME SERIES IN UNITS OF G\n";

@@ -1,7 +1,7 @@
 //! CSV files: a table with times, one column with a step, and what is refused.
 
+use ground_motion::{Format, ReadOptions, Record, Unit, parse};
 use proptest::prelude::*;
-use rocking_wall::ground_motion::{Format, ReadOptions, Record, Unit, parse};
 
 fn si() -> ReadOptions {
     ReadOptions { unit: Some(Unit::MetrePerSecondSquared), ..ReadOptions::default() }

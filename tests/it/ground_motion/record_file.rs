@@ -3,8 +3,8 @@
 use std::fs::{self, File};
 use std::path::PathBuf;
 
+use ground_motion::{Format, MAX_FILE_BYTES, ReadOptions, SyntheticMotion, Unit, parse, read};
 use proptest::prelude::*;
-use rocking_wall::ground_motion::{Format, MAX_FILE_BYTES, ReadOptions, SyntheticMotion, Unit, parse, read};
 
 fn stated() -> ReadOptions {
     ReadOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..ReadOptions::default() }

@@ -1,9 +1,9 @@
 //! Every format: recognised by its content, read to the digit, and refused with one clear message when damaged.
 
-use proptest::prelude::*;
-use rocking_wall::ground_motion::{
+use ground_motion::{
     Format, GroundMotionError, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse, parse_channels,
 };
+use proptest::prelude::*;
 
 use super::specimen::{self, ALL, SAMPLES, STEP, csmip_channels, mutated, options};
 use crate::properties::configuration;

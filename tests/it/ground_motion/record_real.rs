@@ -4,10 +4,10 @@
 
 use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use rocking_wall::ground_motion::spectrum::AVERAGE_PERIODS;
-use rocking_wall::ground_motion::{
+use ground_motion::spectrum::AVERAGE_PERIODS;
+use ground_motion::{
     Format, ReadOptions, Record, STANDARD_GRAVITY, Spectrum, Unit, parse, parse_channels, read,
 };
 
@@ -23,7 +23,7 @@ pub(crate) fn folder() -> Option<PathBuf> {
         );
         return Some(folder);
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/records");
+    let folder = crate::root().join("../shared/records");
     folder.join("index.csv").is_file().then_some(folder)
 }
 

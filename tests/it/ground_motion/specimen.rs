@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use ground_motion::{Format, ReadOptions, Unit};
 use proptest::prelude::*;
-use rocking_wall::ground_motion::{Format, ReadOptions, Unit};
 
 /// Samples with three decimals and five digits, so that every format holds them to the digit, and without a mean; an odd number, so
 /// that every format has a short last line.

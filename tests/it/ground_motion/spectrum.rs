@@ -2,10 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rocking_wall::ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use rocking_wall::ground_motion::{
-    Finding, GroundMotion, Peaks, ReadOptions, Spectrum, SyntheticMotion, Unit, parse,
-};
+use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
+use ground_motion::{Finding, GroundMotion, Peaks, ReadOptions, Spectrum, SyntheticMotion, Unit, parse};
 
 fn everywhere(damping: f64) -> Spectrum {
     Spectrum::new(damping, Peaks::Everywhere).unwrap()

@@ -1,6 +1,6 @@
 //! The project's own record.
 
-use rocking_wall::ground_motion::{GroundMotionError, SyntheticMotion};
+use ground_motion::{GroundMotionError, SyntheticMotion};
 
 use super::integrated;
 

@@ -12,7 +12,7 @@ mod root_finding;
 use std::path::Path;
 use std::process::ExitCode;
 
-use rocking_wall::ground_motion::{GroundMotion, ReadOptions, SyntheticMotion, read};
+use ground_motion::{GroundMotion, ReadOptions, SyntheticMotion, read};
 
 use measure::Rows;
 use problem::Problem;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rocking_wall::ground_motion::GroundMotion;
+use ground_motion::GroundMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Segment, SolverError};
 use rocking_wall::variables::{DampingModel, DampingSource, Solver};

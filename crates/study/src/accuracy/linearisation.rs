@@ -1,0 +1,290 @@
+//! What small rotations leave out: Eq. (1) beside full rotations, Figures 2 and 3 of the paper.
+//!
+//! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full ones, so that
+//! both start at the same θ₀/α of Eq. (5).
+
+use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError, State};
+use rocking_wall::variables::{
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Solver,
+};
+use rocking_wall::wall::{Kinematics, Parameters, Support, Wall, equivalence};
+
+use super::AccuracyError;
+
+/// Tolerance of full rotations here.
+const TOLERANCE: f64 = 1e-12;
+/// Bisections that locate an impact: 64 exhaust a double.
+const BISECTIONS: u32 = 64;
+/// Most output steps of a history.
+const MOST_STEPS: usize = 10_000_000;
+
+/// Slenderness angles at which the period is compared by default \[rad\].
+pub const SLENDERNESS: [f64; 15] =
+    [0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22, 0.24, 0.26, 0.28, 0.3];
+/// Initial rotations θ₀/α at which the period is compared by default; the last is that of Figure 2.
+pub const STARTS: [f64; 3] = [0.1, 0.5, 0.9];
+
+/// A free motion in fractions of the unstable equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeMotion {
+    /// Displacement at each output step, the start included \[-\].
+    pub history: Vec<f64>,
+    /// Times of the impacts \[s\].
+    pub impacts: Vec<f64>,
+    /// Largest |displacement| of each half cycle, the start first \[-\].
+    pub amplitudes: Vec<f64>,
+}
+
+/// The same wall, released from the same fraction of its unstable equilibrium, with small and with full rotations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Output step \[s\].
+    pub step: f64,
+    /// Small rotations, Eq. (1).
+    pub linear: FreeMotion,
+    /// Full rotations.
+    pub trigonometric: FreeMotion,
+}
+
+impl Comparison {
+    /// Largest distance of the two histories \[-\].
+    #[must_use]
+    pub fn largest_difference(&self) -> f64 {
+        largest_difference(&self.linear.history, &self.trigonometric.history)
+    }
+
+    /// Largest distance of the amplitudes of one half cycle \[-\]: what is left once the phase is set aside.
+    #[must_use]
+    pub fn largest_amplitude_difference(&self) -> f64 {
+        largest_difference(&self.linear.amplitudes, &self.trigonometric.amplitudes)
+    }
+
+    /// Time of the n-th impact with small rotations over that with full ones; `None` where either has fewer.
+    #[must_use]
+    pub fn time_ratio(&self, impact: usize) -> Option<f64> {
+        Some(self.linear.impacts.get(impact)? / self.trigonometric.impacts.get(impact)?)
+    }
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip, hinge at mid-height).
+#[must_use]
+pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
+    let restitution = match mechanism {
+        Mechanism::Parapet => 0.985,
+        Mechanism::VerticalSpanning => 0.955,
+    };
+    Parameters {
+        mechanism,
+        height: 4.0,
+        thickness: 0.4,
+        hinge_ratio: 0.5,
+        restitution_source: RestitutionSource::Given,
+        restitution,
+        ..Parameters::default()
+    }
+}
+
+/// Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in steps of `step` \[s\].
+///
+/// # Errors
+/// [`AccuracyError`].
+pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Comparison, AccuracyError> {
+    compare(&figure_2_wall(mechanism), 0.9, duration, step)
+}
+
+/// Releases a wall at rest from the fraction `start` of its unstable equilibrium, rigid and with restitution whatever its
+/// force law and damping, and follows it over `duration` in steps of `step` \[s\] both ways.
+///
+/// # Errors
+/// [`AccuracyError`], if the parameters make no such wall.
+pub fn compare(
+    parameters: &Parameters,
+    start: f64,
+    duration: f64,
+    step: f64,
+) -> Result<Comparison, AccuracyError> {
+    let free = |kinematics| {
+        let release = Release::new(parameters, kinematics)?;
+        let failed = |source| AccuracyError::Run { name: format!("{} rotations", kinematics.name()), source };
+        release.run(start, duration, step).map_err(failed)
+    };
+    Ok(Comparison {
+        step,
+        linear: free(Kinematics::Linear)?,
+        trigonometric: free(Kinematics::Trigonometric)?,
+    })
+}
+
+/// Periods of free rocking from one rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Period {
+    /// α or α₁ \[rad\].
+    pub slenderness: f64,
+    /// θ₀/α \[-\].
+    pub start: f64,
+    /// Period of Eq. (1) \[s\].
+    pub linear: f64,
+    /// Period of full rotations \[s\].
+    pub trigonometric: f64,
+    /// Period of Eq. (5), for a parapet without overburden \[s\].
+    pub housner: Option<f64>,
+}
+
+impl Period {
+    /// Period of Eq. (1) over that of full rotations \[-\].
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        self.linear / self.trigonometric
+    }
+
+    /// Period of Eq. (1) over Eq. (5), √cos α \[-\]: Figure 3.
+    #[must_use]
+    pub fn over_housner(&self) -> Option<f64> {
+        self.housner.map(|housner| self.linear / housner)
+    }
+}
+
+/// Four times the time to the first impact of a wall released at rest from the fraction `start` of its unstable equilibrium.
+///
+/// # Errors
+/// [`AccuracyError`], if the parameters make no rigid wall.
+pub fn period(parameters: &Parameters, start: f64) -> Result<Period, AccuracyError> {
+    let quarter = |kinematics: Kinematics| {
+        let release = Release::new(parameters, kinematics)?;
+        let failed = |source| AccuracyError::Run { name: format!("{} rotations", kinematics.name()), source };
+        let first = release.first_impact(start).map_err(failed)?;
+        Ok::<_, AccuracyError>((first, release))
+    };
+    let (linear, release) = quarter(Kinematics::Linear)?;
+    let (trigonometric, _) = quarter(Kinematics::Trigonometric)?;
+    let body = release.motion.wall().body();
+    let plain = body.mechanism == Mechanism::Parapet && body.overburden == 0.0;
+    let housner = plain.then(|| {
+        // R = h/(2 cos α), p = √(3g/(4R))
+        let radius = 0.5 * body.height / body.slenderness.cos();
+        let frequency = (0.75 * parameters.gravity / radius).sqrt();
+        equivalence::housner_period(frequency, start)
+    });
+    Ok(Period {
+        slenderness: body.slenderness,
+        start,
+        linear: 4.0 * linear,
+        trigonometric: 4.0 * trigonometric,
+        housner,
+    })
+}
+
+/// Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its hinge at mid-height.
+/// Ratios of periods depend on nothing else but the hinge ratio and the start.
+///
+/// # Errors
+/// [`AccuracyError`], if a slenderness makes no wall.
+pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, AccuracyError> {
+    let wall = figure_2_wall(mechanism);
+    let lower = match mechanism {
+        Mechanism::Parapet => wall.height,
+        Mechanism::VerticalSpanning => wall.hinge_ratio * wall.height,
+    };
+    let at =
+        |alpha: &f64| period(&Parameters { thickness: lower * libm::tan(*alpha), ..wall.clone() }, start);
+    slenderness.iter().map(at).collect()
+}
+
+/// A rigid wall to release.
+struct Release {
+    motion: Motion,
+}
+
+impl Release {
+    fn new(parameters: &Parameters, kinematics: Kinematics) -> Result<Self, AccuracyError> {
+        let rigid = Parameters {
+            kinematics,
+            force_law: ForceLaw::RigidLinear,
+            multilinear: None,
+            a3: 1.0,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            // both sides alike, so that one period tells all
+            eccentricity_mode: EccentricityMode::FollowsPivot,
+            solver: Solver::Automatic,
+            u_start: 0.0,
+            u_dot_start: 0.0,
+            ..parameters.clone()
+        };
+        let wall = Wall::new(&rigid)?;
+        let method = Method::new(&rigid, &wall, TOLERANCE)?;
+        Ok(Self { motion: Motion::new(wall, method) })
+    }
+
+    /// The displacement at a fraction of the unstable equilibrium \[m\].
+    fn displacement(&self, fraction: f64) -> f64 {
+        let wall = self.motion.wall();
+        let u_ins = wall.body().instability.positive;
+        wall.rotations().map_or(fraction * u_ins, |full| full.displacement(fraction * full.rotation(u_ins)))
+    }
+
+    fn fraction(&self, displacement: f64) -> f64 {
+        let wall = self.motion.wall();
+        let u_ins = wall.body().instability.positive;
+        wall.rotations()
+            .map_or(displacement / u_ins, |full| full.rotation(displacement) / full.rotation(u_ins))
+    }
+
+    fn released(&self, start: f64) -> State {
+        self.motion.start(self.displacement(start), 0.0, Support::default())
+    }
+
+    /// Moves `state` on; the number of impacts.
+    fn advance(&self, state: &mut State, duration: f64) -> Result<u64, SolverError> {
+        let segment = Segment { duration, from: Support::default(), to: Support::default() };
+        let report = self.motion.advance(state, &segment, false, &mut Memo::default())?;
+        Ok(report.work.impacts)
+    }
+
+    /// Time to the first impact after a state, which lies within `longest` \[s\].
+    fn time_to_impact(&self, state: State, longest: f64) -> Result<f64, SolverError> {
+        let (mut low, mut high) = (0.0, longest);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.advance(&mut state.clone(), middle)? > 0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Ok(high)
+    }
+
+    fn first_impact(&self, start: f64) -> Result<f64, SolverError> {
+        // small rotations come within a quarter of it, however slow they are near the equilibrium
+        let rate = self.motion.wall().rocking_rate();
+        let longest = 4.0 * (1.0 / (1.0 - start)).acosh() / rate;
+        self.time_to_impact(self.released(start), longest)
+    }
+
+    fn run(&self, start: f64, duration: f64, step: f64) -> Result<FreeMotion, SolverError> {
+        let mut state = self.released(start);
+        let mut motion = FreeMotion { history: vec![start], impacts: Vec::new(), amplitudes: Vec::new() };
+        let count = (duration / step).round().clamp(1.0, MOST_STEPS as f64);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1e7")]
+        for index in 0..count as usize {
+            let before = state;
+            let time = index as f64 * step;
+            if self.advance(&mut state, step)? > 0 {
+                motion.impacts.push(time + self.time_to_impact(before, step)?);
+                motion.amplitudes.push(self.fraction(before.peaks.largest()).abs());
+                // the turning points of the next half cycle are its own
+                state.peaks = self.motion.start(state.displacement, 0.0, Support::default()).peaks;
+            }
+            motion.history.push(self.fraction(state.displacement));
+        }
+        Ok(motion)
+    }
+}

@@ -1,0 +1,304 @@
+//! Error against run time of every solver on a set of problems.
+//!
+//! Errors are taken at the samples of the record, over `u_ins`, while the wall stands. The reference is the exact solver where
+//! it is exact, else the adaptive one at its tightest; the reference itself is measured against the other of the two.
+
+pub mod linearisation;
+mod problem;
+
+use std::time::Instant;
+
+pub use problem::{Problem, defaults};
+
+use ground_motion::GroundMotionError;
+use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
+use rocking_wall::solver::{Method, Motion, SolverError, Work};
+use rocking_wall::wall::{ParameterError, Wall};
+
+/// A solver and what sets its accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Setting {
+    /// Exact, each sample of the record in so many steps.
+    Exact(u32),
+    /// Adaptive, with the largest error of u/`u_ins` to aim at.
+    Adaptive(f64),
+    /// Newmark, each sample of the record in so many steps.
+    Newmark(u32),
+}
+
+impl Setting {
+    /// Name of the solver, as the parameter `solver` spells it.
+    #[must_use]
+    pub fn solver(self) -> &'static str {
+        match self {
+            Self::Exact(_) => "exact",
+            Self::Adaptive(_) => "adaptive",
+            Self::Newmark(_) => "newmark",
+        }
+    }
+
+    /// Step or tolerance in words, for a record of `step` \[s\].
+    #[must_use]
+    pub fn words(self, step: f64) -> String {
+        match self {
+            Self::Exact(parts) | Self::Newmark(parts) => format!("step {:.3e} s", step / f64::from(parts)),
+            Self::Adaptive(tolerance) => format!("tolerance {tolerance:.0e}"),
+        }
+    }
+}
+
+/// Settings measured by default.
+const ADAPTIVE: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+const NEWMARK_PARTS: [u32; 6] = [1, 3, 10, 30, 100, 300];
+const EXACT_PARTS: [u32; 3] = [1, 4, 16];
+/// The adaptive solver at its tightest.
+const TIGHTEST: f64 = 1e-13;
+/// Relative change of the motion that shows how much the wall amplifies.
+const PROBE: f64 = 1e-8;
+
+/// What one setting costs and how far it is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measurement {
+    /// What was measured.
+    pub setting: Setting,
+    /// Least run time of several runs after a warm-up \[s\].
+    pub seconds: f64,
+    /// Largest |Δu|/`u_ins`.
+    pub error_max: f64,
+    /// Root mean square of |Δu|/`u_ins`.
+    pub error_rms: f64,
+    /// Relative error of the largest |u|, where neither run overturned.
+    pub error_peak: Option<f64>,
+    /// Error of the time of overturning \[s\], where both overturn; infinite where only one of the two does.
+    pub error_overturning: Option<f64>,
+    /// Pieces of motion, corners and impacts. No solver here rejects a step.
+    pub work: Work,
+}
+
+/// All measurements of one problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Name of the problem.
+    pub name: String,
+    /// Length of a record step \[s\].
+    pub step: f64,
+    /// Largest |u|/`u_ins` of the reference.
+    pub peak: f64,
+    /// Time of overturning of the reference \[s\].
+    pub overturning: Option<f64>,
+    /// How many times a relative change of the motion comes back in u/`u_ins`.
+    pub amplification: f64,
+    /// The reference is the exact solver.
+    pub exact: bool,
+    /// One for each setting; that of the reference tells how far the two best solvers are apart.
+    pub measurements: Vec<Measurement>,
+}
+
+impl Study {
+    /// What rounding alone may do, 100 ε times the amplification \[-\].
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        100.0 * f64::EPSILON * self.amplification
+    }
+}
+
+/// Why a problem could not be measured.
+#[derive(Debug, thiserror::Error)]
+pub enum AccuracyError {
+    /// The wall's parameters.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// The motion.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
+    /// The run.
+    #[error("{name}: {source}")]
+    Run {
+        /// Name of the problem.
+        name: String,
+        /// What stopped it.
+        source: SolverError,
+    },
+}
+
+/// A history at the samples, and what became of the run.
+struct History {
+    displacements: Vec<f64>,
+    passage: Passage,
+}
+
+/// Measures a problem at every setting of the default set; each is timed for about `budget` \[s\].
+///
+/// # Errors
+/// [`AccuracyError`].
+pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
+    let wall = Wall::new(&problem.parameters)?;
+    let exact = wall.has_closed_form();
+    let settings: Vec<Setting> = std::iter::empty()
+        .chain(EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| exact))
+        .chain(ADAPTIVE.map(Setting::Adaptive))
+        // full rotations move by the adaptive solver only
+        .chain(NEWMARK_PARTS.map(Setting::Newmark).into_iter().filter(|_| wall.rotations().is_none()))
+        .collect();
+    measure_at(problem, &settings, budget)
+}
+
+/// Measures a problem at some settings.
+///
+/// # Errors
+/// [`AccuracyError`].
+///
+/// # Panics
+/// If full rotations are to be measured at other settings than adaptive ones.
+pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Result<Study, AccuracyError> {
+    let wall = Wall::new(&problem.parameters)?;
+    let exact = wall.has_closed_form();
+    let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
+    let runner = Runner { problem, wall };
+    let best = [Setting::Exact(1), Setting::Adaptive(TIGHTEST)];
+    let reference = runner.history(if exact { best[0] } else { best[1] }, 1.0).map_err(failed)?;
+    let other = if exact { Some(runner.history(best[1], 1.0).map_err(failed)?) } else { None };
+    let probed = runner.history(if exact { best[0] } else { best[1] }, 1.0 + PROBE).map_err(failed)?;
+    let scale = runner.wall.displacement_scale();
+    let amplification = 1.0 + largest_difference(&reference, &probed, scale) / PROBE;
+    let mut measurements = Vec::with_capacity(settings.len());
+    for &setting in settings {
+        let history = runner.history(setting, 1.0).map_err(failed)?;
+        let against = match (setting, &other) {
+            (Setting::Exact(_), Some(other)) => other,
+            _ => &reference,
+        };
+        let seconds = runner.time(setting, budget).map_err(failed)?;
+        measurements.push(compare(setting, seconds, &history, against, scale));
+    }
+    Ok(Study {
+        name: problem.name.clone(),
+        step: problem.step,
+        peak: reference.passage.state.peaks.largest() / scale,
+        overturning: reference.passage.overturning,
+        amplification,
+        exact,
+        measurements,
+    })
+}
+
+/// Samples before either run overturned.
+fn standing(a: &History, b: &History) -> usize {
+    let count = a.displacements.len();
+    let until = |history: &History| history.displacements.iter().position(|u| u.is_nan()).unwrap_or(count);
+    until(a).min(until(b))
+}
+
+fn largest_difference(a: &History, b: &History, scale: f64) -> f64 {
+    let pairs = a.displacements.iter().zip(&b.displacements).take(standing(a, b));
+    pairs.map(|(a, b)| (a - b).abs() / scale).fold(0.0, f64::max)
+}
+
+fn compare(
+    setting: Setting,
+    seconds: f64,
+    history: &History,
+    reference: &History,
+    scale: f64,
+) -> Measurement {
+    let count = standing(history, reference);
+    let pairs = || history.displacements.iter().zip(&reference.displacements).take(count);
+    let squares: f64 = pairs().map(|(a, b)| ((a - b) / scale).powi(2)).sum();
+    let peak = reference.passage.state.peaks.largest();
+    let stands = history.passage.overturning.or(reference.passage.overturning).is_none();
+    let error_overturning = match (history.passage.overturning, reference.passage.overturning) {
+        (Some(a), Some(b)) => Some((a - b).abs()),
+        (None, None) => None,
+        _ => Some(f64::INFINITY),
+    };
+    Measurement {
+        setting,
+        seconds,
+        error_max: largest_difference(history, reference, scale),
+        error_rms: (squares / count.max(1) as f64).sqrt(),
+        error_peak: stands.then(|| (history.passage.state.peaks.largest() - peak).abs() / peak),
+        error_overturning,
+        work: history.passage.work,
+    }
+}
+
+struct Runner<'a> {
+    problem: &'a Problem,
+    wall: Wall,
+}
+
+impl Runner<'_> {
+    /// The motion of a setting, and the parts of each sample it steps through.
+    fn motion(&self, setting: Setting) -> (Motion, u32) {
+        let (method, parts) = match setting {
+            Setting::Exact(parts) => (Method::Exact, parts),
+            Setting::Adaptive(tolerance) => (Method::Adaptive { tolerance }, 1),
+            Setting::Newmark(parts) => (Method::Newmark { step: self.problem.step / f64::from(parts) }, 1),
+        };
+        (Motion::new(self.wall.clone(), method), parts)
+    }
+
+    fn history(&self, setting: Setting, factor: f64) -> Result<History, SolverError> {
+        let (motion, parts) = self.motion(setting);
+        let forcing = refined(&self.problem.forcing, parts);
+        let parts = parts as usize;
+        let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
+        displacements[0] = factor * self.problem.parameters.u_start;
+        let passage = self.run(&motion, &forcing, parts, factor, |index, u| {
+            if index % parts == 0 {
+                displacements[index / parts] = u;
+            }
+        })?;
+        if let Some(time) = passage.overturning {
+            for (index, displacement) in displacements.iter_mut().enumerate() {
+                if index as f64 * self.problem.step > time {
+                    *displacement = f64::NAN;
+                }
+            }
+        }
+        Ok(History { displacements, passage })
+    }
+
+    fn run(
+        &self,
+        motion: &Motion,
+        forcing: &[f64],
+        parts: usize,
+        factor: f64,
+        mut observe: impl FnMut(usize, f64),
+    ) -> Result<Passage, SolverError> {
+        let solver = RecordSolver::new(motion, self.problem.step / parts as f64);
+        let parameters = &self.problem.parameters;
+        let first = factor * forcing[0];
+        let state = motion.start_under(parameters.u_start, parameters.u_dot_start, first);
+        solver.run(Start { state, factor }, &Samples(forcing), true, |index, u, _| observe(index, u))
+    }
+
+    /// Least run time of at least three runs.
+    fn time(&self, setting: Setting, budget: f64) -> Result<f64, SolverError> {
+        let (motion, parts) = self.motion(setting);
+        let forcing = refined(&self.problem.forcing, parts);
+        let begun = Instant::now();
+        let mut least = f64::INFINITY;
+        for run in 0..10_000 {
+            let start = Instant::now();
+            std::hint::black_box(self.run(&motion, &forcing, parts as usize, 1.0, |_, _| {})?);
+            least = least.min(start.elapsed().as_secs_f64());
+            if run >= 2 && begun.elapsed().as_secs_f64() > budget {
+                break;
+            }
+        }
+        Ok(least)
+    }
+}
+
+/// A broken line with each interval cut into `parts`.
+fn refined(samples: &[f64], parts: u32) -> Vec<f64> {
+    let mut refined = Vec::with_capacity(samples.len() * parts as usize);
+    for ends in samples.windows(2) {
+        let part = |part: u32| ends[0] + (ends[1] - ends[0]) * (f64::from(part) / f64::from(parts));
+        refined.extend((0..parts).map(part));
+    }
+    refined.extend(samples.last());
+    refined
+}

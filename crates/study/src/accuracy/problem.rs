@@ -1,0 +1,134 @@
+//! Problems to measure on.
+
+use ground_motion::{GroundMotion, GroundMotionError, SyntheticMotion};
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
+use rocking_wall::wall::{Parameters, Support, Wall};
+
+use super::AccuracyError;
+
+/// A wall under a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Name, for people.
+    pub name: String,
+    /// The wall; its solver is ignored.
+    pub parameters: Parameters,
+    /// Forcing p at the samples, linear between \[m/s²\].
+    pub forcing: Vec<f64>,
+    /// Time between samples \[s\].
+    pub step: f64,
+}
+
+/// Most samples of a problem.
+const MOST_SAMPLES: f64 = 1e7;
+
+impl Problem {
+    /// The wall and the motion of a scene, sampled as its bottom record is; free vibration at the output step.
+    ///
+    /// # Errors
+    /// [`AccuracyError`] if the parameters do not make a wall.
+    pub fn from_scene(scene: &Scene) -> Result<Self, AccuracyError> {
+        let wall = Wall::new(&scene.parameters)?;
+        let step = scene.excitation.as_ref().map_or(scene.output_step, |motion| motion.bottom().step());
+        let count = (scene.stop_time / step).round().clamp(1.0, MOST_SAMPLES);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1e7")]
+        let count = count as usize;
+        let support = |index: usize| {
+            let time = index as f64 * step;
+            scene.excitation.as_ref().map_or_else(Support::default, |motion| motion.stretch(time, 0.0).from)
+        };
+        let forcing = (0..=count).map(|index| wall.body().forcing(support(index))).collect();
+        Ok(Self { name: scene.title.clone(), parameters: scene.parameters.clone(), forcing, step })
+    }
+
+    fn shaken(
+        name: &str,
+        parameters: Parameters,
+        motion: &GroundMotion,
+        factor: f64,
+    ) -> Result<Self, AccuracyError> {
+        let parameters = Parameters { u_start: 0.0, ..parameters };
+        let wall = Wall::new(&parameters)?;
+        let forcing = |a: &f64| wall.body().forcing(Support::rigid(factor * a));
+        let forcing = motion.samples().iter().map(forcing).collect();
+        Ok(Self { name: name.into(), parameters, forcing, step: motion.step() })
+    }
+}
+
+/// A parapet of Table 5 of the paper.
+fn table_5(height: f64, thickness: f64, a1: f64, damping_model: DampingModel) -> Parameters {
+    Parameters { height, thickness, a1, damping_model, ..Parameters::default() }
+}
+
+/// The problems measured by default; `record` replaces the synthetic motion under the walls of Table 5, whose first 30 s count.
+///
+/// # Errors
+/// [`AccuracyError`], if the record cannot be used.
+pub fn defaults(record: Option<&GroundMotion>) -> Result<Vec<Problem>, AccuracyError> {
+    use DampingModel::{ConstantCoefficient as Cdc, ConstantRatio as Cdr, StiffnessProportional as Sdr};
+    let synthetic = SyntheticMotion::default().motion()?;
+    let long = SyntheticMotion { duration: 120.0, ..SyntheticMotion::default() }.motion()?;
+    let record = match record {
+        Some(record) => record.trimmed(0.0, record.duration().min(30.0))?,
+        None => synthetic.clone(),
+    };
+    let stiff = |a1: f64, damping_model| Parameters {
+        height: 3.0,
+        thickness: 0.3,
+        a1,
+        damping_model,
+        ..Parameters::default()
+    };
+    let strip = Parameters {
+        mechanism: Mechanism::VerticalSpanning,
+        height: 5.0,
+        thickness: 0.3,
+        a1: 0.02,
+        damping_model: Sdr,
+        ..Parameters::default()
+    };
+    let rigid = Parameters {
+        height: 3.0,
+        thickness: 0.3,
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        ..Parameters::default()
+    };
+    let default = Parameters { damping_model: Cdc, ..Parameters::default() };
+    let shaken = Problem::shaken;
+    Ok(vec![
+        shaken("mild: the default parapet, CDC", default.clone(), &synthetic, 0.4)?,
+        shaken("stiff: a1 = 1e-3, CDC", stiff(1e-3, Cdc), &synthetic, 0.5)?,
+        shaken("stiff: a1 = 1e-3, CDR", stiff(1e-3, Cdr), &synthetic, 0.5)?,
+        shaken("very stiff: a1 = 1e-4, CDC", stiff(1e-4, Cdc), &synthetic, 0.5)?,
+        shaken("Table 5, wall 6, CDC", table_5(6.0, 0.6, 0.018, Cdc), &record, 0.8)?,
+        shaken("Table 5, wall 6, CDR", table_5(6.0, 0.6, 0.018, Cdr), &record, 0.8)?,
+        shaken("Table 5, wall 5, CDC", table_5(3.0, 0.6, 0.0024, Cdc), &record, 1.2)?,
+        shaken("Table 5, wall 5, CDR", table_5(3.0, 0.6, 0.0024, Cdr), &record, 1.2)?,
+        shaken("Table 5, wall 2, CDC", table_5(1.5, 0.3, 0.0012, Cdc), &record, 0.8)?,
+        shaken("Table 5, wall 2, CDR", table_5(1.5, 0.3, 0.0012, Cdr), &record, 0.8)?,
+        shaken("strip: Table 5, wall 7, SDR", strip, &synthetic, 1.0)?,
+        shaken("restitution: rigid-linear", rigid, &synthetic, 0.5)?,
+        shaken("high frequencies: 12 to 40 Hz, CDC", stiff(3e-3, Cdc), &high_frequencies()?, 4.0)?,
+        shaken("long: 120 s, CDC", default, &long, 0.5)?,
+        shaken("overturning, CDC", stiff(9e-3, Cdc), &synthetic, 3.0)?,
+    ])
+}
+
+/// Eight harmonics from 12 to 40 Hz under a smooth envelope of 10 s, peak near 8 m/s², sampled at 1 kHz.
+fn high_frequencies() -> Result<GroundMotion, GroundMotionError> {
+    let (step, count) = (1e-3, 10_000_u32);
+    let sample = |index: u32| {
+        let time = f64::from(index) * step;
+        let envelope = libm::sin(std::f64::consts::PI * time / 10.0).powi(2);
+        // phases of a quadratic sequence, so that the harmonics do not peak together
+        let harmonic = |n: u32| {
+            let (frequency, phase) = (12.0 + 4.0 * f64::from(n), 0.7 * f64::from(n * n));
+            libm::sin(std::f64::consts::TAU * frequency * time + phase)
+        };
+        2.0 * envelope * (0..8).map(harmonic).sum::<f64>()
+    };
+    GroundMotion::new(step, (0..=count).map(sample).collect())
+}

@@ -1,0 +1,211 @@
+//! The equivalence between restitution and viscous damping, section 5 of the paper, for any wall.
+//!
+//! A wall rocks freely from u₀ and loses energy at impacts; the same wall, on the same force law, loses it to a damping ratio
+//! ξ instead. The ratio sought makes the least of
+//!
+//! ```text
+//! Err = Σ (|u_CR|/u_ins − |u_EVD|/u_ins)²                                                Eq. (18)
+//! ```
+//!
+//! over the samples of the decay. Over e the ratios follow ξ = −x ln e (Eq. 19), and over a₁ the coefficients follow
+//! x = q a₁^r (Eqs. 20–22); for a free-standing block ξ stands for c̄ (Eq. 23).
+
+mod decay;
+mod error;
+mod matching;
+mod minimum;
+
+use std::num::NonZeroUsize;
+
+use crate::parallel;
+use rocking_wall::variables::{DampingModel, ForceLaw};
+use rocking_wall::wall::Parameters;
+
+pub use error::CalibrationError;
+
+use decay::DECAYED;
+use matching::Case;
+use minimum::minimum;
+
+/// Time between the samples that Eq. (18) compares \[s\].
+pub const STEP: f64 = 0.01;
+
+/// The values over which a wall is calibrated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Coefficients of restitution e \[-\].
+    pub restitution: Vec<f64>,
+    /// Ends of the elastic branch a₁ \[-\]; not used for a multilinear or rigid-linear law, which have their own.
+    pub a1: Vec<f64>,
+    /// Initial displacements u₀/`u_ins` \[-\].
+    pub start: Vec<f64>,
+    /// Time between samples \[s\].
+    pub step: f64,
+}
+
+impl Default for Grid {
+    /// e = 0.80, 0.82 … 0.98; a₁ = 0.01 … 0.10; u₀ = 0.9 `u_ins`.
+    fn default() -> Self {
+        Self {
+            restitution: (0..10).map(|index| f64::from(80 + 2 * index) / 100.0).collect(),
+            a1: vec![0.01, 0.015, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.10],
+            start: vec![0.9],
+            step: STEP,
+        }
+    }
+}
+
+/// The damping that matches one decay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// End of the elastic branch a₁ \[-\]; 0 for the rigid-linear law.
+    pub a1: f64,
+    /// Initial displacement u₀/`u_ins` \[-\].
+    pub start: f64,
+    /// Coefficient of restitution e \[-\].
+    pub restitution: f64,
+    /// ξ, ξ₁ or c̄ \[-\].
+    pub damping: f64,
+    /// Err of Eq. (18) there \[-\].
+    pub error: f64,
+    /// Samples compared.
+    pub samples: usize,
+}
+
+/// x of Eq. (19) at one a₁ and one initial displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coefficient {
+    /// a₁ \[-\].
+    pub a1: f64,
+    /// u₀/`u_ins` \[-\].
+    pub start: f64,
+    /// x by least squares through the origin \[-\].
+    pub x: f64,
+}
+
+/// x = q a₁^r.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    /// q \[-\].
+    pub q: f64,
+    /// r \[-\].
+    pub r: f64,
+}
+
+/// What a calibration found for one damping model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// The model.
+    pub model: DampingModel,
+    /// One fit for each a₁, u₀ and e, in this order.
+    pub fits: Vec<Fit>,
+    /// One coefficient for each a₁ and u₀.
+    pub coefficients: Vec<Coefficient>,
+    /// One law for each u₀; none with fewer than two values of a₁.
+    pub laws: Vec<(f64, PowerLaw)>,
+}
+
+/// Calibrates a damping model of a wall over a grid, on `threads` threads; the result does not depend on their number.
+///
+/// # Errors
+/// [`CalibrationError`].
+pub fn calibrate(
+    parameters: &Parameters,
+    model: DampingModel,
+    grid: &Grid,
+    threads: NonZeroUsize,
+) -> Result<Calibration, CalibrationError> {
+    check(model, grid)?;
+    let own = own_a1(parameters);
+    let a1 = own.as_ref().map_or(grid.a1.as_slice(), std::slice::from_ref);
+    if a1.is_empty() {
+        return Err(CalibrationError::Empty { name: "a1" });
+    }
+    let mut cases = Vec::new();
+    for &a1 in a1 {
+        for &start in &grid.start {
+            cases.extend(grid.restitution.iter().map(|&restitution| Case { a1, start, restitution }));
+        }
+    }
+    let fits =
+        parallel::map(cases.len(), threads.get(), |index| cases[index].fit(parameters, model, grid.step))?;
+    let coefficients: Vec<Coefficient> = fits
+        .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))
+        .map(|fits| Coefficient { a1: fits[0].a1, start: fits[0].start, x: coefficient(fits) })
+        .collect();
+    let law = |&start: &f64| {
+        let points: Vec<_> = coefficients.iter().filter(|c| c.start == start).map(|c| (c.a1, c.x)).collect();
+        PowerLaw::fit(&points).map(|law| (start, law))
+    };
+    let laws = grid.start.iter().filter_map(law).collect();
+    Ok(Calibration { model, fits, coefficients, laws })
+}
+
+/// x of ξ = −x ln e through the origin, Eq. (19): Σ ξ (−ln e)/Σ (ln e)².
+#[must_use]
+pub fn coefficient(fits: &[Fit]) -> f64 {
+    let (products, squares) = fits.iter().fold((0.0, 0.0), |(products, squares), fit| {
+        let logarithm = -fit.restitution.ln();
+        (products + fit.damping * logarithm, squares + logarithm * logarithm)
+    });
+    products / squares
+}
+
+impl PowerLaw {
+    /// Least squares of x itself, as in the paper's nonlinear regression: q is linear for any r, so that a scalar
+    /// minimiser finds r. `None` for fewer than two different a₁ or values that are not positive.
+    #[must_use]
+    pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
+        let positive = |&(a1, x): &(f64, f64)| a1 > 0.0 && x > 0.0 && a1.is_finite() && x.is_finite();
+        if !points.iter().any(|point| point.0 != points[0].0) || !points.iter().all(positive) {
+            return None;
+        }
+        let factor = |r: f64| {
+            let (products, squares) = points.iter().fold((0.0, 0.0), |(products, squares), &(a1, x)| {
+                (products + x * a1.powf(r), squares + a1.powf(2.0 * r))
+            });
+            products / squares
+        };
+        let residual = |r: f64| {
+            let q = factor(r);
+            Ok(points.iter().map(|&(a1, x)| (x - q * a1.powf(r)).powi(2)).sum())
+        };
+        let r = minimum(residual, [-3.0, 3.0], 1e-9).ok()?.0;
+        Some(Self { q: factor(r), r })
+    }
+
+    /// x at a₁.
+    #[must_use]
+    pub fn at(&self, a1: f64) -> f64 {
+        self.q * a1.powf(self.r)
+    }
+}
+
+/// a₁ of a law that has only its own: a multilinear law's first corner, 0 for the rigid-linear one.
+fn own_a1(parameters: &Parameters) -> Option<f64> {
+    match &parameters.multilinear {
+        Some(points) => points.first().map(|point| point[0]),
+        None => (parameters.force_law == ForceLaw::RigidLinear).then_some(0.0),
+    }
+}
+
+fn check(model: DampingModel, grid: &Grid) -> Result<(), CalibrationError> {
+    if model == DampingModel::None {
+        return Err(CalibrationError::NoDamping);
+    }
+    let lists = [
+        ("e", &grid.restitution, [0.0, 1.0]),
+        ("a1", &grid.a1, [0.0, 1.0]),
+        ("u0/u_ins", &grid.start, [DECAYED, 1.0]),
+        ("step", &vec![grid.step], [0.0, 10.0]),
+    ];
+    for (name, values, [low, high]) in lists {
+        if values.is_empty() && name != "a1" {
+            return Err(CalibrationError::Empty { name });
+        }
+        if let Some(&value) = values.iter().find(|&&value| !(value > low && value < high)) {
+            return Err(CalibrationError::Range { name, value, low, high });
+        }
+    }
+    Ok(())
+}

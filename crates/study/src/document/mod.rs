@@ -1,0 +1,290 @@
+//! Study files: walls, records, damping models, intensity and levels, as TOML.
+//!
+//! Parameters of walls stand in the same tables as in a scene. Files that a study names are opened by whoever runs it.
+
+mod levels;
+mod model;
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use ground_motion::{Format, ReadOptions, SyntheticMotion, Unit};
+use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
+use rocking_wall::wall::Parameters;
+
+use super::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model};
+
+use levels::{IntensityTable, LevelsTable, levels, measure};
+use model::model;
+
+/// Most synthetic records of a study.
+const MOST_RECORDS: u64 = 10_000;
+/// Most resamples of the bootstrap.
+const MOST_RESAMPLES: u32 = 100_000;
+
+/// A study as its file states it, in SI units.
+#[derive(Clone, Debug)]
+pub struct Outline {
+    /// Title, for people.
+    pub title: String,
+    /// Walls in order.
+    pub walls: Vec<WallEntry>,
+    /// Records.
+    pub records: RecordsEntry,
+    /// Damping models in order.
+    pub models: Vec<Model>,
+    /// Intensity measure.
+    pub measure: IntensityMeasure,
+    /// Levels \[m/s²\].
+    pub levels: Levels,
+    /// Free vibration after each record \[s\].
+    pub tail: f64,
+    /// What is made of the runs.
+    pub report: Report,
+}
+
+/// A wall of a study.
+#[derive(Clone, Debug)]
+pub struct WallEntry {
+    /// Name; that of a scene's file if none is given.
+    pub name: Option<String>,
+    /// Where it comes from.
+    pub source: WallSource,
+    /// Line of the study file.
+    pub line: usize,
+}
+
+/// Where a wall comes from.
+#[derive(Clone, Debug)]
+pub enum WallSource {
+    /// The study file itself.
+    Here(Box<Parameters>),
+    /// A scene file, beside the study file.
+    Scene(PathBuf),
+}
+
+/// Records of a study.
+#[derive(Clone, Debug, Default)]
+pub struct RecordsEntry {
+    /// Files, folders and patterns with `*` and `?`, beside the study file, each with its line.
+    pub files: Vec<(String, usize)>,
+    /// How to read them.
+    pub options: ReadOptions,
+    /// Synthetic records after them.
+    pub synthetic: Vec<SyntheticMotion>,
+}
+
+/// What is made of the runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Fractions of `u_ins` whose fragilities are shown.
+    pub fractions: Vec<f64>,
+    /// Name of the model that the others' medians are divided by.
+    pub reference: String,
+    /// Resamples of the records.
+    pub resamples: u32,
+    /// Seed of the resamples.
+    pub seed: u64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    title: Option<String>,
+    models: Vec<Spanned<Value>>,
+    tail: Option<Spanned<f64>>,
+    #[serde(default)]
+    intensity: Option<Spanned<IntensityTable>>,
+    levels: Spanned<LevelsTable>,
+    records: Spanned<RecordsTable>,
+    report: Option<Spanned<ReportTable>>,
+    walls: Vec<Spanned<WallTable>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RecordsTable {
+    #[serde(default)]
+    files: Vec<Spanned<String>>,
+    unit: Option<Spanned<String>>,
+    step: Option<f64>,
+    column: Option<String>,
+    channel: Option<String>,
+    format: Option<Spanned<String>>,
+    synthetic: Option<Spanned<SyntheticRecords>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SyntheticRecords {
+    count: u64,
+    seed: Option<u64>,
+    duration: Option<f64>,
+    step: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReportTable {
+    fractions: Option<Vec<f64>>,
+    reference: Option<Spanned<String>>,
+    resamples: Option<u32>,
+    seed: Option<u64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallTable {
+    name: Option<String>,
+    scene: Option<PathBuf>,
+    #[serde(default)]
+    geometry: Group,
+    #[serde(default)]
+    force_law: Group,
+    #[serde(default)]
+    impact: Group,
+    #[serde(default)]
+    solver: Group,
+}
+
+impl Outline {
+    /// Reads a study from its text; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// [`SceneError`] with file, line, value and remedy.
+    pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
+        let place = &Place::new(name, text);
+        let document: Document = parse_toml(place)?;
+        let models: Vec<Model> =
+            document.models.iter().map(|value| model(value, place)).collect::<Result<_, _>>()?;
+        for (index, model) in models.iter().enumerate() {
+            if models[..index].iter().any(|other| other.name == model.name) {
+                let message = format!("the model {:?} is listed twice; give one another name", model.name);
+                return Err(place.error(document.models[index].span(), message));
+            }
+        }
+        let walls = document.walls.iter().map(|table| wall(table, place)).collect::<Result<_, _>>()?;
+        let tail = document.tail.as_ref().map_or(DEFAULT_TAIL, |tail| *tail.get_ref());
+        if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=1000.0).contains(&tail)) {
+            return Err(place.error(given.span(), format!("tail = {tail} s must be from 0 to 1000 s")));
+        }
+        Ok(Self {
+            title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
+            walls,
+            records: records(&document.records, place)?,
+            measure: measure(document.intensity.as_ref(), place)?,
+            levels: levels(&document.levels, place)?,
+            tail,
+            report: report(document.report.as_ref(), &models, place)?,
+            models,
+        })
+    }
+}
+
+fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, SceneError> {
+    let spec = table.get_ref();
+    let groups = [
+        ("geometry", &spec.geometry),
+        ("force_law", &spec.force_law),
+        ("impact", &spec.impact),
+        ("solver", &spec.solver),
+    ];
+    let line = place.line(table.span());
+    if let Some(scene) = &spec.scene {
+        if let Some((name, _)) = groups.iter().find(|(_, group)| !group.is_empty()) {
+            let message =
+                format!("a wall is either a scene or has its own tables; leave out scene or {name}");
+            return Err(place.error(table.span(), message));
+        }
+        let source = WallSource::Scene(scene.clone());
+        return Ok(WallEntry { name: spec.name.clone(), source, line });
+    }
+    if let Some(key) = spec.impact.keys().find(|key| key.get_ref() == "impact") {
+        let message = "impact is set by the study's models; state restitution_source and restitution only";
+        return Err(place.error(key.span(), message));
+    }
+    if spec.name.is_none() {
+        return Err(place.error(table.span(), "a wall needs a name, such as name = \"1\""));
+    }
+    let mut parameters = Parameters::default();
+    for (name, group) in groups {
+        apply_group(&mut parameters, name, group, place)?;
+    }
+    let source = WallSource::Here(Box::new(parameters));
+    Ok(WallEntry { name: spec.name.clone(), source, line })
+}
+
+fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {
+    let spec = table.get_ref();
+    if spec.files.is_empty() && spec.synthetic.is_none() {
+        return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));
+    }
+    let unit = spec.unit.as_ref().map(|text| {
+        text.get_ref().parse::<Unit>().map_err(|error| place.error(text.span(), error.to_string()))
+    });
+    let format = spec.format.as_ref().map(|text| {
+        text.get_ref().parse::<Format>().map_err(|error| place.error(text.span(), error.to_string()))
+    });
+    let options = ReadOptions {
+        unit: unit.transpose()?,
+        step: spec.step,
+        column: spec.column.clone(),
+        channel: spec.channel.clone(),
+        format: format.transpose()?,
+    };
+    let files = spec.files.iter().map(|file| (file.get_ref().clone(), place.line(file.span()))).collect();
+    let mut synthetic = Vec::new();
+    if let Some(recipe) = &spec.synthetic {
+        let SyntheticRecords { count, seed, duration, step } = *recipe.get_ref();
+        if !(1..=MOST_RECORDS).contains(&count) {
+            let message = format!("count = {count} must be from 1 to {MOST_RECORDS}");
+            return Err(place.error(recipe.span(), message));
+        }
+        let default = SyntheticMotion::default();
+        let first = seed.unwrap_or(default.seed);
+        synthetic.extend((0..count).map(|k| SyntheticMotion {
+            seed: first.wrapping_add(k),
+            duration: duration.unwrap_or(default.duration),
+            step: step.unwrap_or(default.step),
+            ..default
+        }));
+    }
+    Ok(RecordsEntry { files, options, synthetic })
+}
+
+fn report(
+    table: Option<&Spanned<ReportTable>>,
+    models: &[Model],
+    place: &Place<'_>,
+) -> Result<Report, SceneError> {
+    let first = models.first().map(|model| model.name.clone()).unwrap_or_default();
+    let mut report =
+        Report { fractions: vec![0.1, 0.4, 0.6, 1.0], reference: first, resamples: 1000, seed: 1 };
+    let Some(table) = table else { return Ok(report) };
+    let spec = table.get_ref();
+    if let Some(fractions) = &spec.fractions {
+        if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
+            let message = format!("{fraction} is not a fraction of u_ins above 0 and at most 1");
+            return Err(place.error(table.span(), message));
+        }
+        report.fractions.clone_from(fractions);
+    }
+    if let Some(reference) = &spec.reference {
+        if !models.iter().any(|model| model.name == *reference.get_ref()) {
+            let message = format!("reference = {:?} is not among the models", reference.get_ref());
+            return Err(place.error(reference.span(), message));
+        }
+        report.reference.clone_from(reference.get_ref());
+    }
+    if let Some(resamples) = spec.resamples {
+        if !(100..=MOST_RESAMPLES).contains(&resamples) {
+            let message = format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}");
+            return Err(place.error(table.span(), message));
+        }
+        report.resamples = resamples;
+    }
+    report.seed = spec.seed.unwrap_or(report.seed);
+    Ok(report)
+}

@@ -1,0 +1,68 @@
+//! Damping models by their short names.
+
+use toml::{Spanned, Value};
+
+use crate::ida::{Damping, Model, Source};
+use rocking_wall::scene::{Place, SceneError};
+
+/// Models by their short names.
+const MODELS: &str =
+    "none, CR, \"CR rigid\", CDC, CDR, SDR, block, and CDC, CDR, SDR with \" Eq. 14\" after it";
+
+pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {
+    let refuse = |message: String| place.error(value.span(), message);
+    let known = |short: &str, source: Source| match short {
+        "none" => Some(Damping::None),
+        "CR" => Some(Damping::Restitution),
+        "CR rigid" => Some(Damping::RigidRestitution),
+        "CDC" => Some(Damping::ConstantCoefficient(source)),
+        "CDR" => Some(Damping::ConstantRatio(source)),
+        "SDR" => Some(Damping::StiffnessProportional(source)),
+        "block" => Some(Damping::FreeStandingBlock(source)),
+        _ => None,
+    };
+    let unknown = |short: &str| refuse(format!("{short:?} is not a damping model; the models are {MODELS}"));
+    match value.get_ref() {
+        Value::String(text) => {
+            let damping = match text.strip_suffix(" Eq. 14") {
+                Some(short @ ("CDC" | "CDR" | "SDR")) => known(short, Source::Equation14),
+                Some(_) => None,
+                None => known(text, Source::Predicted),
+            };
+            damping.map(Model::new).ok_or_else(|| unknown(text))
+        }
+        Value::Table(table) => {
+            if let Some(key) =
+                table.keys().find(|key| !["name", "model", "xi", "c_bar"].contains(&key.as_str()))
+            {
+                return Err(refuse(format!(
+                    "unknown key {key:?} of a model; it holds name, model, xi, c_bar"
+                )));
+            }
+            let text = |key: &str| table.get(key).and_then(Value::as_str);
+            let short =
+                text("model").ok_or_else(|| refuse(format!("a model needs model = one of {MODELS}")))?;
+            let ratio_key = if short == "block" { "c_bar" } else { "xi" };
+            let ratio = match table.get(ratio_key) {
+                Some(Value::Float(ratio)) => *ratio,
+                #[allow(clippy::cast_precision_loss, reason = "beyond 2⁵³ it is beyond the limit too")]
+                Some(Value::Integer(ratio)) => *ratio as f64,
+                _ => return Err(refuse(format!("a model given as a table needs a number {ratio_key}"))),
+            };
+            // the limit of xi and c_bar in the model description
+            if !(0.0..=100.0).contains(&ratio) {
+                return Err(refuse(format!("{ratio_key} = {ratio} must be from 0 to 100")));
+            }
+            let damping = match short {
+                "CDC" | "CDR" | "SDR" | "block" => known(short, Source::Given(ratio)),
+                _ => return Err(refuse(format!("{short:?} takes no {ratio_key}; write it as \"{short}\""))),
+            };
+            let mut model = damping.map(Model::new).ok_or_else(|| unknown(short))?;
+            if let Some(name) = text("name") {
+                name.clone_into(&mut model.name);
+            }
+            Ok(model)
+        }
+        _ => Err(refuse(format!("a model is a name or a table; the models are {MODELS}"))),
+    }
+}

@@ -1,0 +1,52 @@
+//! Intensity measures.
+
+use ground_motion::spectrum::AVERAGE_PERIODS;
+use ground_motion::{GroundMotion, GroundMotionError, Spectrum};
+
+/// What records are scaled by; spectral ones at 5 % damping.
+#[derive(Clone, Debug, PartialEq)]
+pub enum IntensityMeasure {
+    /// Peak ground acceleration.
+    Pga,
+    /// Spectral acceleration Sa(T).
+    Sa {
+        /// T \[s\].
+        period: f64,
+    },
+    /// Geometric mean of Sa over periods.
+    AvgSa {
+        /// Periods \[s\].
+        periods: Vec<f64>,
+    },
+}
+
+impl Default for IntensityMeasure {
+    /// `AvgSA` over 0.2, 0.4 … 1.4 s.
+    fn default() -> Self {
+        Self::AvgSa { periods: AVERAGE_PERIODS.to_vec() }
+    }
+}
+
+impl IntensityMeasure {
+    /// Intensity of a motion \[m/s²\]; it grows in proportion to the motion.
+    ///
+    /// # Errors
+    /// If a period is outside its limits, or there is none.
+    pub fn of(&self, motion: &GroundMotion) -> Result<f64, GroundMotionError> {
+        match self {
+            Self::Pga => Ok(motion.peak()),
+            Self::Sa { period } => Spectrum::default().acceleration(motion, *period),
+            Self::AvgSa { periods } => Spectrum::default().average(motion, periods),
+        }
+    }
+
+    /// Name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Pga => "PGA".into(),
+            Self::Sa { period } => format!("Sa({period} s)"),
+            Self::AvgSa { .. } => "AvgSA".into(),
+        }
+    }
+}

@@ -1,0 +1,300 @@
+//! Figures 5, 6 and 7: free vibrations, and the numbers printed in their captions.
+
+use std::f64::consts::TAU;
+use std::num::NonZeroUsize;
+
+use crate::calibration::{Grid, calibrate};
+use crate::chart::{Axis, Chart, Series};
+use rocking_wall::response::Sample;
+use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
+use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
+use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
+
+use super::facts::{
+    FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
+    FIGURE_7_START, FIGURE_WALL, START,
+};
+use super::tables::{RATIO_MODELS as MODELS, abbreviation};
+use super::{Cell, Figure, ReproductionError, Table, history, spaced};
+
+/// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the caption leaves out: with them `C_CDC` is the
+/// 300 kg/s of the text, and nothing else depends on them.
+const STRIP_WIDTH: f64 = 1.5;
+const STRIP_DENSITY: f64 = 1850.0;
+
+/// The strip of Figures 5 and 6, released at 0.9 `u_ins`.
+fn strip() -> Result<Parameters, ParameterError> {
+    let [height, thickness, h1, a1, d1] = FIGURE_5_WALL;
+    released(
+        Parameters {
+            mechanism: Mechanism::VerticalSpanning,
+            height,
+            thickness,
+            width: STRIP_WIDTH,
+            density: STRIP_DENSITY,
+            hinge_ratio: h1 / height,
+            force_law: ForceLaw::Trilinear,
+            a1,
+            d1,
+            u_start: 0.0,
+            ..Parameters::default()
+        },
+        START,
+    )
+}
+
+/// A wall at a part of its `u_ins`.
+pub(super) fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterError> {
+    let u_start = start * Wall::new(&parameters)?.body().instability.positive;
+    Ok(Parameters { u_start, ..parameters })
+}
+
+fn damped(parameters: &Parameters, damping_model: DampingModel, xi: f64) -> Parameters {
+    let damping_source = DampingSource::Given;
+    Parameters { damping_model, damping_source, xi, impact: Impact::None, ..parameters.clone() }
+}
+
+/// The wall with restitution and no damping.
+pub(super) fn rocking(parameters: &Parameters, restitution: f64) -> Parameters {
+    Parameters {
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        restitution_source: RestitutionSource::Given,
+        restitution,
+        ..parameters.clone()
+    }
+}
+
+/// Figure 5: C over u, ξ over ω, damping force over u.
+pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
+    let strip = strip()?;
+    let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
+    for (color, (model, xi)) in MODELS.into_iter().zip(FIGURE_5_RATIOS).enumerate() {
+        let parameters = damped(&strip, model, xi);
+        let wall = Wall::new(&parameters)?;
+        let (body, name) = (wall.body(), abbreviation(model));
+        let u_ins = body.instability.positive;
+        let coefficient = |part: f64| {
+            let u = part * u_ins;
+            let branch = &wall.branches()[wall.branch_of(u, 0.0)];
+            (part, branch.damping_at(u) * body.effective_mass)
+        };
+        // just short of u_ins, beyond which C is another
+        let parts = spaced([-0.9999, 0.9999], 800).map(coefficient).collect();
+        coefficients.push(Series::line(name, color, parts));
+        let omega1 = wall.omega1();
+        let ratio = |omega: f64| {
+            let ratio = match model {
+                // C = 2 m_eff ω₁ ξ, seen as 2 m_eff ω ξ(ω)
+                DampingModel::ConstantCoefficient => xi * omega1 / omega,
+                DampingModel::StiffnessProportional => xi * omega / omega1,
+                _ => xi,
+            };
+            (omega, 100.0 * ratio)
+        };
+        ratios.push(Series::line(name, color, spaced([0.5, omega1], 200).map(ratio).collect()));
+        let force =
+            |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / body.strength.positive);
+        let samples = history(&parameters, None, [0.002, 5.0])?;
+        forces.push(Series::line(name, color, samples.iter().map(force).collect()));
+    }
+    // the one with the largest forces behind the others
+    forces.reverse();
+    let u_axis = || Axis::over("u / u_ins", [-1.0, 1.0]);
+    Ok(Figure {
+        number: 5,
+        title: "The three damping models on one strip",
+        notes: vec![
+            format!(
+                "Width and density are not stated: {STRIP_WIDTH} m and {STRIP_DENSITY} kg/m³ make C_CDC the 300 kg/s of the \
+                 text."
+            ),
+            "b) ω is the secant frequency; a constant coefficient C is there ξ = C/(2 m_eff ω). c) The force is divided by \
+             F₀, which the caption does not say; the first 5 s."
+                .into(),
+        ],
+        charts: vec![
+            Chart {
+                title: "a) damping coefficient".into(),
+                x: u_axis(),
+                y: Axis::new("C (kg/s)"),
+                series: coefficients,
+            },
+            Chart {
+                title: "b) damping ratio".into(),
+                x: Axis::new("ω (rad/s)"),
+                y: Axis::over("damping ratio (%)", [0.0, 10.0]),
+                series: ratios,
+            },
+            Chart {
+                title: "c) damping force in a free vibration from 0.9 u_ins".into(),
+                x: u_axis(),
+                y: Axis::new("C u̇ / F0"),
+                series: forces,
+            },
+        ],
+    })
+}
+
+/// Figure 6: a free vibration of CR beside one of CDR.
+pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
+    let [e, xi] = FIGURE_6;
+    let strip = strip()?;
+    let u_ins = Wall::new(&strip)?.body().instability.positive;
+    let runs = [
+        (format!("CR, e = {e}"), 0, rocking(&strip, e)),
+        (format!("CDR, ξ = {xi}"), 1, damped(&strip, DampingModel::ConstantRatio, xi)),
+    ];
+    let (mut histories, mut phases) = (Vec::new(), Vec::new());
+    for (name, color, parameters) in runs {
+        let samples = history(&parameters, None, [0.002, 10.0])?;
+        let time = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
+        let phase =
+            samples.iter().map(|sample| (sample.outputs.ratio, sample.outputs.velocity / u_ins)).collect();
+        histories.push(Series::line(&name, color, time));
+        phases.push(Series::line(&name, color, phase));
+    }
+    Ok(Figure {
+        number: 6,
+        title: "Matched free vibrations of CR and CDR",
+        notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
+        charts: vec![
+            Chart {
+                title: "a) history".into(),
+                x: Axis::over("time (s)", [0.0, 10.0]),
+                y: Axis::over("u / u_ins", [-1.0, 1.0]),
+                series: histories,
+            },
+            Chart {
+                title: "b) displacement and velocity".into(),
+                x: Axis::over("u / u_ins", [-1.0, 1.0]),
+                y: Axis::new("velocity / u_ins (1/s)"),
+                series: phases,
+            },
+        ],
+    })
+}
+
+/// Figure 7: a rocking body beside elastic oscillators.
+pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
+    let [height, thickness] = FIGURE_WALL;
+    let rigid = Parameters {
+        height,
+        thickness,
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        u_start: 0.0,
+        ..Parameters::default()
+    };
+    let body = released(rigid, FIGURE_7_START)?;
+    // p = √(3g/(4R)), R = √(h² + b²)/2
+    let frequency = (0.75 * body.gravity / (height.hypot(thickness) / 2.0)).sqrt();
+    let mut charts = Vec::new();
+    for ((e, impacts), (panel, end)) in FIGURE_7.into_iter().zip([("a", 20.0), ("b", 10.0)]) {
+        let samples = history(&rocking(&body, e), None, [0.005, end])?;
+        let xi = equivalence::priestley(e, FIGURE_7_START, impacts);
+        let amplitude = after(e, impacts / 2);
+        let period = equivalence::housner_period(frequency, amplitude);
+        let oscillator = |period: f64| {
+            spaced([0.0, end], 2000).map(|t| (t, FIGURE_7_START * elastic(t, TAU / period, xi))).collect()
+        };
+        charts.push(Chart {
+            title: format!("{panel}) e = {e}, ξ = {xi:.4} from Eq. (13) with n = {impacts}"),
+            x: Axis::over("time (s)", [0.0, end]),
+            y: Axis::over("u / u_ins", [-1.0, 1.0]),
+            series: vec![
+                Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
+                Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
+                Series::line(
+                    "rocking body, CR",
+                    0,
+                    samples.iter().map(|s| (s.time, s.outputs.ratio)).collect(),
+                ),
+            ],
+        });
+    }
+    Ok(Figure {
+        number: 7,
+        title: "Free vibrations of a rocking body and of elastic oscillators",
+        notes: vec![
+            "Which cycle gave the period is lost; taken is the one that starts half-way through the impacts that Eq. (13) \
+             counts, after 2 of 4 in a) and after 1 of 3 in b), by Eq. (5)."
+                .into(),
+        ],
+        charts,
+    })
+}
+
+/// Amplitude θ/α of a rocking block after `impacts` impacts, by Housner's energy.
+fn after(e: f64, impacts: u32) -> f64 {
+    let energy = e.powf(2.0 * f64::from(impacts)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
+    1.0 - (1.0 - energy).sqrt()
+}
+
+/// Free vibration of an elastic oscillator from 1 at rest.
+fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
+    let root = (1.0 - xi * xi).sqrt();
+    let phase = omega * root * time;
+    (-xi * omega * time).exp() * (phase.cos() + xi / root * phase.sin())
+}
+
+/// Numbers that captions and text print.
+pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError> {
+    let strip = strip()?;
+    let cdc = Wall::new(&damped(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
+    let fits = |model, restitution: &[f64]| {
+        let grid = Grid { restitution: restitution.to_vec(), a1: vec![strip.a1], ..Grid::default() };
+        let found = calibrate(&strip, model, &grid, threads)?;
+        Ok::<Vec<f64>, ReproductionError>(found.fits.iter().map(|fit| fit.damping).collect())
+    };
+    let figure_6 = fits(DampingModel::ConstantRatio, &FIGURE_6[..1])?[0];
+    // the e at which CDR needs the ratio of Figure 5, between two values around it
+    let ends = [0.88, 0.94];
+    let cdr = fits(MODELS[1], &ends)?;
+    let part = (FIGURE_5_RATIOS[1] - cdr[0]) / (cdr[1] - cdr[0]);
+    let e = ends[0] + part * (ends[1] - ends[0]);
+    let mut rows = vec![
+        vec![
+            Cell::words("Figure 2: e of the parapet"),
+            Cell::value(
+                analytic_parapet((FIGURE_WALL[1] / FIGURE_WALL[0]).atan()),
+                FIGURE_2_RESTITUTION[0],
+                3,
+            ),
+            Cell::words("Eq. (2)"),
+        ],
+        vec![
+            Cell::words("Figure 2: e of the strip"),
+            Cell::value(
+                analytic_vertical_spanning((2.0 * FIGURE_WALL[1] / FIGURE_WALL[0]).atan()),
+                FIGURE_2_RESTITUTION[1],
+                3,
+            ),
+            Cell::words("Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used"),
+        ],
+        vec![
+            Cell::words("Figure 5: C_CDC (kg/s)"),
+            Cell::value(cdc.elastic_damping(), FIGURE_5_COEFFICIENT, 0),
+            Cell::words("the assumed width and density were chosen for it"),
+        ],
+        vec![
+            Cell::words("Figure 6: ξ of CDR for e = 0.875"),
+            Cell::value(figure_6, FIGURE_6[1], 3),
+            Cell::words("least of Eq. (18) for this wall and start"),
+        ],
+    ];
+    for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
+        rows.push(vec![
+            Cell::words(format!("Figure 5: ξ of {}", abbreviation(model))),
+            Cell::value(fits(model, &[e])?[0], printed, 3),
+            Cell::words(format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value")),
+        ]);
+    }
+    Ok(Table {
+        name: "Captions",
+        title: "Numbers printed in captions and text",
+        notes: vec![],
+        columns: vec!["number", "value", "remark"],
+        rows,
+    })
+}

@@ -1,0 +1,267 @@
+//! Rocking spectra: `u_max/u_ins` over walls under one motion, or over pulses on one wall.
+//!
+//! Not to be mixed up with the elastic response spectra of [`ground_motion::spectrum`]: here each point is a rocking
+//! wall, which may overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical design
+//! methodologies, Earthquake Engineering and Structural Dynamics 32, 2003).
+//!
+//! Over pulses the axes are dimensionless: `ω_p/p` across with p = √(k₀/`m_eff`), and `a_p/a₀` up with the acceleration a₀ = F₀/(λ `m_eff`) at
+//! which the rigid wall begins to rock. For a parapet without overburden p = √(3g/(2h)), Housner's √(3g/(4R)) with h for 2R as
+//! everywhere in the linearised model, and a₀ = g tan α. Two walls with the same damping and restitution then have the same
+//! spectrum, whatever their size (Zhang and Makris, Rocking response of free-standing blocks under cycloidal pulses, Journal
+//! of Engineering Mechanics 127, 2001).
+//!
+//! Each wall starts upright and at rest. After the motion it is followed until the energy left cannot raise its peak; a run ends at
+//! overturning. Results do not depend on the number of threads.
+
+mod axes;
+
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+use fmi2_export::{Kind, VariableId};
+
+use ground_motion::GroundMotion;
+use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
+use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError};
+use rocking_wall::variables::{Mechanism, RealVariable};
+use rocking_wall::wall::{Parameters, Support, Wall};
+
+use super::free_motion::has_peaked;
+use super::parallel;
+
+pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
+
+/// Most points of a spectrum.
+pub const MOST_POINTS: usize = 250_000;
+/// Steps of the free motion after the record, over 1/p, and their number: a wall near the instability leaves it as e^{pt}, so
+/// that after 100/p every peak has come.
+const FREE_STEP: f64 = 0.25;
+const MOST_FREE_STEPS: u32 = 400;
+
+/// What became of one wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Largest |u|/`u_ins` of its side \[-\]; at most 1.
+    pub ratio: f64,
+    /// Whether it left its elastic branch, or with the rigid-linear law u = 0.
+    pub rocked: bool,
+    /// Time of overturning from the start of the motion \[s\].
+    pub overturning: Option<f64>,
+}
+
+/// A rocking spectrum: `points[row][column]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RockingSpectrum {
+    /// Values along the columns.
+    pub columns: Vec<f64>,
+    /// Values along the rows.
+    pub rows: Vec<f64>,
+    /// One for each row and column.
+    pub points: Vec<Vec<Point>>,
+}
+
+/// A rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness; all else is as `parameters` say.
+///
+/// # Errors
+/// [`SpectrumError`], of the first wall in order of rows and columns.
+pub fn over_walls(
+    parameters: &Parameters,
+    motion: &GroundMotion,
+    (size, sizes): (Size, &[f64]),
+    (slenderness, rows): (Slenderness, &[f64]),
+    threads: usize,
+) -> Result<RockingSpectrum, SpectrumError> {
+    check_count(sizes.len() * rows.len())?;
+    if parameters.mechanism != Mechanism::Parapet {
+        for (name, is_of_parapet) in [
+            (size.label(), size == Size::SemiDiagonal),
+            (slenderness.label(), slenderness == Slenderness::Angle),
+        ] {
+            if is_of_parapet {
+                return Err(SpectrumError::ParapetOnly { name });
+            }
+        }
+    }
+    let walls: Vec<Parameters> = rows
+        .iter()
+        .flat_map(|&row| sizes.iter().map(move |&column| (row, column)))
+        .map(|(row, column)| shaped(parameters, (size, column), (slenderness, row)))
+        .collect::<Result<_, _>>()?;
+    let run = |index: usize| -> Result<Point, SpectrumError> {
+        let wall = Prepared::new(&walls[index])?;
+        wall.point(-wall.participation(), motion)
+    };
+    let points = parallel::map(walls.len(), threads, run)?;
+    Ok(RockingSpectrum::new(sizes, rows, &points))
+}
+
+/// A rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are `a_p/a₀`.
+///
+/// # Errors
+/// [`SpectrumError`], of the first pulse in order of columns.
+pub fn over_pulses(
+    parameters: &Parameters,
+    form: PulseForm,
+    columns: &[f64],
+    rows: &[f64],
+    threads: usize,
+) -> Result<RockingSpectrum, SpectrumError> {
+    check_count(columns.len() * rows.len())?;
+    for (name, values, lowest) in [("ω_p/p", columns, f64::MIN_POSITIVE), ("a_p/a₀", rows, 0.0)] {
+        if let Some(&value) = values.iter().find(|value| !(lowest..=1e6).contains(*value)) {
+            let limit = if lowest > 0.0 { "above 0 and at most 1e6" } else { "from 0 to 1e6" };
+            return Err(SpectrumError::Value { name, value, limit: limit.into() });
+        }
+    }
+    let wall = Prepared::new(&upright(parameters))?;
+    let (p, onset, factor) = (wall.motion.wall().rocking_rate(), wall.onset(), wall.participation());
+    let run = |column: usize| -> Result<Vec<Point>, SpectrumError> {
+        let motion = form.motion(columns[column] * p / TAU)?;
+        let factors: Vec<f64> = rows.iter().map(|amplitude| -factor * onset * amplitude).collect();
+        wall.points(&factors, &motion)
+    };
+    let found = parallel::map(columns.len(), threads, run)?;
+    let points: Vec<_> = (0..rows.len())
+        .flat_map(|row| (0..columns.len()).map(move |column| (row, column)))
+        .map(|(row, column)| found[column][row])
+        .collect();
+    Ok(RockingSpectrum::new(columns, rows, &points))
+}
+
+impl RockingSpectrum {
+    fn new(columns: &[f64], rows: &[f64], points: &[Point]) -> Self {
+        let points = points.chunks(columns.len().max(1)).map(<[Point]>::to_vec).collect();
+        Self { columns: columns.to_vec(), rows: rows.to_vec(), points }
+    }
+}
+
+fn check_count(found: usize) -> Result<(), SpectrumError> {
+    if found > MOST_POINTS { Err(SpectrumError::TooManyPoints { found }) } else { Ok(()) }
+}
+
+/// The wall upright and at rest.
+fn upright(parameters: &Parameters) -> Parameters {
+    Parameters { u_start: 0.0, u_dot_start: 0.0, ..parameters.clone() }
+}
+
+/// The wall of a size and a slenderness, within the limits of the model description.
+fn shaped(
+    parameters: &Parameters,
+    (size, value): (Size, f64),
+    (slenderness, row): (Slenderness, f64),
+) -> Result<Parameters, SpectrumError> {
+    let positive = |name: &'static str, value: f64, highest: f64| {
+        if value > 0.0 && value <= highest {
+            return Ok(());
+        }
+        Err(SpectrumError::Value { name, value, limit: format!("above 0 and at most {highest:.4}") })
+    };
+    positive(size.label(), value, 1e6)?;
+    let ratio = match slenderness {
+        Slenderness::Ratio => {
+            positive(slenderness.label(), row, 1e6)?;
+            row
+        }
+        Slenderness::Angle => {
+            positive(slenderness.label(), row, FRAC_PI_4)?;
+            1.0 / libm::tan(row)
+        }
+    };
+    let height = match size {
+        Size::Height => value,
+        // 2R = √(h² + b²) = h √(1 + (b/h)²)
+        Size::SemiDiagonal => 2.0 * value / (1.0 + 1.0 / (ratio * ratio)).sqrt(),
+    };
+    let thickness = height / ratio;
+    for (variable, value) in [(RealVariable::Height, height), (RealVariable::Thickness, thickness)] {
+        let variable = variable.variable();
+        if let Kind::Real { min, max, .. } = variable.kind {
+            let (min, max) = (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
+            if !(min..=max).contains(&value) {
+                let limit = format!("from {min} to {max} m");
+                return Err(SpectrumError::Value { name: variable.name, value, limit });
+            }
+        }
+    }
+    Ok(Parameters { height, thickness, ..upright(parameters) })
+}
+
+/// A wall ready to run.
+struct Prepared {
+    height: f64,
+    thickness: f64,
+    motion: Motion,
+}
+
+impl Prepared {
+    fn new(parameters: &Parameters) -> Result<Self, SpectrumError> {
+        let Parameters { height, thickness, .. } = *parameters;
+        let failed = |source| SpectrumError::Wall { height, thickness, source };
+        let wall = Wall::new(parameters).map_err(failed)?;
+        let method = Method::new(parameters, &wall, parameters.tolerance).map_err(failed)?;
+        Ok(Self { height, thickness, motion: Motion::new(wall, method) })
+    }
+
+    /// λ, by which the ground acceleration enters.
+    fn participation(&self) -> f64 {
+        self.motion.wall().body().participation
+    }
+
+    /// a₀ = F₀/(λ `m_eff`) \[m/s²\].
+    fn onset(&self) -> f64 {
+        let body = self.motion.wall().body();
+        body.strength.positive / (body.participation * body.effective_mass)
+    }
+
+    /// Runs through a motion, its accelerations times `factor` the forcing, and the free motion after it.
+    fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
+        let samples = Samples(motion.samples());
+        let solver = RecordSolver::new(&self.motion, motion.step());
+        let passage = solver.run(self.start(factor, motion), &samples, true, |_, _, _| {});
+        passage
+            .and_then(|passage| self.followed(passage, motion.duration()))
+            .map_err(|error| self.failed(error))
+    }
+
+    /// The same for each of many factors.
+    fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
+        let samples = Samples(motion.samples());
+        let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
+        let solver = RecordSolver::new(&self.motion, motion.step());
+        let passages = solver.batch(&samples).run(&starts, true).map_err(|error| self.failed(error))?;
+        let followed =
+            |passage| self.followed(passage, motion.duration()).map_err(|error| self.failed(error));
+        passages.into_iter().map(followed).collect()
+    }
+
+    fn start(&self, factor: f64, motion: &GroundMotion) -> Start {
+        Start { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
+    }
+
+    fn failed(&self, source: SolverError) -> SpectrumError {
+        SpectrumError::Run { height: self.height, thickness: self.thickness, source }
+    }
+
+    /// Follows the free motion after a record of some duration \[s\].
+    fn followed(&self, passage: Passage, duration: f64) -> Result<Point, SolverError> {
+        let Passage { mut state, mut overturning, .. } = passage;
+        let step = FREE_STEP / self.motion.wall().rocking_rate();
+        let still = Segment { duration: step, from: Support::default(), to: Support::default() };
+        let mut memo = Memo::default();
+        for index in 0..MOST_FREE_STEPS {
+            if overturning.is_some() || has_peaked(self.motion.wall(), &state) {
+                break;
+            }
+            let report = self.motion.advance(&mut state, &still, false, &mut memo)?;
+            overturning = report.overturning.map(|offset| duration + f64::from(index) * step + offset);
+        }
+        let wall = self.motion.wall();
+        let elastic = wall.branches()[wall.branch_of(0.0, 0.0)];
+        let rocked = if wall.is_rigid() {
+            state.peaks.largest() > 0.0
+        } else {
+            state.peaks.positive > elastic.upper || state.peaks.negative > -elastic.lower
+        };
+        let ratio = if overturning.is_some() { 1.0 } else { state.peaks.ratio(wall.body().instability) };
+        Ok(Point { ratio, rocked, overturning })
+    }
+}

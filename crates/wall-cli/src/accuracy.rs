@@ -1,0 +1,133 @@
+//! `wall accuracy`: error against run time, as a table, as CSV and as a page.
+
+use std::fmt::Write;
+
+use anyhow::{Context, Result, bail};
+use rocking_wall::scene::Scene;
+use study::accuracy::{Measurement, Problem, Study, defaults, measure};
+
+use crate::args::AccuracyArguments;
+use crate::linearisation::Linearisation;
+use crate::{output, work_precision};
+
+pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
+    if !(0.0..=3600.0).contains(&arguments.budget) {
+        bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
+    }
+    let problems = if arguments.scenes.is_empty() {
+        let record = arguments.record.load()?;
+        defaults(record.as_ref().map(|(motion, _)| motion))?
+    } else {
+        if arguments.record.record.is_some() || arguments.record.synthetic {
+            bail!(
+                "--record and --synthetic replace the motion of the built-in scenes; a scene file states its own in [motion]"
+            );
+        }
+        let read = |path: &std::path::PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
+        arguments.scenes.iter().map(read).collect::<Result<_>>()?
+    };
+    let peers = match &arguments.peers {
+        Some(path) => Some(
+            std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?,
+        ),
+        None => None,
+    };
+    let mut studies = Vec::with_capacity(problems.len());
+    for problem in &problems {
+        let study = measure(problem, arguments.budget)?;
+        output::to_stdout(&table(&study))?;
+        studies.push(study);
+    }
+    let rotations = Linearisation::measure()?;
+    // it is of walls of its own, not of the scenes given
+    if arguments.scenes.is_empty() || arguments.linearisation.is_some() {
+        output::to_stdout(&rotations.table())?;
+    }
+    if let Some(path) = &arguments.csv {
+        output::to_file(path, csv(&studies).as_bytes())?;
+    }
+    if let Some(path) = &arguments.linearisation {
+        output::to_file(path, rotations.csv().as_bytes())?;
+    }
+    if let Some(path) = &arguments.html {
+        let page = work_precision::page(&studies, &rotations.section(), peers.as_deref());
+        output::to_file(path, page.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn table(study: &Study) -> String {
+    let mut text = format!("{}\n", study.name);
+    let fate = match study.overturning {
+        Some(time) => format!("overturns at {time:.6} s"),
+        None => format!("u_max/u_ins {:.4}", study.peak),
+    };
+    let reference = if study.exact { "exact" } else { "adaptive at 1e-13" };
+    let _ = writeln!(
+        text,
+        "  {fate}; reference {reference}; a change of the motion comes back {:.1e} times, rounding alone may do {:.0e}",
+        study.amplification,
+        study.rounding()
+    );
+    let _ = writeln!(
+        text,
+        "  {:<10}{:<18}{:>11}{:>11}{:>11}{:>11}{:>11}{:>10}{:>9}{:>9}",
+        "solver",
+        "setting",
+        "max error",
+        "rms error",
+        "peak",
+        "t overt. s",
+        "time ms",
+        "pieces",
+        "corners",
+        "impacts"
+    );
+    for row in &study.measurements {
+        let optional = |error: Option<f64>| error.map_or_else(|| "-".into(), |error| format!("{error:.1e}"));
+        let (peak, overturning) = (optional(row.error_peak), optional(row.error_overturning));
+        let _ = writeln!(
+            text,
+            "  {:<10}{:<18}{:>11.1e}{:>11.1e}{peak:>11}{overturning:>11}{:>11.3}{:>10}{:>9}{:>9}",
+            row.setting.solver(),
+            row.setting.words(study.step),
+            row.error_max,
+            row.error_rms,
+            row.seconds * 1e3,
+            row.work.pieces,
+            row.work.corners,
+            row.work.impacts
+        );
+    }
+    text.push('\n');
+    text
+}
+
+/// Columns of the CSV; errors over `u_ins`, times in s.
+const COLUMNS: &str = "scene,solver,setting,seconds,error_max,error_rms,error_peak,error_overturn_time,pieces,corners,\
+                       impacts,amplification";
+
+fn csv(studies: &[Study]) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    let optional = |error: Option<f64>| error.map_or_else(String::new, |error| format!("{error:e}"));
+    for study in studies {
+        for Measurement { setting, seconds, error_max, error_rms, error_peak, error_overturning, work } in
+            &study.measurements
+        {
+            let _ = writeln!(
+                text,
+                "\"{}\",{},{},{seconds:e},{error_max:e},{error_rms:e},{},{},{},{},{},{:e}",
+                study.name.replace('"', "\"\""),
+                setting.solver(),
+                setting.words(study.step),
+                optional(*error_peak),
+                optional(*error_overturning),
+                work.pieces,
+                work.corners,
+                work.impacts,
+                study.amplification
+            );
+        }
+    }
+    text
+}

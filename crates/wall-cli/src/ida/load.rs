@@ -1,0 +1,125 @@
+//! From a study file to a study: reads the scenes and records it names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use ground_motion::read;
+use rocking_wall::scene::Scene;
+use study::document::{Outline, RecordsEntry, Report, WallEntry, WallSource};
+use study::ida::{NamedRecord, NamedWall, Study};
+
+/// Largest study file that is read.
+const MAX_FILE_BYTES: u64 = 4 << 20;
+
+/// A study ready to run, and what is to be made of it.
+pub(super) struct Loaded {
+    pub(super) title: String,
+    pub(super) study: Study,
+    pub(super) report: Report,
+    /// What a quick check doubts about its records.
+    pub(super) doubts: Vec<String>,
+}
+
+pub(super) fn load(path: &Path) -> Result<Loaded> {
+    let name = path.display().to_string();
+    let metadata = std::fs::metadata(path).with_context(|| format!("{name}: cannot be read"))?;
+    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+        bail!("{name}: expected a study file (TOML) of at most {MAX_FILE_BYTES} bytes");
+    }
+    let text = std::fs::read_to_string(path).with_context(|| format!("{name}: cannot be read"))?;
+    let Outline { title, walls, records, models, measure, levels, tail, report } =
+        Outline::parse(&name, &text)?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let walls = walls.into_iter().map(|entry| wall(entry, folder, &name)).collect::<Result<Vec<_>>>()?;
+    let mut doubts = Vec::new();
+    let records = all_records(&records, folder, &name, &mut doubts)?;
+    unlike(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
+    unlike(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
+    let study = Study::new(walls, records, models, measure, levels)
+        .and_then(|study| study.with_tail(tail))
+        .with_context(|| name.clone())?;
+    Ok(Loaded { title, study, report, doubts })
+}
+
+fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
+    let (parameters, own_name) = match entry.source {
+        WallSource::Here(parameters) => (*parameters, String::new()),
+        WallSource::Scene(path) => {
+            let scene = Scene::read(&folder.join(&path))
+                .with_context(|| format!("{study}, line {}: a wall's scene", entry.line))?;
+            let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+            (scene.parameters, stem)
+        }
+    };
+    Ok(NamedWall { name: entry.name.unwrap_or(own_name), parameters })
+}
+
+fn all_records(
+    entry: &RecordsEntry,
+    folder: &Path,
+    study: &str,
+    doubts: &mut Vec<String>,
+) -> Result<Vec<NamedRecord>> {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for (pattern, line) in &entry.files {
+        let found =
+            files(&folder.join(pattern)).with_context(|| format!("{study}, line {line}: {pattern:?}"))?;
+        // a file that two patterns name is one record
+        paths.extend(found.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
+    }
+    let short =
+        |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    for path in &paths {
+        *uses.entry(short(path)).or_default() += 1;
+    }
+    let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
+    for path in &paths {
+        let record = read(path, &entry.options)?;
+        doubts.extend(record.check().findings.iter().map(|finding| format!("{}: {finding}", path.display())));
+        let motion = record.motion;
+        let name = short(path);
+        // of two files with one name each goes by its whole path
+        let name = if uses[&name] > 1 { path.display().to_string() } else { name };
+        records.push(NamedRecord { name, motion });
+    }
+    for recipe in &entry.synthetic {
+        let motion = recipe.motion().with_context(|| format!("{study}: synthetic records"))?;
+        records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
+    }
+    Ok(records)
+}
+
+/// The files of a folder, of a pattern, or the one file, in order of their names.
+fn files(path: &Path) -> Result<Vec<PathBuf>> {
+    let visible = |path: &Path| {
+        path.is_file() && path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'))
+    };
+    let mut found: Vec<PathBuf> = if path.is_dir() {
+        std::fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?
+    } else if path.is_file() {
+        return Ok(vec![path.to_owned()]);
+    } else {
+        let pattern = path.to_str().context("expected a name in UTF-8")?;
+        glob::glob(pattern)?.collect::<Result<_, _>>()?
+    };
+    found.retain(|path| visible(path));
+    found.sort();
+    if found.is_empty() {
+        bail!(
+            "no such file, none that fits, or a folder without files; name records beside the study file, such as records/*.AT2"
+        );
+    }
+    Ok(found)
+}
+
+fn unlike<'a>(names: impl Iterator<Item = &'a String>) -> Result<()> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            bail!("the name {name:?} is there twice; give each its own");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,298 @@
+//! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+
+#[cfg(feature = "parquet")]
+mod columns;
+mod folder;
+mod load;
+mod page;
+mod plot;
+mod progress;
+mod results;
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use clap::Args;
+use study::ida::{Occurrence, Study};
+use study::parallel;
+
+use crate::output;
+
+use folder::Folder;
+use load::load;
+use progress::Progress;
+use results::{Results, in_g};
+
+#[derive(Debug, Args)]
+pub(crate) struct IdaArguments {
+    /// Study file (TOML): walls, records, damping models, intensity, levels
+    pub(crate) study: PathBuf,
+    /// Folder of the results; without it the study's name and `_results`. Started again, a study goes on where it stopped
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// Threads; all cores if none are given
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` puts them together
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of the shards, or the one they share
+    #[arg(required = true, value_name = "FOLDER")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Folder of the whole
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// One of several parts of a study.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shard {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) of: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
+        }
+    }
+}
+
+/// Most missing combinations that a message names.
+const NAMED: usize = 3;
+
+pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
+    let loaded = load(&arguments.study)?;
+    let path = match (&arguments.output, arguments.study.file_stem()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
+        (None, None) => bail!("{}: not a file", arguments.study.display()),
+    };
+    let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
+    for doubt in &loaded.doubts {
+        output::note(doubt);
+    }
+    let threads = parallel::threads(arguments.threads).get();
+    let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
+    let mine: Vec<usize> = (0..loaded.study.count()).filter(|index| index % shards == shard).collect();
+    let missing: Vec<usize> = mine.iter().copied().filter(|&index| folder.curve(index).is_none()).collect();
+    let found = mine.len() - missing.len();
+    if found > 0 {
+        output::note(&format!("{found} of {} combinations are there already", mine.len()));
+    }
+    let words = work(&loaded.study, &folder, &missing, threads)?;
+    output::to_stdout(&words)?;
+    if shards > 1 {
+        let name = path.display();
+        return output::to_stdout(&format!(
+            "shard {} of {shards} is done; when all are: wall merge {name}\n",
+            shard + 1
+        ));
+    }
+    finish(&folder, threads)
+}
+
+pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
+    let folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
+    let first = &folders[0].manifest;
+    for folder in &folders[1..] {
+        folder.expect(&first.contents)?;
+    }
+    let target = match (&arguments.output, folders.as_slice()) {
+        (Some(path), _) => Folder::like(path, first)?,
+        (None, [only]) => Folder::open(only.path())?,
+        (None, _) => bail!("several folders need a place for the whole; give it with -o FOLDER"),
+    };
+    let mut missing = Vec::new();
+    for index in 0..first.contents.count() {
+        if target.curve(index).is_some() {
+            continue;
+        }
+        match folders.iter().find_map(|folder| folder.curve(index)) {
+            Some(curve) => target.keep(index, &curve)?,
+            None => missing.push(index),
+        }
+    }
+    if !missing.is_empty() {
+        bail!("{}", not_whole(&target, &missing));
+    }
+    finish(&target, parallel::threads(None).get())
+}
+
+/// Says what is missing.
+fn not_whole(folder: &Folder, missing: &[usize]) -> String {
+    let contents = &folder.manifest.contents;
+    let name = |&index: &usize| {
+        let case = contents.case(index);
+        format!(
+            "wall {:?} with {} under {:?}",
+            contents.walls[case.wall].name,
+            contents.models[case.model].name,
+            contents.records[case.record].name
+        )
+    };
+    let names: Vec<_> = missing.iter().take(NAMED).map(name).collect();
+    let more = if missing.len() > NAMED { " …" } else { "" };
+    format!(
+        "{} of {} combinations are missing: {}{more}; run their shards again, or name the folders that hold them too",
+        missing.len(),
+        contents.count(),
+        names.join(", ")
+    )
+}
+
+/// Time and amount of work of one model.
+#[derive(Clone, Copy, Default)]
+struct Share {
+    seconds: f64,
+    runs: usize,
+    samples: f64,
+}
+
+/// Runs what is missing; returns the throughput of each model.
+fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Result<String> {
+    if missing.is_empty() {
+        return Ok(String::new());
+    }
+    let progress = Progress::new(missing.len());
+    let shares = Mutex::new(vec![Share::default(); study.models().len()]);
+    let start = Instant::now();
+    let outcome = parallel::each(missing, threads, |index| -> Result<()> {
+        let case = study.case(index);
+        let begun = Instant::now();
+        let curve = study.curve(case)?;
+        let seconds = begun.elapsed().as_secs_f64();
+        folder.keep(index, &curve)?;
+        let runs = curve.levels().len();
+        if let Ok(mut shares) = shares.lock() {
+            let share = &mut shares[case.model];
+            share.seconds += seconds;
+            share.runs += runs;
+            share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
+        }
+        progress.add(runs);
+        Ok(())
+    });
+    progress.finish();
+    outcome?;
+    let shares = shares.into_inner().unwrap_or_default();
+    let runs: usize = shares.iter().map(|share| share.runs).sum();
+    let mut text = format!("{runs} runs in {:.1} s on {threads} threads\n", start.elapsed().as_secs_f64());
+    let _ =
+        writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
+    for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
+        let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
+        let _ = writeln!(text, "{:<16}{:>10}{rate:>18.0}{each:>22.1}", model.name, share.runs);
+    }
+    Ok(text)
+}
+
+/// Makes the final results of a folder whose runs are all there.
+fn finish(folder: &Folder, threads: usize) -> Result<()> {
+    let contents = &folder.manifest.contents;
+    let mut curves = Vec::with_capacity(contents.count());
+    let mut missing = Vec::new();
+    for index in 0..contents.count() {
+        match folder.curve(index) {
+            Some(curve) => curves.push(curve),
+            None => missing.push(index),
+        }
+    }
+    if !missing.is_empty() {
+        bail!("{}", not_whole(folder, &missing));
+    }
+    folder.sweep();
+    let results = Results::new(folder.manifest.clone(), curves, threads)?;
+    let mut files = vec![
+        ("levels.csv", results.levels_csv().into_bytes()),
+        ("collapses.csv", results.collapses_csv().into_bytes()),
+        ("fragilities.csv", results.fragilities_csv().into_bytes()),
+        ("study.html", page::page(&results).into_bytes()),
+    ];
+    #[cfg(feature = "parquet")]
+    files.push(("levels.parquet", columns::levels(&results)?));
+    let mut text = summary(&results);
+    for (name, bytes) in &mut files {
+        let path = folder.path().join(*name);
+        output::to_file(&path, bytes)?;
+        let _ = writeln!(text, "written  {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+/// The collapse of every wall and model as a table.
+fn summary(results: &Results) -> String {
+    let contents = results.contents();
+    let report = &results.manifest.report;
+    let Some(collapse) = report.fractions.iter().position(|fraction| *fraction == 1.0) else {
+        return String::new();
+    };
+    let width = |names: &mut dyn Iterator<Item = &String>| {
+        names.map(|name| name.chars().count()).max().unwrap_or(0).max("model".len()) + 2
+    };
+    let wall_width = width(&mut contents.walls.iter().map(|wall| &wall.name));
+    let model_width = width(&mut contents.models.iter().map(|model| &model.name));
+    let mut text = format!(
+        "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n",
+        results.runs(),
+        contents.measure,
+        report.resamples,
+        contents.records.len()
+    );
+    let ratio_name = format!("median/{}", report.reference);
+    let _ = writeln!(
+        text,
+        "{:<wall_width$}{:<model_width$}{:>8}{:>18}{:>8}{:>8}{:>10}{ratio_name:>26}",
+        "wall", "model", "median", "", "theta", "beta", "censored"
+    );
+    for (w, wall) in contents.walls.iter().enumerate() {
+        for (model, summary) in contents.models.iter().zip(results.summaries(w, collapse)) {
+            let (theta, beta) =
+                summary.fitted.map_or((f64::NAN, f64::NAN), |fit| (fit.median, fit.dispersion));
+            let [low, high] = summary.median.range;
+            let ratio = &summary.median_ratio;
+            let _ = writeln!(
+                text,
+                "{:<wall_width$}{:<model_width$}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
+                wall.name,
+                model.name,
+                in_g(summary.median.estimate),
+                format!("{:.3} … {:.3}", in_g(low), in_g(high)),
+                in_g(theta),
+                summary.censored,
+                format!("{:.3} ({:.3} … {:.3})", ratio.estimate, ratio.range[0], ratio.range[1])
+            );
+        }
+    }
+    text + &resurrections(results)
+}
+
+/// How many curves are not monotonic, if any.
+fn resurrections(results: &Results) -> String {
+    let contents = results.contents();
+    let resurrected = (0..contents.walls.len() * contents.models.len())
+        .flat_map(|pair| results.curves(pair / contents.models.len(), pair % contents.models.len()))
+        .filter(|curve| matches!(curve.collapse(), Occurrence::At(_)) && curve.resurrections() > 0)
+        .count();
+    if resurrected == 0 {
+        return String::new();
+    }
+    format!(
+        "{resurrected} of {} curves stand again above their first overturning, which counts as the collapse\n",
+        contents.count()
+    )
+}

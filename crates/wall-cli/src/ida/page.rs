@@ -1,0 +1,337 @@
+//! The page of a study: for each wall its IDA curves and fragilities, damping models side by side.
+
+use std::fmt::Write;
+
+use study::fragility::{Interval, fractile, steps};
+use study::ida::{Curve, Occurrence};
+
+use crate::figure::escaped;
+use crate::template::filled;
+
+use super::plot::Plot;
+use super::results::{Results, in_g};
+
+/// Colours of the models by their names, then of the others in turn.
+const KNOWN: [(&str, &str); 6] = [
+    ("CR", "#222222"),
+    ("CDC", "#1f5fa8"),
+    ("CDR", "#2e7d32"),
+    ("SDR", "#e08a00"),
+    ("CDR Eq. 14", "#b3371e"),
+    ("none", "#8a8a8a"),
+];
+const OTHERS: [&str; 5] = ["#7b1fa2", "#00838f", "#6d4c41", "#c2185b", "#5c6bc0"];
+/// Sizes of the plots \[px\].
+const LARGE: [f64; 2] = [520.0, 330.0];
+const SMALL: [f64; 2] = [300.0, 250.0];
+/// Demand at the right end of IDA curves.
+const DEMAND_END: f64 = 1.08;
+/// Intensities at which fractiles are drawn, points of a fitted curve.
+const POINTS: u32 = 100;
+/// Points of single curves on the whole page, about 12 bytes each: more records are drawn as their fractiles only, or in part.
+const MOST_POINTS: usize = 100_000;
+/// Walls on a page.
+const MOST_WALLS: usize = 40;
+
+pub(super) fn page(results: &Results) -> String {
+    let contents = results.contents();
+    let mut key = String::new();
+    for (index, model) in contents.models.iter().enumerate() {
+        let _ = write!(
+            key,
+            "<span><i style=\"background:{}\"></i>{}</span>",
+            color(results, index),
+            escaped(&model.name)
+        );
+    }
+    let mut sections = String::new();
+    for wall in 0..contents.walls.len().min(MOST_WALLS) {
+        sections.push_str(&section(results, wall));
+    }
+    if contents.walls.len() > MOST_WALLS {
+        let _ = write!(
+            sections,
+            "<p>The first {MOST_WALLS} of {} walls; the tables have them all.</p>",
+            contents.walls.len()
+        );
+    }
+    let facts = format!(
+        "{} {}, {} records, {} damping models: {} runs. Intensity: {}. A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>; \
+         the lowest level at which it does is the collapse.",
+        contents.walls.len(),
+        if contents.walls.len() == 1 { "wall" } else { "walls" },
+        contents.records.len(),
+        contents.models.len(),
+        results.runs(),
+        measure_words(results),
+    );
+    filled(
+        include_str!("page.html"),
+        &[
+            ("title", &escaped(&results.manifest.title)),
+            ("facts", &facts),
+            ("reading", &reading(results)),
+            ("key", &key),
+            ("program", &escaped(&contents.program)),
+            ("sections", &sections),
+        ],
+    )
+}
+
+/// The intensity measure in words, with its periods.
+fn measure_words(results: &Results) -> String {
+    let contents = results.contents();
+    let periods =
+        contents.measure_details.split_once("periods: ").map(|(_, rest)| rest.trim_end_matches([' ', '}']));
+    match periods {
+        Some(periods) => format!(
+            "{}, the geometric mean of 5&nbsp;%-damped Sa at {} s",
+            escaped(&contents.measure),
+            escaped(periods.trim_matches(['[', ']']))
+        ),
+        None => escaped(&contents.measure),
+    }
+}
+
+/// How medians, fits and intervals came about.
+fn reading(results: &Results) -> String {
+    let report = &results.manifest.report;
+    let learnt = if results.contents().grid.is_some() {
+        "the numbers of exceedances at each level (Baker 2015, Eq. 11)"
+    } else {
+        "the records' own intensities, those that stood at the highest level counted as censored (Baker 2015, Eq. 8)"
+    };
+    format!(
+        "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given {learnt}. Intervals hold 95&nbsp;% of {} \
+         resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to {}.",
+        report.resamples,
+        escaped(&report.reference)
+    )
+}
+
+fn color(results: &Results, model: usize) -> &'static str {
+    let models = &results.contents().models;
+    let known = |name: &str| KNOWN.iter().find(|(known, _)| *known == name).map(|(_, color)| *color);
+    known(&models[model].name).unwrap_or_else(|| {
+        let before = models[..model].iter().filter(|model| known(&model.name).is_none()).count();
+        OTHERS[before % OTHERS.len()]
+    })
+}
+
+fn section(results: &Results, wall: usize) -> String {
+    let contents = results.contents();
+    let note = &contents.walls[wall];
+    let top = top(results, wall);
+    let mut html = format!(
+        "<section><h2>Wall {}</h2><p class=\"facts\">{}; e = {:.3}</p><div class=\"pair\">",
+        escaped(&note.name),
+        escaped(&shape(&note.parameters)),
+        note.restitution
+    );
+    let fractions = &results.manifest.report.fractions;
+    if let Some(collapse) = fractions.iter().position(|fraction| *fraction == 1.0) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div>{}</div>",
+            fragility(results, wall, collapse, LARGE, top),
+            table(results, wall, collapse)
+        );
+    }
+    html.push_str("</div><h3>IDA curves, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
+    for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>{}</figcaption>{}</figure>",
+            escaped(name),
+            curves(results, wall, model, top)
+        );
+    }
+    html.push_str("</div><h3>Fragilities at fractions of u<sub>ins</sub></h3><div class=\"row\">");
+    for (place, fraction) in fractions.iter().enumerate().filter(|(_, fraction)| **fraction < 1.0) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
+            fragility(results, wall, place, SMALL, top_at(results, wall, *fraction))
+        );
+    }
+    html.push_str("</div></section>\n");
+    html
+}
+
+/// Shape, law and loads of a wall, from its parameters.
+fn shape(parameters: &[String]) -> String {
+    let find = |name: &str| {
+        parameters
+            .iter()
+            .find_map(|line| line.strip_prefix(name)?.strip_prefix(" = "))
+            .map(|v| v.trim_matches('"'))
+    };
+    let text = |name| find(name).unwrap_or("?");
+    let mut words =
+        format!("{}, {} m × {} m", text("mechanism").replace('_', " "), text("height"), text("thickness"));
+    if text("mechanism") == "vertical_spanning" {
+        let _ = write!(words, ", h1 = {} h", text("hinge_ratio"));
+    }
+    let _ = write!(words, ", {}", text("force_law").replace('_', " "));
+    if let Some(a1) = find("a1") {
+        let _ = write!(words, ", a1 = {a1}");
+    }
+    if find("overburden").is_some_and(|load| load != "0.0") {
+        let _ = write!(words, ", overburden {} N", text("overburden"));
+    }
+    words
+}
+
+/// Intensity at the end of a wall's axes \[g\]: nearly all collapses of all models.
+fn top(results: &Results, wall: usize) -> f64 {
+    top_at(results, wall, 1.0)
+}
+
+/// The same for exceedances of a fraction of `u_ins`.
+fn top_at(results: &Results, wall: usize, fraction: f64) -> f64 {
+    let models = results.contents().models.len();
+    let largest = |model: usize| {
+        let mut intensities: Vec<f64> = results
+            .occurrences(wall, model, fraction)
+            .into_iter()
+            .map(|occurrence| match occurrence {
+                Occurrence::At(intensity) | Occurrence::Above(intensity) => intensity,
+            })
+            .collect();
+        intensities.sort_by(f64::total_cmp);
+        let (most, all) = (fractile(&intensities, 0.9), intensities.last().copied());
+        // one stray record must not squeeze the others
+        (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
+    };
+    1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
+}
+
+/// Empirical steps and fitted curves of all models.
+fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: f64) -> String {
+    let contents = results.contents();
+    let fraction = results.manifest.report.fractions[place];
+    let mut plot = Plot::new(size, [0.0, top], [0.0, 1.0]);
+    for (model, summary) in results.summaries(wall, place).iter().enumerate() {
+        let color = color(results, model);
+        let mut points = vec![[0.0, 0.0]];
+        let mut before = 0.0;
+        for (intensity, part) in steps(&results.occurrences(wall, model, fraction)) {
+            points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
+            before = part;
+        }
+        points.push([2.0 * top, before]);
+        plot.line(&points, "steps", color);
+        if let Ok(fit) = summary.fitted {
+            let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
+            let probability = |x: f64| fit.probability(x * ground_motion::STANDARD_GRAVITY);
+            let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
+            plot.line(&curve, "fit", color);
+        }
+    }
+    plot.finish(&format!("f{wall}-{place}"), [&format!("{} (g)", contents.measure), "probability"])
+}
+
+/// Curves of one model: intensity up, demand across.
+fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
+    let contents = results.contents();
+    let all = results.curves(wall, model);
+    let color = color(results, model);
+    let mut plot = Plot::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
+    let every = results.runs().div_ceil(MOST_POINTS).max(1);
+    for curve in all.iter().step_by(every) {
+        plot.line(&path(curve), "record", color);
+    }
+    for (part, class) in [(0.16, "fractile outer"), (0.84, "fractile outer"), (0.5, "fractile")] {
+        plot.line(&fractile_path(all, part, top), class, color);
+    }
+    plot.finish(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", contents.measure)])
+}
+
+/// A curve up to its collapse, where it goes flat.
+fn path(curve: &Curve) -> Vec<[f64; 2]> {
+    let mut points = vec![[0.0, 0.0]];
+    for level in curve.levels() {
+        if level.overturning.is_some() {
+            let standing = points.last().map_or(0.0, |point| point[0]);
+            points.extend([[standing, in_g(level.intensity)], [2.0 * DEMAND_END, in_g(level.intensity)]]);
+            break;
+        }
+        points.push([level.demand, in_g(level.intensity)]);
+    }
+    points
+}
+
+/// The demand that a part of the records does not exceed, over the intensity.
+fn fractile_path(curves: &[Curve], part: f64, top: f64) -> Vec<[f64; 2]> {
+    let mut points = vec![[0.0, 0.0]];
+    for k in 1..=POINTS {
+        let intensity = top * f64::from(k) / f64::from(POINTS);
+        let si = intensity * ground_motion::STANDARD_GRAVITY;
+        // beyond the levels of a record that stood nothing is known
+        let Some(mut demands) = curves.iter().map(|curve| curve.demand(si)).collect::<Option<Vec<f64>>>()
+        else {
+            break;
+        };
+        demands.sort_by(f64::total_cmp);
+        let Some(demand) = fractile(&demands, part) else { break };
+        if demand.is_infinite() {
+            let standing = points.last().map_or(0.0, |point| point[0]);
+            points.extend([[standing, intensity], [2.0 * DEMAND_END, intensity]]);
+            break;
+        }
+        points.push([demand, intensity]);
+    }
+    points
+}
+
+/// Medians, dispersions and ratios.
+fn table(results: &Results, wall: usize, collapse: usize) -> String {
+    let contents = results.contents();
+    let report = &results.manifest.report;
+    let mut html = format!(
+        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th><th>median / {0}</th><th>θ / {0}</th>\
+         <th>censored</th><th>stands again</th></tr></thead><tbody>",
+        escaped(&report.reference)
+    );
+    for (model, summary) in results.summaries(wall, collapse).iter().enumerate() {
+        let xi = contents.walls[wall].xi[model];
+        let again = results.curves(wall, model).iter().filter(|curve| curve.resurrections() > 0).count();
+        let reference = contents.models[model].name == report.reference;
+        let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
+        let gravity = ground_motion::STANDARD_GRAVITY;
+        let _ = write!(
+            html,
+            "<tr><td><i style=\"background:{}\"></i>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
+            color(results, model),
+            escaped(&contents.models[model].name),
+            if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
+            words(&summary.median, gravity),
+            match summary.fitted {
+                Ok(_) => words(&summary.theta, gravity),
+                Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
+            },
+            summary.fitted.map_or_else(|_| "–".to_owned(), |fit| format!("{:.2}", fit.dispersion)),
+            ratio(&summary.median_ratio),
+            ratio(&summary.theta_ratio),
+            summary.censored,
+        );
+    }
+    html.push_str("</tbody></table>");
+    html
+}
+
+/// An estimate over its interval.
+fn words(interval: &Interval, unit: f64) -> String {
+    let number = |value: f64| {
+        if value.is_nan() {
+            "–".to_owned()
+        } else if value.is_infinite() || value == 0.0 {
+            // a median of the sample or of a resample lies above the levels
+            "open".to_owned()
+        } else {
+            format!("{:.3}", value / unit)
+        }
+    };
+    let [low, high] = interval.range;
+    format!("{}<br><small>{} … {}</small>", number(interval.estimate), number(low), number(high))
+}

@@ -1,0 +1,119 @@
+//! `wall package`: an FMU of one scene.
+//!
+//! It starts from the general FMU and needs no compiler: the library stays, the description keeps the variables the scene
+//! uses, and the scene travels in `resources/`, with its motion. The guid ends in the scene's fingerprint, so that the
+//! library refuses to run without it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use fmi2_export_build::archive::Archive;
+use fmi2_export_build::{DefaultExperiment, Description, Reduction};
+use ground_motion::GroundMotion;
+use rocking_wall::scene::{self, GROUPS, Scene};
+use rocking_wall::wall::{Kinematics, Parameters, Wall};
+
+use crate::args::PackageArguments;
+use crate::output;
+
+/// Communication steps of a scene's default experiment: FMPy records at most 1000 samples.
+const STEPS: f64 = 1000.0;
+
+pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
+    let scene = Scene::read(&arguments.scene)?;
+    if scene.parameters.kinematics != Kinematics::Linear {
+        bail!(
+            "{}: an FMU knows small rotations only; set kinematics = linear, or run the scene with `wall simulate`",
+            arguments.scene.display()
+        );
+    }
+    Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
+    let (archive, counts) = of_scene(&scene, &arguments.base)?;
+    archive.write(&arguments.output)?;
+    output::to_stdout(&format!(
+        "{}: {}, {} of {} variables\n",
+        arguments.output.display(),
+        scene.title,
+        counts.kept,
+        counts.all
+    ))
+}
+
+/// Variables of a scene's FMU.
+pub(crate) struct Counts {
+    kept: usize,
+    all: usize,
+}
+
+/// The FMU of a scene, made from the general one at `base`.
+pub(crate) fn of_scene(scene: &Scene, path: &Path) -> Result<(Archive, Counts)> {
+    let mut archive = Archive::open(path).with_context(
+        || "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base",
+    )?;
+    let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
+    let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
+    let base = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
+    let Some(guid) = base.declared_guid().strip_prefix('{').and_then(|guid| guid.strip_suffix('}')) else {
+        bail!("{}: its guid {} is not of a general FMU", path.display(), base.declared_guid());
+    };
+    if guid.contains('-') {
+        bail!("{}: is itself an FMU of a scene; give the general one with --base", path.display());
+    }
+    let mut motion = String::new();
+    if let Some(excitation) = &scene.excitation {
+        motion = motion_table(&mut archive, "motion", excitation.bottom());
+        // the tail is in stop_time
+        motion.push_str("tail = 0.0\n");
+        if let Some(top) = excitation.top() {
+            let table = motion_table(&mut archive, "motion_top", top);
+            motion.push_str("\n[motion.top]\n");
+            motion.push_str(&table);
+        }
+    }
+    let text = scene::to_toml(scene, &motion);
+    let guid = format!("{{{guid}-{}}}", scene::fingerprint(text.as_bytes()));
+    let reduced = reduce(&base, scene, &guid)?;
+    archive.insert("resources/scene.toml", text);
+    archive.insert("modelDescription.xml", reduced.to_xml());
+    let counts = Counts { kept: reduced.variable_names().count(), all: base.variable_names().count() };
+    Ok((archive, counts))
+}
+
+/// Puts a motion into the archive and returns the keys that read it.
+fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
+    let mut csv = String::new();
+    for sample in motion.samples() {
+        // writing to a String cannot fail
+        let _ = writeln!(csv, "{sample:?}");
+    }
+    let table = format!(
+        "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",
+        motion.step(),
+        scene::fingerprint(csv.as_bytes())
+    );
+    archive.insert(format!("resources/{name}.csv"), csv);
+    table
+}
+
+fn reduce(base: &Description, scene: &Scene, guid: &str) -> Result<Description> {
+    let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
+    let starts: Vec<_> = numbers
+        .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
+        .collect();
+    let keep = |name: &str| scene.uses(name);
+    let description = format!("Rocking wall, one scene: {}", scene.title);
+    Ok(base.reduced(&Reduction {
+        model_name: &scene.title,
+        description: &description,
+        guid,
+        keep: &keep,
+        starts: &starts,
+        experiment: DefaultExperiment {
+            start: 0.0,
+            stop: scene.stop_time,
+            step: scene.stop_time / STEPS,
+            tolerance: Parameters::default().tolerance,
+        },
+    })?)
+}

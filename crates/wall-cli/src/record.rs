@@ -1,0 +1,233 @@
+//! `wall record`: what record files hold, their intensity, and a quick check.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use ground_motion::{
+    Check, Format, Peaks, ReadOptions, Record, STANDARD_GRAVITY, Spectrum, Unit, read_channels,
+};
+use serde_json::{Value, json};
+
+use crate::args::RecordFilesArguments;
+use crate::{figure, output, record_plot};
+
+/// One channel of a file and what is told of it.
+struct Row {
+    file: String,
+    record: Record,
+    /// AvgSA (g).
+    average: f64,
+    /// Sa (g) at the periods asked for.
+    accelerations: Vec<f64>,
+    check: Check,
+}
+
+pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
+    let peaks = if arguments.at_samples { Peaks::AtSamples } else { Peaks::Everywhere };
+    let spectrum = Spectrum::new(arguments.damping, peaks)?;
+    let options = options(arguments)?;
+    let mut rows = Vec::new();
+    let mut failures = Vec::new();
+    for path in &arguments.files {
+        match read(path, &options, arguments, spectrum) {
+            Ok(found) => rows.extend(found),
+            Err(error) => failures.push(error),
+        }
+    }
+    if let ([failure], true) = (&failures[..], rows.is_empty()) {
+        bail!(output::message(failure));
+    }
+    for failure in &failures {
+        output::report(&output::message(failure));
+    }
+    if !rows.is_empty() {
+        show(&rows, arguments, spectrum)?;
+    }
+    if !failures.is_empty() {
+        bail!("{} of {} files could not be read", failures.len(), arguments.files.len());
+    }
+    Ok(())
+}
+
+fn options(arguments: &RecordFilesArguments) -> Result<ReadOptions> {
+    Ok(ReadOptions {
+        unit: arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?,
+        step: arguments.record_step,
+        column: arguments.column.clone(),
+        channel: arguments.channel.clone(),
+        format: arguments.format.as_deref().map(str::parse::<Format>).transpose()?,
+    })
+}
+
+fn read(
+    path: &Path,
+    options: &ReadOptions,
+    arguments: &RecordFilesArguments,
+    spectrum: Spectrum,
+) -> Result<Vec<Row>> {
+    let in_g = |acceleration: f64| acceleration / STANDARD_GRAVITY;
+    let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let mut rows = Vec::new();
+    for record in read_channels(path, options)? {
+        let average = in_g(spectrum.average(&record.motion, &arguments.average)?);
+        let accelerations = spectrum.accelerations(&record.motion, &arguments.periods)?;
+        let check = record.check();
+        rows.push(Row {
+            file: file.clone(),
+            average,
+            accelerations: accelerations.into_iter().map(in_g).collect(),
+            check,
+            record,
+        });
+    }
+    Ok(rows)
+}
+
+fn show(rows: &[Row], arguments: &RecordFilesArguments, spectrum: Spectrum) -> Result<()> {
+    let mut written = Vec::new();
+    if let Some(path) = &arguments.plot {
+        let named: Vec<_> = rows.iter().map(|row| (row.name(), &row.record.motion)).collect();
+        output::to_file(
+            path,
+            &figure::file(path, || record_plot::drawing(&named, spectrum, arguments.damping))?,
+        )?;
+        written.push(path);
+    }
+    if let Some(path) = &arguments.csv {
+        output::to_file(path, csv(rows, &arguments.periods).as_bytes())?;
+        written.push(path);
+    }
+    if arguments.json {
+        let value = json!({
+            "damping": arguments.damping,
+            "maxima": if arguments.at_samples { "at_samples" } else { "everywhere" },
+            "average_periods_s": arguments.average,
+            "periods_s": arguments.periods,
+            "records": rows.iter().map(Row::json).collect::<Vec<_>>(),
+        });
+        return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
+    }
+    let mut text = table(rows, arguments);
+    for path in written {
+        let _ = writeln!(text, "written  {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+impl Row {
+    /// The file and its channel.
+    fn name(&self) -> String {
+        match &self.record.channel {
+            Some(channel) => format!("{} [{channel}]", self.file),
+            None => self.file.clone(),
+        }
+    }
+
+    fn peak(&self) -> f64 {
+        self.record.motion.peak() / STANDARD_GRAVITY
+    }
+
+    fn json(&self) -> Value {
+        let motion = &self.record.motion;
+        json!({
+            "file": self.file,
+            "channel": self.record.channel,
+            "format": self.record.format.name(),
+            "unit": self.record.unit.name(),
+            "points": motion.samples().len(),
+            "step_s": motion.step(),
+            "duration_s": motion.duration(),
+            "pga_g": self.peak(),
+            "average_sa_g": self.average,
+            "sa_g": self.accelerations,
+            "mean_m_s2": self.check.mean,
+            "peak_velocity_m_s": self.check.peak_velocity,
+            "final_velocity_m_s": self.check.final_velocity,
+            "findings": self.check.findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "notes": self.record.notes,
+        })
+    }
+}
+
+fn table(rows: &[Row], arguments: &RecordFilesArguments) -> String {
+    let width = rows.iter().map(|row| row.name().chars().count()).max().unwrap_or(0).max("file".len());
+    let mut text = format!(
+        "{:width$}  {:13}  {:>7}  {:>8}  {:>10}  {:>8}  {:>8}",
+        "file", "format", "points", "step [s]", "length [s]", "PGA [g]", "AvgSA[g]"
+    );
+    for period in &arguments.periods {
+        let _ = write!(text, "  {:>9}", format!("Sa({period} s)"));
+    }
+    text.push('\n');
+    for row in rows {
+        let motion = &row.record.motion;
+        let _ = write!(
+            text,
+            "{:width$}  {:13}  {:>7}  {:>8}  {:>10.3}  {:>8.5}  {:>8.5}",
+            row.name(),
+            row.record.format.description(),
+            motion.samples().len(),
+            significant(motion.step()),
+            motion.duration(),
+            row.peak(),
+            row.average
+        );
+        for acceleration in &row.accelerations {
+            let _ = write!(text, "  {acceleration:>9.5}");
+        }
+        text.push('\n');
+    }
+    let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let percent = 100.0 * arguments.damping;
+    let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
+    for row in rows {
+        for finding in &row.check.findings {
+            let _ = writeln!(text, "check    {}: {finding}", row.name());
+        }
+    }
+    text
+}
+
+/// A step to six digits, without trailing zeros.
+fn significant(step: f64) -> String {
+    format!("{step:.5e}").parse::<f64>().unwrap_or(step).to_string()
+}
+
+fn csv(rows: &[Row], periods: &[f64]) -> String {
+    let mut text = String::from("file,channel,format,points,step_s,duration_s,pga_g,average_sa_g");
+    for period in periods {
+        let _ = write!(text, ",sa_{period}s_g");
+    }
+    text.push_str(",findings\n");
+    for row in rows {
+        let motion = &row.record.motion;
+        let _ = write!(
+            text,
+            "{},{},{},{},{},{},{},{}",
+            quoted(&row.file),
+            quoted(row.record.channel.as_deref().unwrap_or_default()),
+            row.record.format.name(),
+            motion.samples().len(),
+            motion.step(),
+            motion.duration(),
+            row.peak(),
+            row.average
+        );
+        for acceleration in &row.accelerations {
+            let _ = write!(text, ",{acceleration}");
+        }
+        let findings: Vec<_> = row.check.findings.iter().map(ToString::to_string).collect();
+        let _ = writeln!(text, ",{}", quoted(&findings.join(" | ")));
+    }
+    text
+}
+
+/// A cell as RFC 4180 has it.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}

@@ -1,0 +1,212 @@
+//! `wall reproduce`: the paper's tables and figures, computed now, on one page.
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use ground_motion::{ReadOptions, read};
+use study::ida::NamedRecord;
+use study::parallel::threads;
+use study::reproduce::collapse::{Collapses, figure_15};
+use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
+
+use crate::figure::escaped;
+use crate::template::filled;
+use crate::{chart, output};
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArguments {
+    /// Records to scale for Figure 15: every file of this folder that reads without being told its unit or channel
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) records: Option<PathBuf>,
+    /// The page to write
+    #[arg(short, long, value_name = "FILE", default_value = "reproduction.html")]
+    pub(crate) output: PathBuf,
+    /// Number of threads; without it one for each core
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+pub(crate) fn run(arguments: &ReproduceArguments) -> Result<()> {
+    // before anything is computed: a wrong folder should not cost a minute
+    let records = arguments.records.as_deref().map(records).transpose()?;
+    let reproduction = reproduce(threads(arguments.threads))?;
+    output::to_stdout(&summary(&reproduction))?;
+    let collapses = records.map(|records| figure_15(records, threads(arguments.threads))).transpose()?;
+    if let Some(collapses) = &collapses {
+        output::to_stdout(&plain(&collapses.table))?;
+    }
+    output::to_file(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
+}
+
+/// The records of a folder in the order of their names; what does not read is told.
+fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
+    let entries =
+        std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
+    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    paths.retain(|path| path.is_file());
+    paths.sort();
+    let mut records = Vec::new();
+    for path in paths {
+        match read(&path, &ReadOptions::default()) {
+            Ok(record) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                records.push(NamedRecord { name, motion: record.motion });
+            }
+            Err(error) => output::note(&format!("left out: {error}")),
+        }
+    }
+    if records.is_empty() {
+        bail!(
+            "{}: no record to read; give a folder with records that state their unit, such as AT2",
+            folder.display()
+        );
+    }
+    Ok(records)
+}
+
+/// How many numbers agree with print.
+fn counts(table: &Table) -> [usize; 2] {
+    let all = table.values().count();
+    [table.values().filter(|value| value.agrees() == Some(true)).count(), all]
+}
+
+fn summary(reproduction: &Reproduction) -> String {
+    let mut text = String::new();
+    for table in &reproduction.tables {
+        let [agree, all] = counts(table);
+        let relative = |value: &Value| match value.printed {
+            Some(printed) if printed != 0.0 => (value.ours / printed - 1.0).abs(),
+            _ => 0.0,
+        };
+        let worst = table.values().map(relative).fold(0.0, f64::max);
+        let _ = writeln!(
+            text,
+            "{:<24}{agree:>4} of {all:>3} numbers round to print; largest deviation {:.1} %",
+            table.name,
+            100.0 * worst
+        );
+    }
+    let numbers: Vec<String> = reproduction.figures.iter().map(|figure| figure.number.to_string()).collect();
+    let _ = writeln!(text, "Figures {}", numbers.join(", "));
+    text
+}
+
+/// A table without print beside it, as text.
+fn plain(table: &Table) -> String {
+    let mut text = format!("{}: {}\n", table.name, table.title);
+    let columns: Vec<String> = table.columns.iter().map(ToString::to_string).collect();
+    let rows = table.rows.iter().map(|row| row.iter().map(words).collect());
+    for row in std::iter::once(columns).chain(rows) {
+        for (index, cell) in row.iter().enumerate() {
+            let width = if index < 2 { 6 } else { 24 };
+            let _ = write!(text, "{cell:<width$}");
+        }
+        text = text.trim_end().to_owned() + "\n";
+    }
+    text
+}
+
+fn words(cell: &Cell) -> String {
+    match cell {
+        Cell::Words(words) => words.clone(),
+        Cell::Value(Value { ours, decimals, .. }) => format!("{ours:.decimals$}"),
+    }
+}
+
+/// Words for a page without records.
+const MISSING: &str = "<p>Figure 15 needs records: <code>wall reproduce --records FOLDER</code> adds it.</p>";
+
+fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
+    let tables: String = reproduction.tables.iter().map(table).collect();
+    let drawn = || reproduction.figures.iter().chain(collapses.map(|collapses| &collapses.figure));
+    let mut figures: String = drawn().map(figure).collect();
+    figures.extend(collapses.map(|collapses| table(&collapses.table)));
+    let [agree, all] = reproduction.tables.iter().map(counts).fold([0, 0], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let mut links = String::new();
+    for figure in drawn() {
+        let _ = write!(links, "<a href=\"#figure-{0}\">{0}</a> ", figure.number);
+    }
+    filled(
+        include_str!("reproduce.html"),
+        &[
+            ("chart_style", chart::STYLE),
+            ("agree", &agree.to_string()),
+            ("all", &all.to_string()),
+            ("links", &links),
+            ("missing", if collapses.is_some() { "" } else { MISSING }),
+            ("tables", &tables),
+            ("figures", &figures),
+        ],
+    )
+}
+
+fn notes(notes: &[String]) -> String {
+    let mut text = String::new();
+    for note in notes {
+        let _ = writeln!(text, "<p>{}</p>", escaped(note));
+    }
+    text
+}
+
+fn table(table: &Table) -> String {
+    let mut text = format!(
+        "<section class=\"table\"><h2>{}: {}</h2>\n{}<div><table><tr>",
+        escaped(table.name),
+        escaped(table.title),
+        notes(&table.notes)
+    );
+    for column in &table.columns {
+        let _ = write!(text, "<th>{}</th>", escaped(column));
+    }
+    text.push_str("</tr>\n");
+    for row in &table.rows {
+        text.push_str("<tr>");
+        text.extend(row.iter().map(cell));
+        text.push_str("</tr>\n");
+    }
+    text + "</table></div></section>\n"
+}
+
+fn cell(cell: &Cell) -> String {
+    match cell {
+        Cell::Words(words) => format!("<td>{}</td>", escaped(words)),
+        Cell::Value(Value { ours, printed: None, decimals }) => {
+            format!("<td class=\"number\">{ours:.decimals$}</td>")
+        }
+        Cell::Value(value) => {
+            let Value { ours, printed, decimals } = *value;
+            let (class, printed) = (
+                if value.agrees() == Some(true) { "number" } else { "number off" },
+                printed.unwrap_or(f64::NAN),
+            );
+            let finer = decimals + 1;
+            let deviation = shown(ours - printed, finer);
+            let printed = shown(printed, decimals);
+            format!(
+                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {ours:.finer$}<br><i>{deviation:+.finer$}</i></td>"
+            )
+        }
+    }
+}
+
+/// A number that shows as zero without a minus sign.
+fn shown(value: f64, decimals: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "a few decimals")]
+    let half = 0.5 * 10.0_f64.powf(-(decimals as f64));
+    if value.abs() < half { 0.0 } else { value }
+}
+
+fn figure(figure: &Figure) -> String {
+    let charts: String = figure.charts.iter().map(chart::figure).collect();
+    format!(
+        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"charts{3}\">\n{charts}</div></section>\n",
+        figure.number,
+        escaped(figure.title),
+        notes(&figure.notes),
+        // two and four panels make rows of two
+        if matches!(figure.charts.len(), 2 | 4) { " two" } else { "" }
+    )
+}

@@ -1,0 +1,358 @@
+//! `wall spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use clap::Args;
+use ground_motion::{GroundMotion, Pulse};
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::{DampingModel, Impact};
+use rocking_wall::wall::{Parameters, Wall};
+use study::parallel;
+use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls};
+
+use crate::args::{RecordArguments, SceneArguments};
+use crate::figure::escaped;
+use crate::heat_map::{Axis, HeatMap, Paint, mixed, scale};
+use crate::output;
+use crate::template::filled;
+
+#[derive(Debug, Args)]
+pub(crate) struct SpectrumArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    #[command(flatten)]
+    pub(crate) record: RecordArguments,
+    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless spectrum over
+    /// `omega_p/p` and `a_p/a_0`
+    #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
+    pub(crate) pulse: Option<String>,
+    /// Frequency of the pulse in Hz, for a spectrum over walls
+    #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
+    pub(crate) frequency: Option<f64>,
+    /// Amplitude of the pulse in m/s2, for a spectrum over walls
+    #[arg(long, value_name = "M_PER_S2", requires_all = ["pulse", "frequency"])]
+    pub(crate) amplitude: Option<f64>,
+    /// Heights in m [default: 0.5:8:31]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "radii")]
+    pub(crate) heights: Option<String>,
+    /// Semi-diagonals R of a parapet in m, instead of heights
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    pub(crate) radii: Option<String>,
+    /// Slenderness h/b [default: 4:20:33]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "angles")]
+    pub(crate) ratios: Option<String>,
+    /// Slenderness angles alpha = atan(b/h) of a parapet in rad, instead of h/b
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    pub(crate) angles: Option<String>,
+    /// `omega_p/p` of the dimensionless spectrum [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    pub(crate) frequency_ratios: Option<String>,
+    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    pub(crate) amplitude_ratios: Option<String>,
+    /// Threads [default: one a core]; the result does not depend on them
+    #[arg(long, value_name = "COUNT")]
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
+    /// Write the points as CSV
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Write a page with the heat map
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+}
+
+/// A spectrum and the words for it.
+struct Shown {
+    spectrum: RockingSpectrum,
+    title: String,
+    notes: Vec<String>,
+    /// Labels of the columns and the rows, for the page.
+    labels: [&'static str; 2],
+    /// Their names in the CSV file.
+    names: [&'static str; 2],
+    /// What the axes are.
+    axes: String,
+}
+
+/// The most values along an axis.
+const MOST_VALUES: usize = 500;
+
+pub(crate) fn run(arguments: &SpectrumArguments) -> Result<()> {
+    let mut scene = arguments.scene.load()?;
+    arguments.scene.apply(&mut scene)?;
+    let threads = parallel::threads(arguments.threads).get();
+    let pulse = arguments.pulse.as_deref().map(form).transpose()?;
+    let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
+        (Some(form), None, None) => pulses(arguments, &scene.parameters, form, threads)?,
+        (Some(form), Some(frequency), Some(amplitude)) => {
+            let motion = Pulse { amplitude, ..form.pulse(frequency) }.motion(None)?;
+            let note = format!("{} of {amplitude} m/s² at {frequency} Hz", words(form));
+            walls(arguments, &scene.parameters, &motion, vec![note], threads)?
+        }
+        _ => {
+            let (motion, notes) = motion(arguments, &scene)?;
+            walls(arguments, &scene.parameters, &motion, notes, threads)?
+        }
+    };
+    shown.notes.push(law(&scene.parameters));
+    if let Some(path) = &arguments.csv {
+        output::to_file(path, csv(&shown).as_bytes())?;
+    }
+    if let Some(path) = &arguments.html {
+        output::to_file(path, page(&shown).as_bytes())?;
+    }
+    let mut text = summary(&shown);
+    for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
+        let _ = writeln!(text, "written    {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+fn pulses(
+    arguments: &SpectrumArguments,
+    parameters: &Parameters,
+    form: PulseForm,
+    threads: usize,
+) -> Result<Shown> {
+    for (option, given) in [
+        ("--heights", &arguments.heights),
+        ("--radii", &arguments.radii),
+        ("--ratios", &arguments.ratios),
+        ("--angles", &arguments.angles),
+    ] {
+        if given.is_some() {
+            bail!(
+                "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too"
+            );
+        }
+    }
+    // a record's factors have no place here; load tells what they need
+    arguments.record.load()?;
+    let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
+    let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
+    let wall = arguments.scene.named(Wall::new(parameters))?;
+    let body = wall.body();
+    let onset = body.strength.positive / (body.participation * body.effective_mass);
+    Ok(Shown {
+        spectrum: over_pulses(parameters, form, &columns, &rows, threads)?,
+        title: format!("Rocking spectrum of a {}", words(form)),
+        notes: vec![format!(
+            "{} of {} m × {} m, p = {:.4} rad/s, a₀ = {onset:.4} m/s²",
+            parameters.mechanism.name().replace('_', " "),
+            parameters.height,
+            parameters.thickness,
+            wall.rocking_rate()
+        )],
+        labels: ["ω_p / p", "a_p / a₀"],
+        names: ["frequency_ratio", "amplitude_ratio"],
+        axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ m_eff), which is \
+               g tan α for a parapet without overburden; walls of any size with the same damping and restitution have this spectrum."
+            .into(),
+    })
+}
+
+fn walls(
+    arguments: &SpectrumArguments,
+    parameters: &Parameters,
+    motion: &GroundMotion,
+    notes: Vec<String>,
+    threads: usize,
+) -> Result<Shown> {
+    for (option, given) in [
+        ("--frequency-ratios", &arguments.frequency_ratios),
+        ("--amplitude-ratios", &arguments.amplitude_ratios),
+    ] {
+        if given.is_some() {
+            bail!(
+                "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude"
+            );
+        }
+    }
+    let (size, sizes) = match &arguments.radii {
+        Some(radii) => (Size::SemiDiagonal, values("--radii", Some(radii), [0.0; 2], 2)?),
+        None => (Size::Height, values("--heights", arguments.heights.as_deref(), [0.5, 8.0], 31)?),
+    };
+    let (slenderness, rows) = match &arguments.angles {
+        Some(angles) => (Slenderness::Angle, values("--angles", Some(angles), [0.0; 2], 2)?),
+        None => (Slenderness::Ratio, values("--ratios", arguments.ratios.as_deref(), [4.0, 20.0], 33)?),
+    };
+    let column = if size == Size::Height { "height_m" } else { "semi_diagonal_m" };
+    let row = if slenderness == Slenderness::Ratio { "slenderness" } else { "angle_rad" };
+    Ok(Shown {
+        spectrum: over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?,
+        title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
+        notes,
+        labels: [size.label(), slenderness.label()],
+        names: [column, row],
+        axes: "Each cell is one wall under the whole motion, followed until its peak has come.".into(),
+    })
+}
+
+/// The motion given, or the scene's own.
+fn motion(arguments: &SpectrumArguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
+    if let Some((motion, note)) = arguments.record.load()? {
+        let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
+        return Ok((motion, vec![note, peak]));
+    }
+    match &scene.excitation {
+        Some(excitation) if excitation.top().is_some() => {
+            bail!("a rocking spectrum takes one motion for both supports; the scene has one for each")
+        }
+        Some(excitation) => Ok((excitation.bottom().clone(), scene.motion_notes.clone())),
+        None => bail!(
+            "a rocking spectrum needs a motion; give --record, --synthetic, --pulse, or a scene with one"
+        ),
+    }
+}
+
+fn form(name: &str) -> Result<PulseForm> {
+    match name {
+        "ricker" => Ok(PulseForm::Ricker),
+        "sine_cycle" => Ok(PulseForm::SineCycle),
+        "half_sine" => Ok(PulseForm::HalfSine),
+        _ => bail!("--pulse {name}: expected ricker, sine_cycle or half_sine"),
+    }
+}
+
+fn words(form: PulseForm) -> &'static str {
+    match form {
+        PulseForm::Ricker => "Ricker pulse",
+        PulseForm::SineCycle => "sine cycle",
+        PulseForm::HalfSine => "half sine",
+    }
+}
+
+/// Evenly spaced values of `FROM:TO:COUNT`.
+fn values(option: &str, given: Option<&str>, default: [f64; 2], count: usize) -> Result<Vec<f64>> {
+    let ([from, to], count) = match given {
+        None => (default, count),
+        Some(text) => {
+            let parts: Vec<_> = text.split(':').collect();
+            let range = match parts[..] {
+                [from, to, count] => from.parse().ok().zip(to.parse().ok()).zip(count.parse().ok()),
+                _ => None,
+            };
+            let Some(((from, to), count)) = range else {
+                bail!("{option} {text}: expected FROM:TO:COUNT, such as 1:8:29");
+            };
+            ([from, to], count)
+        }
+    };
+    if !(from > 0.0 && from < to && to.is_finite() && (2..=MOST_VALUES).contains(&count)) {
+        bail!(
+            "{option}: expected 0 < FROM < TO and a COUNT from 2 to {MOST_VALUES}, found {from}:{to}:{count}"
+        );
+    }
+    let value = |index: usize| {
+        let part = index as f64 / (count - 1) as f64;
+        // to the digits of a decimal fraction: 0.1, not 0.1 and a rounding
+        format!("{:.12e}", from + (to - from) * part).parse().unwrap_or(from)
+    };
+    Ok((0..count).map(value).collect())
+}
+
+/// The force law, damping and impact in words.
+fn law(parameters: &Parameters) -> String {
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let damping = match parameters.damping_model {
+        DampingModel::None => "no damping".to_owned(),
+        model => format!("{} damping ({})", model.name(), parameters.damping_source.name()),
+    };
+    let impact = match parameters.impact {
+        Impact::None => "no impact".to_owned(),
+        Impact::Restitution => format!("restitution ({})", parameters.restitution_source.name()),
+    };
+    format!("{law} law, {damping}, {impact}").replace('_', " ")
+}
+
+fn summary(shown: &Shown) -> String {
+    let points = || shown.spectrum.points.iter().flatten();
+    let (rocked, overturned) = (
+        points().filter(|point| point.rocked && point.overturning.is_none()).count(),
+        points().filter(|point| point.overturning.is_some()).count(),
+    );
+    let standing = points().filter(|point| point.overturning.is_none());
+    let largest = standing.map(|point| point.ratio).fold(0.0, f64::max);
+    let range = |values: &[f64]| match values {
+        [first, .., last] => format!("{first} to {last}, {} values", values.len()),
+        _ => String::new(),
+    };
+    format!(
+        "{}\nmotion     {}\nacross     {}: {}\nup         {}: {}\npoints     {}: {} do not rock, {rocked} rock up to {largest:.3} u_ins, \
+         {overturned} overturn\n",
+        shown.title,
+        shown.notes.join("; "),
+        shown.labels[0],
+        range(&shown.spectrum.columns),
+        shown.labels[1],
+        range(&shown.spectrum.rows),
+        points().count(),
+        points().count() - rocked - overturned,
+    )
+}
+
+fn csv(shown: &Shown) -> String {
+    let [column, row] = shown.names;
+    let mut text = format!("{column},{row},u_ratio_max,rocked,overturned,overturn_time_s\n");
+    for (y, points) in shown.spectrum.rows.iter().zip(&shown.spectrum.points) {
+        for (x, point) in shown.spectrum.columns.iter().zip(points) {
+            let time = point.overturning.map_or_else(String::new, |time| format!("{time:?}"));
+            let Point { ratio, rocked, overturning } = point;
+            let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{},{time}", overturning.is_some());
+        }
+    }
+    text
+}
+
+/// What the plot area should measure \[px\].
+const AREA: [f64; 2] = [960.0, 560.0];
+const STILL: &str = "#ffffff";
+const FALLEN: &str = "#a32020";
+/// From pale to dark blue.
+const ROCKING: [[f64; 3]; 4] =
+    [[226.0, 236.0, 247.0], [150.0, 194.0, 223.0], [60.0, 135.0, 190.0], [22.0, 58.0, 112.0]];
+
+fn page(shown: &Shown) -> String {
+    let RockingSpectrum { columns, rows, points } = &shown.spectrum;
+    let paint = |row: usize, column: usize| {
+        let point = points[row][column];
+        let (fill, what) = match point {
+            Point { overturning: Some(time), .. } => (FALLEN.into(), format!("overturns at {time:.3} s")),
+            Point { rocked: false, ratio, .. } => {
+                (STILL.into(), format!("does not rock, u_max/u_ins = {ratio:.2e}"))
+            }
+            Point { ratio, .. } => (mixed(&ROCKING, ratio), format!("u_max/u_ins = {ratio:.4}")),
+        };
+        let title =
+            format!("{} = {}, {} = {}: {what}", shown.labels[0], columns[column], shown.labels[1], rows[row]);
+        Paint { fill, title, crossed: false }
+    };
+    let side = |area: f64, count: usize| (area / count as f64).floor().max(2.0);
+    let map = HeatMap {
+        label: "u_max/u_ins of rocking walls".into(),
+        columns: Axis::even(shown.labels[0], columns),
+        rows: Axis::even(shown.labels[1], rows),
+        cell: [side(AREA[0], columns.len()), side(AREA[1], rows.len())],
+        paint: &paint,
+    };
+    let swatches: Vec<_> = (0..=10_u32)
+        .map(|step| {
+            let ratio = f64::from(step) / 10.0;
+            (mixed(&ROCKING, ratio), (step % 2 == 0).then(|| format!("{ratio:.1}")))
+        })
+        .collect();
+    filled(
+        include_str!("spectrum.html"),
+        &[
+            ("title", &escaped(&shown.title)),
+            ("subtitle", &escaped(&shown.notes.join("; "))),
+            ("axes", &escaped(&shown.axes)),
+            ("still", STILL),
+            ("fallen", FALLEN),
+            ("scale", &scale("colours of u_max/u_ins", &swatches)),
+            ("map", &map.draw()),
+        ],
+    )
+}

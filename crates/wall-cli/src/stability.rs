@@ -1,0 +1,84 @@
+//! `wall stability`: maps over stiffness, step and damping, and the table of extremes.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use study::stability::{Axis, Extreme, MAPS, Map, extremes, map};
+
+use crate::args::StabilityArguments;
+use crate::{output, stability_page};
+
+pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
+    let mut maps = Vec::with_capacity(2 * MAPS.len());
+    for axis in [Axis::Step, Axis::Ratio] {
+        for (solver, damping) in MAPS {
+            let made = map(solver, damping, axis, arguments.columns)?;
+            output::to_stdout(&summary(&made))?;
+            maps.push(made);
+        }
+    }
+    let extremes = extremes()?;
+    output::to_stdout(&table(&extremes))?;
+    if let Some(path) = &arguments.csv {
+        output::to_file(path, csv(&maps).as_bytes())?;
+    }
+    if let Some(path) = &arguments.html {
+        output::to_file(path, stability_page::page(&maps, &extremes).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Words for the second axis.
+pub(crate) fn axis_words(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Step => "step",
+        Axis::Ratio => "xi",
+    }
+}
+
+fn summary(map: &Map) -> String {
+    let cells = || map.cells.iter().flatten();
+    let unstable = cells().filter(|cell| !cell.stable).count();
+    let worst = cells().map(|cell| cell.error).fold(0.0, f64::max);
+    format!(
+        "{:<10}{:<24} a1 x {:<5} {:>4} cells, {unstable:>3} unstable, largest error {worst:.1e}\n",
+        map.solver.name(),
+        map.damping.name(),
+        axis_words(map.axis),
+        cells().count()
+    )
+}
+
+fn table(extremes: &[Extreme]) -> String {
+    let mut text = String::from("\n");
+    for extreme in extremes {
+        let Extreme { name, what, figure, limit } = extreme;
+        let verdict = if extreme.holds() { "holds" } else { "BROKEN" };
+        let _ = writeln!(text, "{verdict:<7}{name:<33}{figure:>9.1e} of {limit:.0e}: {what}");
+    }
+    text
+}
+
+/// Columns of the CSV; the error is over `u_ins`, the growth over the energy at the start.
+const COLUMNS: &str = "solver,damping_model,axis,a1,value,stable,error,growth";
+
+fn csv(maps: &[Map]) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    for map in maps {
+        for (row, cells) in map.rows.iter().zip(&map.cells) {
+            for (a1, cell) in map.columns.iter().zip(cells) {
+                let _ = writeln!(
+                    text,
+                    "{},{},{},{a1:e},{row:e},{},{:e},{:e}",
+                    map.solver.name(),
+                    map.damping.name(),
+                    axis_words(map.axis),
+                    cell.stable,
+                    cell.error,
+                    cell.growth
+                );
+            }
+        }
+    }
+    text
+}
