@@ -1,12 +1,13 @@
-/* A compiled master for many walls on two storeys: Jacobi, held inputs, one thread. It prints run time and memory.
+/* A compiled master for many walls on two storeys: Jacobi, held inputs, one thread.
+ * It prints run time and memory.
  *
  *   cc -O2 -o master master.c -ldl -lm
  *   ./master WALL.so GUID a_bottom u_start thickness u reaction_bottom
  *            FLOOR.so GUID a_g reaction_1 reaction_2 mass stiffness acceleration_absolute reaction_bottom
  *            WALLS SECONDS STEP
  *
- * Each name stands for its value reference in modelDescription.xml; xtask/coupling/compiled.py looks them up and runs this.
- * A floor has eight inputs for reactions: forces that act on the same floor may be added up before.
+ * Each name stands for its value reference in modelDescription.xml; xtask/coupling/compiled.py looks them up.
+ * A floor has eight inputs for reactions. Forces on the same floor may be added and sent to one input.
  */
 #include <dlfcn.h>
 #include <math.h>
@@ -52,7 +53,8 @@ static void check(int status, const char *what)
         fail(what);
 }
 
-static void say(void *environment, const char *name, int status, const char *category, const char *message, ...)
+static void say(void *environment, const char *name, int status, const char *category,
+                const char *message, ...)
 {
     va_list arguments;
     (void)environment;
@@ -138,7 +140,7 @@ static double resident(void)
     return (double)pages * sysconf(_SC_PAGESIZE);
 }
 
-/* Ground acceleration: ten seconds of two swelling and fading sines. */
+/* Ground acceleration: ten seconds of two sines that grow and decay. */
 static double ground(double t)
 {
     return 1.5 * sin(0.1 * PI * t) * (sin(2 * PI * 1.3 * t) + 0.6 * sin(2 * PI * 3.1 * t));
@@ -152,7 +154,8 @@ int main(int count, char **arguments)
     for (int index = 1; index < count; index++)
         r[index] = (Reference)strtoul(arguments[index], NULL, 10);
     const Reference a_bottom = r[3], u_start = r[4], thickness = r[5], u = r[6], reaction = r[7];
-    const Reference a_g = r[10], loads[2] = {r[11], r[12]}, mass = r[13], stiffness = r[14], absolute = r[15], below = r[16];
+    const Reference a_g = r[10], loads[2] = {r[11], r[12]}, mass = r[13], stiffness = r[14];
+    const Reference absolute = r[15], below = r[16];
     const int walls = atoi(arguments[17]);
     const double seconds = atof(arguments[18]), step = atof(arguments[19]);
     const Library wall = load(arguments[1]), storey = load(arguments[8]);
@@ -202,8 +205,8 @@ int main(int count, char **arguments)
             check(storey.step(floors[at], time, step, 1), "fmi2DoStep");
         largest = fmax(largest, fabs(get(&wall, standing[0], u)));
     }
-    printf("{\"walls\": %d, \"simulated_s\": %g, \"step_s\": %g, \"run_time_s\": %.3f, \"bytes_per_wall\": %.0f, "
-           "\"u_max_of_wall_1_m\": %.17g, \"u_of_last_wall_m\": %.17g}\n",
+    printf("{\"walls\": %d, \"simulated_s\": %g, \"step_s\": %g, \"run_time_s\": %.3f, "
+           "\"bytes_per_wall\": %.0f, \"u_max_of_wall_1_m\": %.17g, \"u_of_last_wall_m\": %.17g}\n",
            walls, seconds, step, now() - start, each, largest, get(&wall, standing[walls - 1], u));
     for (int index = 0; index < walls; index++)
         wall.release(standing[index]);

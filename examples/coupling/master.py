@@ -1,13 +1,16 @@
-"""A small co-simulation master on FMPy: units, connections between them, and four schemes that move them together.
+"""A small co-simulation master on FMPy: units, connections between them, and schemes that advance them
+together.
 
-    jacobi          every unit steps with what the others showed at the start of the step
-    gauss_seidel    units step one after the other, each with the newest of what the others have shown
-    iterated        Gauss-Seidel again and again over the same step, from saved states, until inputs and outputs agree
+    jacobi          every unit steps with the outputs of the others at the start of the step
+    gauss_seidel    the units step one after the other, each with the newest outputs of the others
+    iterated        repeats Gauss-Seidel over the same step, from saved states, until inputs and outputs agree
 
-An input is `held` over a step or `linear`: extrapolated by the output's derivative where its end is not known yet, interpolated
-where it is. `loop=True` first makes the outputs at the start of the step agree with the inputs, by Newton's method on the units'
-directional derivatives: accelerations and reactions depend on each other without delay, and an explicit master that
-passes them on as they are feeds back with a gain (docs/coupling.md).
+An input is `held` over a step or `linear`. A linear input is interpolated if its value at the end of the step
+is known, and otherwise extrapolated by the derivative of the output.
+
+Accelerations and reactions depend on each other without delay. An explicit master that passes them on as they
+are amplifies errors by a gain (docs/coupling.md). `loop=True` closes the loop: it makes inputs and outputs
+agree at the start of the step, by Newton's method on the directional derivatives of the units.
 """
 
 import shutil
@@ -18,13 +21,13 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.logging import addLoggerProxy
 
-# Mismatch of an interface variable that counts as none, over its nominal value.
+# Largest mismatch of an interface variable, over its nominal value, at which inputs and outputs agree.
 CLOSED = 1e-8
 MOST_SWEEPS = 60
 
 
 class Archive:
-    """An unpacked FMU; any number of units can be made from it."""
+    """An unpacked FMU, from which any number of units can be made."""
 
     def __init__(self, path):
         self.folder = extract(str(path))
@@ -38,19 +41,25 @@ class Archive:
 
 
 class Unit:
-    """One instance, by the names of its variables. Parameters are set before initialisation.
+    """An FMU instance whose variables have names. Parameters are set before initialisation.
 
-    `log(name, category, message)` is told of events, such as a wall's overturning.
+    `log(name, category, message)` receives events, such as the overturning of a wall.
     """
 
     def __init__(self, archive, name, log=None, **parameters):
         description = archive.description
         self.name = name
         self.variables = {variable.name: variable for variable in description.modelVariables}
-        self._items = {kind.name: {item.name: int(item.value) for item in kind.items or ()} for kind in description.typeDefinitions}
+        self._items = {
+            kind.name: {item.name: int(item.value) for item in kind.items or ()}
+            for kind in description.typeDefinitions
+        }
         identifier = description.coSimulation.modelIdentifier
         self.slave = FMU2Slave(
-            guid=description.guid, unzipDirectory=archive.folder, modelIdentifier=identifier, instanceName=name
+            guid=description.guid,
+            unzipDirectory=archive.folder,
+            modelIdentifier=identifier,
+            instanceName=name,
         )
         self.slave.instantiate(callbacks=self._callbacks(log), loggingOn=log is not None)
         self.slave.setupExperiment(startTime=0.0)
@@ -63,7 +72,7 @@ class Unit:
             if log is not None:
                 log(name.decode(), category.decode(), message.decode())
 
-        # the unit calls these as long as it lives
+        # the unit calls these throughout its life, so they must not be freed
         self._logger = fmi2CallbackLoggerTYPE(logger)
         self._functions = fmi2CallbackFunctions()
         self._functions.logger = self._logger
@@ -77,12 +86,16 @@ class Unit:
         variable = self.variables[name]
         if isinstance(value, str):
             value = self._items[variable.declaredType.name][value]
-        setter = {"Real": self.slave.setReal, "Boolean": self.slave.setBoolean}.get(variable.type, self.slave.setInteger)
+        setter = {"Real": self.slave.setReal, "Boolean": self.slave.setBoolean}.get(
+            variable.type, self.slave.setInteger
+        )
         setter([variable.valueReference], [value])
 
     def get(self, name):
         variable = self.variables[name]
-        getter = {"Real": self.slave.getReal, "Boolean": self.slave.getBoolean}.get(variable.type, self.slave.getInteger)
+        getter = {"Real": self.slave.getReal, "Boolean": self.slave.getBoolean}.get(
+            variable.type, self.slave.getInteger
+        )
         return getter([variable.valueReference])[0]
 
     def nominal(self, name):
@@ -90,7 +103,7 @@ class Unit:
 
 
 class Ports:
-    """What one unit gives to the interface and takes from it: positions in the interface and value references."""
+    """Connections of one unit: indices of the interface that it gives and takes, and value references."""
 
     def __init__(self, unit, gives, takes):
         self.unit = unit
@@ -101,10 +114,11 @@ class Ports:
 
 
 class System:
-    """Units and connections ("floor.acceleration_absolute", "wall.a_bottom"), in the order in which Gauss-Seidel steps them.
+    """Units and their connections, such as ("floor.acceleration_absolute", "wall.a_bottom").
 
-    `sources` are motions from outside: {"floor.a_g": function of time}. The interface is a vector with one number for each
-    connection: `values` as the inputs have them.
+    Gauss-Seidel steps the units in the given order. `sources` are motions from outside: {"floor.a_g":
+    function of time}. The interface is a vector with one number for each connection; `values` has the present
+    inputs.
     """
 
     def __init__(self, units, connections, sources=None):
@@ -121,16 +135,18 @@ class System:
             for unit in units
         ]
         self.scale = np.array([self.units[owner].nominal(name) for (owner, name), _ in ends])
-        # connections whose source steps before their target
+        # whether the source of a connection steps before its target
         order = list(self.units)
-        self.forward = np.array([order.index(source) < order.index(target) for (source, _), (target, _) in ends])
+        self.forward = np.array(
+            [order.index(source) < order.index(target) for (source, _), (target, _) in ends]
+        )
         self.time = 0.0
         self.values = np.zeros(len(ends))
         # statistics of the last step
         self.sweeps, self.mismatch = 0, 0.0
 
     def initialize(self, loop=True):
-        """Leaves initialisation, the inputs agreeing with the outputs unless `loop` is off; then they start as 0."""
+        """Leaves initialisation with inputs that agree with the outputs, or are 0 if `loop` is off."""
         self._drive(0.0, 0.0)
         if loop:
             self.close_loop()
@@ -144,7 +160,7 @@ class System:
     # --- the interface
 
     def outputs(self):
-        """What the units show now."""
+        """Returns the present outputs of the units."""
         found = np.empty(len(self.connections))
         for ports in self.ports:
             if ports.given:
@@ -155,23 +171,27 @@ class System:
         found = np.empty(len(self.connections))
         for ports in self.ports:
             if ports.given:
-                found[ports.given] = ports.unit.slave.getRealOutputDerivatives(ports.outputs, [1] * len(ports.given))
+                found[ports.given] = ports.unit.slave.getRealOutputDerivatives(
+                    ports.outputs, [1] * len(ports.given)
+                )
         return found
 
     def feedthrough(self):
-        """Derivatives of the outputs (rows) by the inputs (columns), at once and within the units."""
+        """Returns the derivatives of outputs (rows) by inputs (columns) within the units, without delay."""
         matrix = np.zeros((len(self.connections),) * 2)
         for ports in self.ports:
             if ports.given:
                 for column, reference in zip(ports.taken, ports.inputs):
-                    matrix[ports.given, column] = ports.unit.slave.getDirectionalDerivative(ports.outputs, [reference], [1.0])
+                    matrix[ports.given, column] = ports.unit.slave.getDirectionalDerivative(
+                        ports.outputs, [reference], [1.0]
+                    )
         return matrix
 
     def close_loop(self):
-        """Sets inputs that agree with the outputs now.
+        """Sets inputs that agree with the present outputs.
 
-        The outputs are linear in the inputs but for a wall that comes to rest or leaves it: one step of Newton's method
-        does it, and a few find the right side.
+        The outputs are linear in the inputs, so one step of Newton's method suffices. A wall that comes to
+        rest or leaves it needs a few.
         """
         self._set(self.outputs())
         for _ in range(MOST_SWEEPS):
@@ -184,7 +204,10 @@ class System:
         raise RuntimeError(f"t = {self.time} s: the loop of accelerations and reactions does not close")
 
     def closed_rates(self):
-        """Output derivatives that agree with the inputs' rates; just after `close_loop`, when the units take those to be 0."""
+        """Returns output derivatives that agree with the input derivatives.
+
+        Call it just after `close_loop`, when the units take the input derivatives to be 0.
+        """
         return np.linalg.solve(np.eye(len(self.values)) - self.feedthrough(), self.output_rates())
 
     def _set(self, values):
@@ -201,7 +224,7 @@ class System:
             ports.unit.slave.setRealInputDerivatives(ports.inputs, [1] * len(ports.taken), rates[ports.taken])
 
     def _drive(self, step, linear):
-        """The motions from outside: known ahead, so that a linear one meets the next sample."""
+        """Sets the motions from outside. They are known ahead, so a linear one ends at the next sample."""
         for (owner, name), motion in self.sources.items():
             unit, now = self.units[owner], motion(self.time)
             unit.set(name, now)
@@ -215,7 +238,7 @@ class System:
     # --- the schemes
 
     def jacobi(self, step, linear=False, loop=False):
-        """All units with what was known at the start of the step."""
+        """Steps all units with the values at the start of the step."""
         if loop:
             self.close_loop()
             values = self.values
@@ -231,7 +254,7 @@ class System:
         self._finish(step, values, rates)
 
     def gauss_seidel(self, step, linear=False):
-        """One after the other: those later in the order know the end of the step from those before."""
+        """Steps the units in order; later ones use the outputs of earlier ones at the end of the step."""
         values = self.outputs()
         rates = self.output_rates() if linear else np.zeros(len(values))
         self._drive(step, linear)
@@ -239,11 +262,11 @@ class System:
         self._finish(step, *((values, (end - values) / step) if linear else (end, None)))
 
     def iterated(self, step, linear=True, newton=True):
-        """Sweeps of Gauss-Seidel from the same saved states until the interface closes to `CLOSED` of the nominal values.
+        """Repeats Gauss-Seidel sweeps from saved states until inputs and outputs agree to `CLOSED`.
 
-        Linear: inputs go straight from one agreed end of a step to the next, order 2. Held: they have the value of the end, order 1.
-        Plain sweeps contract only where the gain of the loop is below 1; `newton` corrects them by the directional derivatives, and by
-        Broyden's update for what the step itself adds.
+        Linear inputs go straight from the agreed end of one step to that of the next: order 2. Held inputs
+        have the value at the end: order 1. Plain sweeps converge only for a loop gain below 1. `newton`
+        corrects them by the directional derivatives, with Broyden's update for the effect of the step itself.
         """
         start = self.values
         guess = self.outputs() + (self.output_rates() * step if linear else 0.0)
@@ -262,7 +285,7 @@ class System:
                     ports.unit.slave.setFMUstate(state)
             self._drive(step, linear)
             taken = self._sweep(step, start, guess.copy(), linear)
-            # a later unit has seen the newest outputs already: what can be off are the inputs of the earlier ones
+            # later units already have the newest outputs: only the inputs of earlier units can be wrong
             shown = self.outputs()
             mismatch = np.where(self.forward, 0.0, (shown - guess) / self.scale)
             self.mismatch = float(np.abs(mismatch).max())
@@ -281,18 +304,22 @@ class System:
             last = change, mismatch
             guess = guess + change * self.scale
         raise RuntimeError(
-            f"t = {self.time} s: {MOST_SWEEPS} sweeps leave a mismatch of {self.mismatch:.1e}; take smaller steps"
+            f"t = {self.time} s: {MOST_SWEEPS} sweeps leave a mismatch of {self.mismatch:.1e}; "
+            "take smaller steps"
         )
 
     def _sweep_jacobian(self):
-        """Derivative of the mismatch by the guess, both over the scales: (I - F)⁻¹ B - I, where B feeds guesses and F newest outputs."""
+        """Returns the derivative of the mismatch by the guess, both over the scales.
+
+        It is (I - F)⁻¹ B - I. F contains the connections that use newest outputs, B those that use guesses.
+        """
         matrix = self.feedthrough() * self.scale / self.scale[:, None]
         one = np.eye(len(matrix))
         newest, guessed = matrix * self.forward, matrix * ~self.forward
         return np.linalg.solve(one - newest, guessed) - one
 
     def _sweep(self, step, start, end, linear):
-        """One step of every unit in order; `end` is what is known of the interface's end and is filled in on the way."""
+        """Steps every unit in order and updates `end`, the interface at the end of the step, on the way."""
         for ports in self.ports:
             if linear:
                 self._feed(ports, start, (end - start) / step)

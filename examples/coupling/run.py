@@ -1,7 +1,9 @@
-"""Shakes a wall on a floor, or the building, with each scheme in turn: python examples/coupling/run.py [wall | building] [step]
+"""Shakes a wall on a floor, or a building, with each scheme in turn.
 
-Needs FMPy and NumPy, and fmu_out/wall.fmu and floor.fmu (`cargo xtask fmu`). The last column compares with iteration at a tenth
-of the step.
+    python examples/coupling/run.py [wall | building] [step]
+
+Needs FMPy and NumPy, and fmu_out/wall.fmu and floor.fmu (`cargo xtask fmu`). The last column compares with
+iteration at a tenth of the step.
 """
 
 import math
@@ -18,12 +20,12 @@ SHAPES = {"wall": (wall_on_floor, "wall.u"), "building": (building, "parapet.u")
 
 
 def pulse(t):
-    """Ground acceleration [m/s²]: two periods of 0.5 s that swell and fade."""
+    """Returns the ground acceleration [m/s²]: two periods of 0.5 s that grow and decay."""
     return 3.0 * math.sin(math.pi * t) ** 2 * math.sin(4 * math.pi * t) if t < 1.0 else 0.0
 
 
 def shake(make, archives, scheme, step, watched):
-    """History of a variable at multiples of 10 ms, and when which walls overturned."""
+    """Returns the history of a variable at multiples of 10 ms, and the overturning times of walls."""
     system = make(*archives, motion=pulse)
     system.initialize()
     steps, often = round(DURATION / step), round(0.01 / step)
@@ -46,7 +48,10 @@ def main():
     with Archive(OUT / "wall.fmu") as wall, Archive(OUT / "floor.fmu") as floor:
         best, _ = shake(make, (wall, floor), "iterated, linear", step / 10, watched)
         peak = max(map(abs, best))
-        print(f"{watched}: peak {peak * 1e3:.2f} mm; step {step} s\n{'scheme':<30}{'run time [s]':>14}{'error/peak':>14}")
+        print(
+            f"{watched}: peak {peak * 1e3:.2f} mm; step {step} s\n"
+            f"{'scheme':<30}{'run time [s]':>14}{'error/peak':>14}"
+        )
         for scheme in SCHEMES:
             start = time.perf_counter()
             history, fallen = shake(make, (wall, floor), scheme, step, watched)

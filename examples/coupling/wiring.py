@@ -1,7 +1,9 @@
-"""Which output goes to which input: a wall on one floor, and a building of two floors, a strip wall between them and a parapet on the roof.
+"""Connections of a wall on a floor, and of a building: two floors, a strip wall between them, a parapet on
+the roof.
 
-The wall's `reaction_*` are forces of the floor on the wall, and the floor negates them: everything is connected as it is. A storey
-on another storey is to it what a wall is: its base moves with the storey below, and its `reaction_bottom` loads that.
+`reaction_*` of a wall are forces of the floor on the wall. The floor negates them, so they are connected as
+they are. An upper storey acts on the storey below like a wall: its base moves with that storey, and its
+`reaction_bottom` loads it.
 """
 
 from master import System, Unit
@@ -25,13 +27,12 @@ BUILDING = [
 ]
 
 
-
 def by_impulses(connections):
-    """The same with impulses in place of reactions; the floors then want `coupling = impulses`."""
+    """Replaces reactions by impulses; the floors then need `coupling = impulses`."""
     return [tuple(end.replace("reaction", "impulse") for end in connection) for connection in connections]
 
 
-# What the examples run with: a parapet that weighs 15 % of its floor, on 5 Hz.
+# Parameters of the examples: a parapet that weighs 15 % of its floor, whose frequency is 5 Hz.
 WALL = {"height": 3.0, "thickness": 0.3, "a1": 0.05, "u_start": 0.0, "damping_model": "constant_coefficient",
         "damping_source": "given", "xi": 0.05}  # fmt: skip
 FLOOR = {"mass": 1.08e4, "stiffness": 1.08e4 * 31.4**2, "damping_ratio": 0.05}
@@ -41,20 +42,24 @@ STOREYS = {
     "floor_2": {"mass": 1.5e4, "stiffness": 2.5e7, "damping_ratio": 0.03},
 }
 WALLS = {
-    "strip": {"mechanism": "vertical_spanning", "height": 3.0, "thickness": 0.2, "hinge_ratio": 0.6, "overburden": 5000.0,
-              "a1": 0.05, "u_start": 0.0, "damping_model": "constant_coefficient", "damping_source": "given", "xi": 0.05},
-    "parapet": {"height": 1.2, "thickness": 0.3, "a1": 0.05, "u_start": 0.0, "damping_model": "constant_coefficient",
-                "damping_source": "given", "xi": 0.05},
+    "strip": {"mechanism": "vertical_spanning", "height": 3.0, "thickness": 0.2, "hinge_ratio": 0.6,
+              "overburden": 5000.0, "a1": 0.05, "u_start": 0.0,
+              "damping_model": "constant_coefficient", "damping_source": "given", "xi": 0.05},
+    "parapet": {"height": 1.2, "thickness": 0.3, "a1": 0.05, "u_start": 0.0,
+                "damping_model": "constant_coefficient", "damping_source": "given", "xi": 0.05},
 }  # fmt: skip
 
 
 def wall_on_floor(wall, floor, changes=None, motion=None, connections=WALL_ON_FLOOR):
-    """The archives of both, changes of parameters by unit, and the ground's acceleration as a function of time."""
+    """Makes the system from both archives.
+
+    `changes` has parameters by unit, `motion` is the ground acceleration as a function of time.
+    """
     return _system((floor, {"floor": FLOOR}), (wall, {"wall": WALL}), changes, motion, connections)
 
 
 def building(wall, floor, changes=None, motion=None, connections=BUILDING):
-    """As `wall_on_floor`."""
+    """Makes the building; arguments as for `wall_on_floor`."""
     return _system((floor, STOREYS), (wall, WALLS), changes, motion, connections)
 
 

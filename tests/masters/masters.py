@@ -1,8 +1,8 @@
 """Four masters that move the same system with the same scheme: Jacobi, inputs held, one step for all.
 
-Each takes a `Building` and returns the histories of what is watched, one row for each step. Their packages are imported
-where they are used, so that a missing one fails only its own test; and each runs in a process of its own, because their libraries
-do not stand each other (libcosim's logging brings the container down):
+Each takes a `Building` and returns the watched variables, one row for each step. Packages are imported where
+they are used, so that a missing one fails only its own test. Each master runs in a process of its own,
+because the libraries conflict (libcosim's logging crashes the container):
 
     python masters.py MASTER SSP STEP STEPS OUTPUT.npy WATCHED...
 """
@@ -44,12 +44,13 @@ class Building:
             for element in self.elements
         }
         self.connections = [
-            (c.startElement, c.startConnector, c.endElement, c.endConnector) for c in description.system.connections
+            (c.startElement, c.startConnector, c.endElement, c.endConnector)
+            for c in description.system.connections
         ]
 
 
 def own(building, step, steps, watched):
-    """The master of examples/coupling, on FMPy's instances."""
+    """Runs the master of examples/coupling, on FMPy's instances."""
     archives = {path: Archive(path) for path in set(building.fmus.values())}
     with contextlib.ExitStack() as stack:
         for archive in archives.values():
@@ -66,20 +67,22 @@ def own(building, step, steps, watched):
 
 
 def fmpy(building, step, steps, watched):
-    """FMPy's own `simulate_ssp`. It reads the bindings but leaves it to the caller to apply them."""
+    """Runs FMPy's `simulate_ssp`. It reads the bindings, but the caller has to apply them."""
     parameters = ParameterSet(name="starts")
     for name, starts in building.starts.items():
         for key, value in starts.items():
             parameter = Parameter(name=f"{name}.{key}")
             parameter.value = value
             parameters.parameters.append(parameter)
-    # a step less than the last: it adds up the time and stops at or beyond the end
-    result = simulate_ssp(str(building.path), stop_time=(steps - 0.5) * step, step_size=step, parameter_set=parameters)
+    # half a step before the end: it adds up the time and stops at or beyond the end
+    result = simulate_ssp(
+        str(building.path), stop_time=(steps - 0.5) * step, step_size=step, parameter_set=parameters
+    )
     return np.array([result[name] for name in watched]).T
 
 
 def ecos(building, step, steps, watched):
-    """Ecos. It wants the name of the parameter set, and a libtbb of the system or of the package `tbb`."""
+    """Runs Ecos. It needs the name of the parameter set, and libtbb from the system or the package `tbb`."""
     load_tbb()
     from ecospy import EcosSimulation
 
@@ -100,7 +103,7 @@ def load_tbb():
 
 
 def libcosim(building, step, steps, watched):
-    """libcosim, with the step that stands in the SSP."""
+    """Runs libcosim, with the step that the SSP states."""
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
     from libcosimpy.CosimObserver import CosimObserver
@@ -112,7 +115,10 @@ def libcosim(building, step, steps, watched):
     places = []
     for name in watched:
         component, variable = name.split(".")
-        variables = {v.name: v.valueReference for v in read_model_description(str(building.fmus[component])).modelVariables}
+        variables = {
+            v.name: v.valueReference
+            for v in read_model_description(str(building.fmus[component])).modelVariables
+        }
         places.append((execution.slave_index_from_instance_name(component), [variables[variable]]))
     history = []
     for _ in range(steps):
@@ -124,7 +130,7 @@ def libcosim(building, step, steps, watched):
 
 
 def container(building, step, steps, watched):
-    """All units in one FMU by fmu-manipulation-toolbox, simulated by FMPy."""
+    """Puts all units into one FMU with fmu-manipulation-toolbox, and simulates it in FMPy."""
     from fmu_manipulation_toolbox.assembly import Assembly
 
     folder = building.folder / "container"
@@ -134,16 +140,27 @@ def container(building, step, steps, watched):
         files[name] = f"{name}.fmu"
         (folder / files[name]).write_bytes(path.read_bytes())
     description = {
-        "name": "building.fmu", "step_size": step, "mt": False, "auto_link": False, "auto_input": False, "auto_output": False,
+        "name": "building.fmu", "step_size": step, "mt": False,
+        "auto_link": False, "auto_input": False, "auto_output": False,
         "fmu": list(files.values()),
         "link": [[files[a], b, files[c], d] for a, b, c, d in building.connections],
-        "output": [[files[name.split(".")[0]], name.split(".")[1], name.replace(".", "_")] for name in watched],
-        "start": [[files[name], key, value] for name, starts in building.starts.items() for key, value in starts.items()],
+        "output": [
+            [files[name.split(".")[0]], name.split(".")[1], name.replace(".", "_")] for name in watched
+        ],
+        "start": [
+            [files[name], key, value]
+            for name, starts in building.starts.items()
+            for key, value in starts.items()
+        ],
     }  # fmt: skip
     (folder / "building.json").write_text(json.dumps(description))
     Assembly("building.json", fmu_directory=folder).make_fmu()
     result = simulate_fmu(
-        str(folder / "building.fmu"), step_size=step, output_interval=step, stop_time=steps * step, fmi_type="CoSimulation"
+        str(folder / "building.fmu"),
+        step_size=step,
+        output_interval=step,
+        stop_time=steps * step,
+        fmi_type="CoSimulation",
     )
     return np.array([result[name.replace(".", "_")] for name in watched]).T[1:]
 

@@ -1,4 +1,4 @@
-"""Wall on floor and building in other people's masters; `wall building` makes both."""
+"""Tests a wall on a floor and a building in other masters; `wall building` makes both."""
 
 import os
 import re
@@ -51,16 +51,17 @@ def fmus():
 
 
 def make(source, output):
-    """The SSP of a building's file."""
+    """Makes the SSP of a building file."""
     subprocess.run([program(), "building", source, "-o", output, *fmus()], check=True, capture_output=True)
     return output
 
 
 @pytest.fixture(scope="module")
 def buildings(tmp_path_factory):
-    """Both systems, from a start without forces: floors at speed without damping, walls that move with them.
+    """Makes both systems, with a start without forces: floors move without damping, and walls move with them.
 
-    Then all inputs are 0 at the start, however a master passes the loop of accelerations and reactions round before its first step.
+    All inputs are then 0 at the start, whatever a master does with the loop of accelerations and reactions
+    before its first step.
     """
     made = {}
     for name in WATCHED:
@@ -76,7 +77,16 @@ def buildings(tmp_path_factory):
 
 def run(master, name, path):
     output = path.with_name(f"{master}.npy")
-    command = [sys.executable, ROOT / "tests/masters/masters.py", master, path, str(STEP), str(STEPS), output, *WATCHED[name]]
+    command = [
+        sys.executable,
+        ROOT / "tests/masters/masters.py",
+        master,
+        path,
+        str(STEP),
+        str(STEPS),
+        output,
+        *WATCHED[name],
+    ]
     result = subprocess.run(command, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr[-2000:]
     return np.load(output)
@@ -90,7 +100,7 @@ def expected(buildings):
 @pytest.mark.parametrize("name", WATCHED)
 @pytest.mark.parametrize("master", [master for master in MASTERS if master != "own"])
 def test_masters_agree(buildings, expected, master, name):
-    """The same scheme and step give the same answer to 1e-9 of the peak: rounding of sums of times is all that differs."""
+    """The same scheme and step agree to 1e-9 of the peak; only the rounding of summed times differs."""
     found = run(master, name, buildings[name])
     peaks = np.abs(expected[name]).max(axis=0)
     assert np.all(peaks > 1e-3), "something moves"
@@ -101,7 +111,7 @@ def test_masters_agree(buildings, expected, master, name):
 def test_the_system_is_complete_and_its_bytes_repeat(tmp_path):
     first, second = (make(SCENES / "building.toml", tmp_path / name) for name in ("a.ssp", "b.ssp"))
     assert first.read_bytes() == second.read_bytes()
-    # against the schema of SSP 1.0
+    # validate with the schema of SSP 1.0
     system = read_ssd(str(first), validate=True).system
     assert [element.name for element in system.elements] == ["floor_1", "floor_2", "strip", "parapet"]
     with zipfile.ZipFile(first) as archive:
@@ -115,7 +125,8 @@ def test_the_system_is_complete_and_its_bytes_repeat(tmp_path):
     assert all(len(connector) == 1 for connector in connectors) and types == {"Real", "Boolean"}
     connections = [dict(connection.attrib) for connection in description.iter(f"{prefix}Connection")]
     assert {
-        "startElement": "floor_2", "startConnector": "displacement", "endElement": "strip", "endConnector": "drift"
+        "startElement": "floor_2", "startConnector": "displacement",
+        "endElement": "strip", "endConnector": "drift"
     } in connections  # fmt: skip
     assert len(connections) == 9
 

@@ -13,7 +13,7 @@ ALLOWED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "libgcc_s.
 
 
 def read(path):
-    """Needed libraries, needed symbol versions and exported names of an ELF library."""
+    """Returns the needed libraries, needed symbol versions and exported names of an ELF library."""
     with open(path, "rb") as file:
         elf = ELFFile(file)
         needed = {
@@ -55,5 +55,8 @@ if __name__ == "__main__":
     for fault in faults:
         print(f"{sys.argv[1]}: {fault}")
     needed, versions, exported = read(sys.argv[1])
-    print(f"{len(exported)} functions; versions {', '.join(sorted(versions))}; needs {', '.join(sorted(needed))}")
+    print(
+        f"{len(exported)} functions; versions {', '.join(sorted(versions))}; "
+        f"needs {', '.join(sorted(needed))}"
+    )
     sys.exit(bool(faults))

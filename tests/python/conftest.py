@@ -1,4 +1,4 @@
-"""Where the tests find the unit and the program; `cargo xtask test` sets both."""
+"""Finds the FMUs and the program for the tests; `cargo xtask test` sets the paths."""
 
 import os
 from pathlib import Path
@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def built(variable, default, command):
-    """Path that an environment variable names, or the default one; the command makes it."""
+    """Returns the path in an environment variable, or the default path; `command` builds the file."""
     path = Path(os.environ.get(variable, ROOT / default))
     assert path.is_file(), f"{path} is missing: run `{command}`"
     return path

@@ -1,6 +1,7 @@
-"""An importer for Model Exchange: SciPy's DOP853 integrates the states, and events are located on its dense output.
+"""An importer for Model Exchange: SciPy's DOP853 integrates the states and locates events on its dense
+output.
 
-Unlike FMPy's it sets the inputs at every evaluation of the derivatives.
+Unlike FMPy's importer, it sets the inputs at every evaluation of the derivatives.
 """
 
 from ctypes import c_double
@@ -30,7 +31,7 @@ class Exchange(Unit):
         return self
 
     def update(self):
-        """Event iteration; whether states have jumped."""
+        """Iterates the event; returns whether states have jumped."""
         jumped = False
         for _ in range(10):
             again, end, nominals, changed, timed, time = self.slave.newDiscreteStates()
@@ -60,7 +61,7 @@ class Exchange(Unit):
         return self._numbers(self.slave.getNominalsOfContinuousStates, STATES)
 
     def at(self, time, states, inputs=None):
-        """Brings time, states and inputs to a point."""
+        """Sets time, states and inputs."""
         self.slave.setTime(float(time))
         self.slave.setContinuousStates((c_double * STATES)(*states), STATES)
         if inputs:
@@ -74,16 +75,17 @@ class Exchange(Unit):
         return jumped
 
     def integrate(self, end, tolerance, inputs=None):
-        """Integrates to `end` through its events; returns their number."""
+        """Integrates to `end` through all events; returns their number."""
         for count in range(MOST_EVENTS):
             if self.time >= end:
                 return count
             stop = min(end, self.next_event or end)
             crossings = [self._crossing(index, inputs) for index in range(INDICATORS)]
-            # a maximal step, so that no corner is passed to and fro within one
+            # the largest step is limited, so that a step cannot pass a corner and come back
             piece = solve_ivp(
-                lambda t, x: self.at(t, x, inputs).derivatives(), (self.time, stop), self.states(), method="DOP853",
-                rtol=tolerance, atol=tolerance * np.array(self.nominals()), events=crossings, max_step=0.02,
+                lambda t, x: self.at(t, x, inputs).derivatives(), (self.time, stop), self.states(),
+                method="DOP853", rtol=tolerance, atol=tolerance * np.array(self.nominals()),
+                events=crossings, max_step=0.02,
             )  # fmt: skip
             assert piece.status >= 0, piece.message
             self.time = piece.t[-1]

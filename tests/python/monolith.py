@@ -1,12 +1,13 @@
-"""Storeys and rocking walls as one system of equations, integrated tightly by scipy: the truth that coupled runs are measured by.
+"""Storeys and rocking walls as one system of equations: the reference for coupled runs.
 
-Unknowns at each instant are the absolute accelerations A of the storeys and u'' of the walls:
+SciPy integrates it with a tight tolerance. The unknowns at each instant are the absolute accelerations A of
+the storeys and u'' of the walls:
 
     M_i A_i = -S_i + S_{i+1} - sum of reactions,    S_i = k_i x_i + c_i x_i',    x_i'' = A_i - A_{i-1}
     m_eff u'' + C u' + F(u) - W d/h = -lambda m_eff (w_b A_b + w_t A_t)
 
-with the reactions of docs/model.md, the bilinear law with softening parallel to the rigid one, and a constant C. Corners of the law
-end pieces of the integration.
+The reactions are those of docs/model.md. The force law is bilinear with softening parallel to the rigid law,
+and C is constant. The integration restarts at each corner of the law.
 """
 
 import math
@@ -20,7 +21,10 @@ MOST_PIECES = 10_000
 
 
 class Wall:
-    """Quantities of one wall from its parameters; `bottom` and `top` are indices of storeys, GROUND, or None for a parapet's top."""
+    """Quantities of one wall from its parameters.
+
+    `bottom` and `top` are indices of storeys, or GROUND; the top of a parapet is None.
+    """
 
     def __init__(self, parameters, bottom, top=None, drift=False):
         p = {"width": 1.0, "density": 1800.0, "overburden": 0.0, "hinge_ratio": 0.5} | parameters
@@ -47,11 +51,11 @@ class Wall:
         return self.k1 * u if branch == 0 else self.k0 * (branch * self.u_ins - u)
 
     def couple(self, u, d):
-        """G: what the supports add at the top and take at the bottom."""
+        """Returns G: the force that drift adds to the top reaction and subtracts from the bottom one."""
         return -(self.weight * u / 2 + (self.weight / 2 + self.load) * d) / self.height if self.drift else 0.0
 
     def reactions(self):
-        """Coefficients of (A_b, A_t, u'') in the reactions at bottom and top."""
+        """Returns the coefficients of (A_b, A_t, u'') in the reactions at bottom and top."""
         m, (w_b, w_t) = self.mass, self.weights
         if self.top is None:
             return (m, 0.0, m), (0.0, 0.0, 0.0)
@@ -59,19 +63,21 @@ class Wall:
 
 
 class Monolith:
-    """`storeys` from the ground up, each on the one below; `walls` on them."""
+    """The system: `storeys` from the ground up, each on the one below, and `walls` on them."""
 
     def __init__(self, storeys, walls, ground=lambda t: 0.0):
         self.walls, self.ground, self.n = walls, ground, len(storeys)
         self.mass = np.array([s["mass"] for s in storeys])
         self.stiffness = np.array([s["stiffness"] for s in storeys])
-        self.damping = np.array([2 * s["damping_ratio"] * math.sqrt(s["mass"] * s["stiffness"]) for s in storeys])
+        self.damping = np.array(
+            [2 * s["damping_ratio"] * math.sqrt(s["mass"] * s["stiffness"]) for s in storeys]
+        )
         self.start = np.concatenate([
             [s.get("displacement_start", 0.0) for s in storeys], [w.start for w in walls],
             [s.get("velocity_start", 0.0) for s in storeys], np.zeros(len(walls)),
         ])  # fmt: skip
         n, size = self.n, self.n + len(walls)
-        # by the ground's acceleration, in the last column
+        # the last column is for the ground's acceleration
         matrix = np.zeros((size, size + 1))
         matrix[range(n), range(n)] = self.mass
         for j, wall in enumerate(walls):
@@ -89,7 +95,7 @@ class Monolith:
         self.by_ground = matrix[:, size]
 
     def accelerations(self, t, y, branches):
-        """A of the storeys and u'' of the walls."""
+        """Returns A of the storeys and u'' of the walls."""
         n, size = self.n, self.n + len(self.walls)
         x, v = y[:n], y[size : size + n]
         springs = self.stiffness * x + self.damping * v
@@ -99,9 +105,13 @@ class Monolith:
         ground = self.ground(t)
         for j, wall in enumerate(self.walls):
             u, speed = y[n + j], y[size + n + j]
-            # the walls with a drift stand on one storey and lean on the next
+            # a wall with a drift spans from one storey to the next
             d = x[wall.top] if wall.drift else 0.0
-            right[n + j] = -wall.damping * speed - wall.force(u, branches[j]) + (wall.weight * d / wall.height if wall.drift else 0.0)
+            right[n + j] = (
+                -wall.damping * speed
+                - wall.force(u, branches[j])
+                + (wall.weight * d / wall.height if wall.drift else 0.0)
+            )
             couple = wall.couple(u, d)
             if wall.drift:
                 right[wall.bottom] += couple
@@ -115,14 +125,14 @@ class Monolith:
         return np.concatenate([y[size:], found[:n] - below, found[n:]])
 
     def solve(self, times):
-        """States (displacements, then velocities; storeys, then walls) at ascending times, by rows."""
+        """Returns one row per time: displacements, then velocities; storeys before walls. Times ascend."""
         n, size = self.n, self.n + len(self.walls)
         branches = [0 if abs(w.start) <= w.u1 else int(math.copysign(1, w.start)) for w in self.walls]
         events = [self._corner(j, side) for j in range(len(self.walls)) for side in (1, -1)]
         state, now, found = self.start.copy(), 0.0, []
         for _ in range(MOST_PIECES):
             for event in events:
-                # out of the elastic branch outwards, back into it inwards
+                # events: outwards through the end of the elastic branch, or back inwards
                 event.direction = event.side if branches[event.wall] == 0 else -event.side
                 event.terminal = branches[event.wall] in (0, event.side)
             ahead = times[(times > now) & (times <= times[-1])]

@@ -1,4 +1,7 @@
-"""The linear floor by another exporter (pythonfmu), from its equation alone: a matrix exponential for each step."""
+"""The linear floor made with another exporter (pythonfmu), from its equation alone.
+
+Each step is a matrix exponential.
+"""
 
 import numpy as np
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
@@ -17,14 +20,16 @@ class PartnerFloor(Fmi2Slave):
         self.last_step = 0.0
         self.propagators = {}
         for name in ("mass", "stiffness", "damping_ratio", "displacement_start", "velocity_start"):
-            self.register_variable(Real(name, causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed))
+            self.register_variable(
+                Real(name, causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed)
+            )
         for name in ("a_g", "reaction_1", "impulse_1"):
             self.register_variable(Real(name, causality=Fmi2Causality.input))
         for name in ("displacement", "velocity"):
             self.register_variable(Real(name, causality=Fmi2Causality.output))
         for name in ("acceleration", "acceleration_absolute"):
             absolute = name == "acceleration_absolute"
-            getter = (lambda absolute=absolute: self.present(absolute))
+            getter = lambda absolute=absolute: self.present(absolute)
             self.register_variable(Real(name, causality=Fmi2Causality.output, getter=getter))
 
     def exit_initialization_mode(self):
@@ -43,7 +48,7 @@ class PartnerFloor(Fmi2Slave):
 
     def do_step(self, current_time, step_size):
         if step_size not in self.propagators:
-            # x, v and a constant
+            # the state is x, v and a constant
             matrix = np.zeros((3, 3))
             matrix[0, 1] = matrix[1, 2] = 1.0
             matrix[1, :2] = -self.stiffness / self.mass, -self.damping() / self.mass

@@ -1,4 +1,7 @@
-"""Drives an FMU with a recorded input in FMPy as `fmpy simulate --input-file` does: shake.py FMU INPUT STOP HISTORY."""
+"""Drives an FMU with a recorded input in FMPy, as `fmpy simulate --input-file` does.
+
+Usage: shake.py FMU INPUT STOP HISTORY
+"""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""How the FMU behaves between importer and wall: what importers do, what they may ask, and what they get."""
+"""Tests how the FMU answers importers: values, errors, time, states, derivatives, log and instances."""
 
 import csv
 import ctypes
@@ -21,13 +21,20 @@ from conftest import ROOT
 from unit import Unit
 
 SHAKEN = {"u_start": 0.0, "a1": 0.02, "damping_model": "constant_ratio"}
-STRIP = {"mechanism": "vertical_spanning", "thickness": 0.1, "height": 2.68, "hinge_ratio": 0.57, "overburden": 3000.0}
-NAMES = ["u", "u_dot", "u_ddot", "u_ratio", "restoring_force", "damping_force", "reaction_bottom", "reaction_top",
-         "impulse_bottom", "impulse_top", "overturn_time", "u_max", "overturned"]  # fmt: skip
+STRIP = {
+    "mechanism": "vertical_spanning",
+    "thickness": 0.1,
+    "height": 2.68,
+    "hinge_ratio": 0.57,
+    "overburden": 3000.0,
+}
+NAMES = ["u", "u_dot", "u_ddot", "u_ratio", "restoring_force", "damping_force",
+         "reaction_bottom", "reaction_top", "impulse_bottom", "impulse_top",
+         "overturn_time", "u_max", "overturned"]  # fmt: skip
 
 
 def shake(unit, steps, seed=1, step=0.01):
-    """Random accelerations, held in some steps and sloped in others."""
+    """Applies random accelerations, held in some steps and with a slope in others."""
     noise = random.Random(seed)
     for _ in range(steps):
         unit.set(a_bottom=noise.uniform(-3, 3), a_top=noise.uniform(-3, 3))
@@ -41,7 +48,7 @@ def values(unit):
 
 
 def refused(unit, call, *words):
-    """A call that fails, with an error in the log that holds every word."""
+    """Expects a call to fail, with an error in the log that contains every word."""
     unit.messages.clear()
     with pytest.raises(FMICallException) as caught:
         call()
@@ -58,7 +65,7 @@ def test_a_wrong_guid_is_refused(unpacked):
         slave.instantiate()
 
 
-# --- limits and relations -------------------------------------------------------------------------------------------
+# --- limits and relations -----------------------------------------------------------------------------------
 
 
 def test_every_limit_is_checked_and_named(unpacked):
@@ -104,7 +111,10 @@ def test_numbers_must_be_finite(unpacked, bad):
         ({"solver": "exact"}, ("exact", "constant_ratio", "adaptive")),
         ({"force_law": "rigid_linear"}, ("rigid_linear", "free_standing_block")),
         ({"u_start": 2.5}, ("u_start = 2.5", "2 m")),
-        ({"thickness": 6.0, "restitution_source": "analytic", "impact": "restitution"}, ("restitution", "squat")),
+        (
+            {"thickness": 6.0, "restitution_source": "analytic", "impact": "restitution"},
+            ("restitution", "squat"),
+        ),
     ],
 )
 def test_relations_are_checked_at_the_end_of_initialisation(unpacked, settings, words):
@@ -118,7 +128,12 @@ def test_enumerations_take_their_items_only(unpacked):
     for name in ("mechanism", "force_law", "damping_model", "solver"):
         for value in (0, 99, -1):
             with Unit(unpacked) as unit:
-                refused(unit, lambda: unit.slave.setInteger([unit.reference(name)], [value]), name, "automatic" if name == "solver" else "")
+                refused(
+                    unit,
+                    lambda: unit.slave.setInteger([unit.reference(name)], [value]),
+                    name,
+                    "automatic" if name == "solver" else "",
+                )
 
 
 def test_parameters_are_fixed(unit):
@@ -126,7 +141,7 @@ def test_parameters_are_fixed(unit):
     refused(unit, lambda: unit.set(height=3.0), "height")
 
 
-# --- time -----------------------------------------------------------------------------------------------------------
+# --- time ---------------------------------------------------------------------------------------------------
 
 
 def test_times_are_sums_of_rounded_steps(unpacked):
@@ -137,7 +152,7 @@ def test_times_are_sums_of_rounded_steps(unpacked):
         whole.start()
         for index in range(10_000):
             whole.slave.doStep(index / 1000, 0.001)
-        # the clocks differ by the rounding of 10^4 sums, 1e-12 s
+        # the times differ by the rounding of 10^4 sums, 1e-12 s
         assert unit.get("u") == pytest.approx(whole.get("u"), abs=1e-11)
 
 
@@ -183,7 +198,7 @@ def test_overturning_is_an_ordinary_state(unit):
     assert unit.get("u_dot", "u_ddot", "reaction_bottom", "impulse_bottom") == [0.0, 0.0, 0.0, 0.0]
 
 
-# --- states ---------------------------------------------------------------------------------------------------------
+# --- states -------------------------------------------------------------------------------------------------
 
 
 def test_a_state_resumes_bit_for_bit(unpacked):
@@ -269,7 +284,7 @@ def test_reset_is_a_fresh_instance(unpacked):
         assert values(used) == values(fresh)
 
 
-# --- inputs, outputs, derivatives -----------------------------------------------------------------------------------
+# --- inputs, outputs, derivatives ---------------------------------------------------------------------------
 
 
 def test_input_derivatives(unit):
@@ -302,25 +317,38 @@ def test_feedthrough_without_a_step(unit):
     assert unit.get("u_ddot") == pytest.approx(-1.5, rel=1e-15), "a_g is added"
 
 
-@pytest.mark.parametrize("model", ["none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"])
+@pytest.mark.parametrize(
+    "model",
+    ["none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"],
+)
 @pytest.mark.parametrize("shape", [{}, STRIP])
 def test_output_derivatives(unpacked, model, shape):
-    """First derivatives of the outputs against central differences of steps of 1e-4 s.
+    """Compares output derivatives with central differences over 1e-4 s.
 
-    The difference quotient errs by h²/6 of the third derivative; on these walls (rates below 60/s) that is 1e-4 of the
-    derivative's own scale, and rounding of the outputs adds less.
+    The error of the difference quotient is h²/6 of the third derivative. On these walls (rates below 60/s)
+    that is 1e-4 of the derivative's own scale. Rounding of the outputs adds less.
     """
     names = ["u", "u_dot", "u_ddot", "reaction_bottom", "reaction_top"]
     step = 1e-4
     with Unit(unpacked) as unit:
         u_ins = 0.1 if shape else 0.2
-        unit.start(**shape, damping_model=model, damping_source="given", xi=0.05, c_bar=0.1, u_start=0.3 * u_ins, u_dot_start=0.1)
+        unit.start(
+            **shape,
+            damping_model=model,
+            damping_source="given",
+            xi=0.05,
+            c_bar=0.1,
+            u_start=0.3 * u_ins,
+            u_dot_start=0.1,
+        )
         unit.set(a_bottom=0.4, a_top=0.4)
         history = []
         for _ in range(3):
             unit.rates(a_bottom=3.0, a_top=1.0)
             unit.step(step)
-            found = unit.slave.getRealOutputDerivatives([unit.reference(name) for name in names], [1] * len(names))
+            found = unit.slave.getRealOutputDerivatives(
+                [unit.reference(name) for name in names], [1] * len(names)
+            )
             history.append((unit.get(*names), list(found)))
         for index, name in enumerate(names):
             expected = (history[2][0][index] - history[0][0][index]) / (2 * step)
@@ -337,14 +365,16 @@ STATES = [
 ]
 
 
-@pytest.mark.parametrize("model", ["none", "constant_coefficient", "constant_ratio", "stiffness_proportional"])
+@pytest.mark.parametrize(
+    "model", ["none", "constant_coefficient", "constant_ratio", "stiffness_proportional"]
+)
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("shape", [{}, STRIP | {"thickness": 0.2}])
 def test_directional_derivatives(unpacked, model, state, shape):
-    """Every Real output against every input and state, by central differences over 1e-6 of the known.
+    """Compares the derivative of every Real output by every input and state with a central difference.
 
-    Outputs are linear in inputs and smooth in the states there: differences err by rounding, 1e-10 over 1e-6, and by 1e-12
-    of the curvature.
+    The known changes by 1e-6. Outputs are linear in the inputs and smooth in the states there. The error of a
+    difference is rounding, 1e-10 over 1e-6, and 1e-12 of the curvature.
     """
     unknowns = [name for name in NAMES if name != "overturned"]
     settings = {"damping_model": model, "damping_source": "given", "xi": 0.05} | shape | state
@@ -356,20 +386,29 @@ def test_directional_derivatives(unpacked, model, state, shape):
 
     with Unit(unpacked) as unit:
         unit.start(**settings, a_g=0.1, a_bottom=0.2, a_top=0.3, drift=1e-3)
-        for known, start in [("a_g", 0.1), ("a_bottom", 0.2), ("a_top", 0.3), ("drift", 1e-3), ("u", state["u_start"]), ("u_dot", state["u_dot_start"])]:
+        for known, start in [
+            ("a_g", 0.1),
+            ("a_bottom", 0.2),
+            ("a_top", 0.3),
+            ("drift", 1e-3),
+            ("u", state["u_start"]),
+            ("u_dot", state["u_dot_start"]),
+        ]:
             name = {"u": "u_start", "u_dot": "u_dot_start"}.get(known, known)
             above, below = outputs(**{name: start + 1e-6}), outputs(**{name: start - 1e-6})
             for index, unknown in enumerate(unknowns):
-                found = unit.slave.getDirectionalDerivative([unit.reference(unknown)], [unit.reference(known)], [1.0])[0]
+                found = unit.slave.getDirectionalDerivative(
+                    [unit.reference(unknown)], [unit.reference(known)], [1.0]
+                )[0]
                 expected = (above[index] - below[index]) / 2e-6
                 if unknown == "u_max":
-                    expected = 0.0  # a memory: at a fixed past it does not move with the state
+                    expected = 0.0  # it depends on the past, not on the present state
                 size = max(1.0, abs(expected), abs(above[index]))
                 assert found == pytest.approx(expected, abs=2e-6 * size), f"d {unknown} / d {known}"
 
 
 def test_directional_derivatives_know_the_first_drift(unpacked):
-    """A drift that is set between steps brings its couple at once, to the reactions and to their derivatives."""
+    """A drift set between steps changes the reactions and their derivatives without delay."""
     ends = ["reaction_bottom", "reaction_top"]
     with Unit(unpacked) as unit:
         unit.start(**STRIP | {"u_start": 0.0, "overburden": 1000.0})
@@ -378,8 +417,11 @@ def test_directional_derivatives_know_the_first_drift(unpacked):
         def slopes(known):
             return list(unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0]))
 
-        # at u = 0 the reactions are linear in the drift from the first one on: differences err by rounding
-        expected = [(a - b) / 2e-4 for a, b in zip(unit.set(drift=1e-4).get(*ends), unit.set(drift=-1e-4).get(*ends), strict=True)]
+        # at u = 0 the reactions are linear in the drift, from the first drift on: only rounding remains
+        expected = [
+            (a - b) / 2e-4
+            for a, b in zip(unit.set(drift=1e-4).get(*ends), unit.set(drift=-1e-4).get(*ends), strict=True)
+        ]
         assert slopes("drift") == pytest.approx(expected, rel=1e-9)
         weight = unit.get("mass") * 9.81
         with_couple = slopes("u")
@@ -387,7 +429,7 @@ def test_directional_derivatives_know_the_first_drift(unpacked):
         assert slopes("drift") == pytest.approx(expected, rel=1e-9)
         without = slopes("u")
         couple = [a - b for a, b in zip(with_couple, without, strict=True)]
-        # R_b holds -G, R_t G, with G = -W u/(2h) - ...
+        # R_b contains -G and R_t contains G, with G = -W u/(2h) - ...
         each = weight / (2 * unit.get("height"))
         assert couple == pytest.approx([each, -each], rel=1e-9)
 
@@ -407,7 +449,7 @@ def test_the_tighter_tolerance_applies(unpacked):
 
 
 def test_a_tolerance_below_rounding_is_the_least(unpacked):
-    """The least that the parameter may be; asked for less, a step would look for it for minutes."""
+    """A smaller tolerance is raised to the lower limit of the parameter; a step would else take minutes."""
 
     def end(tolerance):
         with Unit(unpacked) as unit:
@@ -416,7 +458,7 @@ def test_a_tolerance_below_rounding_is_the_least(unpacked):
     assert end(1e-300) == end(1e-15)
 
 
-# --- log ------------------------------------------------------------------------------------------------------------
+# --- log ----------------------------------------------------------------------------------------------------
 
 
 def test_a_clean_run_is_silent(unpacked):
@@ -430,7 +472,9 @@ def test_a_parapet_says_once_that_it_has_no_top(unpacked):
     with Unit(unpacked, logging=True) as unit:
         unit.start(u_start=0.0)
         shake(unit, 50)
-        told = [text for _, category, text in unit.messages if category == "logStatusWarning" and "a_top" in text]
+        told = [
+            text for _, category, text in unit.messages if category == "logStatusWarning" and "a_top" in text
+        ]
         assert len(told) == 1
 
 
@@ -450,7 +494,15 @@ def test_log_of_starts_and_events(unpacked):
         ({"a1": 0.2}, "0.005"),
         ({"impact": "restitution"}, "twice"),
         ({"damping_model": "free_standing_block", "overburden": 1000.0}, "Eq. 23"),
-        ({"impact": "restitution", "restitution_source": "given", "restitution": 1.0, "damping_model": "none"}, "never"),
+        (
+            {
+                "impact": "restitution",
+                "restitution_source": "given",
+                "restitution": 1.0,
+                "damping_model": "none",
+            },
+            "never",
+        ),
     ],
 )
 def test_doubtful_choices_are_warned_of(unpacked, settings, word):
@@ -459,7 +511,7 @@ def test_doubtful_choices_are_warned_of(unpacked, settings, word):
         assert any(word in text for _, category, text in unit.messages if category == "logStatusWarning")
 
 
-# --- many instances -------------------------------------------------------------------------------------------------
+# --- many instances -----------------------------------------------------------------------------------------
 
 
 def test_eight_threads(unpacked):
@@ -514,14 +566,14 @@ def test_instances_leave_nothing_behind(fmu):
     command = [sys.executable, "-c", CYCLES, Path(__file__).parent, fmu]
     answer = subprocess.run(command, check=True, capture_output=True, text=True)
     before, after = map(int, answer.stdout.split())
-    # a leak of 10 bytes an instance would show as 1000 KiB
+    # a leak of 10 bytes per instance would add up to 1000 KiB
     assert after - before < 1000, "KiB"
 
 
 @pytest.mark.parametrize(
     "location",
-    [None, b"", b"file:///none", b"file:/p", b"file:///with%20blank/%C3%BCml%C3%A4ut/", b"/plain", b"C:\\windows", b"http://x/y",
-     b"file:///%zz%", b"file:///" + b"a/" * 5000],
+    [None, b"", b"file:///none", b"file:/p", b"file:///with%20blank/%C3%BCml%C3%A4ut/", b"/plain",
+     b"C:\\windows", b"http://x/y", b"file:///%zz%", b"file:///" + b"a/" * 5000],
 )  # fmt: skip
 def test_a_general_fmu_runs_with_any_resource_location(unpacked, location):
     with Unit(unpacked) as unit:
@@ -551,16 +603,20 @@ with Unit.unpack(sys.argv[2]) as unpacked, Unit(unpacked, logging=True) as unit:
 
 
 def test_nothing_is_printed(fmu):
-    answer = subprocess.run([sys.executable, "-c", QUIET, Path(__file__).parent, fmu], check=True, capture_output=True)
+    answer = subprocess.run(
+        [sys.executable, "-c", QUIET, Path(__file__).parent, fmu], check=True, capture_output=True
+    )
     assert answer.stdout == b"" and answer.stderr == b""
 
 
-# --- the command line of FMPy ---------------------------------------------------------------------------------------
+# --- the command line of FMPy -------------------------------------------------------------------------------
 
 
 def fmpy_command(*arguments):
     program = shutil.which("fmpy", path=Path(sys.executable).parent)
-    return subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, text=True, cwd=ROOT)
+    return subprocess.run(
+        [program, *map(str, arguments)], check=True, capture_output=True, text=True, cwd=ROOT
+    )
 
 
 def columns(path):
@@ -584,12 +640,37 @@ def test_a_bare_fmpy_simulate_rocks_to_rest(fmu, tmp_path):
 
 def test_an_input_file_gives_the_held_answer(fmu, wall, tmp_path):
     record, out = tmp_path / "record.csv", tmp_path / "out.csv"
-    subprocess.run([wall, "motion", "--synthetic", "--pga", "2.5", "--csv", record], check=True, capture_output=True)
-    fmpy_command("simulate", fmu, "--input-file", record, "--stop-time", "30", "--start-values", "u_start", "0", "--output-file", out)
+    subprocess.run(
+        [wall, "motion", "--synthetic", "--pga", "2.5", "--csv", record], check=True, capture_output=True
+    )
+    fmpy_command(
+        "simulate",
+        fmu,
+        "--input-file",
+        record,
+        "--stop-time",
+        "30",
+        "--start-values",
+        "u_start",
+        "0",
+        "--output-file",
+        out,
+    )
     found = float(columns(out)["u_max"][-1])
 
     def on_the_command_line(*extra):
-        command = [wall, "simulate", "--record", record, "--unit", "m/s2", "--stop-time", "30", "--json", *extra]
+        command = [
+            wall,
+            "simulate",
+            "--record",
+            record,
+            "--unit",
+            "m/s2",
+            "--stop-time",
+            "30",
+            "--json",
+            *extra,
+        ]
         return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["u_max"]
 
     assert found == pytest.approx(on_the_command_line("--hold"), abs=1e-6)

@@ -1,7 +1,7 @@
-"""The reference cases of tests/data/cases through the FMU, with input derivatives on a_bottom and a_top.
+"""Runs the reference cases of tests/data/cases in the FMU, with input derivatives on a_bottom and a_top.
 
-A case passes where |error|/u_ins stays within max(1e-9, 100 eps sensitivity, 100 double_vs_quad) up to its horizon, as in the
-Rust tests.
+A case passes if |error|/u_ins stays within max(1e-9, 100 eps sensitivity, 100 double_vs_quad) up to its
+horizon, as in the Rust tests.
 """
 
 import csv
@@ -60,7 +60,7 @@ def parameters(case):
 
 
 def nodes(case):
-    """Times and accelerations of the excitation, linear between; formulas with the nodes a - dt²/12 a''."""
+    """Returns times and accelerations, linear between; formulas are sampled as a - dt²/12 a''."""
     motion, end = case["excitation"], case["t_end"]
     if motion["kind"] == "record":
         lines = (CASES / motion["file"]).read_text().splitlines()
@@ -96,7 +96,7 @@ def test_case(name, unit):
     overturn = case["result"]["t_overturn"]
 
     def advance(until):
-        """Through every node of the excitation, each piece linear in time."""
+        """Advances to `end`, one step for each piece between nodes of the excitation."""
         while unit.time < until - 1e-9:
             index = int(np.searchsorted(times, unit.time + 1e-9)) - 1
             if index + 1 < len(times):
@@ -111,7 +111,7 @@ def test_case(name, unit):
             unit.step(end - unit.time)
             unit.time = end
             if overturn is not None:
-                # the flag rises in the very step in which |u| exceeds u_ins
+                # the flag is set in the step in which |u| exceeds u_ins
                 assert unit.get("overturned") == (end >= overturn), f"flag after {before} s ... {end} s"
 
     compared = 0

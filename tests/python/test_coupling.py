@@ -1,4 +1,8 @@
-"""Walls on floors: coupled runs against the system integrated as one, the limits of explicit masters, impulses, overturning."""
+"""Tests walls on floors.
+
+Coupled runs are compared with the same system integrated as one. Further tests cover the limits of explicit
+masters, impulses and overturning.
+"""
 
 import math
 import sys
@@ -40,7 +44,7 @@ def grid(duration):
 
 
 def run(system, scheme, step, duration, watched):
-    """Histories of the watched variables at multiples of GRID, by rows."""
+    """Returns the watched variables at multiples of GRID, one row per time."""
     system.initialize()
     often, history = round(GRID / step), []
     for index in range(1, round(duration / step) + 1):
@@ -51,17 +55,23 @@ def run(system, scheme, step, duration, watched):
 
 
 def slope(steps, errors):
-    """Observed order: the regression of log error on log step."""
+    """Returns the observed order, by regression of log error on log step."""
     return np.polyfit(np.log(steps), np.log(errors), 1)[0]
 
 
 DURATION = 1.0
 SHAPES = {
-    "wall on floor": (wall_on_floor, ["floor.displacement", "wall.u"], lambda: Monolith([FLOOR], [Wall(WALL, 0)], pulse)),
+    "wall on floor": (
+        wall_on_floor,
+        ["floor.displacement", "wall.u"],
+        lambda: Monolith([FLOOR], [Wall(WALL, 0)], pulse),
+    ),
     "building": (
         building,
         ["floor_1.displacement", "floor_2.displacement", "strip.u", "parapet.u"],
-        lambda: Monolith(STOREYS.values(), [Wall(WALLS["strip"], 0, 1, drift=True), Wall(WALLS["parapet"], 1)], pulse),
+        lambda: Monolith(
+            STOREYS.values(), [Wall(WALLS["strip"], 0, 1, drift=True), Wall(WALLS["parapet"], 1)], pulse
+        ),
     ),
 }
 
@@ -73,18 +83,18 @@ def truths():
         model = monolith()
         found[shape] = model.solve(grid(DURATION))[:, : len(watched)]
         for wall, column in zip(model.walls, range(model.n, len(watched))):
-            # all walls rock beyond the corner of their law, which the schemes have to take in their stride
+            # all walls rock beyond the corner of their law: the schemes must cope with it
             assert wall.u1 < np.abs(found[shape][:, column]).max() < 0.7 * wall.u_ins
     return found
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_errors_fall_at_the_schemes_order(archives, truths, shape):
-    """Against the system integrated as one: order 1 with held inputs, 2 with linear ones."""
+    """Held inputs have order 1, linear inputs order 2, compared with the system integrated as one."""
     make, watched, _ = SHAPES[shape]
     truth = truths[shape]
     peaks = np.abs(truth).max(axis=0)
-    # the building's iteration with held inputs is not at its order before 2.5 ms
+    # for the building, iteration with held inputs reaches its order from 2.5 ms down
     steps = [0.005, 0.0025, 0.00125, 0.000625][0 if shape == "wall on floor" else 1 :]
     orders = {}
     for scheme in SCHEMES:
@@ -93,7 +103,7 @@ def test_errors_fall_at_the_schemes_order(archives, truths, shape):
             found = run(make(*archives, motion=pulse), scheme, step, DURATION, watched)
             errors.append((np.abs(found - truth) / peaks).max())
         orders[scheme] = slope(steps, errors)
-        # a step meets the corners of the law where it will: that scatters the errors by some ten per cent
+        # the corners of the law fall anywhere within a step, which scatters the errors by some ten per cent
         assert abs(orders[scheme] - (2 if scheme in LINEAR else 1)) < 0.25, (scheme, errors)
         assert errors[-1] < (3e-3 if scheme in LINEAR else 2e-1), scheme
     assert abs(orders["iterated, linear"] - 2) < 0.1
@@ -105,7 +115,7 @@ def test_errors_fall_at_the_schemes_order(archives, truths, shape):
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("newton", [True, False])
 def test_iteration_closes_the_interface(archives, shape, newton):
-    """At every step each input has at its end what the other unit shows there, to 1e-8 of its nominal value."""
+    """At the end of every step, inputs equal the connected outputs to 1e-8 of the nominal value."""
     system = SHAPES[shape][0](*archives, motion=pulse)
     system.initialize()
     sweeps = []
@@ -113,13 +123,13 @@ def test_iteration_closes_the_interface(archives, shape, newton):
         system.iterated(0.002, newton=newton)
         assert np.all(np.abs(system.outputs() - system.values) <= CLOSED * system.scale)
         sweeps.append(system.sweeps)
-    # plain sweeps gain a factor of the loop's gain, below 0.1 here, each
+    # each plain sweep reduces the error by the gain of the loop, below 0.1 here
     assert max(sweeps) <= (5 if newton else 12)
 
 
 @pytest.mark.parametrize("ratio", [1.0, 10.0])
 def test_heavy_walls_on_stiff_floors(archives, ratio):
-    """A wall as heavy as its floor, and one ten times as heavy, on 50 Hz: stable and of order 2 with either recommended scheme."""
+    """On a 50 Hz floor, walls of 1 and 10 floor masses are stable and of order 2 with both schemes."""
     mass = Wall(WALL, 0).mass / ratio
     floor = {"mass": mass, "stiffness": mass * (2 * math.pi * 50) ** 2, "damping_ratio": 0.05}
     truth = Monolith([floor], [Wall(WALL, 0)], pulse).solve(grid(1.0))[:, 1:2]
@@ -129,7 +139,7 @@ def test_heavy_walls_on_stiff_floors(archives, ratio):
             found = run(wall_on_floor(*archives, {"floor": floor}, pulse), scheme, step, 1.0, ["wall.u"])
             errors.append(np.abs(found - truth).max() / np.abs(truth).max())
         assert errors[0] < 0.01 and 1.6 < slope(steps, errors) < 2.4, (scheme, errors)
-    # an explicit master that passes on what it is shown has a gain of ratio/4
+    # an explicit master has a gain of ratio/4
     lost = run(wall_on_floor(*archives, {"floor": floor}, pulse), "Jacobi, linear", 0.00125, 1.0, ["wall.u"])
     assert (np.abs(lost).max() > 3 * np.abs(truth).max()) == (ratio > 4)
 
@@ -138,7 +148,7 @@ def test_heavy_walls_on_stiff_floors(archives, ratio):
 
 RIGID = {"force_law": "rigid_linear", "damping_model": "none"}
 STRIP = {"mechanism": "vertical_spanning", "hinge_ratio": 0.5}
-# the reaction that a wall answers an acceleration of its floor with, over its mass
+# reaction of a wall for a unit acceleration of its floor, over its mass
 ANSWERS = {
     "rocking parapet": ({}, 1 / 4),
     "rigid parapet at rest": (RIGID, 1.0),
@@ -148,10 +158,10 @@ ANSWERS = {
 
 
 def echo(archives, kind, gain, scheme, steps):
-    """A free floor is pushed: how far its acceleration is off the push's share of it, step by step, over the push.
+    """Pushes a free floor; returns the error of its acceleration over that of the push, step by step.
 
-    The push reaches the wall, whose reaction comes back at `gain` of it. 200 steps are 20 us, in which springs of 60 rad/s add
-    (60 * 2e-5)^2 = 1e-6; at 1e-3 m/s2 the rigid walls stay at rest.
+    The push reaches the wall, whose reaction returns multiplied by `gain`. 200 steps are 20 us; springs of 60
+    rad/s add (60 * 2e-5)^2 = 1e-6 in this time. At 1e-3 m/s2 the rigid walls stay at rest.
     """
     wall, answer = ANSWERS[kind]
     mass, push = 3.0 * 0.3 * 1800 * answer / gain, 1e-3
@@ -168,20 +178,20 @@ def echo(archives, kind, gain, scheme, steps):
 
 @pytest.mark.parametrize("kind", ANSWERS)
 def test_the_gain_of_an_explicit_master(archives, kind):
-    """An error goes round the loop in two steps of Jacobi, in one of Gauss-Seidel, and comes back times the gain: 1 is the limit."""
+    """An error returns multiplied by the gain, after two steps of Jacobi or one of Gauss-Seidel."""
     for gain in (0.98, 1.02):
         for scheme, round_trip in [("Jacobi, held", 2), ("Gauss-Seidel, held", 1)]:
             found = echo(archives, kind, gain, scheme, 200)[::round_trip]
             assert found[2:] == pytest.approx(gain * found[1:-1], rel=1e-4, abs=1e-5)
             assert (found[-1] > found[0]) == (gain > 1)
-        # output derivatives go the same way round: rounds times the same powers of the gain
+        # output derivatives follow the same loop, so that the error also grows with the number of rounds
         found = echo(archives, kind, gain, "Jacobi, linear", 400)
         assert (found[-4:].max() > found[196:200].max()) == (gain > 1)
         for scheme in SCHEMES:
             if "closed" in scheme or "iterated" in scheme:
-                # CLOSED of a nominal force of 1 kN over a push of 0.2 N and more
+                # CLOSED is relative to a nominal force of 1 kN; the push is 0.2 N and more
                 assert echo(archives, kind, gain, scheme, 50)[1:].max() < 5e-5, scheme
-    # Gauss-Seidel extrapolates by what it has extrapolated: z^2 + 2 g z - g = 0 leaves the unit circle at g = 1/3
+    # Gauss-Seidel extrapolates extrapolated values: z^2 + 2 g z - g = 0 leaves the unit circle at g = 1/3
     for gain in (0.98 / 3, 1.02 / 3):
         found = echo(archives, kind, gain, "Gauss-Seidel, linear", 400)
         assert (found[-1] > found[200]) == (gain > 1 / 3)
@@ -193,14 +203,17 @@ def test_the_gain_of_an_explicit_master(archives, kind):
 @pytest.mark.parametrize("fraction", [1e-4, 0.25, 0.9])
 @pytest.mark.parametrize("ratio", [0.2, 1.0])
 def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
-    """Within the step of the impact, iteration on impulses gives the plastic exchange: e = 0.9 becomes 0.84 at m = M.
+    """Iteration on impulses gives the plastic exchange within the step of the impact: e = 0.9 becomes 0.84 at
+    m = M.
 
-    The floor's jump D comes as a mean acceleration over the step, so that its part before the impact, at a fraction f of the step,
-    is reflected too: u'+ = e u'- - lambda D (1 - f (1 - e)). With momentum, (M + m) D = -m (u'+ - u'-) and b = 3m/(4(M + m)),
+    The velocity jump D of the floor acts as a mean acceleration over the step. Its part before the impact, at
+    a fraction f of the step, is therefore reflected too: u'+ = e u'- - lambda D (1 - f (1 - e)). Conservation
+    of momentum gives (M + m) D = -m (u'+ - u'-). With b = 3m/(4(M + m)),
 
         u'+/u'- = (e - b k)/(1 - b k),   k = 1 - f (1 - e)
 
-    which is the exchange of bodies for f = 0. The acceleration also delays the impact. Weight changes u' by 2e-6 of it.
+    For f = 0 this is the plastic exchange. The acceleration also delays the impact. Weight changes u' by 2e-6
+    of it.
     """
     e, step, speed = 0.9, 1e-6, 0.5
     mass = 3.0 * 0.3 * 1800
@@ -209,7 +222,9 @@ def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
     wall |= {"u_start": (1 + fraction) * speed * step, "u_dot_start": -speed}
     found = {}
     for scheme in ("iterated, held", "Jacobi, held"):
-        system = wall_on_floor(*archives, {"floor": floor, "wall": wall}, connections=by_impulses(WALL_ON_FLOOR))
+        system = wall_on_floor(
+            *archives, {"floor": floor, "wall": wall}, connections=by_impulses(WALL_ON_FLOOR)
+        )
         system.initialize(loop=False)
         speeds = []
         for _ in range(40):
@@ -230,10 +245,10 @@ def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
     assert ratio != 1.0 or exchange(0.0) == pytest.approx(0.84)
     # the first step ends before the impact
     assert found["iterated, held"][1] == pytest.approx(exchange(at), abs=1e-5)
-    # an explicit master gives e first; the floor's answer comes step by step, in the end as if it had followed the impact
+    # an explicit master gives e first; the floor reacts over the next steps and reaches the same velocity
     assert found["Jacobi, held"][1] == pytest.approx(e, abs=1e-5)
     assert found["Jacobi, held"][-1] == pytest.approx(exchange(0.0), abs=1e-4)
-    # reactions at communication points do not see an impact between them
+    # reactions at communication points do not contain an impact between them
     floor["coupling"] = "reactions"
     blind = wall_on_floor(*archives, {"floor": floor, "wall": wall})
     blind.initialize()
@@ -243,12 +258,14 @@ def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
 
 
 def test_a_wall_overturns_and_the_building_goes_on(archives):
-    """The parapet falls off the roof: a log line says when, its impulses end, and the others' momentum still balances."""
+    """The parapet falls: the log gives the time, its impulses end, and momentum still balances."""
     wall, floor = archives
     log = []
     units = [Unit(floor, name, **(storey | {"coupling": "impulses"})) for name, storey in STOREYS.items()]
     units.append(Unit(wall, "strip", **WALLS["strip"]))
-    units.append(Unit(wall, "parapet", log=lambda *line: log.append(line), **(WALLS["parapet"] | {"u_dot_start": 0.9})))
+    units.append(
+        Unit(wall, "parapet", log=lambda *line: log.append(line), **(WALLS["parapet"] | {"u_dot_start": 0.9}))
+    )
     system = System(units, by_impulses(BUILDING), {"floor_1.a_g": lambda t: 1.5 * pulse(t)})
     system.initialize(loop=False)
     step, taken, received = 0.001, {"strip": 0.0, "parapet": 0.0}, 0.0
@@ -260,7 +277,7 @@ def test_a_wall_overturns_and_the_building_goes_on(archives):
         received += system.get("floor_1.impulse_bottom")
         storeys = sum(STOREYS[name]["mass"] * system.get(f"{name}.velocity_absolute") for name in STOREYS)
         largest = max(largest, abs(received), abs(storeys), *map(abs, taken.values()))
-        # what came in from the ground is in the storeys and the walls, but for what the storeys below learn in the next step
+        # the impulse from the ground is in the storeys and walls, except the part that acts one step later
         late = sum(system.get(f"{name}.impulse_{end}") for name in taken for end in ("bottom", "top"))
         late += system.get("floor_2.impulse_bottom")
         # rounding of 3000 additions
@@ -274,7 +291,7 @@ def test_a_wall_overturns_and_the_building_goes_on(archives):
     overturned = f"overturned at t = {system.get('parapet.overturn_time')} s"
     assert any(name == "parapet" and overturned in message for name, message in events), events
     assert any("left the supports" in message for _, message in events)
-    # the strip and the storeys go on as a building whose parapet's impulses end does
+    # the strip and the storeys continue to move
     assert 0.001 < system.get("strip.u_max") < 0.2
 
 
@@ -282,12 +299,16 @@ def test_a_wall_overturns_and_the_building_goes_on(archives):
 
 
 def ground(t):
-    """That of examples/coupling/master.c."""
-    return 1.5 * math.sin(0.1 * math.pi * t) * (math.sin(2 * math.pi * 1.3 * t) + 0.6 * math.sin(2 * math.pi * 3.1 * t))
+    """Returns the ground acceleration of examples/coupling/master.c."""
+    return (
+        1.5
+        * math.sin(0.1 * math.pi * t)
+        * (math.sin(2 * math.pi * 1.3 * t) + 0.6 * math.sin(2 * math.pi * 3.1 * t))
+    )
 
 
 def test_a_compiled_master_gives_the_same(archives, fmu, floor_fmu):
-    """Six walls in C and in Python, for 2 s; and a hundred in one process, each a few kilobytes."""
+    """Runs six walls for 2 s in C and in Python, and a hundred in one process, each a few kilobytes."""
     count, step, seconds = 6, 0.002, 2.0
     mass = 6e3 * count
     storey = {"mass": mass, "stiffness": mass * 4 * math.pi**2 * 16}
@@ -314,5 +335,5 @@ def test_a_compiled_master_gives_the_same(archives, fmu, floor_fmu):
     assert found["u_max_of_wall_1_m"] == pytest.approx(largest, rel=1e-9) and largest > 1e-3
     assert found["u_of_last_wall_m"] == pytest.approx(system.get(f"wall_{count - 1}.u"), rel=1e-9)
     many = compiled.run(fmu, floor_fmu, 100, 0.1, 0.001)
-    # the allocator takes its pages at once: the first hundred pay for them
+    # the allocator takes whole pages, which the first hundred walls account for
     assert many["bytes_per_wall"] < 64 * 1024

@@ -1,4 +1,4 @@
-"""The model description and the archive, box by box of what a good FMI 2.0 FMU has."""
+"""Checks the model description and the archive against what a good FMI 2.0 FMU has."""
 
 import re
 import subprocess
@@ -12,7 +12,7 @@ from check_symbols import problems, read
 from conftest import ROOT
 from unit import Unit
 
-# Largest archive: what a mail or a repository takes without a thought.
+# Largest archive, small enough for a mail or a repository.
 LARGEST = 600_000
 
 
@@ -28,7 +28,9 @@ def variables(xml):
 
 
 def type_of(variable):
-    return next(child for child in variable if child.tag in ("Real", "Integer", "Enumeration", "Boolean", "String"))
+    return next(
+        child for child in variable if child.tag in ("Real", "Integer", "Enumeration", "Boolean", "String")
+    )
 
 
 def test_fmpy_finds_nothing(fmu):
@@ -54,8 +56,8 @@ def test_capabilities(xml):
     kind = xml.find("CoSimulation")
     assert kind.get("modelIdentifier") == "wall"
     for name in (
-        "canHandleVariableCommunicationStepSize", "canGetAndSetFMUstate", "canSerializeFMUstate", "canInterpolateInputs",
-        "providesDirectionalDerivative", "canNotUseMemoryManagementFunctions",
+        "canHandleVariableCommunicationStepSize", "canGetAndSetFMUstate", "canSerializeFMUstate",
+        "canInterpolateInputs", "providesDirectionalDerivative", "canNotUseMemoryManagementFunctions",
     ):  # fmt: skip
         assert kind.get(name) == "true", name
     for name in ("canRunAsynchronuously", "canBeInstantiatedOnlyOncePerProcess", "needsExecutionTool"):
@@ -64,10 +66,15 @@ def test_capabilities(xml):
     exchange = xml.find("ModelExchange")
     assert exchange.get("modelIdentifier") == "wall"
     for name in (
-        "canGetAndSetFMUstate", "canSerializeFMUstate", "providesDirectionalDerivative", "canNotUseMemoryManagementFunctions",
+        "canGetAndSetFMUstate", "canSerializeFMUstate",
+        "providesDirectionalDerivative", "canNotUseMemoryManagementFunctions",
     ):  # fmt: skip
         assert exchange.get(name) == "true", name
-    for name in ("completedIntegratorStepNotNeeded", "canBeInstantiatedOnlyOncePerProcess", "needsExecutionTool"):
+    for name in (
+        "completedIntegratorStepNotNeeded",
+        "canBeInstantiatedOnlyOncePerProcess",
+        "needsExecutionTool",
+    ):
         assert exchange.get(name, "false") == "false", name
     assert int(xml.get("numberOfEventIndicators")) == 3
 
@@ -95,7 +102,9 @@ def test_units_and_types(xml, variables):
         assert variable.get("description"), variable.get("name")
         if kind.tag == "Real":
             assert kind.get("declaredType") in types
-            assert kind.get("nominal") or types[kind.get("declaredType")][0].get("nominal"), variable.get("name")
+            assert kind.get("nominal") or types[kind.get("declaredType")][0].get("nominal"), variable.get(
+                "name"
+            )
 
 
 def test_references_are_unique(variables):
@@ -108,7 +117,10 @@ def test_references_are_unique(variables):
 def test_starts_stand_where_they_belong(variables):
     for variable in variables:
         started = type_of(variable).get("start") is not None
-        needs = variable.get("causality") in ("parameter", "input") or variable.get("initial") in ("exact", "approx")
+        needs = variable.get("causality") in ("parameter", "input") or variable.get("initial") in (
+            "exact",
+            "approx",
+        )
         assert started == needs, variable.get("name")
         if variable.get("causality") == "parameter":
             assert variable.get("variability") == "fixed", variable.get("name")
@@ -138,24 +150,40 @@ def test_structure(xml, variables):
     for part in ("Outputs", "Derivatives", "InitialUnknowns"):
         for name, unknown in unknowns(part):
             dependencies, kinds = unknown.get("dependencies"), unknown.get("dependenciesKind")
-            assert dependencies is not None, f"{part} {name}: a missing list means that it depends on everything"
+            assert dependencies is not None, (
+                f"{part} {name}: a missing list means that it depends on everything"
+            )
             assert len(dependencies.split()) == len((kinds or "").split()), f"{part} {name}"
 
 
 def test_dependencies_are_true(unpacked, xml, variables):
-    """What the structure denies never reacts; what it lists reacts in some state."""
+    """A dependency that is not listed is always zero; a listed one is non-zero in some state."""
     names = [variable.get("name") for variable in variables]
     listed = {
-        names[int(unknown.get("index")) - 1]: {names[int(index) - 1] for index in unknown.get("dependencies").split()}
+        names[int(unknown.get("index")) - 1]: {
+            names[int(index) - 1] for index in unknown.get("dependencies").split()
+        }
         for unknown in xml.findall("ModelStructure/Outputs/Unknown")
     }
     knowns = ["u", "u_dot", "a_g", "a_bottom", "a_top", "drift"]
     reacts = {name: set() for name in listed}
     states = [
         {"u_start": 0.1, "u_dot_start": 0.2},
-        {"mechanism": "vertical_spanning", "thickness": 0.1, "u_start": 0.03, "u_dot_start": 0.1, "drift": 1e-3},
+        {
+            "mechanism": "vertical_spanning",
+            "thickness": 0.1,
+            "u_start": 0.03,
+            "u_dot_start": 0.1,
+            "drift": 1e-3,
+        },
         {"force_law": "rigid_linear", "damping_model": "none", "u_start": 0.0},
-        {"force_law": "rigid_linear", "damping_model": "none", "mechanism": "vertical_spanning", "u_start": 0.0, "drift": 1e-9},
+        {
+            "force_law": "rigid_linear",
+            "damping_model": "none",
+            "mechanism": "vertical_spanning",
+            "u_start": 0.0,
+            "drift": 1e-9,
+        },
     ]
     for state in states:
         with Unit(unpacked) as unit:
@@ -164,7 +192,9 @@ def test_dependencies_are_true(unpacked, xml, variables):
                 if unit.variables[name].type != "Real":
                     continue
                 for known in knowns:
-                    slope = unit.slave.getDirectionalDerivative([unit.reference(name)], [unit.reference(known)], [1.0])[0]
+                    slope = unit.slave.getDirectionalDerivative(
+                        [unit.reference(name)], [unit.reference(known)], [1.0]
+                    )[0]
                     if slope != 0.0:
                         reacts[name].add(known)
     for name, dependencies in listed.items():
@@ -182,7 +212,9 @@ def test_archive(fmu):
     assert {item.compress_type for item in items} <= {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
     for name in ("modelDescription.xml", "model.png", "binaries/linux64/wall.so", "documentation/index.html"):
         assert name in names
-    folders = {name.split("/")[1] for name in names if name.startswith("documentation/") and name.count("/") > 1}
+    folders = {
+        name.split("/")[1] for name in names if name.startswith("documentation/") and name.count("/") > 1
+    }
     assert folders == {"licenses"}
     assert "documentation/licenses/notices.txt" in names
 
@@ -198,8 +230,25 @@ def test_packing_is_reproducible(fmu, tmp_path):
     with zipfile.ZipFile(fmu) as archive:
         library = archive.extract("binaries/linux64/wall.so", tmp_path)
     again = tmp_path / "again.fmu"
-    command = ["cargo", "run", "--quiet", "--locked", "-p", "fmi2-export-build", "--features", "archive", "--bin", "fmi2-pack", "--"]
-    command += ["--description", "modelDescription/modelDescription.xml", "--documentation", "modelDescription/documentation"]
+    command = [
+        "cargo",
+        "run",
+        "--quiet",
+        "--locked",
+        "-p",
+        "fmi2-export-build",
+        "--features",
+        "archive",
+        "--bin",
+        "fmi2-pack",
+        "--",
+    ]
+    command += [
+        "--description",
+        "modelDescription/modelDescription.xml",
+        "--documentation",
+        "modelDescription/documentation",
+    ]
     command += ["--binary", library, "--platform", "linux64", "--output", str(again)]
     subprocess.run(command, check=True, cwd=ROOT)
     assert again.read_bytes() == fmu.read_bytes()

@@ -1,4 +1,4 @@
-"""The floor: its description, its answers against scipy, and the same floor by another exporter."""
+"""Tests the floor: its description, its motion against SciPy, and the same floor from another exporter."""
 
 import math
 import random
@@ -31,7 +31,7 @@ def floor(unpacked_floor):
 
 
 def reals(unit, causality=None):
-    """Names of the Real variables."""
+    """Returns the names of the Real variables."""
     return [
         variable.name
         for variable in unit.description.modelVariables
@@ -70,12 +70,14 @@ def test_starts_are_the_binarys_own(floor):
 
 
 def test_dependencies_are_true(unpacked_floor, floor_fmu):
-    """What the structure denies never reacts; what it lists reacts in some state."""
+    """A dependency that is not listed is always zero; a listed one is non-zero in some state."""
     with zipfile.ZipFile(floor_fmu) as archive:
         xml = etree.fromstring(archive.read("modelDescription.xml"))
     names = [variable.get("name") for variable in xml.findall("ModelVariables/ScalarVariable")]
     listed = {
-        names[int(unknown.get("index")) - 1]: {names[int(index) - 1] for index in unknown.get("dependencies").split()}
+        names[int(unknown.get("index")) - 1]: {
+            names[int(index) - 1] for index in unknown.get("dependencies").split()
+        }
         for unknown in xml.findall("ModelStructure/Outputs/Unknown")
     }
     reacts = {name: set() for name in listed}
@@ -85,7 +87,10 @@ def test_dependencies_are_true(unpacked_floor, floor_fmu):
             for name in set(listed) & set(reals(unit)):
                 for known in ["displacement", "velocity", *INPUTS]:
                     reference = [unit.reference(known)]
-                    if unit.slave.getDirectionalDerivative([unit.reference(name)], reference, [1.0])[0] != 0.0:
+                    if (
+                        unit.slave.getDirectionalDerivative([unit.reference(name)], reference, [1.0])[0]
+                        != 0.0
+                    ):
                         reacts[name].add(known)
     for name in set(listed) - {"yielding"}:
         assert reacts[name] == listed[name], name
@@ -100,11 +105,14 @@ def test_a_bare_simulation_rests(floor_fmu):
     assert 0.001 < np.abs(moved["displacement"][-20:]).max() < 0.01 * math.exp(-1.26)
 
 
-# --- answers
+# --- motion
 
 
 def reference(parameters, load, stop, times):
-    """The floor by scipy, restarted at corners of the hysteresis and of the load; `load` is -a_g - sum r/M, by time."""
+    """Integrates the floor with SciPy, restarted at corners of hysteresis and load.
+
+    `load` is -a_g - sum r/M as a function of time.
+    """
     mass, stiffness = parameters["mass"], parameters["stiffness"]
     damping = 2 * parameters["damping_ratio"] * math.sqrt(mass * stiffness)
     bilinear = parameters.get("hysteresis") == "bilinear"
@@ -135,7 +143,17 @@ def reference(parameters, load, stop, times):
         turn.direction = -sign
         events = ([up, down] if sign == 0 else [turn]) if bilinear else None
         ahead = times[(times > now) & (times <= stop)]
-        piece = solve_ivp(rates, (now, stop), state, "DOP853", t_eval=ahead, events=events, rtol=1e-13, atol=1e-15, max_step=0.01)
+        piece = solve_ivp(
+            rates,
+            (now, stop),
+            state,
+            "DOP853",
+            t_eval=ahead,
+            events=events,
+            rtol=1e-13,
+            atol=1e-15,
+            max_step=0.01,
+        )
         found += list(piece.y.T)
         if piece.status == 0:
             return np.array(found)
@@ -151,7 +169,13 @@ def reference(parameters, load, stop, times):
 @pytest.mark.parametrize("hysteresis", [{}, BILINEAR])
 @pytest.mark.parametrize("ratio", [0.0, 0.05, 1.3])
 def test_the_answer_is_scipys(floor, hysteresis, ratio):
-    parameters = {"mass": 2e4, "stiffness": 2e7, "damping_ratio": ratio, "displacement_start": 0.001, "velocity_start": 0.05}
+    parameters = {
+        "mass": 2e4,
+        "stiffness": 2e7,
+        "damping_ratio": ratio,
+        "displacement_start": 0.001,
+        "velocity_start": 0.05,
+    }
     parameters |= hysteresis
     slope_g, slope_r = -6.0, 3e4
     floor.start(a_g=5.0, reaction_2=-2e4, **parameters)
@@ -167,7 +191,7 @@ def test_the_answer_is_scipys(floor, hysteresis, ratio):
     found = np.array(found)
     times = step * np.arange(1, count + 1)
     wanted = reference(parameters, load, times[-1] + 1e-9, times)
-    # scipy's own error at these tolerances; corners are where its events find them
+    # SciPy's own error at these tolerances, which includes the location of corners
     assert np.abs(found - wanted).max(axis=0) == pytest.approx([0, 0], abs=1e-10)
     assert (floor.get("energy_hysteretic") > 1.0) == bool(hysteresis)
 
@@ -181,7 +205,9 @@ def test_steps_do_not_matter_where_inputs_are_linear(unpacked_floor, hysteresis)
             for _ in range(count):
                 unit.rates(a_g=-3.0, reaction_1=4e4)
                 unit.step(1.2 / count)
-            ends.append(unit.get("displacement", "velocity", "acceleration", "energy_damping", "energy_hysteretic"))
+            ends.append(
+                unit.get("displacement", "velocity", "acceleration", "energy_damping", "energy_hysteretic")
+            )
     size = np.array([0.01, 0.3, 10.0, 1e3, 1e3])
     # a thousand steps of a few rounding errors
     assert np.abs((np.array(ends) - ends[0]) / size).max() < 1e-11
@@ -200,7 +226,7 @@ def test_input_derivatives_are_for_one_step(unpacked_floor):
 @pytest.mark.parametrize("coupling", ["reactions", "impulses"])
 @pytest.mark.parametrize("yields", [False, True])
 def test_directional_derivatives(unpacked_floor, coupling, yields):
-    """By inputs against differences, by states against the start values that set them."""
+    """Compares derivatives by inputs with differences, and by states with changes of the start values."""
     settings = {"coupling": coupling} | (BILINEAR if yields else {})
     start = {"displacement_start": 0.01, "velocity_start": 0.2}
 
@@ -216,7 +242,7 @@ def test_directional_derivatives(unpacked_floor, coupling, yields):
         unknowns = [unit.reference(name) for name in names]
         changes = [("a_g", "a_g", 1.0), ("reaction_1", "reaction_1", 1e4), ("impulse_8", "impulse_8", 1e3)]
         changes += [("velocity", "velocity_start", 0.01)]
-        if not yields:  # a displacement beyond yielding also sets what is plastic
+        if not yields:  # a start beyond the yield displacement also sets the plastic displacement
             changes += [("displacement", "displacement_start", 0.001)]
         for known, name, size in changes:
             before = start.get(name, 0.0)
@@ -224,8 +250,10 @@ def test_directional_derivatives(unpacked_floor, coupling, yields):
             slopes = unit.slave.getDirectionalDerivative(unknowns, [unit.reference(known)], [1.0])
             for found, wanted, unknown in zip(slopes, difference, names):
                 assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12), f"{unknown} by {known}"
-        # the feedthrough a master has to know of
-        found = unit.slave.getDirectionalDerivative([unit.reference("acceleration")], [unit.reference("reaction_1")], [1.0])[0]
+        # the direct feedthrough that a master needs
+        found = unit.slave.getDirectionalDerivative(
+            [unit.reference("acceleration")], [unit.reference("reaction_1")], [1.0]
+        )[0]
         assert found == (-1 / 20000 if coupling == "reactions" else 0.0)
 
 
@@ -238,7 +266,7 @@ def test_output_derivatives(floor):
     tiny = 1e-7
     floor.rates(a_g=20.0)
     after = floor.step(tiny).get(*names)
-    # first order in the tiny step, and rounding over it
+    # first order in the tiny step, plus rounding divided by it
     assert (np.array(after) - before) / tiny == pytest.approx(slopes, rel=1e-4)
 
 
@@ -302,11 +330,11 @@ def test_the_log(unpacked_floor):
         assert any(category == "logEvents" and "corners" in text for _, category, text in unit.messages)
 
 
-# --- with others
+# --- with walls, other floors and another exporter
 
 
 def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor):
-    """A rocking parapet with impacts on a floor on rollers: what the floor has lost is what the wall was given a step ago."""
+    """A floor on rollers loses, one step later, the momentum that a rocking parapet with impacts gained."""
     mass, step = 3000.0, 0.002
     with Unit(unpacked) as wall, Unit(unpacked_floor) as floor:
         wall.start(u_start=0.05, impact="restitution", damping_model="none", force_law="rigid_linear")
@@ -328,7 +356,7 @@ def test_a_wall_and_a_floor_keep_their_momentum(unpacked, unpacked_floor):
 
 
 def test_storeys_stack(unpacked_floor):
-    """Two floors, coupled by impulses and small steps, approach the two-mass building."""
+    """Two floors coupled by impulses approach the two-mass building for small steps."""
     mass, stiffness, stop = 2e4, 2e7, 0.3
     matrix = np.array([[2.0, -1.0], [-1.0, 1.0]]) * stiffness / mass
 
@@ -345,11 +373,11 @@ def test_storeys_stack(unpacked_floor):
             for _ in range(count):
                 low.set(impulse_1=high.get("impulse_bottom"))
                 low.step(step)
-                # the mean acceleration of the step just taken by the storey below
+                # mean acceleration of the storey below over its last step
                 high.set(a_g=low.get("acceleration_absolute"))
                 high.step(step)
             errors.append(abs(low.get("displacement") - wanted[0]))
-    # first order: what is a step late
+    # first order, because the impulses act one step late
     assert errors[0] < 1e-3 and 1.7 < errors[0] / errors[1] < 2.3, errors
 
 
@@ -357,7 +385,11 @@ def test_storeys_stack(unpacked_floor):
 def partner_fmu(tmp_path_factory):
     folder = tmp_path_factory.mktemp("partner")
     source = shutil.copy(ROOT / "tests/python/partner_floor.py", folder / "partner_floor.py")
-    subprocess.run([sys.executable, "-m", "pythonfmu", "build", "-f", source, "-d", folder], check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, "-m", "pythonfmu", "build", "-f", source, "-d", folder],
+        check=True,
+        capture_output=True,
+    )
     return folder / "PartnerFloor.fmu"
 
 
@@ -378,6 +410,6 @@ def test_another_exporters_floor_gives_the_same_answer(partner_fmu, unpacked_flo
             ours, theirs = floor.get(*names), partner.get(*names)
             largest = max(largest, abs(ours[0]))
             apart = max(apart, abs(ours[0] - theirs[0]))
-            # the matrix exponential is good to some 1e-14 of each step
+            # the error of the matrix exponential is about 1e-14 per step
             assert ours == pytest.approx(theirs, rel=1e-9, abs=1e-9)
         assert apart < 1e-12 * 500 * largest

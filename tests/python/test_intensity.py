@@ -1,4 +1,4 @@
-"""PGA, Sa and AvgSA of `wall record` beside those of eqsig and pyrotd, two programs of the field."""
+"""Compares PGA, Sa and AvgSA of `wall record` with those of eqsig and pyrotd."""
 
 import json
 import os
@@ -11,7 +11,7 @@ import pyrotd
 import pytest
 
 FOLDER = Path(os.environ.get("ROCKING_WALL_RECORDS", "no records"))
-# Near fault, far, a coarse step, the largest of the folder, and one with a long period.
+# One near the fault, one far away, one with a coarse step, the largest of the folder, one with a long period.
 RECORDS = [
     "RSN125_FRIULI.A_A-TMZ000.AT2",
     "RSN503_SMART1.40_40C00NS.AT2",
@@ -22,12 +22,12 @@ RECORDS = [
 AVERAGE = np.arange(0.2, 1.41, 0.2)
 PERIODS = np.array([0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.4, 2.0, 3.0])
 DAMPING = 0.05
-# AvgSA in the records' own index is that of motions refined so far (s).
+# The index of the records gives AvgSA for motions refined to this step (s).
 LARGEST_STEP = 0.005
 
 
 def motion(wall, folder, *source):
-    """A motion as `wall motion` writes it: the step in s and the samples in g."""
+    """Returns a motion as `wall motion` writes it: the step in s and the samples in g."""
     path = folder / "motion.csv"
     subprocess.run([wall, "motion", *source, "--csv", path], check=True, capture_output=True)
     times, samples = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
@@ -35,18 +35,30 @@ def motion(wall, folder, *source):
 
 
 def refined(step, samples):
-    """The same motion, linear between samples, at a step of at most LARGEST_STEP."""
+    """Returns the same motion, linear between samples, at a step of at most LARGEST_STEP."""
     parts = int(np.ceil(step / LARGEST_STEP - 1e-9))
     count = (len(samples) - 1) * parts + 1
     return step / parts, np.interp(np.arange(count) / parts, np.arange(len(samples)), samples)
 
 
 def intensity(wall, folder, step, samples, *options):
-    """What `wall record` says of these very samples."""
+    """Runs `wall record` on these samples."""
     path = folder / "samples.csv"
     path.write_text("\n".join(repr(float(sample)) for sample in samples) + "\n")
     periods = ",".join(map(str, PERIODS))
-    command = [wall, "record", path, "--unit", "g", "--record-step", repr(float(step)), "--periods", periods, "--json", *options]
+    command = [
+        wall,
+        "record",
+        path,
+        "--unit",
+        "g",
+        "--record-step",
+        repr(float(step)),
+        "--periods",
+        periods,
+        "--json",
+        *options,
+    ]
     output = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     assert output["damping"] == DAMPING
     assert output["average_periods_s"] == pytest.approx(AVERAGE)
@@ -60,7 +72,8 @@ def by_eqsig(step, samples, periods):
 
 
 def by_pyrotd(step, samples, periods):
-    # An FFT makes the motion periodic: ten of the longest periods of rest let the oscillator come to rest.
+    # An FFT makes the motion periodic: after ten of the longest periods without motion the oscillator is at
+    # rest.
     padded = np.concatenate([samples, np.zeros(int(10 * max(periods) / step))])
     spectrum = pyrotd.calc_spec_accels(step, padded, 1 / np.asarray(periods), DAMPING, max_freq_ratio=50)
     return np.asarray(spectrum.spec_accel)
@@ -92,7 +105,8 @@ def test_agrees_with_eqsig_at_equal_refinement(wall, sample):
     folder, step, samples = sample
     record = intensity(wall, folder, step, samples, "--at-samples")
     assert record["pga_g"] == pytest.approx(np.abs(samples).max(), rel=1e-12)
-    # Both are exact between samples; eqsig has 2π to 1e-9 and loses digits as 1e-16 (ω step)⁻³, 1e-10 at 3 s and 5 ms.
+    # Both are exact between samples. eqsig has 2π to 1e-9 and loses digits as 1e-16 (ω step)⁻³: 1e-10 at 3 s
+    # and 5 ms.
     expected = by_eqsig(step, samples, PERIODS)
     print(f"Sa: largest deviation from eqsig {np.abs(record['sa_g'] / expected - 1).max():.1e}")
     assert record["sa_g"] == pytest.approx(expected, rel=1e-6)
@@ -105,7 +119,8 @@ def test_true_maxima_are_the_limit_of_refinement(wall, sample):
     parts = 20
     fine = np.interp(np.arange((len(samples) - 1) * parts + 1) / parts, np.arange(len(samples)), samples)
     sampled = by_eqsig(step / parts, fine, PERIODS[2:7])
-    # Samples miss a maximum by up to (ω step)² / 8 of it, a few times that where the ground turns it faster.
+    # Samples miss a maximum by up to (ω step)² / 8 of it, a few times that where the ground changes it
+    # faster.
     missed = 3 * (2 * np.pi / PERIODS[2:7] * step / parts) ** 2 / 8
     found = np.array(record["sa_g"])[2:7]
     # eqsig's closed forms lose digits as 1e-16 (ω step)⁻³, 3e-8 at 1 s and 0.25 ms.
@@ -118,5 +133,8 @@ def test_agrees_with_pyrotd(wall, sample):
     record = intensity(wall, folder, step, samples)
     # pyrotd interpolates by Fourier series instead of straight lines.
     average = geometric_mean(by_pyrotd(step, samples, AVERAGE))
-    print(f"AvgSA {record['average_sa_g']:.6f} g, pyrotd {average:.6f} g, {record['average_sa_g'] / average - 1:+.1e}")
+    print(
+        f"AvgSA {record['average_sa_g']:.6f} g, pyrotd {average:.6f} g, "
+        f"{record['average_sa_g'] / average - 1:+.1e}"
+    )
     assert record["average_sa_g"] == pytest.approx(average, rel=1e-3)

@@ -1,4 +1,4 @@
-"""Model Exchange: the wall in other people's solvers agrees with its own, and its corners do not slow them."""
+"""Tests Model Exchange: other solvers agree with co-simulation, and corners do not slow them down."""
 
 import contextlib
 import csv
@@ -22,15 +22,16 @@ TOLERANCE = 1e-8
 OUTPUTS = ["u", "u_dot", "u_max", "overturned", "overturn_time"]
 RIGID = {"force_law": "rigid_linear", "damping_model": "none", "impact": "restitution"}
 STRIP = {"mechanism": "vertical_spanning", "thickness": 0.1, "u_start": 0.08}
-# A relative change of gravity that shows how a relative error of the equation moves the history.
+# A relative change of gravity; it shows how a relative error of the equation changes the history.
 NUDGE = 1e-7
-# A solver admits an error of its tolerance at each evaluation. What they come to is at most their number times the
-# response to a lasting error of the same size; errors that act at the worst place count up to four times as much.
+# A solver admits an error of its tolerance at each evaluation. The sum is at most the number of evaluations
+# times the response to a lasting error of the same size. Errors at the worst place count up to four times as
+# much.
 WORST_PLACE = 4.0
 
 
 class Counted:
-    """FMPy's CVODE on an FMU, and how often it asked for what."""
+    """Runs FMPy's CVODE on an FMU and counts the calls."""
 
     def __init__(self, folder, description, settings, stop, tolerance=TOLERANCE, **options):
         self.evaluations = self.events = 0
@@ -39,9 +40,9 @@ class Counted:
         self._count(model, "newDiscreteStates", "events")
         try:
             self.history = simulate_fmu(
-                folder, model_description=description, fmu_instance=model, fmi_type="ModelExchange", stop_time=stop,
-                relative_tolerance=tolerance, start_values=numbers(description, settings), output=OUTPUTS,
-                output_interval=0.01, record_events=False, **options,
+                folder, model_description=description, fmu_instance=model, fmi_type="ModelExchange",
+                stop_time=stop, relative_tolerance=tolerance, start_values=numbers(description, settings),
+                output=OUTPUTS, output_interval=0.01, record_events=False, **options,
             )  # fmt: skip
         finally:
             model.freeInstance()
@@ -57,9 +58,20 @@ class Counted:
 
 
 def numbers(description, settings):
-    items = {kind.name: {item.name: int(item.value) for item in kind.items} for kind in description.typeDefinitions if kind.items}
-    kinds = {variable.name: variable.declaredType.name for variable in description.modelVariables if variable.declaredType}
-    return {name: items[kinds[name]][value] if isinstance(value, str) else value for name, value in settings.items()}
+    items = {
+        kind.name: {item.name: int(item.value) for item in kind.items}
+        for kind in description.typeDefinitions
+        if kind.items
+    }
+    kinds = {
+        variable.name: variable.declaredType.name
+        for variable in description.modelVariables
+        if variable.declaredType
+    }
+    return {
+        name: items[kinds[name]][value] if isinstance(value, str) else value
+        for name, value in settings.items()
+    }
 
 
 def co_simulation(folder, description, settings, stop, **options):
@@ -75,7 +87,7 @@ def distance(first, second):
 
 
 def agree(folder, description, settings, stop, **options):
-    """Compares the two kinds; returns the history of CVODE's run and the counters."""
+    """Compares Model Exchange with co-simulation; returns the history of CVODE's run and the counters."""
     steps = co_simulation(folder, description, settings, stop, **options)
     nudged = co_simulation(folder, description, {**settings, "gravity": 9.81 * (1 + NUDGE)}, stop, **options)
     sensitivity = distance(steps, nudged) / NUDGE
@@ -102,18 +114,28 @@ def agree(folder, description, settings, stop, **options):
         ({"u_start": 0.19, "u_dot_start": 0.3, "a3": 0.9, "damping_model": "stiffness_proportional"}, 3.0),
         ({**STRIP, "overburden": 3000.0, "overburden_eccentricity": 0.02, "u_start": -0.05}, 6.0),
     ],
-    ids=["default", "CDR strip", "SDR", "trilinear", "elastic impacts", "rigid", "overturning", "overturning SDR", "two sides"],
+    ids=[
+        "default",
+        "CDR strip",
+        "SDR",
+        "trilinear",
+        "elastic impacts",
+        "rigid",
+        "overturning",
+        "overturning SDR",
+        "two sides",
+    ],
 )
 def test_agrees_with_co_simulation(unpacked, settings, stop):
     run, steps = agree(unpacked.folder, unpacked.description, settings, stop)
     if steps["overturned"][-1]:
-        # the time of overturning moves with u by the velocity there, about 0.3 m/s and more
+        # an error of u changes the time of overturning by u over the velocity there, 0.3 m/s or more
         assert run.history["overturn_time"][-1] == pytest.approx(steps["overturn_time"][-1], abs=1e-6)
         assert run.history["u_dot"][-1] == 0.0
 
 
 def test_the_difference_is_the_solvers(unpacked):
-    """A hundredth of the tolerance brings the two closer by a factor of ten at least: CVODE's order is below one in it."""
+    """A hundredth of the tolerance reduces the difference at least tenfold (CVODE's order is below one)."""
     steps = co_simulation(unpacked.folder, unpacked.description, {}, 10.0)
     coarse, fine = (
         distance(Counted(unpacked.folder, unpacked.description, {}, 10.0, tolerance=tolerance).history, steps)
@@ -123,7 +145,7 @@ def test_the_difference_is_the_solvers(unpacked):
 
 
 def test_corners_do_not_slow_the_solver(unpacked):
-    """An event costs CVODE a restart from order 1, however sharp the corner: 100 to 180 evaluations at 1e-8."""
+    """An event costs CVODE a restart, however sharp the corner: 100 to 180 evaluations at 1e-8."""
     for a1 in (0.1, 1e-2, 1e-3, 1e-4):
         settings = {"a1": a1, "damping_source": "given", "xi": 0.05}
         run = Counted(unpacked.folder, unpacked.description, settings, 10.0)
@@ -133,24 +155,31 @@ def test_corners_do_not_slow_the_solver(unpacked):
 
 
 def test_restitution_ends_in_rest(unpacked):
-    run, steps = agree(unpacked.folder, unpacked.description, {**RIGID, "restitution_source": "given", "restitution": 0.7}, 20.0)
+    run, steps = agree(
+        unpacked.folder,
+        unpacked.description,
+        {**RIGID, "restitution_source": "given", "restitution": 0.7},
+        20.0,
+    )
     last = run.history[-1]
     assert (last["u"], last["u_dot"]) == (0.0, 0.0)
-    # bounces lower than 4e-12 u_ins are rest: e^n of them from u_start, and a few at which the solver's error decides
+    # bounces below 4e-12 u_ins count as rest: u_start e^n, and a few that depend on the solver's error
     assert run.events < 60
     still = [float(history["time"][np.flatnonzero(history["u_dot"])[-1]]) for history in (run.history, steps)]
     assert still[0] == pytest.approx(still[1], abs=0.02), "at rest by the same sample but one"
 
 
-@pytest.mark.parametrize("settings", [{}, {"overburden": 5000.0, "overburden_eccentricity": 0.05}], ids=["alike", "two sides"])
+@pytest.mark.parametrize(
+    "settings", [{}, {"overburden": 5000.0, "overburden_eccentricity": 0.05}], ids=["alike", "two sides"]
+)
 def test_bounces_found_exactly_end_in_rest(unpacked, settings):
-    """A solver that locates each impact to rounding leaves no error to end the bounces: energy must fall by e² at each."""
+    """With impacts located to rounding, no solver error ends the bounces: energy falls by e² at each."""
     with Exchange(unpacked) as exchange:
         exchange.run(**RIGID, **settings, u_start=0.02)
         e, scale = exchange.get("restitution_used", "u_ins_negative")
         count = exchange.integrate(10.0, 1e-8)
         assert exchange.states() == exchange.derivatives() == [0.0, 0.0]
-        # bounces of the height h are e² h high the next time, down to 4e-12 u_ins
+        # a bounce of the height h is followed by one of the height e² h, down to 4e-12 u_ins
         assert count < math.log(4e-12 * scale / 0.02) / math.log(e**2) + 10
 
 
@@ -166,11 +195,33 @@ def test_a_record_through_a_g(unpacked, tmp_path, fmu):
     signal = np.array(list(zip(time, motion, strict=True)), dtype=[("time", float), ("a_g", float)])
     run, steps = agree(unpacked.folder, unpacked.description, {"u_start": 0.0, "a1": 0.1}, 8.0, input=signal)
     assert np.abs(steps["u"]).max() > 0.01, "it rocks"
-    # and as the command line does it
+    # compare with the command line
     path = tmp_path / "record.csv"
-    np.savetxt(path, np.column_stack([time, motion]), delimiter=",", header="time,a_g", comments="", fmt="%.17g")
-    command = [sys.executable, "-m", "fmpy", "simulate", str(fmu), "--interface-type", "ModelExchange", "--stop-time", "8"]
-    command += ["--input-file", str(path), "--output-file", str(tmp_path / "out.csv"), "--start-values", "u_start", "0", "a1", "0.1"]
+    np.savetxt(
+        path, np.column_stack([time, motion]), delimiter=",", header="time,a_g", comments="", fmt="%.17g"
+    )
+    command = [
+        sys.executable,
+        "-m",
+        "fmpy",
+        "simulate",
+        str(fmu),
+        "--interface-type",
+        "ModelExchange",
+        "--stop-time",
+        "8",
+    ]
+    command += [
+        "--input-file",
+        str(path),
+        "--output-file",
+        str(tmp_path / "out.csv"),
+        "--start-values",
+        "u_start",
+        "0",
+        "a1",
+        "0.1",
+    ]
     subprocess.run(command, check=True, capture_output=True)
     with open(tmp_path / "out.csv", newline="") as file:
         last = list(csv.DictReader(file))[-1]
@@ -179,7 +230,7 @@ def test_a_record_through_a_g(unpacked, tmp_path, fmu):
 
 @pytest.fixture(scope="module")
 def scenes(fmu, wall, tmp_path_factory):
-    """Makes the FMU of a scene, unpacked, with its own record inside."""
+    """Makes the FMU of a scene with its record inside, and unpacks it."""
     folder = tmp_path_factory.mktemp("exchange")
     with contextlib.ExitStack() as opened:
 
@@ -193,23 +244,25 @@ def scenes(fmu, wall, tmp_path_factory):
         yield package
 
 
-@pytest.mark.parametrize(("name", "stop"), [("shaken_parapet", 8.0), ("rigid_block", 5.0), ("quadrilinear_strip", 2.0)])
+@pytest.mark.parametrize(
+    ("name", "stop"), [("shaken_parapet", 8.0), ("rigid_block", 5.0), ("quadrilinear_strip", 2.0)]
+)
 def test_a_scene_plays_its_own_record(scenes, name, stop):
     scene = scenes(name)
     run, steps = agree(scene.folder, scene.description, {}, stop)
     assert np.abs(steps["u"]).max() > 0.003, "it rocks"
-    # the samples are events, so that no step crosses a kink: 0.01 s apart or less
+    # the samples, 0.01 s apart or less, are events, so that no step crosses a kink
     assert run.events > 400
 
 
 def corners(points):
-    """A function that is linear between points (time, value)."""
+    """Returns a function that is linear between points (time, value)."""
     times, values = zip(*points, strict=True)
     return lambda time: float(np.interp(time, times, values))
 
 
 def test_supports_that_move(unpacked):
-    """Inputs at every evaluation, in another solver, against co-simulation with the same slopes."""
+    """Compares a solver that sets inputs at every evaluation with co-simulation with the same slopes."""
     pieces = {
         "a_bottom": [(0, 0.0), (0.5, 1.4), (1.0, -1.75), (1.5, 0.7), (3.0, 0.0)],
         "a_top": [(0, 0.0), (0.5, 0.7), (1.0, -1.05), (1.5, -0.7), (3.0, 0.0)],
@@ -221,8 +274,8 @@ def test_supports_that_move(unpacked):
         return {name: motion(time) for name, motion in motions.items()}
 
     settings = {**STRIP, "u_start": 0.0, "a1": 0.05}
-    # 10⁴ evaluations at 1e-11, and 20 for the growth of errors over 3 s; the elastic branch makes u̇ of 0.5 and ü of 30
-    # from u of 0.1, and 720 kg
+    # 10⁴ evaluations at 1e-11, and a factor of 20 for the growth of errors over 3 s; on the elastic branch
+    # 0.1 m of u corresponds to 0.5 m/s of u̇ and 30 m/s² of ü, and the mass is 720 kg
     bounds = {"u": 2e-7, "u_dot": 1e-6, "reaction_bottom": 2e-2, "reaction_top": 2e-2, "u_max": 2e-7}
     with Unit(unpacked) as steps, Exchange(unpacked) as exchange:
         steps.start(**settings)
@@ -233,7 +286,9 @@ def test_supports_that_move(unpacked):
             steps.rates(**{name: (end[name] - start[name]) / 0.1 for name in motions})
             steps.step(0.1)
             exchange.integrate(time + 0.1, 1e-11, inputs)
-            for (name, bound), found, expected in zip(bounds.items(), exchange.get(*bounds), steps.get(*bounds), strict=True):
+            for (name, bound), found, expected in zip(
+                bounds.items(), exchange.get(*bounds), steps.get(*bounds), strict=True
+            ):
                 assert found == pytest.approx(expected, abs=bound), (name, time)
         assert 0.01 < steps.get("u_max") < 0.1, "it rocks and stands"
 
@@ -247,7 +302,7 @@ def test_impulses_are_those_of_the_impact(unpacked):
             impulse = exchange.get("impulse_bottom")
             if impulse:
                 break
-        # at the impact v changes from v to e v, and the wall had v at it
+        # an impact changes v to e v
         before = math.sqrt(2 * 0.001 * exchange.get("F0") / exchange.get("effective_mass"))
         assert impulse == pytest.approx(mass * (1 - e) * before, rel=0.01)
         exchange.event()
@@ -255,7 +310,7 @@ def test_impulses_are_those_of_the_impact(unpacked):
 
 
 def test_the_derivative_is_smooth_beyond_the_corner(unpacked):
-    """Until the event the branch goes on: value, slope and curvature pass the corner without a jump."""
+    """The branch continues until the event: value, slope and curvature do not jump at the corner."""
     for settings in ({}, {"damping_model": "stiffness_proportional"}):
         with Exchange(unpacked) as exchange:
             exchange.run(**settings)
@@ -265,23 +320,29 @@ def test_the_derivative_is_smooth_beyond_the_corner(unpacked):
                 return exchange.at(0.0, [u, 0.3]).derivatives()[1]
 
             h = 1e-5
-            inside, outside = ([acceleration(corner + sign * k * h) for k in (1, 2, 3, 4)] for sign in (1, -1))
-            # extrapolated with three points from either side; the remainder is the third derivative times h³
+            inside, outside = (
+                [acceleration(corner + sign * k * h) for k in (1, 2, 3, 4)] for sign in (1, -1)
+            )
+            # extrapolated from three points on either side; the remainder is the third derivative times h³
             first, second = (3 * a[0] - 3 * a[1] + a[2] for a in (inside, outside))
             assert first == pytest.approx(second, abs=1e-6 * abs(first))
-            slopes = [(-2.5 * a[0] + 4 * a[1] - 1.5 * a[2]) / h * sign for a, sign in ((inside, 1), (outside, -1))]
+            slopes = [
+                (-2.5 * a[0] + 4 * a[1] - 1.5 * a[2]) / h * sign for a, sign in ((inside, 1), (outside, -1))
+            ]
             assert slopes[0] == pytest.approx(slopes[1], rel=1e-3)
-            # far beyond, on the other side of u = 0, it stays of the same size
+            # far beyond, on the other side of u = 0, its size stays the same
             assert abs(acceleration(-20 * corner)) < 10 * abs(acceleration(corner)) + 10
             here = -20 * corner
             difference = (acceleration(here + h) - acceleration(here - h)) / (2 * h)
             exchange.at(0.0, [here, 0.3])
             known, unknown = exchange.reference("u"), exchange.reference("u_ddot")
-            assert exchange.slave.getDirectionalDerivative([unknown], [known], [1.0])[0] == pytest.approx(difference, rel=1e-5)
+            assert exchange.slave.getDirectionalDerivative([unknown], [known], [1.0])[0] == pytest.approx(
+                difference, rel=1e-5
+            )
 
 
 def test_no_indicator_stays_at_zero_after_an_event(unpacked):
-    """Random points, events at any of them: then every indicator is clear of zero, and time and states as they were set."""
+    """After an event at a random point, every indicator is away from zero and time and states are as set."""
     noise = random.Random(5)
     for settings in ({}, RIGID, {**STRIP, "impact": "restitution"}, {"force_law": "trilinear"}):
         with Exchange(unpacked) as exchange:
@@ -289,7 +350,10 @@ def test_no_indicator_stays_at_zero_after_an_event(unpacked):
             scale = exchange.get("u_ins")
             places = [0.0, 0.03 * scale, -0.03 * scale, scale, 2.0, -2.0, 1.0]
             for step in range(500):
-                place = noise.choice(places) + noise.choice([0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-4, -1e-4]) * scale
+                place = (
+                    noise.choice(places)
+                    + noise.choice([0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-4, -1e-4]) * scale
+                )
                 exchange.at(0.01 * step, [place, noise.choice([0.0, 1e-9, -1e-9, 0.1, -0.1])])
                 exchange.set(a_bottom=noise.uniform(-4, 4))
                 exchange.event()
@@ -347,17 +411,26 @@ def test_a_g_changes_at_events_alone(unpacked):
 
 
 def test_casadi_evaluates_the_derivative(unpacked):
-    """CasADi's DaeBuilder sets the states like inputs, in Event Mode, and asks for derivatives there."""
+    """CasADi's DaeBuilder sets the states like inputs in Event Mode and gets the derivatives there."""
     model = casadi.DaeBuilder("wall", str(unpacked.folder), {})
     assert (model.x(), model.u()) == (["u", "u_dot"], ["a_bottom", "a_top", "drift"])
     derivative = model.create("derivative", ["x", "u"], ["ode"])
     jacobian = derivative.factory("jacobian", ["x", "u"], ["jac:ode:x", "jac:ode:u"])
-    for u, u_dot, a in [(0.18, 0.0, 0.0), (0.1, 0.2, 1.0), (0.003, 0.1, 0.5), (-0.05, -0.2, -1.0), (0.5, 0.0, 0.0)]:
+    for u, u_dot, a in [
+        (0.18, 0.0, 0.0),
+        (0.1, 0.2, 1.0),
+        (0.003, 0.1, 0.5),
+        (-0.05, -0.2, -1.0),
+        (0.5, 0.0, 0.0),
+    ]:
         with Unit(unpacked) as unit:
             unit.start(u_start=u, u_dot_start=u_dot, a_bottom=a)
             assert derivative([u, u_dot], [a, 0, 0]).full().ravel().tolist() == unit.get("u_dot", "u_ddot")
             by_state, by_input = (part.full() for part in jacobian([u, u_dot], [a, 0, 0]))
             knowns = [unit.reference(name) for name in ("u", "u_dot", "a_bottom")]
-            expected = [unit.slave.getDirectionalDerivative([unit.reference("u_ddot")], [known], [1.0])[0] for known in knowns]
+            expected = [
+                unit.slave.getDirectionalDerivative([unit.reference("u_ddot")], [known], [1.0])[0]
+                for known in knowns
+            ]
             # CasADi scales its seeds
             assert [*by_state[1], by_input[1][0]] == pytest.approx(expected, rel=1e-14)

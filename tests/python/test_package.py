@@ -1,4 +1,4 @@
-"""FMUs of one scene: only the variables they use, their motion inside, and no life without their scene."""
+"""Tests FMUs of one scene: only used variables, the motion inside, and no instance without the scene."""
 
 import json
 import shutil
@@ -32,26 +32,31 @@ def test_package_is_valid_and_runs_as_the_scene(packages, wall, scene):
     path = packages[scene]
     assert validate_fmu(str(path)) == []
     summary = json.loads(
-        subprocess.run([wall, "simulate", ROOT / f"scenes/{scene}.toml", "--json"], check=True, capture_output=True).stdout
+        subprocess.run(
+            [wall, "simulate", ROOT / f"scenes/{scene}.toml", "--json"], check=True, capture_output=True
+        ).stdout
     )
     experiment = read_model_description(str(path)).defaultExperiment
     assert float(experiment.stopTime) == summary["end_time"]
-    # The motion is played inside: the importer's step does not matter but for rounding and the sensitivity of the scene.
+    # The motion is inside: the importer's step matters only through rounding and the sensitivity of the
+    # scene.
     for step in (None, 0.0137, 0.5):
         result = simulate_fmu(str(path), output_interval=step)
-        # FMPy ends on a whole number of steps: the peak of these scenes lies well before
+        # FMPy ends after a whole number of steps; the peak of these scenes is well before
         assert result["u_max"][-1] == pytest.approx(summary["u_max"], rel=1e-9, abs=1e-12), step
 
 
 def test_a_plain_parapet_lists_what_it_needs(packages):
-    names = {variable.name for variable in read_model_description(str(packages["plain_parapet"])).modelVariables}
+    names = {
+        variable.name for variable in read_model_description(str(packages["plain_parapet"])).modelVariables
+    }
     assert names == {
-        # outputs of a parapet that sways and rocks
-        "u", "u_dot", "overturned", "u_ddot", "u_ratio", "restoring_force", "damping_force", "reaction_bottom",
-        "impulse_bottom", "overturn_time", "u_max",
-        # what it is made of
+        # outputs of a parapet
+        "u", "u_dot", "overturned", "u_ddot", "u_ratio", "restoring_force", "damping_force",
+        "reaction_bottom", "impulse_bottom", "overturn_time", "u_max",
+        # its parameters
         "height", "thickness", "width", "density", "gravity", "a1", "a3", "xi", "u_start", "u_dot_start",
-        # what follows
+        # calculated parameters
         "mass", "effective_mass", "participation", "F0", "u_ins", "omega1", "xi_used",
     }  # fmt: skip
 
@@ -59,9 +64,21 @@ def test_a_plain_parapet_lists_what_it_needs(packages):
 @pytest.mark.parametrize(
     ("scene", "there", "absent"),
     [
-        ("shaken_parapet", {"u"}, {"a_g", "a_bottom", "a_top", "drift", "overburden", "hinge_ratio", "d1", "mechanism"}),
-        ("strip_between_floors", {"a_bottom", "a_top", "drift", "hinge_ratio", "overburden", "d1"}, {"a_g", "xi", "c_bar"}),
-        ("rigid_block", {"restitution_used"}, {"a1", "d1", "xi", "c_bar", "damping_force", "omega1", "tolerance"}),
+        (
+            "shaken_parapet",
+            {"u"},
+            {"a_g", "a_bottom", "a_top", "drift", "overburden", "hinge_ratio", "d1", "mechanism"},
+        ),
+        (
+            "strip_between_floors",
+            {"a_bottom", "a_top", "drift", "hinge_ratio", "overburden", "d1"},
+            {"a_g", "xi", "c_bar"},
+        ),
+        (
+            "rigid_block",
+            {"restitution_used"},
+            {"a1", "d1", "xi", "c_bar", "damping_force", "omega1", "tolerance"},
+        ),
         ("quadrilinear_strip", {"hinge_ratio", "xi"}, {"a1", "a3", "d1", "force_law", "restitution"}),
     ],
 )
@@ -81,7 +98,7 @@ def test_starts_are_the_scenes(packages):
 
 
 def without(path, target, *names):
-    """The archive without some of its files."""
+    """Copies the archive without some of its files."""
     with zipfile.ZipFile(path) as old, zipfile.ZipFile(target, "w") as new:
         for item in old.infolist():
             if item.filename not in names:

@@ -1,4 +1,7 @@
-"""The page in a browser: it loads clean, its slider moves the wall and the cursors, and it fits narrow and wide windows."""
+"""Tests the page in a browser.
+
+It loads without errors, its slider moves the wall and the cursors, and it fits narrow and wide windows.
+"""
 
 import shutil
 import subprocess
@@ -48,7 +51,7 @@ def strip(wall, tmp_path_factory):
 
 
 def move(browser, part):
-    """Puts the slider at a part of its way, as a hand does."""
+    """Moves the slider to a fraction of its range, as a user does."""
     browser.execute_script(
         "const s = document.getElementById('time'); s.value = Math.round(arguments[0] * s.max);"
         "s.dispatchEvent(new Event('input'));",
@@ -64,7 +67,11 @@ def test_the_page_loads_clean(browser, parapet):
     browser.get_log("browser"), browser.get_log("performance")
     browser.get(parapet.as_uri())
     assert browser.get_log("browser") == []
-    requests = [entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]]
+    requests = [
+        entry["message"]
+        for entry in browser.get_log("performance")
+        if "Network.requestWillBeSent" in entry["message"]
+    ]
     assert not [request for request in requests if '"url":"http' in request]
     assert "parapet" in browser.title
 
@@ -112,12 +119,15 @@ def test_play_moves_on_and_pauses(browser, parapet):
 
 @pytest.mark.parametrize("width", [420, 1600])
 def test_nothing_overflows(browser, parapet, width):
-    # a headless window has no frame, but may refuse to be narrow: the device metrics do not
+    # a headless window may refuse to be narrow; the device metrics do not
     browser.execute_cdp_cmd(
-        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
     )
     browser.get(parapet.as_uri())
-    inner, content = browser.execute_script("return [window.innerWidth, document.documentElement.scrollWidth]")
+    inner, content = browser.execute_script(
+        "return [window.innerWidth, document.documentElement.scrollWidth]"
+    )
     assert inner == width
     assert content <= inner
 
@@ -150,16 +160,23 @@ def study(wall, tmp_path_factory):
 @pytest.mark.parametrize("width", [420, 1600])
 def test_the_page_of_a_study(browser, study, width):
     browser.execute_cdp_cmd(
-        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
     )
     browser.get_log("browser"), browser.get_log("performance")
     browser.get(study.as_uri())
     assert browser.get_log("browser") == []
-    requests = [entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]]
+    requests = [
+        entry["message"]
+        for entry in browser.get_log("performance")
+        if "Network.requestWillBeSent" in entry["message"]
+    ]
     assert not [request for request in requests if '"url":"http' in request]
-    inner, content = browser.execute_script("return [window.innerWidth, document.documentElement.scrollWidth]")
+    inner, content = browser.execute_script(
+        "return [window.innerWidth, document.documentElement.scrollWidth]"
+    )
     assert content <= inner == width
-    # the collapse, three models' curves, three fractions; each with something drawn inside its axes
+    # the collapse, the curves of three models, three fractions; each has something drawn inside its axes
     plots = browser.find_elements(By.CSS_SELECTOR, "svg")
     assert len(plots) == 1 + 3 + 3
     assert all(plot.find_elements(By.CSS_SELECTOR, "g path") for plot in plots)
@@ -170,15 +187,20 @@ def test_the_page_of_a_study(browser, study, width):
 def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tmp_path):
     path = tmp_path / "spectrum.html"
     ranges = ["--heights", "1:6:21", "--ratios", "5:20:16"]
-    subprocess.run([wall, "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True)
+    subprocess.run(
+        [wall, "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True
+    )
     browser.get_log("browser")
     browser.get(path.as_uri())
     assert browser.get_log("browser") == []
     cells = browser.find_elements(By.CSS_SELECTOR, "figure rect:not(.frame)")
     assert len(cells) == 21 * 16
     titles = [cell.find_element(By.TAG_NAME, "title").get_attribute("textContent") for cell in cells]
-    assert any("overturns at" in title for title in titles) and any("u_max/u_ins = 0." in title for title in titles)
+    assert any("overturns at" in title for title in titles) and any(
+        "u_max/u_ins = 0." in title for title in titles
+    )
     frame = browser.find_element(By.CSS_SELECTOR, "figure .frame").rect
-    # the first cell is the lower left one, the last the upper right one; strokes and rounding take a pixel or two
+    # the first cell is at the lower left, the last at the upper right; strokes and rounding take a pixel or
+    # two
     assert abs(cells[0].rect["x"] - frame["x"]) < 3 and abs(cells[-1].rect["y"] - frame["y"]) < 3
     assert path.stat().st_size < 3_000_000

@@ -1,4 +1,4 @@
-"""The main job on real input: a recorded accelerogram drives the FMU in FMPy, and the answer is that of the command line."""
+"""Drives the FMU in FMPy with recorded accelerograms; the result equals that of the command line."""
 
 import json
 import os
@@ -10,7 +10,7 @@ from fmpy import simulate_fmu
 from fmpy.util import read_csv
 
 FOLDER = Path(os.environ.get("ROCKING_WALL_RECORDS", "no records"))
-# A small stiff wall, a slender one and a large one of the paper's Table 5.
+# A small stiff wall, a slender wall and a large wall of Table 5 of the paper.
 WALLS = {"2": (1.5, 0.3, 0.0012), "3": (3.0, 0.3, 0.009), "6": (6.0, 0.6, 0.018)}
 
 
@@ -27,7 +27,11 @@ def test_a_real_record_drives_the_unit(record, fmu, wall, tmp_path, number):
     height, thickness, a1 = WALLS[number]
     settings = {"height": height, "thickness": thickness, "a1": a1, "u_start": 0.0}
     motion = tmp_path / "motion.csv"
-    subprocess.run([wall, "motion", "--record", record, "--scale", "0.8", "--csv", motion], check=True, capture_output=True)
+    subprocess.run(
+        [wall, "motion", "--record", record, "--scale", "0.8", "--csv", motion],
+        check=True,
+        capture_output=True,
+    )
     signal = read_csv(motion)
     stop = float(signal["time"][-1])
     result = simulate_fmu(str(fmu), input=signal, stop_time=stop, start_values=settings)
@@ -39,7 +43,8 @@ def test_a_real_record_drives_the_unit(record, fmu, wall, tmp_path, number):
 
     held, linear = on_the_command_line("--hold"), on_the_command_line()
     u_ins = thickness / 2
-    # the same held samples; times are sums of rounded steps, and walls near overturning amplify rounding by up to 1e5
+    # the samples are the same; times are sums of rounded steps, and walls near overturning amplify rounding
+    # by up to 1e5
     assert result["u_max"][-1] / u_ins == pytest.approx(held["u_max"] / u_ins, abs=1e-9)
     assert bool(result["overturned"][-1]) == held["overturned"]
     print(f"wall {number}: u_max/u_ins {held['u_ratio_max']:.6f} held, {linear['u_ratio_max']:.6f} linear")

@@ -1,4 +1,7 @@
-"""The pages of `wall reproduce` and `wall calibrate` in a browser: they load clean and fit narrow and wide windows."""
+"""Tests the pages of `wall reproduce` and `wall calibrate` in a browser.
+
+They load without errors and fit narrow and wide windows.
+"""
 
 import math
 import subprocess
@@ -17,7 +20,9 @@ def reproduction(wall, tmp_path_factory):
     records = folder / "records"
     records.mkdir()
     for number in (1, 2, 3):
-        samples = (0.3 * math.sin(4.0 * number * 0.01 * i) * math.sin(math.pi * i / 1000) for i in range(1000))
+        samples = (
+            0.3 * math.sin(4.0 * number * 0.01 * i) * math.sin(math.pi * i / 1000) for i in range(1000)
+        )
         (records / f"{number}.AT2").write_text("\n".join(LINES + [f"{a:15.7E}" for a in samples]) + "\n")
     path = folder / "paper.html"
     subprocess.run([wall, "reproduce", "--records", records, "-o", path], check=True, capture_output=True)
@@ -41,7 +46,11 @@ def test_the_page_loads_clean(browser, page):  # noqa: F811
     browser.get_log("browser"), browser.get_log("performance")
     browser.get(page.as_uri())
     assert browser.get_log("browser") == []
-    requests = [entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]]
+    requests = [
+        entry["message"]
+        for entry in browser.get_log("performance")
+        if "Network.requestWillBeSent" in entry["message"]
+    ]
     assert not [request for request in requests if '"url":"http' in request]
     assert page.stat().st_size < 3 * 2**20
 
@@ -49,10 +58,13 @@ def test_the_page_loads_clean(browser, page):  # noqa: F811
 @pytest.mark.parametrize("width", [420, 1600])
 def test_nothing_overflows(browser, page, width):  # noqa: F811
     browser.execute_cdp_cmd(
-        "Emulation.setDeviceMetricsOverride", {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False}
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
     )
     browser.get(page.as_uri())
-    inner, content = browser.execute_script("return [window.innerWidth, document.documentElement.scrollWidth]")
+    inner, content = browser.execute_script(
+        "return [window.innerWidth, document.documentElement.scrollWidth]"
+    )
     assert inner == width
     assert content <= inner
 
@@ -83,7 +95,7 @@ def test_each_number_stands_beside_print(browser, reproduction):  # noqa: F811
     browser.get(reproduction.as_uri())
     row = browser.find_elements(By.XPATH, "//section[h2[starts-with(., 'Table 5')]]//tr")[1]
     cells = [cell.text.split() for cell in row.find_elements(By.CSS_SELECTOR, "td.number")]
-    # e_an of wall 1: print, ours with one digit more, deviation
+    # e_an of wall 1: printed, computed with one digit more, deviation
     assert cells[0] == ["0.942", "0.9423", "+0.0003"]
-    # 0.030 percentage points below print, the column known to disagree, is shaded
+    # 0.030 percentage points below the printed value: the column that is known to disagree is shaded
     assert "off" in row.find_elements(By.CSS_SELECTOR, "td.number")[3].get_attribute("class")

@@ -1,4 +1,4 @@
-"""Reactions and impulses of the FMU against an independent two-body model, and the energy that passes the supports."""
+"""Compares reactions, impulses and the energy through the supports with an independent two-body model."""
 
 import math
 
@@ -9,10 +9,11 @@ import two_body
 from unit import Unit
 
 PARAPET = {"height": 3.0, "thickness": 0.4, "overburden": 8000.0, "overburden_eccentricity": 0.05}
-STRIP = {"mechanism": "vertical_spanning", "height": 2.75, "thickness": 0.12, "hinge_ratio": 0.6, "overburden": 6000.0,
-         "overburden_eccentricity": 0.02}  # fmt: skip
+STRIP = {"mechanism": "vertical_spanning", "height": 2.75, "thickness": 0.12, "hinge_ratio": 0.6,
+         "overburden": 6000.0, "overburden_eccentricity": 0.02}  # fmt: skip
 LAWS = {
-    "rocking": {"a1": 0.05, "damping_model": "constant_ratio", "damping_source": "given", "xi": 0.03, "u_start": 0.03},
+    "rocking": {"a1": 0.05, "damping_model": "constant_ratio", "damping_source": "given", "xi": 0.03,
+                "u_start": 0.03},
     "trilinear": {"force_law": "trilinear", "d1": 0.7, "a1": 0.05, "damping_model": "stiffness_proportional",
                   "damping_source": "given", "xi": 0.05, "u_start": 0.03},
     "impacts": {"a1": 0.03, "damping_model": "none", "impact": "restitution", "restitution_source": "given",
@@ -20,9 +21,9 @@ LAWS = {
     "rigid": {"force_law": "rigid_linear", "damping_model": "none", "impact": "restitution",
               "restitution_source": "given", "restitution": 0.85, "u_start": 0.0},
 }  # fmt: skip
-# What makes the walls rock, rest and meet impacts without overturning, which would end their contact.
+# Motions that make the walls rock, rest and impact without overturning, which would end the contact.
 FACTORS = {"parapet": 1.0, "strip": 0.3, "strip rigid": 1.7}
-# Sums of a dozen products of numbers of the size of the result: 64 roundings are plenty.
+# Sums of a dozen products, each of the size of the result: 64 roundings are enough.
 ROUNDING = 64 * 2.2e-16
 
 
@@ -48,7 +49,7 @@ class Supports:
         return self.factor * np.array([bottom, top])
 
     def advance(self):
-        """The rate of this step; afterwards everything stands at its end."""
+        """Sets the rates of this step and moves to its end."""
         end = self.at(self.time + self.step)
         rate = (end - self.acceleration) / self.step
         h, a, v = self.step, self.acceleration, self.velocity
@@ -64,7 +65,7 @@ class Supports:
 
 
 def drive(unit, supports, parapet):
-    """One step of the unit with the supports; the drift is linear within a step."""
+    """Advances unit and supports by one step; the drift is linear within a step."""
     before = supports.acceleration.copy(), supports.relative
     rate = supports.advance()
     inputs, rates = {"a_bottom": before[0][0]}, {"a_bottom": rate[0]}
@@ -85,7 +86,7 @@ def facts(unit):
 
 
 def drift_couple(wall, u, drift, given):
-    """G of the potential -W u d/(2h) - (W/2 + O) d²/(2h), once a drift is given."""
+    """Returns G, from the potential -W u d/(2h) - (W/2 + O) d²/(2h), once a drift is given."""
     weight = wall["mass"] * wall["gravity"]
     return -(weight * u / 2 + (weight / 2 + wall["overburden"]) * drift) / wall["height"] if given else 0.0
 
@@ -99,13 +100,23 @@ def test_reactions(unpacked, law, shape):
         wall, supports, kinds = facts(unit), Supports(0.002, drift, factor_of(shape, law)), set()
         for _ in range(1500):
             drive(unit, supports, parapet)
-            names = ["u", "u_dot", "u_ddot", "restoring_force", "damping_force", "reaction_bottom", "reaction_top"]
+            names = [
+                "u",
+                "u_dot",
+                "u_ddot",
+                "restoring_force",
+                "damping_force",
+                "reaction_bottom",
+                "reaction_top",
+            ]
             u, speed, acceleration, restoring, damping, bottom, top = unit.get(*names)
             kinds.add("rest" if u == speed == acceleration == 0.0 else "motion")
-            # what the wall itself opposes to u, as one rod or as the half of Eq. (12)
+            # force of the wall against u, as one rod or as half of Eq. (12)
             force, scale = restoring + damping, wall["mass"] * (10.0 + abs(acceleration)) + abs(restoring)
             if parapet:
-                expected, couple = two_body.parapet(wall["mass"], wall["height"], supports.acceleration[0], acceleration)
+                expected, couple = two_body.parapet(
+                    wall["mass"], wall["height"], supports.acceleration[0], acceleration
+                )
                 assert bottom == pytest.approx(expected, abs=ROUNDING * scale)
                 assert top == 0.0
                 # moment about the base: -(F + C u') h/2
@@ -113,7 +124,12 @@ def test_reactions(unpacked, law, shape):
                 continue
             couple = drift_couple(wall, u, supports.relative, drift and unit.time > supports.step / 2)
             expected = two_body.strip(
-                wall["mass"], wall["height"], wall["hinge_ratio"] * wall["height"], supports.acceleration, acceleration, couple
+                wall["mass"],
+                wall["height"],
+                wall["hinge_ratio"] * wall["height"],
+                supports.acceleration,
+                acceleration,
+                couple,
             )
             assert bottom == pytest.approx(expected[0], abs=ROUNDING * scale)
             assert top == pytest.approx(expected[1], abs=ROUNDING * scale)
@@ -127,11 +143,12 @@ def test_reactions(unpacked, law, shape):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("shape", ["parapet", "strip", "strip with drift"])
 def test_impulses(unpacked, law, shape):
-    """The momentum of the bodies over each step, impacts included.
+    """Impulses equal the change of momentum of the bodies over each step, impacts included.
 
-    With drift ∫G dt enters, and in it ∫u dt, here by Simpson's rule over two steps h of 1 ms. It errs by at most h⁴/36 of a jump of
-    the third derivative, which a corner of the force (ω₁² u') or of the motion (100 m/s³) makes, and by h² of a jump of u' at an
-    impact: such steps are left out there, and there only.
+    With drift, ∫G dt contributes, and with it ∫u dt. Simpson's rule integrates it over two steps h of 1 ms.
+    The error is at most h⁴/36 of a jump of the third derivative, at a corner of the force (ω₁² u') or of the
+    motion (100 m/s³). At an impact it is h² of the jump of u'. With drift, steps with impacts are left out,
+    and only those.
     """
     parapet, drift = shape == "parapet", shape.endswith("drift")
     with Unit(unpacked) as unit:
@@ -140,7 +157,12 @@ def test_impulses(unpacked, law, shape):
         omega = unit.get("omega1")
         compared = jumps = 0
         for _ in range(1000):
-            velocities, speeds, places, drifts = [supports.velocity.copy()], [unit.get("u_dot")], [unit.get("u")], [supports.relative]
+            velocities, speeds, places, drifts = (
+                [supports.velocity.copy()],
+                [unit.get("u_dot")],
+                [unit.get("u")],
+                [supports.relative],
+            )
             totals = np.zeros(2)
             for _ in range(2):
                 drive(unit, supports, parapet)
@@ -151,7 +173,7 @@ def test_impulses(unpacked, law, shape):
                 drifts.append(supports.relative)
             change, jump = velocities[2] - velocities[0], speeds[2] - speeds[0]
             scale = wall["mass"] * (1.0 + abs(jump))
-            # or bounces so low that it may have passed 0 twice between two looks
+            # or bounces so low that it may have passed 0 twice between two steps
             near = min(map(abs, places)) < supports.step * max(map(abs, speeds))
             passed = near or any(a * b < 0 for a, b in zip(places, places[1:]))
             jumps += passed and law in ("impacts", "rigid")
@@ -159,8 +181,9 @@ def test_impulses(unpacked, law, shape):
                 expected = two_body.parapet(wall["mass"], wall["height"], change[0], jump)[0], 0.0
                 tolerance = ROUNDING * scale
             else:
-                simpson = lambda values: supports.step / 3 * (values[0] + 4 * values[1] + values[2])  # noqa: E731
-                # the unit takes the drift linear within each of its steps
+                third = supports.step / 3
+                simpson = lambda values: third * (values[0] + 4 * values[1] + values[2])  # noqa: E731
+                # the drift is linear within each step of the unit
                 trapezoid = supports.step / 2 * (drifts[0] + 2 * drifts[1] + drifts[2])
                 couple = drift_couple(wall, simpson(places), trapezoid, drift)
                 if drift and passed:
@@ -169,7 +192,9 @@ def test_impulses(unpacked, law, shape):
                     wall["mass"], wall["height"], wall["hinge_ratio"] * wall["height"], change, jump, couple
                 )[:2]
                 kink = omega**2 * max(map(abs, speeds)) + 100.0
-                simpson_error = supports.step**4 / 36 * kink * wall["mass"] * wall["gravity"] / (2 * wall["height"])
+                simpson_error = (
+                    supports.step**4 / 36 * kink * wall["mass"] * wall["gravity"] / (2 * wall["height"])
+                )
                 tolerance = ROUNDING * scale + (simpson_error if drift else 0.0)
             assert totals == pytest.approx(expected, abs=tolerance)
             compared += 1
@@ -178,7 +203,7 @@ def test_impulses(unpacked, law, shape):
 
 
 def stored(wall, law, u, u_ins, f0):
-    """∫F du of a bilinear law with softening parallel to the rigid one, from 0 [J]."""
+    """Returns ∫F du [J] from 0, for a bilinear law with softening parallel to the rigid law."""
     u1, k0 = law["a1"] * u_ins, f0 / u_ins
     top = k0 * (u_ins - u1)
     if abs(u) <= u1:
@@ -190,8 +215,9 @@ def stored(wall, law, u, u_ins, f0):
 def test_power_through_the_supports(unpacked, shape):
     """∫(R_b v_b + R_t v_t) dt is the change of energy plus the dissipation, to 1e-8 of the energy exchanged.
 
-    Simpson's rule over 2.4e-5 s errs at each corner of the force by about (ω₁ h)²/30 of the energy that passes within the step,
-    1e-8 of that; the drift, linear within the unit's steps, errs by h² a/8, 1e-10 m.
+    Simpson's rule over 2.4e-5 s has an error at each corner of the force: about (ω₁ h)²/30 of the energy that
+    passes within the step, which is 1e-8 of it. The drift is linear within the unit's steps; its error is h²
+    a/8, 1e-10 m.
     """
     parapet, drift = shape == "parapet", shape.endswith("drift")
     law = LAWS["rocking"] | {"damping_model": "constant_coefficient", "overburden_eccentricity": 0.0}
@@ -221,7 +247,7 @@ def test_power_through_the_supports(unpacked, shape):
             return u, bottom * supports.velocity[0] + top * supports.velocity[1], damper * speed**2
 
         if drift:
-            # from the first instant on, so that the couple does not set in within the run
+            # the drift is given from the start, so that its couple does not begin within the run
             unit.set(drift=1e-300)
         u, power, loss = rates()
         start, work, dissipated, exchanged = energy(u, unit.get("u_dot")), 0.0, 0.0, 0.0

@@ -1,7 +1,8 @@
-"""Full rotations beside Newton and Euler, body by body: plane rigid bodies, joint forces, no energy and no generalised coordinate.
+"""Compares full rotations with Newton's and Euler's equations, body by body.
 
-The unknowns are the accelerations of each body and the forces at its joints: the toe, the hinge, and the corner that slides up
-along the top support. Nothing of the wall's equation of motion is used here, nor its coordinate.
+The bodies are plane and rigid. The unknowns are the accelerations of each body and the forces at its joints:
+the toe, the hinge, and the corner that slides up along the top support. The wall's equation of motion and its
+coordinate are not used here.
 """
 
 import json
@@ -13,10 +14,23 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 STEP, COUNT = 0.01, 200
-WALL = {"height": 3.0, "thickness": 0.3, "width": 1.0, "density": 1800.0, "gravity": 9.81, "restitution": 0.9, "u_start": 0.1}
+WALL = {
+    "height": 3.0,
+    "thickness": 0.3,
+    "width": 1.0,
+    "density": 1800.0,
+    "gravity": 9.81,
+    "restitution": 0.9,
+    "u_start": 0.1,
+}
 CASES = {
     "parapet": {"mechanism": "parapet"},
-    "loaded parapet": {"mechanism": "parapet", "overburden": 8000.0, "overburden_eccentricity": 0.04, "u_start": 0.05},
+    "loaded parapet": {
+        "mechanism": "parapet",
+        "overburden": 8000.0,
+        "overburden_eccentricity": 0.04,
+        "u_start": 0.05,
+    },
     "strip": {"mechanism": "vertical_spanning", "hinge_ratio": 0.5},
     "loaded strip": {
         "mechanism": "vertical_spanning",
@@ -58,7 +72,7 @@ class Bodies:
         self.total = sum(self.masses)
 
     def place(self, theta):
-        """Angles of the bodies, anticlockwise."""
+        """Returns the angles of the bodies, anticlockwise."""
         if len(self.heights) == 1:
             return [-theta]
         h1, h2 = self.heights
@@ -67,13 +81,15 @@ class Bodies:
         return [-theta, brentq(top, -0.5, np.pi / 2, xtol=1e-15, rtol=1e-15)]
 
     def displacement(self, theta):
-        """Of the centre of a parapet, of the hinge of a strip."""
+        """Returns the displacement of a parapet's centre or of a strip's hinge."""
         corner = [-self.b, self.heights[0]]
         moved = turned(-theta, corner)[0] - corner[0]
-        return moved if len(self.heights) == 2 else turned(-theta, [-self.b / 2, corner[1] / 2])[0] + self.b / 2
+        return (
+            moved if len(self.heights) == 2 else turned(-theta, [-self.b / 2, corner[1] / 2])[0] + self.b / 2
+        )
 
     def solve(self, theta, rate, ground):
-        """Angular acceleration of the lower body and the horizontal force of the supports."""
+        """Returns the angular acceleration of the lower body and the horizontal force of the supports."""
         angles, rates, n = self.place(theta), [-rate], len(self.heights)
         if n == 2:
             # the top corner slides upwards
@@ -86,7 +102,9 @@ class Bodies:
         # unknowns: ax, ay, angular acceleration of each body; toe (2), hinge (2) on the upper body, top (1)
         size = 5 if n == 1 else 11
         matrix, right = np.zeros((size, size)), np.zeros(size)
-        joints = [("toe", 0, 3 * n, 1.0)] + ([("far", 0, 8, -1.0), ("low", 1, 8, 1.0), ("top", 1, 10, 1.0)] if n == 2 else [])
+        joints = [("toe", 0, 3 * n, 1.0)] + (
+            [("far", 0, 8, -1.0), ("low", 1, 8, 1.0), ("top", 1, 10, 1.0)] if n == 2 else []
+        )
         for i, (mass, height) in enumerate(zip(self.masses, self.heights)):
             matrix[3 * i, 3 * i] = matrix[3 * i + 1, 3 * i + 1] = mass
             matrix[3 * i + 2, 3 * i + 2] = mass * (height**2 + self.b**2) / 12
@@ -103,7 +121,7 @@ class Bodies:
         right[3 * n - 1] += cross(r, [0.0, -self.load])
 
         def point(row, i, name, sign, axes):
-            """The acceleration of a point of body i."""
+            """Returns the acceleration of a point of body i."""
             r = arms[i][name]
             for k, axis in enumerate(axes):
                 matrix[row + k, 3 * i + axis] += sign
@@ -131,7 +149,7 @@ class Bodies:
 
 
 def reference(wall, samples):
-    """u [m] and the force of the supports [N] at the samples; impacts."""
+    """Returns u [m] and the force of the supports [N] at the samples, and the impacts."""
     sides = {side: Bodies(wall, side) for side in (1, -1)}
     side, impacts = 1, 0
     start = brentq(lambda theta: sides[1].displacement(theta) - wall["u_start"], 0.0, 0.5, xtol=1e-16)
@@ -153,7 +171,9 @@ def reference(wall, samples):
             bodies = sides[side]
             ground = lambda time: side * (low + (high - low) * time / STEP)  # noqa: E731, B023
             motion = lambda time, y: [y[1], bodies.solve(y[0], y[1], ground(time))[0]]  # noqa: E731, B023
-            run = solve_ivp(motion, (elapsed, STEP), state, method="DOP853", rtol=1e-11, atol=1e-13, events=touch)
+            run = solve_ivp(
+                motion, (elapsed, STEP), state, method="DOP853", rtol=1e-11, atol=1e-13, events=touch
+            )
             elapsed, state = run.t[-1], run.y[:, -1]
             if run.status == 1:
                 # the same speed of approach on the other side, times e
@@ -164,8 +184,19 @@ def reference(wall, samples):
 
 
 def scene(wall, folder, record):
-    numbers = lambda names: "".join(f"{name} = {json.dumps(wall[name])}\n" for name in names if name in wall)  # noqa: E731
-    geometry = ["mechanism", "height", "thickness", "width", "density", "gravity", "hinge_ratio", "overburden"]
+    def numbers(names):
+        return "".join(f"{name} = {json.dumps(wall[name])}\n" for name in names if name in wall)
+
+    geometry = [
+        "mechanism",
+        "height",
+        "thickness",
+        "width",
+        "density",
+        "gravity",
+        "hinge_ratio",
+        "overburden",
+    ]
     geometry += ["overburden_eccentricity", "eccentricity_mode"]
     text = f"""output_step = {STEP}
 stop_time = {COUNT * STEP}
@@ -207,12 +238,13 @@ def test_newton_and_euler_body_by_body(wall, tmp_path, case):
     expected, impacts = reference(parameters, samples)
     assert impacts >= 2
     u_ins = parameters["thickness"] / (2 if parameters["mechanism"] == "parapet" else 1)
-    # each of 200 calls of DOP853 leaves 1e-11 of θ at most, and both amplify; they agree to 2e-14
+    # each of 200 calls of DOP853 leaves an error of at most 1e-11 of θ, which both amplify; they agree to
+    # 2e-14
     assert table["u"] == pytest.approx(expected[:, 0], abs=1e-10 * u_ins)
     # the sum of the reactions, up to the last sample, after which a record is zero
     force = (table["reaction_bottom"] + table["reaction_top"])[:-1]
     weight = parameters["density"] * parameters["thickness"] * parameters["height"] * parameters["gravity"]
     away = np.abs(expected[:-1, 0]) > 1e-6
     assert away.sum() > COUNT / 2
-    # near an impact the sample may fall on its other side
+    # near an impact the sample may be on the other side of it
     assert force[away] == pytest.approx(expected[:-1, 1][away], abs=1e-10 * weight)

@@ -1,20 +1,21 @@
-"""Support forces of rocking walls from Newton and Euler, body by body: rigid rods, small rotations, moving supports.
+"""Support forces of rocking walls from Newton and Euler, body by body: rigid rods, small rotations, moving
+supports.
 
-A rod of mass m and length h stands between the horizontal displacements x0 (foot) and x1 (head); its centre is at their mean and
-its rotation is (x1 - x0)/h. Horizontal forces act at foot and head, and the vertical forces (weight, overburden, pivots) and
-the dampers leave a couple M that turns the head towards +x:
+A rod of mass m and length h has the horizontal displacements x0 at its foot and x1 at its head. Its centre is
+at their mean, and its rotation is (x1 - x0)/h. Horizontal forces act at foot and head. The vertical forces
+(weight, overburden, pivots) and the dampers give a couple M that turns the head towards +x:
 
     m (x0'' + x1'')/2 = P0 + P1                     (Newton)
     m h²/12 (x1'' - x0'')/h = (P1 - P0) h/2 + M      (Euler)
 
-Nothing of the wall's equation of motion is used here.
+The wall's equation of motion is not used here.
 """
 
 import numpy as np
 
 
 def parapet(mass, height, acceleration, u_acceleration):
-    """Base force and couple [N, N m] of one rod that rocks on its base, without a force at its head."""
+    """Returns base force and couple [N, N m] of a rod that rocks on its base, without a force at its head."""
     foot, head = acceleration, acceleration + 2 * u_acceleration
     base = mass * (foot + head) / 2
     couple = mass * height / 12 * (head - foot) + base * height / 2
@@ -22,10 +23,11 @@ def parapet(mass, height, acceleration, u_acceleration):
 
 
 def strip(mass, height, hinge, accelerations, u_acceleration, drift_couple):
-    """Forces at bottom, top and hinge, and the force Q against u [N], of two rods joined at the height `hinge`.
+    """Returns the forces at bottom, top and hinge, and the force Q against u [N].
 
-    The couples M1, M2 of the rods do the virtual work M1 dθ1 + M2 dθ2 = -Q du - G dd, with θ1 = d/h + u/h1 and θ2 = d/h - u/h2:
-    M1/h1 - M2/h2 = -Q and (M1 + M2)/h = -G. `drift_couple` is G.
+    Two rods are joined at the height `hinge`. Their couples M1 and M2 do the virtual work
+    M1 dθ1 + M2 dθ2 = -Q du - G dd, with θ1 = d/h + u/h1 and θ2 = d/h - u/h2. Hence M1/h1 - M2/h2 = -Q and
+    (M1 + M2)/h = -G. `drift_couple` is G.
     """
     h1, h2 = hinge, height - hinge
     m1, m2 = mass * h1 / height, mass * h2 / height
@@ -45,5 +47,5 @@ def strip(mass, height, hinge, accelerations, u_acceleration, drift_couple):
 
 
 def rod_energy(mass, foot, head):
-    """Kinetic energy of a rod whose ends move at these speeds [J]."""
+    """Returns the kinetic energy [J] of a rod from the velocities of its ends."""
     return mass / 6 * (foot * foot + foot * head + head * head)

@@ -1,4 +1,4 @@
-"""An instance of an FMU by the names of its variables, on FMPy's FMU2Slave."""
+"""Wraps FMPy's FMU2Slave, so that variables have names instead of value references."""
 
 import contextlib
 import shutil
@@ -16,7 +16,7 @@ class Unpacked:
 
 
 class Unit:
-    """One instance. `messages` collects (status, category, text) of its log."""
+    """An FMU instance. `messages` collects (status, category, text) of its log."""
 
     KIND = FMU2Slave
 
@@ -32,7 +32,7 @@ class Unit:
         self._logger = fmi2CallbackLoggerTYPE(self._log)
         self.callbacks = fmi2CallbackFunctions()
         self.callbacks.logger = self._logger
-        # the unit logs as printf does; the proxy turns that into finished text
+        # the unit logs with printf formats; the proxy turns them into plain text
         addLoggerProxy(byref(self.callbacks))
         self.slave = self.KIND(
             guid=self.description.guid,
@@ -79,7 +79,7 @@ class Unit:
         return self
 
     def rates(self, **values):
-        """First derivatives of inputs, for the next step."""
+        """Sets first derivatives of inputs for the next step."""
         references = [self.reference(name) for name in values]
         self.slave.setRealInputDerivatives(references, [1] * len(values), list(values.values()))
 

@@ -1,4 +1,7 @@
-"""Builds examples/coupling/master.c and runs it on many walls: python compiled.py WALL.fmu FLOOR.fmu WALLS SECONDS STEP"""
+"""Builds examples/coupling/master.c and runs it on many walls.
+
+python compiled.py WALL.fmu FLOOR.fmu WALLS SECONDS STEP
+"""
 
 import json
 import shutil
@@ -11,11 +14,19 @@ from fmpy import extract, read_model_description
 
 ROOT = Path(__file__).parents[2]
 OF_A_WALL = ["a_bottom", "u_start", "thickness", "u", "reaction_bottom"]
-OF_A_FLOOR = ["a_g", "reaction_1", "reaction_2", "mass", "stiffness", "acceleration_absolute", "reaction_bottom"]
+OF_A_FLOOR = [
+    "a_g",
+    "reaction_1",
+    "reaction_2",
+    "mass",
+    "stiffness",
+    "acceleration_absolute",
+    "reaction_bottom",
+]
 
 
 def run(wall, floor, walls, seconds, step):
-    """What the master prints: run time, memory, and two displacements to compare."""
+    """Returns what the master prints: run time, memory, and two displacements to compare."""
     folders = []
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "master"
@@ -30,7 +41,9 @@ def run(wall, floor, walls, seconds, step):
             command += [f"{folders[-1]}/binaries/linux64/{identifier}.so", description.guid]
             command += [references[name] for name in names]
         command += [walls, seconds, step]
-        output = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+        output = subprocess.run(
+            [str(word) for word in command], check=True, capture_output=True, text=True
+        ).stdout
     for folder in folders:
         shutil.rmtree(folder, ignore_errors=True)
     return json.loads(output)

@@ -1,9 +1,10 @@
-"""Coupling error against communication step and run time, for each scheme and input treatment: a CSV, a page, a table.
+"""Measures coupling error against communication step and run time, for each scheme, held and linear inputs.
 
     python measure.py WALL.fmu FLOOR.fmu OUTPUT_FOLDER
 
-The truth is the system integrated as one (tests/python/monolith.py), the master that of examples/coupling. Run times are those of
-this master in Python: what they say about schemes is how many steps and sweeps each takes.
+Writes a CSV file, a page and a table. The reference is the system integrated as one
+(tests/python/monolith.py). The master is that of examples/coupling. Run times are those of this master in
+Python; they show how many steps and sweeps each scheme takes.
 """
 
 import csv
@@ -26,14 +27,14 @@ from wiring import FLOOR, STOREYS, WALL, WALLS, building, wall_on_floor  # noqa:
 DURATION = 2.0
 GRID = 0.01
 STEPS = [0.01, 0.005, 0.0025, 0.00125, 0.000625]
-# Runs of which the fastest counts.
+# Number of runs; the fastest counts.
 REPEATS = 2
-# Off by more than the peak itself is lost, not inaccurate.
+# A run whose error over the peak exceeds this is lost.
 LOST = 1.0
 
 
 def storey(ratio, frequency):
-    """A floor that the wall of the examples is `ratio` times as heavy as."""
+    """Returns a floor whose mass is that of the example wall divided by `ratio`."""
     mass = Wall(WALL, 0).mass / ratio
     return {"mass": mass, "stiffness": mass * (2 * math.pi * frequency) ** 2, "damping_ratio": 0.05}
 
@@ -60,7 +61,7 @@ def problems():
 
 
 def run(make, archives, scheme, step, watched):
-    """Histories at multiples of GRID, and seconds of processor time."""
+    """Returns histories at multiples of GRID, and the processor time in s."""
     system = make(*archives)
     system.initialize()
     often, history = round(GRID / step), []
@@ -70,13 +71,13 @@ def run(make, archives, scheme, step, watched):
             SCHEMES[scheme](system, step)
             if index % often == 0:
                 history.append([system.get(name) for name in watched])
-    except Exception as error:  # a master that is lost ends in numbers beyond any unit's limits, or finds no agreement
+    except Exception as error:  # a lost run exceeds a unit's limits, or its loop does not close
         return None, str(error)
     return np.array(history), time.process_time() - start
 
 
 def measure(archives):
-    """Rows: problem, scheme, step, error over the peak (NaN where lost), seconds."""
+    """Returns rows of problem, scheme, step, error over the peak (NaN where lost), seconds."""
     rows = []
     times = GRID * np.arange(1, round(DURATION / GRID) + 1)
     for name, (make, watched, monolith) in problems().items():
@@ -97,7 +98,7 @@ def measure(archives):
 
 
 def table(rows):
-    """Markdown: the errors at two steps, the observed order, and the time of a simulated second at 2.5 ms."""
+    """Returns Markdown: errors at two steps, observed order, run time of a simulated second at 2.5 ms."""
     lines = [
         "| system | scheme | error/peak at 5 ms | at 1.25 ms | order | run time at 2.5 ms [ms] |",
         "|---|---|---|---|---|---|",
@@ -105,8 +106,12 @@ def table(rows):
     for name in dict.fromkeys(row[0] for row in rows):
         title = name
         for scheme in SCHEMES:
-            found = {step: (error, seconds) for n, s, step, error, seconds in rows if (n, s) == (name, scheme)}
-            good = [(step, error) for step, (error, _) in found.items() if step <= 0.005 and math.isfinite(error)]
+            found = {
+                step: (error, seconds) for n, s, step, error, seconds in rows if (n, s) == (name, scheme)
+            }
+            good = [
+                (step, error) for step, (error, _) in found.items() if step <= 0.005 and math.isfinite(error)
+            ]
             order = f"{np.polyfit(*np.log(np.array(good).T), 1)[0]:.2f}" if len(good) >= 3 else "—"
             shown = [f"{found[s][0]:.0e}" if math.isfinite(found[s][0]) else "lost" for s in (0.005, 0.00125)]
             cost = f"{found[0.0025][1] / DURATION * 1e3:.0f}" if math.isfinite(found[0.0025][0]) else "—"
@@ -116,9 +121,11 @@ def table(rows):
 
 
 def fall(archives):
-    """Histories of u/u_ins in a building whose parapet overturns, and what the units say about it."""
+    """Returns histories of u/u_ins in a building whose parapet overturns, and the overturning times."""
     log = []
-    system = building(*archives, {"parapet": {"u_dot_start": 0.85, "log": lambda *line: log.append(line)}}, pulse)
+    system = building(
+        *archives, {"parapet": {"u_dot_start": 0.85, "log": lambda *line: log.append(line)}}, pulse
+    )
     system.initialize()
     times, step = [], 0.002
     histories = {"strip": [], "parapet": []}
@@ -127,7 +134,9 @@ def fall(archives):
         times.append(system.time)
         for name, history in histories.items():
             history.append(system.get(f"{name}.u_ratio"))
-    events = [(name, system.get(f"{name}.overturn_time")) for name in histories if system.get(f"{name}.overturned")]
+    events = [
+        (name, system.get(f"{name}.overturn_time")) for name in histories if system.get(f"{name}.overturned")
+    ]
     assert events and any("overturned" in message for _, _, message in log)
     return times, histories, events
 
@@ -145,7 +154,7 @@ def main():
         writer.writerows(rows)
     (output / "coupling.html").write_text(page.text(rows, accident, DURATION))
     hundred = compiled.run(wall, floor, 100, 10.0, 0.001)
-    # the allocator takes whole pages: only many walls tell what one needs
+    # the allocator takes whole pages, so only many walls show how much one needs
     each = compiled.run(wall, floor, 2000, 0.001, 0.001)["bytes_per_wall"]
     (output / "coupling.md").write_text(
         table(rows)

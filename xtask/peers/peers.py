@@ -2,9 +2,9 @@
 
 Usage: peers.py FOLDER TOOL...   with the tools opensees, scipy, numba
 
-Each tool solves u'' = -participation a_g - c(u) u' - F(u)/m with a_g linear between samples, from rest, and gives u at
-the samples. Times are the least of several runs after a warm-up, without the making of the model. A tool that is not
-there has one row per scene that says so.
+Each tool solves u'' = -participation a_g - c(u) u' - F(u)/m with a_g linear between samples, from rest, and
+returns u at the samples. Times are the least of several runs after a warm-up, without setting up the model. A
+tool that is not installed has one row per scene that says so.
 """
 
 import csv
@@ -18,8 +18,8 @@ from pathlib import Path
 
 RUNS = 15
 FEWEST_RUNS = 3
-SHORTEST = 0.1  # seconds of repeated runs at least: a machine is disturbed for milliseconds now and then
-PATIENCE = 0.8  # seconds of repeated runs; a longer first run is not repeated, a warm-up changes nothing there
+SHORTEST = 0.1  # least time of repeated runs [s]; disturbances of the machine last milliseconds
+PATIENCE = 0.8  # most time of repeated runs [s]; a longer first run is not repeated and needs no warm-up
 
 
 class Problem:
@@ -45,7 +45,7 @@ def numbers(path):
 
 
 def errors(history, problem):
-    """Largest and rms error and that of the peak, over u_ins."""
+    """Returns the largest error, the rms error and the error of the peak, over u_ins."""
     u_ins = problem.u_ins
     differences = [abs(u - r) / u_ins for u, r in zip(history, problem.reference)]
     largest = float("inf") if any(d != d for d in differences) else max(differences)
@@ -56,7 +56,7 @@ def errors(history, problem):
 
 
 def measure(writer, problem, tool, setting, run, prepare=None, timed=None):
-    """Adds a row. run() returns the history; timed(), where given, is what is timed in its place, after prepare()."""
+    """Adds a row. `run` returns the history; `timed`, if given, is timed in its place, after `prepare`."""
     prepare = prepare or (lambda: None)
     try:
         prepare()
@@ -78,7 +78,7 @@ def measure(writer, problem, tool, setting, run, prepare=None, timed=None):
 
 
 def repeat(prepare, timed):
-    """The least time of several runs."""
+    """Returns the least time of several runs."""
     least, spent, count = float("inf"), 0.0, 0
     while count < FEWEST_RUNS or (spent < PATIENCE and (count < RUNS or spent < SHORTEST)):
         prepare()
@@ -90,7 +90,7 @@ def repeat(prepare, timed):
 
 
 def in_short(value, digits):
-    """As Rust writes it: 5.000e-3."""
+    """Formats a number as Rust does: 5.000e-3."""
     mantissa, exponent = f"{value:.{digits}e}".split("e")
     return f"{mantissa}e{int(exponent)}"
 
@@ -99,17 +99,24 @@ def one_line(error):
     return str(error).replace(",", ";").replace("\n", " ")
 
 
-# OpenSeesPy: ElasticMultiLinear and Viscous side by side on a zero-length element, Newmark's average acceleration.
+# OpenSeesPy: ElasticMultiLinear and Viscous in parallel on a zero-length element, Newmark's average
+# acceleration.
 
 OPENSEES_SUBSTEPS = (1, 2, 4, 16, 64)
 
 
 def import_opensees():
-    """OpenSeesPy brings libraries that its extension does not find by itself: they are loaded first, in order."""
+    """Loads OpenSeesPy's libraries in order, which its extension does not find by itself, then imports it."""
     spec = importlib.util.find_spec("openseespylinux") if sys.platform.startswith("linux") else None
     if spec is not None:
         folder = Path(spec.origin).parent / "lib"
-        for name in ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3", "libgomp.so.1"):
+        for name in (
+            "libquadmath.so.0",
+            "libgfortran.so.4",
+            "libblas.so.3",
+            "liblapack.so.3",
+            "libgomp.so.1",
+        ):
             if (folder / name).is_file():
                 ctypes.CDLL(str(folder / name), mode=ctypes.RTLD_GLOBAL)
     import openseespy.opensees
@@ -139,14 +146,16 @@ def opensees(writer, problem):
             return found
 
         def step_loop():
-            """The steps alone: nothing is recorded."""
+            """Runs the steps and records nothing."""
             call = ops.analyze
             for _ in range(intervals * count):
                 if call(1, step) != 0:
                     raise RuntimeError(f"no convergence at {ops.getTime()} s")
 
         setting = f"newmark {in_short(step, 3)} s"
-        measure(writer, problem, "OpenSeesPy", setting, history, lambda: opensees_model(ops, problem), step_loop)
+        measure(
+            writer, problem, "OpenSeesPy", setting, history, lambda: opensees_model(ops, problem), step_loop
+        )
     ops.wipe()
 
 
@@ -164,11 +173,13 @@ def opensees_model(ops, problem):
     ops.uniaxialMaterial("Viscous", 2, problem.elastic_damping * mass, 1.0)
     ops.uniaxialMaterial("Parallel", 3, 1, 2)
     ops.element("zeroLength", 1, 1, 2, "-mat", 3, "-dir", 1)
-    ops.timeSeries("Path", 1, "-dt", problem.step, "-values", *problem.samples, "-factor", problem.participation)
+    ops.timeSeries(
+        "Path", 1, "-dt", problem.step, "-values", *problem.samples, "-factor", problem.participation
+    )
     ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
     ops.constraints("Plain")
     ops.numberer("Plain")
-    # the cheapest of its solvers and tests here: a step on one line of the force takes one iteration
+    # the cheapest of its solvers and tests here: a step on one branch takes one iteration
     ops.system("ProfileSPD")
     ops.test("NormUnbalance", 1e-10 * max(forces[1:-1]), 100)
     ops.algorithm("Newton")
@@ -176,7 +187,7 @@ def opensees_model(ops, problem):
     ops.analysis("Transient")
 
 
-# SciPy: solve_ivp, restarted at each corner on the line the wall goes over to.
+# SciPy: solve_ivp, restarted at each corner on the next branch.
 
 SCIPY_TOLERANCES = {
     "RK45": (1e-4, 1e-6, 1e-8, 1e-10),
@@ -276,7 +287,7 @@ NEWMARK_SUBSTEPS = (1, 4, 16, 64)
 
 @functools.cache
 def numba_loops():
-    """The two loops, compiled at their first call."""
+    """Returns the two loops, which are compiled at their first call."""
     import numba as compiler
     import numpy as np
 
@@ -289,7 +300,7 @@ def numba_loops():
 
     @compiler.njit(inline="always")
     def coefficients(u, corners, table, damping):
-        """F/m, its slope and c."""
+        """Returns F/m, its slope and c."""
         line = lines(u, corners)
         restoring = table[line, 1] + table[line, 2] * (u - table[line, 0])
         twice_xi, elastic, constant, elastic_line = damping
@@ -324,7 +335,7 @@ def numba_loops():
 
     @compiler.njit
     def newmark(forcing, step, count, corners, table, damping, tolerance):
-        """Average acceleration; Newton on the displacement, its tangent without the slope of c."""
+        """Runs Newmark's average acceleration; Newton's method on u neglects the slope of c."""
         history = np.zeros(len(forcing))
         h = step / count
         f, k, c = coefficients(0.0, corners, table, damping)
