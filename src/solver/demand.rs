@@ -6,8 +6,8 @@
 
 use crate::wall::{Body, Support, Wall};
 
-use super::Segment;
-use super::event::{self, Ending, Kinematics, Peaks, Piece, SearchExhausted};
+use super::event::{self, Ending, Kinematics, Piece, SearchExhausted};
+use super::state::{Peaks, Segment};
 
 /// Error of an extreme over the size of the terms it is a sum of; its time is then good to about 1e-6 of the time scale of the
 /// motion around it.

@@ -1,6 +1,6 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
-use crate::wall::Sides;
+use super::state::Peaks;
 
 /// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,45 +8,6 @@ pub(super) struct Kinematics {
     pub(super) displacement: f64,
     pub(super) velocity: f64,
     pub(super) acceleration: f64,
-}
-
-/// The largest u and −u so far, neither negative \[m\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peaks {
-    /// Largest u.
-    pub positive: f64,
-    /// Largest −u.
-    pub negative: f64,
-}
-
-impl Peaks {
-    /// The peaks of a wall that stands at `displacement`.
-    #[must_use]
-    pub fn at(displacement: f64) -> Self {
-        Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
-    }
-
-    /// Largest |u|/`u_ins`, each side by its own \[-\].
-    #[must_use]
-    pub fn ratio(&self, u_ins: Sides) -> f64 {
-        (self.positive / u_ins.positive).max(self.negative / u_ins.negative)
-    }
-
-    /// Largest |u| \[m\].
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        self.positive.max(self.negative)
-    }
-
-    pub(super) fn include(&mut self, displacement: f64) {
-        self.positive = self.positive.max(displacement);
-        self.negative = self.negative.max(-displacement);
-    }
-
-    /// Whether a range holds nothing new.
-    pub(super) fn cover(&self, lowest: f64, highest: f64) -> bool {
-        highest <= self.positive && -lowest <= self.negative
-    }
 }
 
 /// A smooth stretch of motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.

@@ -4,9 +4,10 @@ use std::cell::OnceCell;
 
 use nalgebra::Matrix3;
 
-use super::event::{Kinematics, Peaks, Piece};
+use super::event::{Kinematics, Piece};
 use super::oscillator::{Green, Oscillator, Regime, propagated};
 use super::polynomial::Polynomial;
+use super::state::Peaks;
 
 /// Motion on a branch in closed form.
 #[derive(Clone, Debug)]

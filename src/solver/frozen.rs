@@ -3,7 +3,9 @@
 //! An indicator is positive while its branch holds, and zero a margin beyond the corner. After an event each is at least half
 //! that margin, so that no solver meets it at zero, and a wall that turns at a corner makes no second event.
 
-use super::{Motion, Phase, State, Work};
+use super::motion::Motion;
+use super::state::{Phase, State};
+use super::transition::{self, Arrival, Event, Rebound};
 
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
@@ -17,30 +19,7 @@ const MARGIN: f64 = 1e-12;
 /// Bounces lower than this many margins are rest: a solver of tolerance 1e-9 or so tells them from nothing no more.
 const REST_MARGINS: f64 = 4.0;
 
-/// What an event did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Event {
-    /// The wall overturned.
-    pub overturned: bool,
-    /// It left its supports.
-    pub departed: bool,
-    /// It came to rest, or lies at the end of its fall.
-    pub stopped: bool,
-    /// Change of u̇ by impacts \[m/s\].
-    pub velocity_jump: f64,
-    /// Changes of branch and impacts.
-    pub work: Work,
-}
-
 impl Motion {
-    /// The state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to under the forcing p
-    /// \[m/s²\]; its memories stay.
-    #[must_use]
-    pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
-        let anew = self.start_under(displacement, velocity, forcing);
-        State { displacement, velocity, branch: anew.branch, phase: anew.phase, ..*state }
-    }
-
     /// The event indicators under the forcing p \[m/s²\]. `rising` is what [`event`](Self::event) left it at.
     #[must_use]
     pub fn indicators(&self, state: &State, rising: bool, forcing: f64) -> [f64; INDICATORS] {
@@ -79,11 +58,16 @@ impl Motion {
                     if (lowest..=highest).contains(&forcing) {
                         break;
                     }
-                    self.settle(state, forcing, 0.0);
+                    transition::settle(self, state, [forcing, 0.0]);
                 }
                 Phase::Moving => match self.left(state) {
                     None => break,
-                    Some(upwards) => self.cross(state, upwards, forcing, &mut event),
+                    Some(upwards) => {
+                        let corner = state.branch + usize::from(upwards);
+                        let arrival = Arrival { corner, upwards, forcing: [forcing, 0.0] };
+                        let rebound = |state: &State| self.late_rebound(state, forcing);
+                        event.add(transition::pass(self, state, arrival, rebound));
+                    }
                 },
             }
         }
@@ -109,53 +93,15 @@ impl Motion {
         }
     }
 
-    /// Goes through the corner at the upper or lower end of the branch.
-    fn cross(&self, state: &mut State, upwards: bool, forcing: f64, event: &mut Event) {
-        let corner = self.wall.corners()[state.branch + usize::from(upwards)];
-        let outwards = upwards == (corner.displacement > 0.0);
-        event.work.corners += 1;
-        if corner.overturning && outwards && !state.overturned {
-            state.overturned = true;
-            event.overturned = true;
-        }
-        if corner.departure && outwards && !state.departed {
-            state.departed = true;
-            event.departed = true;
-        }
-        if corner.landing {
-            (state.displacement, state.velocity) = (corner.displacement, 0.0);
-            state.phase = Phase::Landed;
-            event.stopped = true;
-            return;
-        }
-        state.branch = if upwards { state.branch + 1 } else { state.branch - 1 };
-        if corner.passage {
-            self.pass(state, forcing, event);
-        }
-    }
-
-    /// A passage of u = 0: restitution, and rest for a rigid wall whose bounces have become too low to follow.
-    fn pass(&self, state: &mut State, forcing: f64, event: &mut Event) {
-        let before = state.velocity;
-        event.work.impacts += 1;
-        if self.wall.is_rigid() {
-            self.pass_jump(state, forcing, event);
-        } else {
-            state.velocity *= self.wall.passage_factor();
-            if state.velocity == 0.0 && forcing != 0.0 {
-                // e = 0: it stops here and leaves with the forcing
-                state.branch = self.wall.branch_of(0.0, forcing);
-                state.displacement = 0.0;
-            }
-        }
-        event.velocity_jump += state.velocity - before;
-    }
-
-    /// The passage where the force jumps.
+    /// The motion after an impact, met a margin or more beyond u = 0. A rigid wall rests once its bounces are too low to follow.
     ///
-    /// The solver comes here a margin or more late, and the force of the old side has acted all that way. The velocity is
-    /// corrected to what an impact at u = 0 makes of it: else each bounce would gain energy, and never become low.
-    fn pass_jump(&self, state: &mut State, forcing: f64, event: &mut Event) {
+    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to what an impact at u = 0
+    /// makes of it: else each bounce would gain energy, and never become low.
+    fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
+        let factor = self.wall.passage_factor();
+        if !self.wall.is_rigid() {
+            return Rebound { velocity: state.velocity * factor, rests: false };
+        }
         let [lowest, highest] = self.rest_band;
         let in_band = (lowest..=highest).contains(&forcing);
         let late = state.displacement.abs();
@@ -166,16 +112,14 @@ impl Motion {
             (highest - forcing, forcing - lowest)
         };
         let arriving = (state.velocity * state.velocity - 2.0 * push * late).max(0.0);
-        let leaving = arriving * self.wall.passage_factor().powi(2);
+        let leaving = arriving * factor.powi(2);
         let now = leaving - 2.0 * pull * late;
         // height of the next bounce, u̇²/2 over the deceleration
         let lowest_bounce = REST_MARGINS * MARGIN * self.wall.displacement_scale();
         let low = in_band && (now <= 0.0 || 0.5 * leaving <= pull * lowest_bounce);
-        if low || leaving.sqrt() < self.rest_speed {
-            self.settle(state, forcing, 0.0);
-            event.stopped = state.phase == Phase::Resting;
-        } else {
-            state.velocity = now.max(0.0).sqrt().copysign(state.velocity);
+        Rebound {
+            velocity: now.max(0.0).sqrt().copysign(state.velocity),
+            rests: low || leaving.sqrt() < self.rest_speed,
         }
     }
 }

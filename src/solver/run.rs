@@ -1,16 +1,59 @@
 //! A segment under way: pieces of motion between the places where something happens.
 
 use super::adaptive::Series;
-use super::demand::{Stretch, Watch};
+use super::demand::{Demands, Stretch, Watch};
 use super::event::{self, Ending, Exit, Kinematics, Piece};
 use super::exact::{ClosedForm, Memo, Quiet};
+use super::motion::{Method, Motion, is_constant};
+use super::newmark;
+use super::state::{Phase, Report, Segment, SolverError, State};
+use super::transition::{self, Arrival, Rebound};
 use super::trigonometric::Rotation;
-use super::{Method, Motion, Phase, Report, SolverError, State, is_constant, newmark};
 
 /// Impacts in one segment, after which a wall that could rest is put to rest.
 const MOST_IMPACTS: u64 = 1_000_000;
 /// Pieces of motion in one segment.
 const MOST_PIECES: u32 = 4_000_000;
+
+impl Motion {
+    /// Moves `state` through a segment; `integral` asks for ∫u dt, `memo` remembers the propagator of a step.
+    ///
+    /// # Errors
+    /// [`SolverError`]; `state` is then as it was.
+    pub fn advance(
+        &self,
+        state: &mut State,
+        segment: &Segment,
+        integral: bool,
+        memo: &mut Memo,
+    ) -> Result<Report, SolverError> {
+        self.advance_watched(state, segment, integral, memo, None)
+    }
+
+    /// [`Self::advance`], and the demands of the segment: `watch` holds those so far, the time at the start of the segment \[s\],
+    /// and whether the couple of a drift acts.
+    ///
+    /// # Errors
+    /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
+    pub(crate) fn advance_watched(
+        &self,
+        state: &mut State,
+        segment: &Segment,
+        integral: bool,
+        memo: &mut Memo,
+        watch: Option<(&mut Demands, f64, bool)>,
+    ) -> Result<Report, SolverError> {
+        let body = self.wall.body();
+        let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
+        let watch =
+            watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
+        let run = Run::new(self, *state, segment.duration, [from, to], integral, memo).watched(watch);
+        let (end, report) = run.finish()?;
+        *state = end;
+        Ok(report)
+    }
+}
+
 /// A segment under way.
 pub(super) struct Run<'a> {
     motion: &'a Motion,
@@ -112,9 +155,8 @@ impl<'a> Run<'a> {
         if leaving >= self.duration {
             return;
         }
-        self.state.phase = Phase::Moving;
         let upwards = now > highest || (now >= lowest && self.rate > 0.0);
-        self.state.branch = self.motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
+        transition::leave_rest(self.motion, &mut self.state, upwards);
     }
 
     /// Makes the next piece of motion from the current state, and follows it.
@@ -232,51 +274,27 @@ impl<'a> Run<'a> {
     }
 
     /// Arrives at a corner and goes through it.
-    fn reach(&mut self, index: usize, upwards: bool) {
-        let wall = &self.motion.wall;
-        let corner = wall.corners()[index];
-        self.state.displacement = corner.displacement;
-        self.state.peaks.include(corner.displacement);
-        self.report.work.corners += 1;
-        let outwards = upwards == (corner.displacement > 0.0);
-        if corner.overturning && outwards && !self.state.overturned {
-            self.state.overturned = true;
+    fn reach(&mut self, corner: usize, upwards: bool) {
+        let (motion, forcing) = (self.motion, self.forcing_now());
+        self.state.displacement = motion.wall.corners()[corner].displacement;
+        self.state.peaks.include(self.state.displacement);
+        let velocity = self.state.velocity;
+        let [lowest, highest] = motion.rest_band;
+        let too_many = self.report.work.impacts + 1 >= MOST_IMPACTS
+            && motion.wall.is_rigid()
+            && (lowest..=highest).contains(&forcing);
+        let arrival = Arrival { corner, upwards, forcing: [forcing, self.rate] };
+        let event = transition::pass(motion, &mut self.state, arrival, |state| {
+            let velocity = state.velocity * motion.wall.passage_factor();
+            Rebound { velocity, rests: too_many || velocity.abs() < motion.rest_speed }
+        });
+        self.report.work.add(event.work);
+        self.report.stilled |= too_many && event.work.impacts > 0;
+        if event.overturned {
             self.report.overturning = Some(self.time);
         }
-        if corner.departure && outwards && !self.state.departed {
-            self.state.departed = true;
-            self.report.departure = Some([self.time, self.state.velocity]);
-        }
-        if corner.landing {
-            self.state.velocity = 0.0;
-            self.state.phase = Phase::Landed;
-            return;
-        }
-        // branch i lies between corners i and i + 1
-        self.state.branch = if upwards { index } else { index - 1 };
-        if corner.passage {
-            self.pass_zero();
-        }
-    }
-
-    /// A passage of u = 0: restitution, and rest for a rigid wall.
-    fn pass_zero(&mut self) {
-        let motion = self.motion;
-        self.state.velocity *= motion.wall.passage_factor();
-        self.report.work.impacts += 1;
-        let forcing = self.forcing_now();
-        if motion.wall.is_rigid() {
-            let [lowest, highest] = motion.rest_band;
-            let in_band = (lowest..=highest).contains(&forcing);
-            let too_many = self.report.work.impacts >= MOST_IMPACTS && in_band;
-            if self.state.velocity.abs() < motion.rest_speed || too_many {
-                self.report.stilled |= too_many;
-                motion.settle(&mut self.state, forcing, self.rate);
-            }
-        } else if self.state.velocity == 0.0 {
-            // e = 0: it stops here and leaves with the forcing
-            let direction = if forcing == 0.0 { self.rate } else { forcing };
-            self.state.branch = motion.wall.branch_of(0.0, direction);
+        if event.departed {
+            self.report.departure = Some([self.time, velocity]);
         }
     }
 

@@ -1,8 +1,9 @@
 //! Steps that are not plain: new extremes, turning points, corners.
 
-use super::super::event::{Kinematics, Peaks, Verdict, crossing, settle};
+use super::super::event::{Kinematics, Verdict, crossing, settle};
 use super::super::run::Run;
-use super::super::{Report, SolverError, Work};
+use super::super::transition::branch_beyond;
+use super::super::{Peaks, Report, SolverError, Work};
 use super::lane::Lane;
 use super::short::Short;
 use super::{Forcing, StepMap};
@@ -82,11 +83,12 @@ impl<'a, F: Forcing> Lane<'a, F> {
         let mut state = self.state;
         let upwards = stretch.to.displacement > stretch.from.displacement;
         for corners in 1..=MOST_CROSSINGS {
-            let corner = motion.wall.corners()[state.branch + usize::from(upwards)];
-            let next = if upwards { state.branch + 1 } else { state.branch.wrapping_sub(1) };
+            let index = state.branch + usize::from(upwards);
+            let corner = motion.wall.corners()[index];
             if corner.is_marked() || stretch.from.displacement == corner.displacement {
                 return false;
             }
+            let next = branch_beyond(index, upwards);
             let shorts = [state.branch, next].map(|branch| {
                 let map = self.solver.maps.get(branch)?.as_ref()?;
                 Some((map, map.short.as_ref()?))

@@ -1,8 +1,7 @@
 //! One run of a wall through a record: by itself two steps at a time as long as they are plain; side by side with others what is
 //! not plain (module `batch`).
 
-use super::super::event::Peaks;
-use super::super::{Memo, Phase, SolverError, State, Work};
+use super::super::{Memo, Peaks, Phase, SolverError, State, Work};
 use super::stretches::{Place, Stretch};
 use super::{Forcing, Passage, RecordSolver, Start, StepMap};
 

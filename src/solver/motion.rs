@@ -1,0 +1,96 @@
+//! A wall and the method that moves it.
+
+use crate::variables::Solver;
+use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
+
+use super::adaptive::Tolerances;
+use super::oscillator::Oscillator;
+
+/// Part of the tolerance given to the terms a Taylor step leaves out: a run of 10⁴ steps then stays within it.
+const LOCAL_SHARE: f64 = 1e-4;
+
+/// How the motion between events is found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// Closed form on each branch.
+    Exact,
+    /// Closed form on the elastic branch, Taylor series elsewhere and for full rotations.
+    Adaptive {
+        /// Largest error of u/`u_ins` to aim at \[-\].
+        tolerance: f64,
+    },
+    /// Newmark linear acceleration.
+    Newmark {
+        /// Step \[s\].
+        step: f64,
+    },
+}
+
+impl Method {
+    /// The method the parameters ask for; `tolerance` is the tighter of theirs and the importer's.
+    ///
+    /// # Errors
+    /// [`ParameterError::NotExact`] where the exact solver is asked for damping that varies on a branch.
+    pub fn new(parameters: &Parameters, wall: &Wall, tolerance: f64) -> Result<Self, ParameterError> {
+        let exact = wall.has_closed_form();
+        match parameters.solver {
+            Solver::Automatic | Solver::Exact if exact => Ok(Self::Exact),
+            Solver::Exact => Err(ParameterError::NotExact { model: parameters.damping_model.name() }),
+            Solver::Automatic | Solver::Adaptive => Ok(Self::Adaptive { tolerance }),
+            Solver::Newmark => Ok(Self::Newmark { step: parameters.newmark_step }),
+        }
+    }
+}
+
+/// A wall and the method that moves it, with all that both prepare once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    pub(super) wall: Wall,
+    pub(super) method: Method,
+    pub(super) oscillators: Vec<Oscillator>,
+    pub(super) tolerances: Tolerances,
+    pub(super) rest_band: [f64; 2],
+    pub(super) rest_speed: f64,
+}
+
+impl Motion {
+    /// Prepares the motion of a wall.
+    ///
+    /// # Panics
+    /// If a wall in full rotations is to move by another method than the adaptive one.
+    #[must_use]
+    pub fn new(wall: Wall, method: Method) -> Self {
+        let adaptive = matches!(method, Method::Adaptive { .. });
+        assert!(adaptive || wall.rotations().is_none(), "full rotations need the adaptive method");
+        let constant = |damping| match damping {
+            BranchDamping::Constant(c) => c,
+            // never used: a curved branch has no closed form
+            BranchDamping::SecantRatio(_) | BranchDamping::SecantStiffness(_) => 0.0,
+        };
+        let oscillators =
+            wall.branches().iter().map(|b| Oscillator::new(constant(b.damping), b.stiffness)).collect();
+        let local = match method {
+            Method::Adaptive { tolerance } => LOCAL_SHARE * tolerance * wall.displacement_scale(),
+            _ => 0.0,
+        };
+        let tolerances = Tolerances { displacement: local, velocity: local * wall.rocking_rate() };
+        let (rest_band, rest_speed) = (wall.rest_band(), wall.rest_speed());
+        Self { wall, method, oscillators, tolerances, rest_band, rest_speed }
+    }
+
+    /// The wall.
+    #[must_use]
+    pub fn wall(&self) -> &Wall {
+        &self.wall
+    }
+
+    /// The method.
+    #[must_use]
+    pub fn method(&self) -> &Method {
+        &self.method
+    }
+}
+
+pub(super) fn is_constant(damping: BranchDamping) -> bool {
+    matches!(damping, BranchDamping::Constant(_))
+}

@@ -1,0 +1,157 @@
+//! The state of a wall, the segments that change it, and what a segment did.
+
+use crate::wall::{Sides, Support};
+
+/// A stretch of support motion, linear in time: one record sample or one communication step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Length \[s\].
+    pub duration: f64,
+    /// Supports at the start.
+    pub from: Support,
+    /// Supports at the end.
+    pub to: Support,
+}
+
+/// Whether the wall moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// It rocks or sways.
+    Moving,
+    /// A rigid wall stands still at u = 0.
+    Resting,
+    /// It lies at the end of its fall.
+    Landed,
+}
+
+/// The largest u and −u so far, neither negative \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peaks {
+    /// Largest u.
+    pub positive: f64,
+    /// Largest −u.
+    pub negative: f64,
+}
+
+impl Peaks {
+    /// The peaks of a wall that stands at `displacement`.
+    #[must_use]
+    pub fn at(displacement: f64) -> Self {
+        Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
+    }
+
+    /// Largest |u|/`u_ins`, each side by its own \[-\].
+    #[must_use]
+    pub fn ratio(&self, u_ins: Sides) -> f64 {
+        (self.positive / u_ins.positive).max(self.negative / u_ins.negative)
+    }
+
+    /// Largest |u| \[m\].
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.positive.max(self.negative)
+    }
+
+    pub(super) fn include(&mut self, displacement: f64) {
+        self.positive = self.positive.max(displacement);
+        self.negative = self.negative.max(-displacement);
+    }
+
+    /// Whether a range holds nothing new.
+    pub(super) fn cover(&self, lowest: f64, highest: f64) -> bool {
+        highest <= self.positive && -lowest <= self.negative
+    }
+}
+
+/// The state of a wall: plain data, copied to save it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Displacement u \[m\].
+    pub displacement: f64,
+    /// Velocity u̇ \[m/s\].
+    pub velocity: f64,
+    /// Index of the branch the wall is on; it tells the side at a corner.
+    pub branch: usize,
+    /// Whether the wall moves.
+    pub phase: Phase,
+    /// |u| has exceeded `u_ins` of its side.
+    pub overturned: bool,
+    /// The wall has left its supports.
+    pub departed: bool,
+    /// Extremes of u so far, turning points included.
+    pub peaks: Peaks,
+}
+
+/// What a segment did besides changing the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Time of the first overturning after the start of the segment \[s\].
+    pub overturning: Option<f64>,
+    /// Time and velocity at which the wall left its supports in this segment \[s, m/s\].
+    pub departure: Option<[f64; 2]>,
+    /// ∫u dt while on the supports \[m s\]; only where asked for.
+    pub displacement_integral: f64,
+    /// The bound on impacts was reached and the wall put to rest.
+    pub stilled: bool,
+    /// Work done.
+    pub work: Work,
+}
+
+/// Work counters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Pieces of motion evaluated.
+    pub pieces: u64,
+    /// Changes of branch.
+    pub corners: u64,
+    /// Passages of u = 0 with restitution.
+    pub impacts: u64,
+}
+
+impl Work {
+    /// Adds the work of another stretch.
+    pub fn add(&mut self, other: Self) {
+        self.pieces += other.pieces;
+        self.corners += other.corners;
+        self.impacts += other.impacts;
+    }
+}
+
+/// The motion could not be followed to the end of a segment; the state is as it was.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SolverError {
+    /// Too many pieces in one segment.
+    #[error(
+        "gave up {reached} s into a step of {duration} s after {limit} pieces of motion (u = {displacement} m, \
+         u_dot = {velocity} m/s); use smaller steps"
+    )]
+    TooManyPieces {
+        /// Time reached \[s\].
+        reached: f64,
+        /// Length of the segment \[s\].
+        duration: f64,
+        /// The bound.
+        limit: u32,
+        /// Displacement reached \[m\].
+        displacement: f64,
+        /// Velocity reached \[m/s\].
+        velocity: f64,
+    },
+    /// Overflow.
+    #[error(
+        "the motion left the range of numbers {reached} s into a step of {duration} s (u = {displacement} m, u_dot = \
+         {velocity} m/s, forcing {forcing} m/s2); check the accelerations given"
+    )]
+    NotFinite {
+        /// Time reached \[s\].
+        reached: f64,
+        /// Length of the segment \[s\].
+        duration: f64,
+        /// Displacement \[m\].
+        displacement: f64,
+        /// Velocity \[m/s\].
+        velocity: f64,
+        /// Forcing p \[m/s²\].
+        forcing: f64,
+    },
+}

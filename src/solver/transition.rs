@@ -1,0 +1,169 @@
+//! Transitions: what happens where a motion reaches a corner, whoever follows the motion.
+
+use crate::wall::{Corner, Support};
+
+use super::motion::Motion;
+use super::state::{Peaks, Phase, State, Work};
+
+/// What a transition did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Event {
+    /// The wall overturned.
+    pub overturned: bool,
+    /// It left its supports.
+    pub departed: bool,
+    /// It came to rest, or lies at the end of its fall.
+    pub stopped: bool,
+    /// Change of u̇ by impacts \[m/s\].
+    pub velocity_jump: f64,
+    /// Changes of branch and impacts.
+    pub work: Work,
+}
+
+impl Event {
+    /// Adds what a later transition did.
+    pub(super) fn add(&mut self, later: Self) {
+        self.overturned |= later.overturned;
+        self.departed |= later.departed;
+        self.stopped |= later.stopped;
+        self.velocity_jump += later.velocity_jump;
+        self.work.add(later.work);
+    }
+}
+
+impl Motion {
+    /// The state at the start, under the supports' motion at that instant.
+    #[must_use]
+    pub fn start(&self, displacement: f64, velocity: f64, support: Support) -> State {
+        self.start_under(displacement, velocity, self.wall.body().forcing(support))
+    }
+
+    /// The state at the start, under a forcing p \[m/s²\].
+    #[must_use]
+    pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
+        let wall = &self.wall;
+        let overturned = displacement.abs() > wall.body().instability.of(displacement);
+        let departed = displacement.abs() > wall.body().departure.of(displacement);
+        let mut state = State {
+            displacement,
+            velocity,
+            branch: 0,
+            phase: Phase::Moving,
+            overturned,
+            departed,
+            peaks: Peaks::at(displacement),
+        };
+        if wall.is_rigid() && displacement == 0.0 && velocity == 0.0 {
+            settle(self, &mut state, [forcing, 0.0]);
+        } else {
+            // At a corner the motion chooses the side; the force is continuous there, but for the rigid one at u = 0.
+            let outer = wall.branch_of(displacement, 0.0);
+            let acceleration = wall.acceleration(outer, displacement, velocity, forcing);
+            state.branch =
+                wall.branch_of(displacement, if velocity == 0.0 { acceleration } else { velocity });
+        }
+        state
+    }
+
+    /// The state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to under the forcing p
+    /// \[m/s²\]; its memories stay.
+    #[must_use]
+    pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
+        let anew = self.start_under(displacement, velocity, forcing);
+        State { displacement, velocity, branch: anew.branch, phase: anew.phase, ..*state }
+    }
+}
+
+/// A corner reached.
+#[derive(Clone, Copy)]
+pub(super) struct Arrival {
+    /// Index of the corner.
+    pub(super) corner: usize,
+    /// Whether u grows there.
+    pub(super) upwards: bool,
+    /// Forcing p there \[m/s²\] and its rate \[m/s³\].
+    pub(super) forcing: [f64; 2],
+}
+
+/// The motion after an impact at u = 0.
+#[derive(Clone, Copy)]
+pub(super) struct Rebound {
+    /// u̇ \[m/s\].
+    pub(super) velocity: f64,
+    /// Whether the impact ends the rocking of a rigid wall.
+    pub(super) rests: bool,
+}
+
+/// Returns the branch beyond a corner: branch `i` lies between corners `i` and `i + 1`.
+#[inline]
+pub(super) fn branch_beyond(corner: usize, upwards: bool) -> usize {
+    if upwards { corner } else { corner - 1 }
+}
+
+/// Takes `state` through the corner it has reached. `rebound` tells what an impact there makes of the motion.
+pub(super) fn pass(
+    motion: &Motion,
+    state: &mut State,
+    arrival: Arrival,
+    rebound: impl FnOnce(&State) -> Rebound,
+) -> Event {
+    let Arrival { corner: index, upwards, forcing } = arrival;
+    let Corner { displacement, passage, overturning, departure, landing } = motion.wall.corners()[index];
+    let outwards = upwards == (displacement > 0.0);
+    let mut event = Event {
+        overturned: overturning && outwards && !state.overturned,
+        departed: departure && outwards && !state.departed,
+        work: Work { corners: 1, ..Work::default() },
+        ..Event::default()
+    };
+    state.overturned |= event.overturned;
+    state.departed |= event.departed;
+    if landing {
+        (state.displacement, state.velocity, state.phase) = (displacement, 0.0, Phase::Landed);
+        event.stopped = true;
+        return event;
+    }
+    state.branch = branch_beyond(index, upwards);
+    if passage {
+        let before = state.velocity;
+        let rebound = rebound(state);
+        leave_zero(motion, state, rebound, forcing);
+        event.stopped = state.phase == Phase::Resting;
+        event.velocity_jump = state.velocity - before;
+        event.work.impacts = 1;
+    }
+    event
+}
+
+/// Leaves u = 0 after an impact: with the velocity left, else as the forcing leads.
+fn leave_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forcing, rate]: [f64; 2]) {
+    state.velocity = rebound.velocity;
+    if motion.wall.is_rigid() {
+        if rebound.rests {
+            settle(motion, state, [forcing, rate]);
+        }
+    } else if state.velocity == 0.0 {
+        // e = 0
+        let direction = if forcing == 0.0 { rate } else { forcing };
+        state.displacement = 0.0;
+        state.branch = motion.wall.branch_of(0.0, direction);
+    }
+}
+
+/// Stops a rigid wall at u = 0: it rests while the forcing keeps within the band of F₀, else it follows the forcing.
+pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 2]) {
+    let [lowest, highest] = motion.rest_band;
+    let leaves_up = forcing > highest || (forcing == highest && rate > 0.0);
+    let leaves_down = forcing < lowest || (forcing == lowest && rate < 0.0);
+    (state.displacement, state.velocity) = (0.0, 0.0);
+    leave_rest(motion, state, !leaves_down);
+    if !leaves_up && !leaves_down {
+        state.phase = Phase::Resting;
+    }
+}
+
+/// Sets a rigid wall at u = 0 moving.
+pub(super) fn leave_rest(motion: &Motion, state: &mut State, upwards: bool) {
+    state.phase = Phase::Moving;
+    state.branch = motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
+}
