@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::Wall;
+use super::equation::Wall;
 use super::force_law::Side;
 
 /// Part of F₀ below which a force is 0: a softening line ends there but for rounding.

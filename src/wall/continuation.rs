@@ -1,6 +1,7 @@
 //! A branch beyond its ends, for solvers that look there before the event that changes the branch.
 
-use super::{Branch, BranchDamping};
+use super::branch::Branch;
+use super::damping::BranchDamping;
 
 impl Branch {
     /// C/`m_eff` \[1/s\] and its slope \[1/(m s)\] on this branch, continued smoothly beyond its ends.

@@ -2,7 +2,11 @@
 
 use crate::variables::{DampingModel, DampingSource};
 
-use super::{Body, ParameterError, Parameters, RestoringForce, equivalence};
+use super::equivalence;
+use super::error::ParameterError;
+use super::force_law::RestoringForce;
+use super::mechanism::Body;
+use super::parameters::Parameters;
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
 #[derive(Clone, Copy, Debug, PartialEq)]

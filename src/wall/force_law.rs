@@ -2,7 +2,9 @@
 
 use crate::variables::{ForceLaw, Softening};
 
-use super::{Body, ParameterError, Parameters};
+use super::error::ParameterError;
+use super::mechanism::Body;
+use super::parameters::Parameters;
 
 /// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`).
 ///

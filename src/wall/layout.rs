@@ -1,63 +1,72 @@
-//! Branches and corners of a wall, laid out once.
+//! Lays out the branches and corners of a wall.
 
 use crate::variables::DampingModel;
 
-use super::{Branch, BranchDamping, Corner, RATIO_CUTOFF, Sides, Wall};
+use super::branch::{Branch, Corner};
+use super::damping::{BranchDamping, Damping};
+use super::force_law::{RestoringForce, Side};
+use super::mechanism::Body;
+use super::sides::Sides;
 
-impl Wall {
-    /// Fills `branches` and `corners` from the force, the damping and the body.
-    pub(super) fn lay_out(&mut self) {
-        let mut corners =
-            vec![Corner { displacement: 0.0, passage: self.impact || self.is_rigid(), ..Corner::default() }];
-        for (side, sign) in [(&self.force.positive, 1.0), (&self.force.negative, -1.0)] {
-            let of = |sides: Sides| sides.of(sign);
-            let mut place = |displacement: f64, mark: fn(&mut Corner)| {
-                if displacement < of(self.body.landing) || displacement == of(self.body.landing) {
-                    insert(&mut corners, sign * displacement, mark);
-                }
-            };
-            if self.rotations.is_none() {
-                for &corner in &side.corners {
-                    place(corner, |_| {});
-                }
-                place(side.end, |_| {});
+/// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the root of √(u₃ − u).
+///
+/// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
+pub(super) const RATIO_CUTOFF: f64 = 1e-10;
+
+/// Returns the corners in order of displacement, the two landings first and last; `fully` says that rotations are full.
+pub(super) fn corners(
+    body: &Body,
+    force: &RestoringForce,
+    damping: &Damping,
+    impact: bool,
+    fully: bool,
+) -> Vec<Corner> {
+    let passage = impact || force.elastic_stiffness.is_none();
+    let mut corners = vec![Corner { displacement: 0.0, passage, ..Corner::default() }];
+    for (side, sign) in [(&force.positive, 1.0), (&force.negative, -1.0)] {
+        let of = |sides: Sides| sides.of(sign);
+        let mut place = |displacement: f64, mark: fn(&mut Corner)| {
+            if displacement <= of(body.landing) {
+                insert(&mut corners, sign * displacement, mark);
             }
-            if self.damping.model == DampingModel::ConstantRatio {
-                place(side.end * (1.0 - RATIO_CUTOFF), |_| {});
+        };
+        if !fully {
+            for &corner in &side.corners {
+                place(corner, |_| {});
             }
-            place(of(self.body.instability), |corner| corner.overturning = true);
-            place(of(self.body.departure), |corner| corner.departure = true);
-            place(of(self.body.landing), |corner| corner.landing = true);
+            place(side.end, |_| {});
         }
-        corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
-        if !corners.iter().any(|corner| corner.displacement == 0.0 && corner.passage) {
-            // One elastic line runs through the origin.
-            corners.retain(|corner| corner.displacement != 0.0);
+        if damping.model == DampingModel::ConstantRatio {
+            place(damped_end(side, damping), |_| {});
         }
-        self.branches = corners.windows(2).map(|pair| self.branch_between(&pair[0], &pair[1])).collect();
-        self.corners = corners;
+        place(of(body.instability), |corner| corner.overturning = true);
+        place(of(body.departure), |corner| corner.departure = true);
+        place(of(body.landing), |corner| corner.landing = true);
     }
+    corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
+    if !corners.iter().any(|corner| corner.displacement == 0.0 && corner.passage) {
+        // One elastic line runs through the origin.
+        corners.retain(|corner| corner.displacement != 0.0);
+    }
+    corners
+}
 
-    fn branch_between(&self, from: &Corner, to: &Corner) -> Branch {
-        let (lower, upper) = (from.displacement, to.displacement);
+/// Returns the branches between the corners, for the effective mass `m` \[kg\].
+pub(super) fn branches(corners: &[Corner], force: &RestoringForce, damping: &Damping, m: f64) -> Vec<Branch> {
+    let between = |pair: &[Corner]| {
+        let (lower, upper) = (pair[0].displacement, pair[1].displacement);
         let middle = 0.5 * (lower + upper);
-        let side = if middle < 0.0 { &self.force.negative } else { &self.force.positive };
+        let side = if middle < 0.0 { &force.negative } else { &force.positive };
         let reach = middle.abs();
         let index = side.corners.partition_point(|&corner| corner <= reach);
         let line = side.lines[index];
-        let elastic = index == 0 && self.force.elastic_stiffness.is_some();
-        let end = match self.damping.model {
-            DampingModel::ConstantRatio => side.end * (1.0 - RATIO_CUTOFF),
-            _ => side.end,
-        };
-        let damping = if elastic {
-            BranchDamping::Constant(self.damping.elastic)
-        } else if reach > end {
-            self.damping.beyond_end()
+        let damping = if index == 0 && force.elastic_stiffness.is_some() {
+            BranchDamping::Constant(damping.elastic)
+        } else if reach > damped_end(side, damping) {
+            damping.beyond_end()
         } else {
-            self.damping.on_curved_branch()
+            damping.on_curved_branch()
         };
-        let m = self.body.effective_mass;
         Branch {
             lower,
             upper,
@@ -66,6 +75,15 @@ impl Wall {
             stiffness: line.slope / m,
             damping,
         }
+    };
+    corners.windows(2).map(between).collect()
+}
+
+/// The |u| up to which the damping of the softening branch holds \[m\].
+fn damped_end(side: &Side, damping: &Damping) -> f64 {
+    match damping.model {
+        DampingModel::ConstantRatio => side.end * (1.0 - RATIO_CUTOFF),
+        _ => side.end,
     }
 }
 

@@ -2,7 +2,9 @@
 
 use crate::variables::{EccentricityMode, Mechanism};
 
-use super::{ParameterError, Parameters, Sides};
+use super::error::ParameterError;
+use super::parameters::Parameters;
+use super::sides::Sides;
 
 /// The rigid body behind the equation of motion: masses, the rigid restoring force and where it ends.
 ///
@@ -102,28 +104,5 @@ impl Body {
             departure: instability.map(|u_ins| (end / 2.0).max(u_ins)),
             support_weights,
         })
-    }
-
-    /// Takes from full rotations where the wall is unstable, leaves its supports and lies down.
-    pub(super) fn turn_fully(&mut self, rotations: &super::FullRotations) {
-        let end = rotations.landing();
-        self.instability = rotations.instability();
-        self.landing = self.instability.map(|u_ins| end.max(u_ins));
-        self.departure = self.instability.map(|u_ins| (end / 2.0).max(u_ins));
-    }
-
-    /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
-    ///
-    /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.
-    #[must_use]
-    pub fn forcing(&self, support: super::Support) -> f64 {
-        let [w_b, w_t] = self.support_weights;
-        match self.mechanism {
-            Mechanism::Parapet => -self.participation * support.bottom,
-            Mechanism::VerticalSpanning => {
-                -self.participation * (w_b * support.bottom + w_t * support.top)
-                    + self.weight * support.drift / (self.height * self.effective_mass)
-            }
-        }
     }
 }

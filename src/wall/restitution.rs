@@ -2,7 +2,9 @@
 
 use crate::variables::{Mechanism, RestitutionSource};
 
-use super::{Body, ParameterError, Parameters};
+use super::error::ParameterError;
+use super::mechanism::Body;
+use super::parameters::Parameters;
 
 /// Analytic coefficient of restitution of a parapet, `e_an` = 1 − (3/2) sin²α. Eq. (2).
 #[must_use]

@@ -2,7 +2,7 @@
 
 use crate::variables::Mechanism;
 
-use super::Body;
+use super::mechanism::Body;
 
 /// Motion of the supports at one instant: absolute accelerations \[m/s²\] and the drift `x_top` − `x_bottom` \[m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,6 +50,21 @@ pub struct Ends {
 }
 
 impl Body {
+    /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
+    ///
+    /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.
+    #[must_use]
+    pub fn forcing(&self, support: Support) -> f64 {
+        let [w_b, w_t] = self.support_weights;
+        match self.mechanism {
+            Mechanism::Parapet => -self.participation * support.bottom,
+            Mechanism::VerticalSpanning => {
+                -self.participation * (w_b * support.bottom + w_t * support.top)
+                    + self.weight * support.drift / (self.height * self.effective_mass)
+            }
+        }
+    }
+
     /// Forces the supports exert on the wall \[N\]; `acceleration` is ü \[m/s²\].
     ///
     /// `drift` says whether a drift is in play: then the couple G = −W u/(2h) − (W/2 + O) d/h acts too.

@@ -42,7 +42,10 @@
 
 use crate::variables::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
-use super::{Body, ParameterError, Parameters, Sides};
+use super::error::ParameterError;
+use super::mechanism::Body;
+use super::parameters::Parameters;
+use super::sides::Sides;
 
 /// How rotations are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -230,6 +233,16 @@ impl FullRotations {
             }
         }
         high
+    }
+}
+
+impl Body {
+    /// Takes from full rotations where the wall is unstable, leaves its supports and lies down.
+    pub(super) fn turn_fully(&mut self, rotations: &FullRotations) {
+        let end = rotations.landing();
+        self.instability = rotations.instability();
+        self.landing = self.instability.map(|u_ins| end.max(u_ins));
+        self.departure = self.instability.map(|u_ins| (end / 2.0).max(u_ins));
     }
 }
 

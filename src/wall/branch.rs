@@ -1,0 +1,85 @@
+//! Branches of the restoring force, and the corners between them.
+
+use super::damping::BranchDamping;
+
+/// A straight piece of the restoring force per unit effective mass, with its damping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// Displacements the branch spans \[m\].
+    pub lower: f64,
+    /// See `lower`.
+    pub upper: f64,
+    /// Displacement of the line's anchor \[m\].
+    pub anchor: f64,
+    /// F/`m_eff` at the anchor \[m/s²\].
+    pub force: f64,
+    /// Slope of F/`m_eff` \[1/s²\].
+    pub stiffness: f64,
+    /// Damping on the branch.
+    pub damping: BranchDamping,
+}
+
+impl Branch {
+    /// F/`m_eff` \[m/s²\].
+    #[must_use]
+    pub fn restoring(&self, displacement: f64) -> f64 {
+        self.force + self.stiffness * (displacement - self.anchor)
+    }
+
+    /// 1 for u > 0, −1 for u < 0.
+    #[must_use]
+    pub fn side(&self) -> f64 {
+        if self.upper > 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// C/`m_eff` \[1/s\].
+    #[must_use]
+    pub fn damping_at(&self, displacement: f64) -> f64 {
+        match self.damping {
+            BranchDamping::Constant(c) => c,
+            // ω² = F/(u m_eff); the branch through u = 0 has constant damping
+            secant => secant.coefficient(self.restoring(displacement) / displacement),
+        }
+    }
+
+    /// d(C/`m_eff`)/du \[1/(m s)\].
+    #[must_use]
+    pub fn damping_slope(&self, displacement: f64) -> f64 {
+        if let BranchDamping::Constant(_) = self.damping {
+            return 0.0;
+        }
+        let omega_squared = self.restoring(displacement) / displacement;
+        // d(F/u)/du = (k − F/u)/u
+        self.damping.sensitivity(omega_squared) * (self.stiffness - omega_squared) / displacement
+    }
+
+    /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
+    #[must_use]
+    pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64) -> f64 {
+        forcing - self.damping_at(displacement) * velocity - self.restoring(displacement)
+    }
+}
+
+/// What happens where two branches meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(clippy::struct_excessive_bools, reason = "independent marks of one place")]
+pub struct Corner {
+    /// Place \[m\].
+    pub displacement: f64,
+    /// Passing it is an impact, or a jump of the rigid force.
+    pub passage: bool,
+    /// Beyond it the wall has overturned.
+    pub overturning: bool,
+    /// Beyond it the wall has left its supports.
+    pub departure: bool,
+    /// Here the wall lies down.
+    pub landing: bool,
+}
+
+impl Corner {
+    /// Whether anything but a change of branch happens here.
+    #[must_use]
+    pub fn is_marked(&self) -> bool {
+        self.passage || self.overturning || self.departure || self.landing
+    }
+}

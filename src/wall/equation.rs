@@ -1,0 +1,247 @@
+//! The validated equation of motion of a wall, Eq. (12).
+
+use crate::variables::Impact;
+
+use super::branch::{Branch, Corner};
+use super::damping::Damping;
+use super::error::ParameterError;
+use super::force_law::RestoringForce;
+use super::layout::{self, RATIO_CUTOFF};
+use super::mechanism::Body;
+use super::parameters::Parameters;
+use super::restitution;
+use super::sides::Sides;
+use super::trigonometric::{FullRotations, Kinematics};
+use super::warning::Warning;
+
+/// A validated wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wall {
+    body: Body,
+    pub(super) force: RestoringForce,
+    rotations: Option<FullRotations>,
+    damping: Damping,
+    restitution: f64,
+    impact: bool,
+    branches: Vec<Branch>,
+    corners: Vec<Corner>,
+    warnings: Vec<Warning>,
+}
+
+/// Parts in which a curved force is drawn between two corners.
+const DRAWN_PARTS: u32 = 8;
+
+impl Wall {
+    /// Checks the relations between parameters and lays out the branches.
+    ///
+    /// # Errors
+    /// [`ParameterError`], with the values, the limit and the remedy.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let mut body = Body::new(parameters)?;
+        let rotations = match parameters.kinematics {
+            Kinematics::Linear => None,
+            Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
+        };
+        let force = RestoringForce::new(parameters, &body)?;
+        let restitution = restitution::coefficient(parameters, &body)?;
+        let damping = Damping::new(parameters, &body, &force, restitution)?;
+        let impact = parameters.impact == Impact::Restitution;
+        let warnings = Warning::collect(parameters, &body, &force, impact);
+        if let Some(rotations) = &rotations {
+            body.turn_fully(rotations);
+        }
+        check_start(parameters.u_start, &body)?;
+        let corners = layout::corners(&body, &force, &damping, impact, rotations.is_some());
+        let branches = layout::branches(&corners, &force, &damping, body.effective_mass);
+        Ok(Self { body, force, rotations, damping, restitution, impact, branches, corners, warnings })
+    }
+
+    /// Masses, geometry and the rigid force.
+    #[must_use]
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Branches in order of displacement; branch `i` lies between corners `i` and `i + 1`.
+    #[must_use]
+    pub fn branches(&self) -> &[Branch] {
+        &self.branches
+    }
+
+    /// Corners in order of displacement, the two landings first and last.
+    #[must_use]
+    pub fn corners(&self) -> &[Corner] {
+        &self.corners
+    }
+
+    /// What the user should know about a valid choice of parameters.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Whether the force is rigid-linear: it jumps at u = 0, and the wall can rest.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.force.elastic_stiffness.is_none()
+    }
+
+    /// The wall in full rotations, unless they are taken as small.
+    #[must_use]
+    pub fn rotations(&self) -> Option<&FullRotations> {
+        self.rotations.as_ref()
+    }
+
+    /// Whether C is constant on every branch.
+    #[must_use]
+    pub fn has_constant_damping(&self) -> bool {
+        self.damping.is_constant()
+    }
+
+    /// Whether the motion on each branch has a closed form: C is constant there, and rotations are small.
+    #[must_use]
+    pub fn has_closed_form(&self) -> bool {
+        self.rotations.is_none() && self.has_constant_damping()
+    }
+
+    /// F/`m_eff` on a branch \[m/s²\].
+    #[must_use]
+    pub fn restoring(&self, branch: usize, displacement: f64) -> f64 {
+        let branch = &self.branches[branch];
+        match &self.rotations {
+            None => branch.restoring(displacement),
+            Some(rotations) => rotations.restoring(displacement, branch.side()),
+        }
+    }
+
+    /// ü on a branch under the forcing p \[m/s²\].
+    #[must_use]
+    pub fn acceleration(&self, branch: usize, displacement: f64, velocity: f64, forcing: f64) -> f64 {
+        let branch = &self.branches[branch];
+        match &self.rotations {
+            None => branch.acceleration(displacement, velocity, forcing),
+            Some(rotations) => rotations.acceleration(displacement, velocity, forcing, branch.side()),
+        }
+    }
+
+    /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
+    #[must_use]
+    pub fn omega1(&self) -> f64 {
+        self.force.elastic_stiffness.map_or(0.0, |k1| (k1 / self.body.effective_mass).sqrt())
+    }
+
+    /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.damping.ratio
+    }
+
+    /// Damping coefficient on the elastic branch C \[N s/m\].
+    #[must_use]
+    pub fn elastic_damping(&self) -> f64 {
+        self.damping.elastic * self.body.effective_mass
+    }
+
+    /// Coefficient of restitution in use, at impacts or behind predicted damping \[-\].
+    #[must_use]
+    pub fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    /// Factor on u̇ at a passage of u = 0: e, or 1 without impact.
+    #[must_use]
+    pub fn passage_factor(&self) -> f64 {
+        if self.impact { self.restitution } else { 1.0 }
+    }
+
+    /// Displacements at which the force falls to zero, u₃ of each side \[m\].
+    #[must_use]
+    pub fn force_end(&self) -> Sides {
+        Sides { positive: self.force.positive.end, negative: self.force.negative.end }
+    }
+
+    /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
+    #[must_use]
+    pub fn rest_band(&self) -> [f64; 2] {
+        // of the branches themselves, so that a wall beyond the band is accelerated away from it bit for bit
+        [-1.0, 1.0].map(|direction| self.restoring(self.branch_of(0.0, direction), 0.0))
+    }
+
+    /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
+    #[must_use]
+    pub fn rest_speed(&self) -> f64 {
+        1e-13 * self.displacement_scale() * self.rocking_rate()
+    }
+
+    /// √(k₀/`m_eff`), the rate at which a tilted wall falls \[1/s\].
+    #[must_use]
+    pub fn rocking_rate(&self) -> f64 {
+        (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
+    }
+
+    /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip twice the physical one, as Eq. (12) is.
+    #[must_use]
+    pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
+        if let Some(rotations) = &self.rotations {
+            return rotations.energy(displacement, velocity);
+        }
+        let (low, high) = (displacement.min(0.0), displacement.max(0.0));
+        // trapezoids are exact on straight lines
+        let part = |branch: &Branch| {
+            let (from, to) = (branch.lower.max(low), branch.upper.min(high));
+            if from < to { 0.5 * (branch.restoring(from) + branch.restoring(to)) * (to - from) } else { 0.0 }
+        };
+        let potential: f64 = self.branches.iter().map(part).sum();
+        0.5 * velocity * velocity + if displacement < 0.0 { -potential } else { potential }
+    }
+
+    /// The larger `u_ins`, to which errors and tolerances refer \[m\].
+    #[must_use]
+    pub fn displacement_scale(&self) -> f64 {
+        self.body.instability.positive.max(self.body.instability.negative)
+    }
+
+    /// The branch of a displacement; at a corner the one into which a motion of the given `direction` leads, at
+    /// rest the outer one.
+    #[must_use]
+    pub fn branch_of(&self, displacement: f64, direction: f64) -> usize {
+        let last = self.branches.len() - 1;
+        let outward = if direction == 0.0 { displacement } else { direction };
+        let index = if outward < 0.0 {
+            self.corners.partition_point(|corner| corner.displacement < displacement)
+        } else {
+            self.corners.partition_point(|corner| corner.displacement <= displacement)
+        };
+        index.saturating_sub(1).min(last)
+    }
+
+    /// Corners (u, F) of the restoring force from landing to landing, for drawing \[m, N\].
+    #[must_use]
+    pub fn backbone(&self) -> Vec<(f64, f64)> {
+        let m = self.body.effective_mass;
+        let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
+        // the branch before u₃ that only drops the damping is no corner of the force
+        let branches = self.branches.iter().enumerate();
+        let drawn = branches.filter(|(_, b)| b.upper - b.lower > 2.0 * RATIO_CUTOFF * b.upper.abs());
+        for (index, branch) in drawn {
+            // full rotations bend the line
+            let parts = if self.rotations.is_some() { DRAWN_PARTS } else { 1 };
+            for part in 0..=parts {
+                let share = f64::from(part) / f64::from(parts);
+                let u = branch.lower * (1.0 - share) + branch.upper * share;
+                let point = (u, self.restoring(index, u) * m);
+                if points.last() != Some(&point) {
+                    points.push(point);
+                }
+            }
+        }
+        points
+    }
+}
+
+/// # Errors
+/// [`ParameterError::StartBeyondLanding`].
+fn check_start(u_start: f64, body: &Body) -> Result<(), ParameterError> {
+    let limit = body.landing.of(u_start);
+    if u_start.abs() < limit { Ok(()) } else { Err(ParameterError::StartBeyondLanding { u_start, limit }) }
+}
