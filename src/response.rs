@@ -1,8 +1,8 @@
 //! Histories, peaks and demands of a run.
 
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{Excitation, Outputs, Simulation};
-use crate::solver::{Demands, Segment, Work};
+use crate::simulation::{Outputs, Simulation, segment_of};
+use crate::solver::{Demands, Work};
 use crate::wall::{Support, Warning};
 
 /// One line of a history.
@@ -59,21 +59,24 @@ impl Response {
         let count = scene.output_count()?;
         scene.check_supports()?;
         let excitation = scene.excitation.as_ref();
-        let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(excitation, 0.0))?;
+        let support_at = |time: f64| segment_of(excitation, time, 0.0).from;
+        let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(0.0))?;
         let mut samples = Vec::with_capacity(count + 1);
-        let record = |simulation: &Simulation, support: Support| Sample {
+        let sample = |simulation: &Simulation, support: Support| Sample {
             time: simulation.progress().time,
             support,
             outputs: simulation.outputs(support),
         };
-        samples.push(record(&simulation, support_at(excitation, 0.0)));
-        let mut demands = simulation.demands(support_at(excitation, 0.0), &scene.thresholds);
+        samples.push(sample(&simulation, support_at(0.0)));
+        let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut stilled = false;
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
-            stilled |= advance_to(&mut simulation, excitation, time, &mut demands)?;
-            samples.push(record(&simulation, support_at(excitation, time)));
+            let next = |now: f64, _: f64| (segment_of(excitation, now, time - now), time - now);
+            stilled |= simulation.advance_through(next, Some(&mut demands))?.stilled;
+            simulation.set_time(time);
+            samples.push(sample(&simulation, support_at(time)));
         }
         let progress = simulation.progress();
         let (peaks, u_ins) = (progress.state.peaks, simulation.wall().body().instability);
@@ -89,45 +92,4 @@ impl Response {
         let residual = progress.state.displacement;
         Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })
     }
-}
-
-/// Segments between two output points: more samples than that are refused by the output step's limit.
-const MOST_SEGMENTS: usize = 100_000_000;
-
-/// Moves a simulation to `time` through every sample of its excitation, taking up its demands; tells whether the wall was put
-/// to rest.
-///
-/// # Errors
-/// [`SceneError::Run`].
-pub fn advance_to(
-    simulation: &mut Simulation,
-    excitation: Option<&Excitation>,
-    time: f64,
-    demands: &mut Demands,
-) -> Result<bool, SceneError> {
-    let mut stilled = false;
-    for _ in 0..MOST_SEGMENTS {
-        let now = simulation.progress().time;
-        let remaining = time - now;
-        if remaining <= 0.0 {
-            break;
-        }
-        let segment = match excitation {
-            Some(excitation) => excitation.stretch(now, remaining),
-            None => Segment { duration: remaining, from: Support::default(), to: Support::default() },
-        };
-        let step = simulation
-            .advance_watched(&segment, demands)
-            .map_err(|source| SceneError::Run { time: now, source })?;
-        stilled |= step.stilled;
-        if segment.duration >= remaining {
-            simulation.set_time(time);
-        }
-    }
-    Ok(stilled)
-}
-
-/// The supports at one instant.
-fn support_at(excitation: Option<&Excitation>, time: f64) -> Support {
-    excitation.map_or_else(Support::default, |excitation| excitation.stretch(time, 0.0).from)
 }

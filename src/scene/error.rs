@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::solver::SolverError;
+use crate::simulation::RunError;
 use crate::wall::ParameterError;
 use ground_motion::GroundMotionError;
 
@@ -29,8 +29,8 @@ pub enum SceneError {
     #[error(transparent)]
     Parameters(#[from] ParameterError),
     /// The run itself.
-    #[error("at t = {time} s: {source}")]
-    Run { time: f64, source: SolverError },
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// Too many output points.
     #[error(
         "stop_time = {stop} s with output_step = {step} s makes more than {limit} output points; raise output_step or \

@@ -1,6 +1,6 @@
 //! A wall that somebody else's solver moves: states set from outside, events handled here.
 
-use super::Simulation;
+use super::stepping::Simulation;
 use crate::solver::{Event, INDICATORS};
 use crate::wall::{Ends, Support};
 
@@ -18,30 +18,30 @@ pub struct Handled {
 impl Simulation {
     /// Sets displacement \[m\] and velocity \[m/s\]; the branch stays, and goes on beyond its ends.
     pub fn set_motion(&mut self, displacement: f64, velocity: f64) {
-        (self.record.state.displacement, self.record.state.velocity) = (displacement, velocity);
+        (self.progress.state.displacement, self.progress.state.velocity) = (displacement, velocity);
     }
 
     /// Sets displacement \[m\] and velocity \[m/s\], and chooses the branch they belong to.
     pub fn place(&mut self, displacement: f64, velocity: f64, support: Support) {
         let forcing = self.wall().body().forcing(support);
-        self.record.state = self.motion.placed(&self.record.state, displacement, velocity, forcing);
+        self.progress.state = self.motion.placed(&self.progress.state, displacement, velocity, forcing);
     }
 
     /// The event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
     #[must_use]
     pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
-        self.motion.indicators(&self.record.state, rising, self.wall().body().forcing(support))
+        self.motion.indicators(&self.progress.state, rising, self.wall().body().forcing(support))
     }
 
     /// Brings the discrete state up to time, motion and supports.
     pub fn handle_event(&mut self, rising: &mut bool, support: Support) -> Handled {
         let body = self.motion.wall().body();
-        let before = self.record.state;
-        let event = self.motion.event(&mut self.record.state, rising, body.forcing(support));
-        self.record.work.add(event.work);
-        self.record.drift |= support.drift != 0.0;
-        if event.overturned && self.record.overturn_time.is_none() {
-            self.record.overturn_time = Some(self.record.time);
+        let before = self.progress.state;
+        let event = self.motion.event(&mut self.progress.state, rising, body.forcing(support));
+        self.progress.work.add(event.work);
+        self.progress.drift |= support.drift != 0.0;
+        if event.overturned && self.progress.overturn_time.is_none() {
+            self.progress.overturn_time = Some(self.progress.time);
         }
         let impulses = if before.departed {
             Ends::default()
@@ -49,7 +49,7 @@ impl Simulation {
             body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
         };
         let motion = |displacement: f64, velocity: f64| [displacement.to_bits(), velocity.to_bits()];
-        let now = self.record.state;
+        let now = self.progress.state;
         let jumped = motion(before.displacement, before.velocity) != motion(now.displacement, now.velocity);
         Handled { event, impulses, jumped }
     }
@@ -57,8 +57,8 @@ impl Simulation {
     /// The solver has come to the present time and motion to stay.
     pub fn complete_step(&mut self, rising: bool, support: Support) {
         if rising {
-            self.record.state.include_peak();
+            self.progress.state.include_peak();
         }
-        self.record.drift |= support.drift != 0.0;
+        self.progress.drift |= support.drift != 0.0;
     }
 }

@@ -1,7 +1,7 @@
 //! What a wall shows of itself, and how that changes with its state and its supports.
 
-use super::Simulation;
-use crate::solver::{Phase, State};
+use super::stepping::Simulation;
+use crate::solver::{Demands, Phase, Start, State};
 use crate::variables::Mechanism;
 use crate::wall::{Ends, Support};
 
@@ -44,7 +44,7 @@ impl Simulation {
         let wall = self.motion.wall();
         let body = wall.body();
         let m = body.effective_mass;
-        let State { displacement, velocity, branch, phase, departed, .. } = self.record.state;
+        let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
         let damping = wall.branches()[branch].continued_damping(displacement).0 * velocity;
         let forcing = body.forcing(support);
         // of the forcing, what is not support acceleration: W d/h
@@ -64,7 +64,7 @@ impl Simulation {
         let reactions = if departed {
             Ends::default()
         } else {
-            let drift = self.record.drift || support.drift != 0.0;
+            let drift = self.progress.drift || support.drift != 0.0;
             body.reactions(support, acceleration, displacement, drift)
         };
         Outputs {
@@ -78,19 +78,28 @@ impl Simulation {
         }
     }
 
+    /// The demands of a motion that starts now, under the supports' present motion: `fractions` of `u_ins`, each above 0 and
+    /// at most 1, are the limit states whose first crossings are wanted.
+    #[must_use]
+    pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
+        let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
+        let motion = [displacement, velocity, acceleration];
+        Demands::new(self.wall(), &Start { time: self.progress.time, motion, reactions }, fractions)
+    }
+
     /// Partial derivatives of the outputs with respect to u at fixed u̇ and under the supports' present motion.
     ///
     /// # Panics
     /// As the other derivatives, if the wall moves in full rotations.
     #[must_use]
     pub fn by_displacement(&self, support: Support) -> Sensitivity {
-        let State { displacement, velocity, branch, phase, .. } = self.record.state;
+        let State { displacement, velocity, branch, phase, .. } = self.progress.state;
         if phase != Phase::Moving {
             return Sensitivity::default();
         }
         let branch = &self.wall().branches()[branch];
         let damping = branch.continued_damping(displacement).1 * velocity;
-        let drift = self.record.drift || support.drift != 0.0;
+        let drift = self.progress.drift || support.drift != 0.0;
         let couple = if drift { self.wall().body().couple(1.0, 0.0) } else { 0.0 };
         self.sensitivity(Support::default(), -(branch.stiffness + damping), branch.stiffness, damping, couple)
     }
@@ -101,7 +110,7 @@ impl Simulation {
     /// If the wall moves in full rotations.
     #[must_use]
     pub fn by_velocity(&self) -> Sensitivity {
-        let State { displacement, branch, phase, .. } = self.record.state;
+        let State { displacement, branch, phase, .. } = self.progress.state;
         if phase != Phase::Moving {
             return Sensitivity::default();
         }
@@ -119,7 +128,7 @@ impl Simulation {
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
         let couple = body.couple(0.0, change.drift);
-        match self.record.state.phase {
+        match self.progress.state.phase {
             Phase::Moving => self.sensitivity(change, forcing, -pull, 0.0, couple),
             Phase::Resting => self.sensitivity(change, 0.0, forcing - pull, 0.0, couple),
             Phase::Landed => Sensitivity::default(),
@@ -158,7 +167,7 @@ impl Simulation {
         assert!(self.wall().rotations().is_none(), "derivatives are those of small rotations");
         let body = self.wall().body();
         let m = body.effective_mass;
-        let reactions = if self.record.state.departed {
+        let reactions = if self.progress.state.departed {
             Ends::default()
         } else {
             // linear in accelerations, and the couple adds to it

@@ -157,7 +157,7 @@ pub(crate) fn advance_to(simulation: &mut Simulation, excitation: Option<&Excita
         let now = simulation.progress().time;
         let remaining = time - now;
         let segment = match excitation {
-            Some(excitation) => excitation.stretch(now, remaining),
+            Some(excitation) => excitation.segment(now, remaining),
             None => Segment { duration: remaining, from: Support::default(), to: Support::default() },
         };
         let last = segment.duration >= remaining;

@@ -12,7 +12,7 @@ const XML: &str = "modelDescription/modelDescription.xml";
 #[test]
 fn every_variable_is_named_where_it_is_wired() {
     let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
-    let wiring = read("src/unit.rs") + &read("src/wall/parameters.rs");
+    let wiring = read("src/unit/model.rs") + &read("src/wall/parameters.rs");
     let real = RealVariable::ALL.iter().map(|variable| format!("{variable:?}"));
     let integer = IntegerVariable::ALL.iter().map(|variable| format!("{variable:?}"));
     for name in real.chain(integer) {

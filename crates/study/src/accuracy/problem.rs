@@ -36,7 +36,7 @@ impl Problem {
         let count = count as usize;
         let support = |index: usize| {
             let time = index as f64 * step;
-            scene.excitation.as_ref().map_or_else(Support::default, |motion| motion.stretch(time, 0.0).from)
+            scene.excitation.as_ref().map_or_else(Support::default, |motion| motion.segment(time, 0.0).from)
         };
         let forcing = (0..=count).map(|index| wall.body().forcing(support(index))).collect();
         Ok(Self { name: scene.title.clone(), parameters: scene.parameters.clone(), forcing, step })

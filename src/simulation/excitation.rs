@@ -1,0 +1,120 @@
+//! Recorded motion of the supports.
+
+use ground_motion::GroundMotion;
+
+use crate::solver::Segment;
+use crate::wall::Support;
+
+/// Recorded motion of the supports: one record for both, or one for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excitation {
+    bottom: GroundMotion,
+    top: Option<GroundMotion>,
+    held: bool,
+}
+
+impl Excitation {
+    /// One motion for both supports, or `top` for the top support (a wall in an upper storey).
+    #[must_use]
+    pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
+        Self { bottom, top, held: false }
+    }
+
+    /// The same motion, but each sample held until the next as most importers do with an input, not linear between.
+    #[must_use]
+    pub fn held(self) -> Self {
+        Self { held: true, ..self }
+    }
+
+    /// Motion of the bottom support, or of both.
+    #[must_use]
+    pub fn bottom(&self) -> &GroundMotion {
+        &self.bottom
+    }
+
+    /// Motion of the top support where it has its own.
+    #[must_use]
+    pub fn top(&self) -> Option<&GroundMotion> {
+        self.top.as_ref()
+    }
+
+    /// Length of the longer record \[s\].
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.top.as_ref().map_or(0.0, GroundMotion::duration).max(self.bottom.duration())
+    }
+
+    /// The segment from `elapsed` seconds after the start that lasts `remaining` \[s\], or to the next sample.
+    #[must_use]
+    pub fn segment(&self, elapsed: f64, remaining: f64) -> Segment {
+        let mut duration = remaining;
+        for record in [Some(&self.bottom), self.top.as_ref()].into_iter().flatten() {
+            if let Some(next) = next_sample(record, elapsed) {
+                duration = duration.min(next - elapsed);
+            }
+        }
+        let ends = |record| {
+            let [from, to] = ends(record, elapsed, duration);
+            if self.held { [sample_at(record, elapsed); 2] } else { [from, to] }
+        };
+        let [from, to] = ends(&self.bottom);
+        let [from_top, to_top] = self.top.as_ref().map_or([from, to], ends);
+        Segment {
+            duration,
+            from: Support { bottom: from, top: from_top, drift: 0.0 },
+            to: Support { bottom: to, top: to_top, drift: 0.0 },
+        }
+    }
+}
+
+/// Part of a sample within which a time counts as that of the sample: sums of rounded steps come this close.
+const SAMPLE_ROUNDING: f64 = 1e-6;
+
+/// Number of the sample at or before a time, a time a rounding short of a sample being at it.
+fn sample_before(record: &GroundMotion, elapsed: f64) -> f64 {
+    (elapsed / record.step() + SAMPLE_ROUNDING).floor()
+}
+
+/// Time of the next sample; `None` after the last.
+fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
+    let next = sample_before(record, elapsed) + 1.0;
+    (next < record.samples().len() as f64).then(|| next * record.step())
+}
+
+/// The sample at or before a time; zero after the record.
+fn sample_at(record: &GroundMotion, elapsed: f64) -> f64 {
+    let before = sample_before(record, elapsed);
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a saturated cast is out of range"
+    )]
+    let sample = record.samples().get(before.max(0.0) as usize);
+    sample.copied().unwrap_or(0.0)
+}
+
+/// Accelerations at both ends of a segment within one sample interval; zero after the record.
+fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
+    let samples = record.samples();
+    let before = sample_before(record, elapsed);
+    if before < 0.0 || before + 1.0 >= samples.len() as f64 {
+        return [0.0, 0.0];
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ before < samples.len()")]
+    let index = before as usize;
+    let (low, high) = (samples[index], samples[index + 1]);
+    let value = |time: f64| {
+        let fraction = (time / record.step() - before).clamp(0.0, 1.0);
+        if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }
+    };
+    [value(elapsed), value(elapsed + duration)]
+}
+
+/// The segment of a motion, if there is one, from `elapsed` seconds after its start; supports without a motion stand still.
+#[must_use]
+pub fn segment_of(motion: Option<&Excitation>, elapsed: f64, remaining: f64) -> Segment {
+    match motion {
+        Some(motion) => motion.segment(elapsed, remaining),
+        None => Segment { duration: remaining, from: Support::default(), to: Support::default() },
+    }
+}

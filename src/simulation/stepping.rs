@@ -1,0 +1,214 @@
+//! A wall in time: the state, and the steps that change it.
+
+use std::sync::Arc;
+
+use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, State, Work};
+use crate::variables::Mechanism;
+use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
+
+/// A wall in time.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    pub(super) motion: Arc<Motion>,
+    pub(super) progress: Progress,
+    memo: Memo,
+}
+
+/// All that changes during a simulation: plain data, copied to save it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time \[s\].
+    pub time: f64,
+    /// State of the wall.
+    pub state: State,
+    /// Time of overturning \[s\]; `None` before.
+    pub overturn_time: Option<f64>,
+    /// A drift has been given, so that its couple acts on the supports.
+    pub drift: bool,
+    /// Work so far.
+    pub work: Work,
+}
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Step {
+    /// Impulses of the supports on the wall \[N s\].
+    pub impulses: Ends,
+    /// The wall overturned in this step.
+    pub overturned: bool,
+    /// The wall left its supports in this step.
+    pub departed: bool,
+    /// The bound on impacts was reached and the wall put to rest.
+    pub stilled: bool,
+}
+
+impl Step {
+    fn add(&mut self, later: Self) {
+        self.impulses.bottom += later.impulses.bottom;
+        self.impulses.top += later.impulses.top;
+        self.overturned |= later.overturned;
+        self.departed |= later.departed;
+        self.stilled |= later.stilled;
+    }
+}
+
+/// Why a wall could not be moved to the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The motion could not be followed.
+    #[error("at t = {time} s: {source}")]
+    Solver {
+        /// Time at the start of the segment \[s\].
+        time: f64,
+        /// The failure.
+        source: SolverError,
+    },
+    /// The step is too long for its excitation.
+    #[error("the step spans more than {limit} samples; use smaller steps")]
+    TooManySegments {
+        /// The bound.
+        limit: usize,
+    },
+}
+
+/// Segments in one step.
+const MOST_SEGMENTS: usize = 100_000_000;
+
+impl Simulation {
+    /// A wall at its start, at `time` \[s\], with the supports moving as `support` says; `tolerance` is the importer's, of
+    /// which and the parameter the tighter applies.
+    ///
+    /// # Errors
+    /// [`ParameterError`].
+    pub fn new(
+        parameters: &Parameters,
+        tolerance: Option<f64>,
+        time: f64,
+        support: Support,
+    ) -> Result<Self, ParameterError> {
+        let wall = Wall::new(parameters)?;
+        let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
+        let method = Method::new(parameters, &wall, tolerance)?;
+        let motion = Motion::new(wall, method);
+        let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
+        let overturn_time = state.overturned.then_some(time);
+        let drift = support.drift != 0.0;
+        let progress = Progress { time, state, overturn_time, drift, work: Work::default() };
+        Ok(Self { motion: Arc::new(motion), progress, memo: Memo::default() })
+    }
+
+    /// The wall.
+    #[must_use]
+    pub fn wall(&self) -> &Wall {
+        self.motion.wall()
+    }
+
+    /// The method in use.
+    #[must_use]
+    pub fn method(&self) -> &Method {
+        self.motion.method()
+    }
+
+    /// Where the simulation stands.
+    #[must_use]
+    pub fn progress(&self) -> &Progress {
+        &self.progress
+    }
+
+    /// Goes back, or on, to where a simulation of the same wall stood.
+    ///
+    /// # Panics
+    /// If the branch is not one of the wall's.
+    pub fn restore(&mut self, progress: Progress) {
+        assert!(progress.state.branch < self.wall().branches().len(), "a branch of this wall");
+        self.progress = progress;
+    }
+
+    /// Moves the wall through a segment.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation then stands where it stood.
+    pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
+        self.step(segment, None)
+    }
+
+    /// Moves the wall through a segment, and takes up its demands in `demands`.
+    ///
+    /// # Errors
+    /// [`SolverError`]; the simulation then stands where it stood, and `demands` may know of the motion up to the failure.
+    pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
+        self.step(segment, Some(demands))
+    }
+
+    /// Moves the wall through one segment after another, and takes up their demands in `demands`. `next` is shown the time and
+    /// how much of the step is done \[s\]; it gives the segment that follows, and how much of the step is left \[s\].
+    ///
+    /// # Errors
+    /// [`RunError`]; the simulation then stands where that segment begins.
+    pub fn advance_through(
+        &mut self,
+        mut next: impl FnMut(f64, f64) -> (Segment, f64),
+        mut demands: Option<&mut Demands>,
+    ) -> Result<Step, RunError> {
+        let (mut whole, mut done) = (Step::default(), 0.0);
+        for _ in 0..MOST_SEGMENTS {
+            let time = self.progress.time;
+            let (segment, remaining) = next(time, done);
+            if remaining <= 0.0 {
+                return Ok(whole);
+            }
+            let step = self.step(&segment, demands.as_deref_mut());
+            whole.add(step.map_err(|source| RunError::Solver { time, source })?);
+            done += segment.duration;
+            if segment.duration >= remaining {
+                return Ok(whole);
+            }
+        }
+        Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
+    }
+
+    fn step(&mut self, segment: &Segment, demands: Option<&mut Demands>) -> Result<Step, SolverError> {
+        let body = self.motion.wall().body();
+        let before = self.progress;
+        let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
+        let integral = drift && body.mechanism == Mechanism::VerticalSpanning;
+        let mut state = before.state;
+        let watch = demands.map(|demands| (demands, before.time, drift));
+        let report = self.motion.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
+        let mut step = Step {
+            overturned: report.overturning.is_some(),
+            departed: report.departure.is_some(),
+            stilled: report.stilled,
+            ..Step::default()
+        };
+        if !before.state.departed {
+            let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
+            // ∫ of a quantity linear over the segment, up to `length`
+            let integrate = |from: f64, to: f64| {
+                let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
+                length * (from + 0.5 * (to - from) * fraction)
+            };
+            let (from, to) = (segment.from, segment.to);
+            let supports = [integrate(from.bottom, to.bottom), integrate(from.top, to.top)];
+            let couple = if integral {
+                body.couple(report.displacement_integral, integrate(from.drift, to.drift))
+            } else {
+                0.0
+            };
+            step.impulses = body.impulses(supports, velocity - before.state.velocity, couple);
+        }
+        self.progress.time += segment.duration;
+        self.progress.state = state;
+        self.progress.drift = drift;
+        self.progress.work.add(report.work);
+        if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
+            self.progress.overturn_time = Some(before.time + offset);
+        }
+        Ok(step)
+    }
+
+    /// Sets the clock, where the importer's and the sum of steps differ by rounding \[s\].
+    pub fn set_time(&mut self, time: f64) {
+        self.progress.time = time;
+    }
+}

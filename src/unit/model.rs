@@ -1,0 +1,206 @@
+//! The wall as an FMI model for co-simulation.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use fmi2_export::{
+    Environment, Experiment, Failure, Interface, Log, Model, StateReader, StateWriter,
+    Step as CommunicationStep, VariableId,
+};
+
+use crate::scene::Scene;
+use crate::simulation::Sensitivity;
+use crate::variables::{
+    BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
+};
+use crate::wall::{Kinematics, Parameters, Support};
+
+use super::exchange::Exchange;
+use super::instance::Unit;
+use super::state;
+
+impl Model for Unit {
+    type Real = RealVariable;
+    type Integer = IntegerVariable;
+    type Boolean = BooleanVariable;
+    type Text = StringVariable;
+
+    const GUID: &'static str = GUID;
+    const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
+    const PAYLOAD: &'static str = "scene.toml";
+
+    fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
+        let exchange = (environment.interface == Interface::ModelExchange).then(Exchange::default);
+        let Some(payload) = environment.payload else {
+            return Self::new(Parameters::default(), None, exchange);
+        };
+        let text = std::str::from_utf8(payload).map_err(|_| "resources/scene.toml is not UTF-8 text")?;
+        let folder = environment.resources.unwrap_or(Path::new("."));
+        let scene = Scene::parse("resources/scene.toml", text, folder).map_err(|error| error.to_string())?;
+        if scene.parameters.kinematics != Kinematics::Linear {
+            return Err("resources/scene.toml: an FMU knows kinematics = linear only".into());
+        }
+        Self::new(scene.parameters, scene.excitation.map(Arc::new), exchange)
+    }
+
+    fn real(&self, variable: RealVariable) -> f64 {
+        use RealVariable as V;
+        let progress = self.simulation.progress();
+        let (wall, body) = (self.wall(), self.wall().body());
+        match variable {
+            V::AG => self.exchange.map_or(self.inputs.ground, |exchange| exchange.ground),
+            V::ABottom => self.inputs.bottom.value,
+            V::ATop => self.inputs.top.value,
+            V::Drift => self.inputs.drift.value,
+            V::U => self.outputs().displacement,
+            V::UDot => self.outputs().velocity,
+            V::UDdot => self.outputs().acceleration,
+            V::URatio => self.outputs().ratio,
+            V::RestoringForce => self.outputs().restoring_force,
+            V::DampingForce => self.outputs().damping_force,
+            V::ReactionBottom => self.outputs().reactions.bottom,
+            V::ReactionTop => self.outputs().reactions.top,
+            V::ImpulseBottom => self.impulses.bottom,
+            V::ImpulseTop => self.impulses.top,
+            V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
+            V::UMax => progress.state.peaks.largest(),
+            V::Mass => body.mass,
+            V::EffectiveMass => body.effective_mass,
+            V::Participation => body.participation,
+            V::F0 => body.strength.positive,
+            V::F0Negative => body.strength.negative,
+            V::UIns => body.instability.positive,
+            V::UInsNegative => body.instability.negative,
+            V::Omega1 => wall.omega1(),
+            V::XiUsed => wall.damping_ratio(),
+            V::RestitutionUsed => wall.restitution(),
+            parameter => self.parameters.real(parameter).unwrap_or(f64::NAN),
+        }
+    }
+
+    fn integer(&self, variable: IntegerVariable) -> i32 {
+        self.parameters.choice(variable)
+    }
+
+    fn boolean(&self, variable: BooleanVariable) -> bool {
+        match variable {
+            BooleanVariable::Overturned => self.simulation.progress().state.overturned,
+        }
+    }
+
+    fn text(&self, variable: StringVariable) -> &str {
+        match variable {}
+    }
+
+    fn set_real(&mut self, variable: RealVariable, value: f64) {
+        if variable == RealVariable::AG {
+            self.set_ground(value);
+        } else if matches!(variable, RealVariable::U | RealVariable::UDot) {
+            self.place(variable, value);
+        } else if let Some(input) = self.input(variable) {
+            input.set(value);
+        } else if let Some(parameter) = self.parameters.real_mut(variable) {
+            *parameter = value;
+        }
+        self.refresh();
+    }
+
+    fn set_integer(&mut self, variable: IntegerVariable, value: i32) {
+        let known = self.parameters.set_choice(variable, value);
+        assert!(known, "the layer has checked that {value} is an item of {}", variable.variable().name);
+    }
+
+    fn set_boolean(&mut self, _variable: BooleanVariable, _value: bool) {}
+
+    fn set_text(&mut self, variable: StringVariable, _value: &str) {
+        match variable {}
+    }
+
+    fn set_input_derivative(&mut self, variable: RealVariable, value: f64) -> bool {
+        self.input(variable).map(|input| input.rate = value).is_some()
+    }
+
+    fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
+        let support_rate = self.inputs.rate(|input| input.last_rate);
+        let rates = || self.simulation.rates(self.support(), support_rate);
+        match variable {
+            RealVariable::U => Some(self.outputs().velocity),
+            RealVariable::UDot => Some(self.outputs().acceleration),
+            RealVariable::UDdot => Some(rates().acceleration),
+            RealVariable::ReactionBottom => Some(rates().reactions.bottom),
+            RealVariable::ReactionTop => Some(rates().reactions.top),
+            _ => None,
+        }
+    }
+
+    fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
+        use RealVariable as V;
+        let ratio = 1.0 / self.wall().body().instability.of(self.outputs().displacement);
+        let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
+        let (by_u, by_velocity, along) = match known {
+            V::U => (1.0, 0.0, self.simulation.by_displacement(self.support())),
+            V::UDot => (0.0, 1.0, self.simulation.by_velocity()),
+            V::AG => (0.0, 0.0, support(1.0, 1.0, 0.0)),
+            V::ABottom => (0.0, 0.0, support(1.0, 0.0, 0.0)),
+            V::ATop => (0.0, 0.0, support(0.0, 1.0, 0.0)),
+            V::Drift => (0.0, 0.0, support(0.0, 0.0, 1.0)),
+            _ => return None,
+        };
+        let Sensitivity { acceleration, restoring_force, damping_force, reactions } = along;
+        match unknown {
+            V::U => Some(by_u),
+            V::UDot => Some(by_velocity),
+            V::UDdot => Some(acceleration),
+            V::URatio => Some(by_u * ratio),
+            V::RestoringForce => Some(restoring_force),
+            V::DampingForce => Some(damping_force),
+            V::ReactionBottom => Some(reactions.bottom),
+            V::ReactionTop => Some(reactions.top),
+            // memories of the past: not functions of the present state and inputs
+            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
+            _ => None,
+        }
+    }
+
+    fn calculate(&mut self) -> Result<(), Failure> {
+        self.prepare()
+    }
+
+    fn setup_experiment(&mut self, experiment: Experiment) {
+        self.experiment = experiment;
+    }
+
+    fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure> {
+        self.prepare()?;
+        self.running = true;
+        if self.exchange.is_some() {
+            self.begin_stretch();
+        }
+        for warning in self.wall().warnings() {
+            log.warning(format_args!("{warning}"));
+        }
+        self.warn_of_unused_top(log);
+        if self.parameters.u_start != 0.0 {
+            log.info(format_args!(
+                "released from u_start = {} m; a wall that is coupled or shaken wants u_start = 0",
+                self.parameters.u_start
+            ));
+        }
+        log.info(format_args!("solver: {:?}", self.simulation.method()));
+        Ok(())
+    }
+
+    fn do_step(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
+        self.warn_of_unused_top(log);
+        self.advance(step, log)
+    }
+
+    fn write_state(&self, writer: &mut StateWriter) {
+        state::write(self, writer);
+    }
+
+    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
+        *self = state::read(self, reader)?;
+        Ok(())
+    }
+}

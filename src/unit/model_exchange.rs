@@ -1,0 +1,137 @@
+//! The wall for an importer's solver: Model Exchange.
+
+use fmi2_export::{Failure, Log, ModelExchange, Update};
+
+use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, RealVariable};
+
+use super::exchange::{Exchange, Stretch};
+use super::instance::Unit;
+
+// the description says how many indicators the motion has
+const _: () = assert!(EVENT_INDICATORS == crate::solver::INDICATORS);
+
+impl Unit {
+    fn elapsed(&self) -> f64 {
+        self.simulation.progress().time - self.experiment.start
+    }
+
+    fn exchange_mut(&mut self) -> &mut Exchange {
+        self.exchange.get_or_insert_default()
+    }
+
+    /// The stretch of the scene's own motion that begins now.
+    pub(super) fn begin_stretch(&mut self) {
+        let elapsed = self.elapsed();
+        let stretch = self.excitation.as_ref().map(|motion| Stretch::new(motion, elapsed));
+        self.exchange_mut().stretch = stretch.unwrap_or_default();
+    }
+
+    /// Sets `a_g`: at once in Event Mode and before, at the next event in Continuous-Time Mode.
+    pub(super) fn set_ground(&mut self, value: f64) {
+        let waits = self.exchange.as_mut().is_some_and(|exchange| {
+            exchange.ground = value;
+            exchange.continuous
+        });
+        if !waits {
+            self.inputs.ground = value;
+        }
+    }
+
+    /// Sets one state as if it were an input; the branch follows.
+    pub(super) fn place(&mut self, variable: RealVariable, value: f64) {
+        let state = self.simulation.progress().state;
+        let (displacement, velocity) = match variable {
+            RealVariable::U => (value, state.velocity),
+            _ => (state.displacement, value),
+        };
+        let support = self.support();
+        self.simulation.place(displacement, velocity, support);
+    }
+
+    fn indicators(&self) -> [f64; EVENT_INDICATORS] {
+        let rising = self.exchange.is_some_and(|exchange| exchange.rising);
+        self.simulation.indicators(rising, self.support())
+    }
+}
+
+impl ModelExchange for Unit {
+    const STATES: &'static [Self::Real] = CONTINUOUS_STATES;
+    const DERIVATIVES: &'static [Self::Real] = DERIVATIVES;
+    const EVENT_INDICATORS: usize = EVENT_INDICATORS;
+
+    fn set_time(&mut self, time: f64) {
+        self.simulation.set_time(time);
+        self.refresh();
+    }
+
+    fn set_states(&mut self, states: &[f64]) {
+        if let &[displacement, velocity] = states {
+            self.simulation.set_motion(displacement, velocity);
+            self.refresh();
+        }
+    }
+
+    fn nominal(&self, state: RealVariable) -> f64 {
+        let scale = self.wall().displacement_scale();
+        if state == RealVariable::U { scale } else { scale * self.wall().rocking_rate() }
+    }
+
+    fn event_indicators(&self, indicators: &mut [f64]) {
+        indicators.copy_from_slice(&self.indicators());
+    }
+
+    fn enter_event_mode(&mut self) {
+        let exchange = self.exchange_mut();
+        exchange.continuous = false;
+        self.inputs.ground = exchange.ground;
+        self.refresh();
+    }
+
+    fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
+        self.warn_of_unused_top(log);
+        let time = self.simulation.progress().time;
+        let ended = |end: f64| self.elapsed() >= end - TIME_ROUNDING * time.abs().max(1.0);
+        if self.exchange.is_some_and(|exchange| exchange.stretch.end.is_some_and(ended)) {
+            self.begin_stretch();
+        }
+        let support = self.support();
+        let mut exchange = self.exchange.unwrap_or_default();
+        let handled = self.simulation.handle_event(&mut exchange.rising, support);
+        self.exchange = Some(exchange);
+        self.impulses = handled.impulses;
+        self.refresh();
+        let event = handled.event;
+        if event.overturned {
+            log.event(format_args!("overturned at t = {time} s: |u| exceeded u_ins"));
+        }
+        if event.departed {
+            log.event(format_args!(
+                "left the supports at t = {time} s: reactions and impulses are 0 from there on"
+            ));
+        }
+        if event.stopped {
+            let displacement = self.simulation.progress().state.displacement;
+            log.event(format_args!("stands still from t = {time} s on, at u = {displacement} m"));
+        }
+        Ok(Update {
+            states_changed: handled.jumped,
+            next_event: exchange.stretch.end.map(|end| self.experiment.start + end),
+            ..Update::default()
+        })
+    }
+
+    fn enter_continuous_time_mode(&mut self) {
+        self.exchange_mut().continuous = true;
+    }
+
+    fn complete_step(&mut self, _log: &mut Log<'_>) -> Result<bool, Failure> {
+        let support = self.support();
+        let exchange = self.exchange.unwrap_or_default();
+        self.simulation.complete_step(exchange.rising, support);
+        let waiting = exchange.ground.to_bits() != self.inputs.ground.to_bits();
+        Ok(waiting || self.indicators().iter().any(|&indicator| indicator <= 0.0))
+    }
+}
+
+/// Importers may be this early at an event that they were told of, relative to the larger of the time and 1 s.
+const TIME_ROUNDING: f64 = 1e-9;
