@@ -1,6 +1,6 @@
-//! What a sample of a record costs: `cargo bench --bench record [-- RECORD.AT2]`. Walls 2, 5 and 6 of Table 5 of the paper under the
-//! first 30 s of the record (the embedded motion without one), beside the bare recurrence of a linear oscillator timed in the
-//! same run.
+//! Measures the time per sample of a record: `cargo bench --bench record [-- RECORD.AT2]`. The walls are 2, 5
+//! and 6 of Table 5 of the paper, under the first 30 s of the record or under the embedded motion. The
+//! yardstick is the bare recurrence of a linear oscillator, timed in the same run.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
@@ -82,7 +82,8 @@ fn wall(
         passages.expect("bounded motions")[0].state.displacement
     });
     println!(
-        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; {:>4} corners, u_max/u_ins {:.3}{}",
+        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
+         {:>4} corners, u_max/u_ins {:.3}{}",
         model.name(),
         one / bare,
         passage.work.corners,
@@ -121,7 +122,7 @@ fn least(units: usize, mut run: impl FnMut() -> f64) -> f64 {
     least * 1e9 / units as f64
 }
 
-/// So many runs of one path, for counting its instructions; returns the samples run through.
+/// Runs one path several times to count its instructions; returns the number of samples.
 fn count(path: &str, runs: u32) -> u64 {
     let record = SyntheticMotion::default().motion().expect("the default motion");
     let damping_model = match path {

@@ -1,5 +1,5 @@
-//! What a step costs: `cargo bench --bench step`. Each figure is the least of several runs, beside the bare recurrence of a
-//! linear oscillator timed in the same run.
+//! Measures the time per step: `cargo bench --bench step`. Each figure is the least of several runs. The
+//! yardstick is the bare recurrence of a linear oscillator, timed in the same run.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 

@@ -1,5 +1,5 @@
-//! A step allocates nothing: rocking through corners and impacts, at rest, overturning, with any solver. Reading a record
-//! takes a small multiple of the file, whatever the file says.
+//! Tests that a step allocates nothing: rocking through corners and impacts, at rest, overturning, with any
+//! solver. Reading a record takes a small multiple of the file, whatever its header states.
 
 #![allow(unsafe_code, reason = "a counting allocator")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
@@ -178,8 +178,8 @@ fn peak_of_reading(text: &[u8], format: Format) -> usize {
 const MULTIPLE: usize = 16;
 const BESIDE: usize = 1 << 16;
 
-/// The densest samples take two bytes and become eight; a vector that grows holds its old and its doubled new place, and
-/// the finished motion is a copy: 4 · 3 + 1 for the text. 64 kB are for messages and headers.
+/// The densest samples take two bytes and become eight. A growing vector holds its old and its doubled new
+/// memory, and the finished motion is a copy: 4 · 3 + 1 for the text. 64 kB are for messages and headers.
 #[test]
 fn reading_takes_a_small_multiple_of_the_file() {
     const SIZE: usize = 1 << 20;
@@ -222,9 +222,11 @@ fn reading_takes_a_small_multiple_of_the_file() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(
+        ProptestConfig { cases: 100, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() }
+    )]
 
-    /// Whatever happens to a file: numbers in its header that ask for more than it has, lines run together, blanks without end.
+    /// Damaged files: header numbers that ask for more than the file has, joined lines, endless blanks.
     #[test]
     fn damaged_files_take_a_small_multiple_too(
         edits in specimen::edits(),
@@ -243,7 +245,8 @@ proptest! {
             let swollen = format!("{}99999999999{}{rest}", &text[..start], blank.repeat(blanks));
             for bytes in [damaged, swollen.into_bytes(), bytes.clone()] {
                 let peak = peak_of_reading(&bytes, format);
-                prop_assert!(peak <= MULTIPLE * bytes.len() + BESIDE, "{format:?}: {peak} bytes for {}", bytes.len());
+                let length = bytes.len();
+                prop_assert!(peak <= MULTIPLE * length + BESIDE, "{format:?}: {peak} bytes for {length}");
             }
         }
     }

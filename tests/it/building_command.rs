@@ -1,4 +1,4 @@
-//! `wall building`: what it refuses. What it makes is tested in other people's masters (tests/masters).
+//! Tests what `wall building` refuses. tests/masters tests what it makes, in other masters.
 
 use crate::command_line::{folder, refused};
 
@@ -18,14 +18,16 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
         (format!("{FLOOR}on = \"high\"\n"), &["line 3", "high", "ground"]),
         ("[[floor]]\nname = \"a b\"\n".into(), &["line 2", "a b", "letters"]),
         (format!("[[floor]]\nname = \"{}\"\n", "a".repeat(101)), &["line 2", "101", "at most 100"]),
-        // one file on machines that do not tell letters' cases apart
+        // the same file on machines whose file names ignore case
         (format!("{FLOOR}[[floor]]\nname = \"LOW\"\n"), &["line 4", "LOW", "choose another"]),
         (
             wall("scene = \"parapet.toml\"\nbottom = \"low\"\ntop = \"ground\"\ndrift = true"),
             &["line 8", "drift"],
         ),
         (
-            "[[floor]]\nname = \"low\"\n[[wall]]\nname = \"floor\"\nscene = \"parapet.toml\"\nbottom = \"low\"\n".into(),
+            "[[floor]]\nname = \"low\"\n\
+             [[wall]]\nname = \"floor\"\nscene = \"parapet.toml\"\nbottom = \"low\"\n"
+                .into(),
             &["line 4", "floor", "choose another"],
         ),
         (wall("scene = \"moved.toml\"\nbottom = \"low\""), &["moved.toml", "[motion]"]),

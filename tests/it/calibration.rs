@@ -15,8 +15,8 @@ fn of(parameters: &Parameters, model: DampingModel, grid: &Grid) -> Calibration 
     calibrate(parameters, model, grid, TWO).unwrap()
 }
 
-/// An independent refit of the paper's section 5 gave these to three digits, over a₁ from 0.01 and from 0.005; the paper
-/// prints (0.667, 0.450), (0.350, 0.074), (0.218, −0.195).
+/// Results of an independent refit of the paper's section 5, to three digits, over a₁ from 0.01 and from
+/// 0.005. The paper prints (0.667, 0.450), (0.350, 0.074), (0.218, −0.195).
 #[test]
 fn the_power_laws_are_those_of_an_independent_refit() {
     let refits = [
@@ -39,7 +39,8 @@ fn the_power_laws_are_those_of_an_independent_refit() {
     }
 }
 
-/// Of the free-standing block an independent refit gave c̄ = −1.38 ln e, where the paper prints 1.55; 2 % as for the others.
+/// For the free-standing block an independent refit gave c̄ = −1.38 ln e; the paper prints 1.55. The
+/// tolerance is 2 %, as for the others.
 #[test]
 fn a_free_standing_block_needs_a_c_bar_of_1_38() {
     let rigid = Parameters { force_law: ForceLaw::RigidLinear, ..Parameters::default() };
@@ -48,8 +49,8 @@ fn a_free_standing_block_needs_a_c_bar_of_1_38() {
     assert!((found.coefficients[0].x / 1.38 - 1.0).abs() < 0.02, "{:?}", found.coefficients);
 }
 
-/// Figure 9: with normalised displacements nothing of the shape is left but the sampling, 0.01 s of periods from 1 s on:
-/// Eq. (18) weighs samples, and 1 % of a period shifts the least by about as much.
+/// Figure 9: with normalised displacements the shape matters only through the sampling. Samples of 0.01 s are
+/// up to 1 % of a period, and they shift the minimum of Eq. (18) by about as much.
 #[test]
 fn neither_shape_nor_mechanism_nor_overburden_matter() {
     let grid = Grid { restitution: vec![0.84, 0.92], a1: vec![0.03], ..Grid::default() };
@@ -78,7 +79,7 @@ fn the_number_of_threads_changes_nothing() {
     assert_eq!(one, of(&Parameters::default(), DampingModel::ConstantRatio, &grid));
 }
 
-/// A multilinear law that is the bilinear one gives its results, at its own a₁.
+/// A multilinear law equal to a bilinear one gives the same results, at the same a₁.
 #[test]
 fn a_multilinear_law_has_its_own_a1() {
     let grid = Grid { restitution: vec![0.85], a1: vec![0.03], ..Grid::default() };
@@ -88,7 +89,7 @@ fn a_multilinear_law_has_its_own_a1() {
     let [a, b] = [(&Parameters::default(), &grid), (&multilinear, &elsewhere)]
         .map(|(parameters, grid)| of(parameters, DampingModel::ConstantRatio, grid).coefficients[0]);
     assert_eq!(b.a1, 0.03);
-    // both minimisers stop within three times 1e-5
+    // both minimisations stop within 3e-5
     assert!((a.x / b.x - 1.0).abs() < 6e-5, "{a:?} {b:?}");
 }
 
@@ -97,7 +98,7 @@ fn a_power_law_comes_back() {
     let law = PowerLaw { q: 0.4, r: -0.3 };
     let points = [0.01, 0.03, 0.1].map(|a1| (a1, law.at(a1)));
     let found = PowerLaw::fit(&points).unwrap();
-    // a minimum is known to the square root of the rounding of its function
+    // a minimum is accurate to the square root of the rounding of its function
     assert!((found.r - law.r).abs() < 1e-6 && (found.q - law.q).abs() < 1e-6, "{found:?}");
     assert!(PowerLaw::fit(&points[..1]).is_none() && PowerLaw::fit(&[(0.1, 1.0), (0.2, -1.0)]).is_none());
 }

@@ -1,4 +1,5 @@
-//! The static capacity curve: closed forms of its secant periods, its corners, and what `wall describe` writes.
+//! Tests the static capacity curve: closed forms of its secant periods, its corners, and the output of
+//! `wall describe`.
 
 use std::f64::consts::TAU;
 
@@ -53,7 +54,8 @@ fn the_rigid_curve_starts_at_the_onset_of_rocking() {
     assert_eq!((corners[1].displacement_ratio, corners[1].force), (1.0, 0.0));
 }
 
-/// The corners are those of the law, once each, on both sides of an eccentric load; and the backbone runs through them.
+/// Each corner of the law appears once, on both sides of an eccentric load, and the curve passes through
+/// them.
 #[test]
 fn corners_are_those_of_the_law() {
     for (law, count) in [(ForceLaw::Bilinear, 4), (ForceLaw::Trilinear, 5)] {

@@ -1,7 +1,7 @@
 //! The reference cases of `tests/data/cases`, made by two independent programs (see the README there).
 //!
-//! A case passes where |error|/`u_ins` stays within max(1e-9, 100 ε sensitivity, 100 `double_vs_quad`) up to its horizon:
-//! the project's own tolerance, or what rounding alone can do to the result.
+//! A case passes if |error|/`u_ins` stays within max(1e-9, 100 ε sensitivity, 100 `double_vs_quad`) up to its
+//! horizon. These are the project's own tolerance and two bounds on the effect of rounding.
 
 use std::path::PathBuf;
 
@@ -106,7 +106,7 @@ impl Case {
             let pulse = Pulse { shape, amplitude, frequency };
             pulse.sampled(Some(self.required("/t_end")), step).unwrap()
         };
-        // 0.5 ms: c16, the most sensitive pulse, moves by less than 3e-11 at half the step
+        // 0.5 ms: c16, the most sensitive pulse, changes by less than 3e-11 at half the step
         let motion = match self.text("/excitation/kind") {
             "none" => return None,
             "record" => {
@@ -151,7 +151,7 @@ fn rows(name: &str) -> Vec<Row> {
     text.lines().skip(1).map(parse).collect()
 }
 
-/// Moves a simulation to a time, through every sample of the excitation on the way.
+/// Advances a simulation to a time, through every sample of the excitation.
 pub(crate) fn advance_to(simulation: &mut Simulation, excitation: Option<&Excitation>, time: f64) {
     while simulation.progress().time < time {
         let now = simulation.progress().time;
@@ -168,7 +168,7 @@ pub(crate) fn advance_to(simulation: &mut Simulation, excitation: Option<&Excita
     }
 }
 
-/// Largest part of its bound that the error takes, and the work done.
+/// Returns the largest ratio of error to bound, and the work done.
 fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
     let case = Case::read(name);
     let mut parameters = case.parameters();
@@ -191,7 +191,7 @@ fn check(name: &str, change: impl Fn(&mut Parameters)) -> (f64, Work) {
         let velocity_error = (state.velocity - row.velocity).abs() / (u_ins * fast);
         worst = worst.max(error / bound);
         if case.text("/damping/kind") != "none" {
-            // where an impact falls on a row, the reference may show either velocity
+            // at an impact on a row, the reference may have either velocity
             worst = worst.max(velocity_error / (10.0 * bound));
         }
         compared += 1;
@@ -226,7 +226,7 @@ macro_rules! cases {
         }
     )*
 
-        /// Every case in the folder has a test above.
+        /// Checks that every case in the folder has a test above.
         #[test]
         fn every_case_is_tested() {
             let tested = [$(stringify!($name)),*];
@@ -263,7 +263,7 @@ cases!(
     c36_asym_tril_a3,
 );
 
-/// The adaptive solver is a second route to the cases with constant damping.
+/// The adaptive solver is an independent way to solve the cases with constant damping.
 #[test]
 fn the_adaptive_solver_agrees_where_the_exact_one_holds() {
     for name in ["c02_free_cdc", "c05_free_cdcfs", "c06_fig5_cdc", "c11_cr_rigid_free", "c18_rec_cdc"] {

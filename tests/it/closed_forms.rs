@@ -61,7 +61,7 @@ fn elastic_free_vibration() {
                     steps += 1;
                     let time = f64::from(steps) * step;
                     let found = simulation.progress().state.displacement;
-                    // the phase ω t of the expectation itself carries ε ω t
+                    // the expected phase ω t itself has a rounding error of ε ω t
                     let error = (found - expected(time)).abs() / 0.01;
                     assert!(error < TOLERANCE, "xi {xi}, step {step}, t {time}: off by {error:e}");
                 }
@@ -93,7 +93,8 @@ fn rigid_quarter_period() {
     }
 }
 
-/// Restitution: after n impacts the amplitude obeys 1 − (1 − uₙ/u_ins)² = e²ⁿ (1 − (1 − u₀/u_ins)²), behind Eq. (13).
+/// Restitution: after n impacts the amplitude obeys 1 − (1 − uₙ/u_ins)² = e²ⁿ (1 − (1 − u₀/u_ins)²), behind
+/// Eq. (13).
 #[test]
 fn decay_by_restitution() {
     let e = 0.9;

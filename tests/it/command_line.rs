@@ -1,10 +1,10 @@
-//! The program `wall`: one clear message for bad input, exit code 2, nothing left behind.
+//! Tests the program `wall` with bad input: one clear message, exit code 2, no files left behind.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// An empty folder of the test's own.
+/// Makes an empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     if folder.exists() {
@@ -22,7 +22,7 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Runs `arguments` and expects one line on stderr that holds every one of `words`, exit code 2, and no new file.
+/// Runs `arguments`. Expects one line on stderr that contains all `words`, exit code 2, and no new file.
 pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     let names = || {
         let mut names: Vec<_> =
@@ -42,7 +42,7 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     assert_eq!(names(), before, "{arguments:?}: left something behind");
 }
 
-/// A scene, and what the message about it must say.
+/// A scene, and words that the message must contain.
 const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
     ("unknown_key", "[geometry]\nheight = 3\ncolour = 1\n", &["line 3", "colour", "thickness"]),
     ("unknown_table", "[geomtry]\nheight = 3\n", &["line 1", "geomtry"]),
@@ -98,7 +98,7 @@ fn bad_scenes() {
     refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "UTF-8"]);
 }
 
-/// A record, its arguments, and what the message about it must say.
+/// A record, its arguments, and words that the message must contain.
 const BAD_RECORDS: [(&str, &str, &[&str], &[&str]); 7] = [
     ("no_unit.csv", "time,a_g\n0,0\n0.01,1\n", &[], &["no_unit.csv", "unit"]),
     ("nan.csv", "time,a_g\n0,0\n0.01,nan\n", &["--unit", "g"], &["nan.csv", "line 3", "nan"]),
@@ -122,7 +122,7 @@ fn bad_records() {
         let arguments = [&["simulate", "--csv", "out.csv", "--record", name][..], extra].concat();
         refused(&folder, &arguments, words);
     }
-    // a gigabyte of noise is refused by its size, unread
+    // a gigabyte of noise is refused for its size, before it is read
     let file = std::fs::File::create(folder.join("huge.csv")).unwrap();
     file.set_len(1 << 30).unwrap();
     refused(&folder, &["simulate", "--record", "huge.csv", "--unit", "g"], &["huge.csv"]);
@@ -151,7 +151,8 @@ fn bad_arguments() {
     refused(&folder, &["package", plain, "-o", "x.fmu", "--base", "broken.fmu"], &["broken.fmu"]);
 }
 
-/// A message tells each cause once, and names the file also where only the parameters together are at fault.
+/// A message states each cause once. It names the file, also if the error lies in a combination of
+/// parameters.
 #[test]
 fn messages_name_the_file_once() {
     let folder = folder("messages");
@@ -168,7 +169,7 @@ fn messages_name_the_file_once() {
     refused(&folder, &["simulate", "record.csv"], &["record.csv, line 1", "--record"]);
 }
 
-/// A record of 65 g is a slip of units: the run says so, as `wall record` does.
+/// A record of 65 g has a wrong unit: the run warns about it, as `wall record` does.
 #[test]
 fn a_doubtful_record_is_noted() {
     let folder = folder("doubtful");
@@ -186,7 +187,7 @@ fn a_doubtful_record_is_noted() {
     assert!(summary.contains("u_ins, in the fall\n") && summary.contains("mm, fallen\n"), "{summary}");
 }
 
-/// Every example scene runs, stands where it should, and says the same as its history.
+/// Every example scene runs and stands or overturns as expected; summary and history agree.
 #[test]
 fn example_scenes() {
     let folder = folder("example_scenes");
@@ -195,7 +196,7 @@ fn example_scenes() {
     for entry in std::fs::read_dir(scenes).unwrap() {
         let scene = entry.unwrap().path();
         if scene.is_dir() {
-            // walls of a building: their tests are those of `wall building`
+            // the walls of a building are tested with `wall building`
             continue;
         }
         let output = wall(&folder, &["simulate", scene.to_str().unwrap(), "--csv", "out.csv", "--json"]);
@@ -240,7 +241,7 @@ fn machine_readable_output() {
     }
 }
 
-/// What `to_toml` writes into an FMU reads back as the same scene.
+/// A scene written by `to_toml` into an FMU is read back unchanged.
 #[test]
 fn a_scene_survives_being_written() {
     use rocking_wall::scene::{Scene, to_toml};

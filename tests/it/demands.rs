@@ -1,4 +1,5 @@
-//! Demands: extremes and crossings against closed forms and against dense sampling, half cycles, and what the program says of them.
+//! Tests demands: extremes and crossings against closed forms and dense sampling, half cycles, and the
+//! program's output.
 
 use proptest::prelude::*;
 use rocking_wall::response::Response;
@@ -31,14 +32,15 @@ fn free(parameters: &Parameters, steps: u32, fractions: &[f64]) -> (Simulation, 
     (simulation, demands)
 }
 
-/// 1e-11 of the value: ten times the stated accuracy, for the motion's own rounding. Times are good to 1e-6 of the time scale.
+/// 1e-11 of the value is ten times the stated accuracy, which allows for rounding of the motion. Times are
+/// accurate to 1e-6 of the time scale.
 #[track_caller]
 fn assert_instant(found: rocking_wall::solver::Instant, value: f64, time: f64, scale: f64) {
     assert!((found.value - value).abs() <= 1e-11 * value.abs(), "{} for {value}", found.value);
     assert!((found.time - time).abs() <= 1e-5 * scale, "{} s for {time} s", found.time);
 }
 
-/// u = u₀ cos ωt: the samples at 10 ms hit no extreme.
+/// u = u₀ cos ωt; no extreme falls on a sample at 10 ms.
 #[test]
 fn elastic_vibration_has_its_closed_form() {
     let start = 1e-3;
@@ -98,7 +100,8 @@ fn the_last_threshold_is_overturning() {
     );
 }
 
-/// A rigid block counts an excursion for each impact; a wall with an elastic branch two a cycle, and none at the end.
+/// A rigid block counts one excursion per impact, a wall with an elastic branch two per cycle and none at the
+/// end.
 #[test]
 fn half_cycles_are_excursions() {
     let parameters = Parameters {
@@ -125,7 +128,8 @@ fn widen(range: &mut [f64; 2], value: f64) {
 proptest! {
     #![proptest_config(configuration())]
 
-    /// Nothing between samples exceeds the extremes, and they are no more than what dense sampling misses.
+    /// No dense sample exceeds the extremes, and the extremes exceed the dense samples by no more than
+    /// sampling misses.
     #[test]
     fn extremes_hold_between_samples(
         parameters in walls(),
@@ -140,18 +144,21 @@ proptest! {
             .iter()
             .map(|&(bottom, top, drift)| Support { bottom: onset * bottom, top: onset * top, drift })
             .collect();
-        // the watched one takes the drift into account from the start, as the other does from its first small step on
+        // the watched simulation includes the drift from the start, the other one from its first small step
+        // on
         let mut demands = simulation.demands(supports[0], &[0.01, 0.1]);
         let mut dense = simulation.clone();
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 5];
         let mut most = [0.0_f64; 5];
-        let stiffest = simulation.wall().branches().iter().map(|branch| branch.stiffness.abs()).fold(0.0, f64::max);
+        let branches = simulation.wall().branches();
+        let stiffest = branches.iter().map(|branch| branch.stiffness.abs()).fold(0.0, f64::max);
         for ends in supports.windows(2) {
             let at = |part: u32| ends[0].towards(ends[1], f64::from(part) / f64::from(PARTS));
             if dense.progress().state.overturned {
                 break;
             }
-            simulation.advance_watched(&Segment { duration: step, from: ends[0], to: ends[1] }, &mut demands).unwrap();
+            let segment = Segment { duration: step, from: ends[0], to: ends[1] };
+            simulation.advance_watched(&segment, &mut demands).unwrap();
             for part in 0..PARTS {
                 let (from, to) = (at(part), at(part + 1));
                 dense.advance(&Segment { duration: step / f64::from(PARTS), from, to }).unwrap();
@@ -179,17 +186,20 @@ proptest! {
             demands.reaction_bottom,
             demands.reaction_top,
         ];
-        // two solutions of a motion that rounding may move: 1e-6 of the largest value
-        for (index, (Extremes { highest, lowest }, (range, most))) in found.iter().zip(ranges.iter().zip(&most)).enumerate() {
-            prop_assert!(highest.value >= range[1] - 1e-6 * most, "{index}: {} for {}", highest.value, range[1]);
-            prop_assert!(lowest.value <= range[0] + 1e-6 * most, "{index}: {} for {}", lowest.value, range[0]);
+        // rounding may change the motion, so the two solutions may differ by 1e-6 of the largest value
+        for (index, (extremes, (range, most))) in found.iter().zip(ranges.iter().zip(&most)).enumerate() {
+            let ([low, high], Extremes { highest, lowest }) = (range, extremes);
+            prop_assert!(highest.value >= high - 1e-6 * most, "{index}: {} for {high}", highest.value);
+            prop_assert!(lowest.value <= low + 1e-6 * most, "{index}: {} for {low}", lowest.value);
         }
-        // between dense samples δ apart a smooth u̇ rises by no more than its size times (ωδ)²/8; a rigid wall's has a kink at u = 0
+        // between samples δ apart, a smooth u̇ exceeds them by at most its size times (ωδ)²/8; that of a
+        // rigid wall has a kink at u = 0
         let turn = stiffest.sqrt() * step / f64::from(PARTS);
         if turn < 0.1 && !simulation.wall().is_rigid() && simulation.wall().passage_factor() == 1.0 {
             let [low, high] = ranges[1];
-            prop_assert!(demands.velocity.highest.value <= high.max(0.0) + (0.125 * turn * turn + 1e-3) * most[1]);
-            prop_assert!(demands.velocity.lowest.value >= low.min(0.0) - (0.125 * turn * turn + 1e-3) * most[1]);
+            let missed = (0.125 * turn * turn + 1e-3) * most[1];
+            prop_assert!(demands.velocity.highest.value <= high.max(0.0) + missed);
+            prop_assert!(demands.velocity.lowest.value >= low.min(0.0) - missed);
         }
     }
 }
@@ -223,7 +233,7 @@ fn the_program_reports_demands() {
     refused(&refused_folder, &["simulate", "bad.toml"], &["bad.toml", "line 1", "thresholds", "2"]);
 }
 
-/// A scene's own limit states are used, and survive being written.
+/// The limit states of a scene are used, and are kept when the scene is written.
 #[test]
 fn a_scene_states_its_limit_states() {
     let read = |text: &str| Scene::parse("scene", text, std::path::Path::new(".")).unwrap();

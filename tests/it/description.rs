@@ -1,4 +1,4 @@
-//! The model description against what the project promised, and the documentation against the description.
+//! Compares the model description with the promised names, and the documentation with the description.
 
 use fmi2_export::{Kind, Variable, VariableId};
 use rocking_wall::variables::{
@@ -27,14 +27,16 @@ fn variables() -> Vec<&'static Variable> {
 fn the_names_others_rely_on_are_there_in_their_order() {
     let expected = "
         a_g a_bottom a_top drift
-        u u_dot overturned u_ddot u_ratio restoring_force damping_force reaction_bottom reaction_top impulse_bottom
-        impulse_top overturn_time u_max
-        mechanism height thickness width density gravity hinge_ratio overburden overburden_eccentricity eccentricity_mode
+        u u_dot overturned u_ddot u_ratio restoring_force damping_force reaction_bottom reaction_top
+        impulse_bottom impulse_top overturn_time u_max
+        mechanism height thickness width density gravity hinge_ratio
+        overburden overburden_eccentricity eccentricity_mode
         force_law a1 a3 d1 softening
         damping_model damping_source xi c_bar
         impact restitution_source restitution
         u_start u_dot_start solver tolerance newmark_step
-        mass effective_mass participation F0 F0_negative u_ins u_ins_negative omega1 xi_used restitution_used";
+        mass effective_mass participation F0 F0_negative u_ins u_ins_negative omega1
+        xi_used restitution_used";
     let names: Vec<_> = variables().iter().map(|variable| variable.name).collect();
     assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
     let references: Vec<_> = variables().iter().map(|variable| variable.reference).collect();
@@ -78,7 +80,7 @@ fn every_variable_says_what_it_is() {
     }
     let mut reals = 0;
     for line in XML.lines().filter(|line| line.trim_start().starts_with("<Real declaredType=")) {
-        // Importers do not take units and nominal values from types.
+        // Importers ignore units and nominal values of types.
         assert!(line.contains(" unit=\"") && line.contains(" nominal=\""), "{line}");
         reals += 1;
     }
@@ -110,7 +112,7 @@ fn the_frame_is_complete() {
     {
         assert!(XML.contains(&format!("<Category name=\"{category}\"")), "{category}");
     }
-    // A date would make every build another FMU.
+    // A date would make every build a different FMU.
     assert!(!XML.contains("generationDateAndTime"));
 }
 
@@ -121,7 +123,7 @@ fn the_documentation_lists_every_variable_with_its_default() {
         let head = format!("<tr><td><code>{name}</code></td>");
         assert_eq!(PAGE.matches(&head).count(), 1, "{name} has one row in documentation/index.html");
         let row = PAGE.split(&head).nth(1).and_then(|rest| rest.split("</tr>").next()).unwrap_or_default();
-        // Unit, default, meaning; what has no default has no such column.
+        // The columns are unit, default and meaning; without a default there is no such column.
         let cells: Vec<_> = row.split("<td>").skip(1).map(|cell| cell.trim_end_matches("</td>")).collect();
         let default = match &variable.kind {
             Kind::Real { start, .. } => start.map(|start| cells[1].parse() == Ok(start)),

@@ -1,7 +1,7 @@
 //! Figure 15 of the paper: the collapse of the nine walls of Table 5 under each damping model.
 //!
-//! Its claims, tested: with the calibrated damping (Eqs. 20–22) the median collapse intensity is about that of restitution, and
-//! with the damping of Eq. (14) it is far above, which is unconservative.
+//! The tested claims: with calibrated damping (Eqs. 20–22) the median collapse intensity is about that of
+//! restitution. With the damping of Eq. (14) it is far above, which is unconservative.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use study::reproduce::collapse::figure_15;
 
 use crate::ground_motion::record_real::folder;
 
-/// What the paper reads off Figure 15, for every wall.
+/// Checks the paper's statements about Figure 15 for every wall.
 #[allow(clippy::print_stderr, reason = "the figures behind a verdict")]
 fn check(records: Vec<NamedRecord>, tolerance: f64) {
     let found = figure_15(records, threads(None)).unwrap();
@@ -27,7 +27,7 @@ fn check(records: Vec<NamedRecord>, tolerance: f64) {
             let ratio = calibrated.theta_ratio.estimate;
             assert!((ratio - 1.0).abs() <= tolerance, "wall {wall}, {name}: {ratio}");
         }
-        // the whole interval lies above 1, and above what the calibrated ratio gives
+        // the whole interval is above 1, and above that of the calibrated ratio
         let unsafe_ratio = equation_14.theta_ratio;
         assert!(unsafe_ratio.range[0] > 1.05, "wall {wall}, Eq. 14: {unsafe_ratio:?}");
         assert!(
@@ -51,11 +51,12 @@ fn equation_14_overestimates_under_synthetic_motions() {
         name: format!("seed {seed}"),
         motion: SyntheticMotion { seed, duration: 15.0, step: 0.01, peak: 3.0 }.motion().unwrap(),
     };
-    // twelve records leave θ a standard error of about β/√12 = 0.1 in each, less in their ratio
+    // with twelve records θ has a standard error of about β/√12 = 0.1, and the ratio of two models a smaller
+    // one
     check((1..=12).map(record).collect(), 0.2);
 }
 
-/// The real records, where there are any: they cannot be copied into the project.
+/// Tests real records if there are any; they cannot be copied into the project.
 #[test]
 fn equation_14_overestimates_under_real_records() {
     let Some(folder) = folder() else {

@@ -34,7 +34,8 @@ fn the_normal_distribution_has_its_textbook_values() {
     assert!(quantile(0.0) == f64::NEG_INFINITY && quantile(1.0) == f64::INFINITY && quantile(1.5).is_nan());
 }
 
-/// Of exact intensities the likeliest θ is their geometric mean, β their standard deviation with 1/n.
+/// For exact intensities, the maximum-likelihood θ is the geometric mean and β the standard deviation with
+/// 1/n.
 #[test]
 fn exact_intensities_have_a_closed_form() {
     let intensities = [0.31, 0.44, 0.58, 0.61, 0.9, 1.7];
@@ -46,7 +47,8 @@ fn exact_intensities_have_a_closed_form() {
     // sums of six terms
     near(found.median, mean.exp(), 1e-15);
     near(found.dispersion, variance.sqrt(), 1e-15);
-    // a record censored 40 β below tells nothing, but has Newton's method find the same; its last step leaves 1e-14
+    // a record censored 40 β below has no influence, but Newton's method finds the same values; its last step
+    // leaves 1e-14
     let searched = fit(&[&exact[..], &[Observation::Above(1e-9)]].concat()).unwrap();
     near(searched.median, found.median, 1e-13);
     near(searched.dispersion, found.dispersion, 1e-13);
@@ -66,7 +68,7 @@ fn stripes_recover_the_truth() {
     near(found.dispersion, TRUTH.dispersion, 5e-6);
 }
 
-/// Censored at 0.7: what is left of a large sample still gives the truth, where leaving censored records out does not.
+/// A large sample censored at 0.7 still gives the true values; leaving out the censored records does not.
 #[test]
 fn censored_records_count() {
     let top = 0.7;
@@ -74,15 +76,15 @@ fn censored_records_count() {
     let censored: Vec<_> =
         sample.iter().map(|&x| if x <= top { Observation::At(x) } else { Observation::Above(top) }).collect();
     let found = fit(&censored).unwrap();
-    // a stratified sample of n is off by O(1/n) where a random one is off by O(1/√n)
+    // the error of a stratified sample of n is O(1/n), that of a random one O(1/√n)
     near(found.median, TRUTH.median, 2e-3);
     near(found.dispersion, TRUTH.dispersion, 2e-3);
     let kept: Vec<_> = censored.iter().copied().filter(|o| matches!(o, Observation::At(_))).collect();
     assert!(fit(&kept).unwrap().median < 0.8 * TRUTH.median);
 }
 
-/// On steps as wide as half of θ a record is known to lie between two levels only: counts at the levels give the truth, the upper
-/// level taken for the record's own does not.
+/// With steps as wide as half of θ, a record is known only to lie between two levels. Counts at the levels
+/// give the true values; taking the upper level as the record's intensity does not.
 #[test]
 fn wide_steps_make_stripes() {
     let step = 0.31;
@@ -90,7 +92,7 @@ fn wide_steps_make_stripes() {
     let sample: Vec<Occurrence> =
         stratified(4000).into_iter().map(|x| Occurrence::At((x / step).ceil() * step)).collect();
     let found = fit(&Observing::InStripes(levels).observations(&sample)).unwrap();
-    // counts are off by less than one in 4000, and the level above the last few records leaves none of them out
+    // counts are off by less than one in 4000, and the highest level includes all records
     near(found.median, TRUTH.median, 1e-3);
     near(found.dispersion, TRUTH.dispersion, 1e-3);
     assert!(fit(&Observing::Exactly.observations(&sample)).unwrap().median > 1.15 * TRUTH.median);
@@ -115,7 +117,7 @@ fn what_gives_no_curve_is_refused() {
     ] {
         assert_eq!(fit(&observations), Err(error), "{observations:?}");
     }
-    // far tails: likelihoods of e^-1000 and less are still told apart
+    // far tails: likelihoods of e^-1000 and less are still distinguished
     let far = fit(&[At(1e-6), At(1.1e-6), Above(1e-3), At(1e3)]).unwrap();
     assert!(far.median.is_finite() && far.dispersion > 5.0);
 }
@@ -132,7 +134,7 @@ fn medians_and_steps_count_censored_records() {
     assert_eq!(stripes, [stripe(0.2, 1), stripe(0.4, 2)]);
 }
 
-/// The interval of a median covers the truth about as often as it says: of 200 random samples 95 % within four standard
+/// The interval of a median contains the true value in 95 % of 200 random samples, within four standard
 /// errors of the count, √(200 · 0.95 · 0.05) = 3.1.
 #[test]
 fn bootstrap_intervals_cover_the_truth() {
@@ -164,8 +166,8 @@ fn draws(population: &[f64], count: usize, seed: u64) -> Vec<Occurrence> {
     (0..count as u64).map(one).collect()
 }
 
-/// What two models have in common cancels in their ratio: a model that always needs 10 % more has a ratio of 1.1 without any
-/// width, whatever the scatter of the records.
+/// The scatter of records cancels in the ratio of two models. A model whose collapse intensity is always 10 %
+/// higher has a ratio of 1.1 with an interval of zero width.
 #[test]
 fn ratios_are_paired() {
     let one: Vec<Occurrence> = stratified(30).into_iter().map(Occurrence::At).collect();

@@ -1,4 +1,4 @@
-//! Ground motions: the type itself; its sources in the modules below.
+//! Tests the type of ground motions. The modules below test where they come from.
 
 mod pulse;
 mod record_at2;
@@ -13,7 +13,8 @@ mod synthetic;
 use ground_motion::{GroundMotion, Unit};
 use proptest::prelude::*;
 
-/// Velocity and displacement at each sample of a record, integrated without error from the values at time zero.
+/// Velocity and displacement at each sample of a record, integrated without error from the values at time
+/// zero.
 fn integrated(motion: &GroundMotion, start: [f64; 2]) -> Vec<[f64; 2]> {
     let step = motion.step();
     let mut history = vec![start];

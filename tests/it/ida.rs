@@ -42,7 +42,8 @@ const HUNT: Levels = Levels::HuntAndFill { first: 0.5, increase: 0.5, top: 60.0,
 #[test]
 fn the_damping_is_that_of_table_5() {
     let study = study(HUNT, Model::figure_15());
-    // wall 8: e = 0.878, and 1.49, 3.43, 6.06, 8.82 % in print; the CDR column is 0.014 to 0.042 low throughout
+    // wall 8: e = 0.878, and 1.49, 3.43, 6.06, 8.82 % in print; the CDR column is 0.014 to 0.042 low
+    // throughout
     for (model, printed, allowed) in [(1, 1.49, 0.01), (2, 3.43, 0.045), (3, 6.06, 0.01), (4, 8.82, 0.03)] {
         let ratio = 100.0 * study.wall(1, model).damping_ratio();
         assert!(
@@ -57,7 +58,7 @@ fn the_damping_is_that_of_table_5() {
     assert_eq!(names, ["CR", "CDC", "CDR", "SDR", "CDR Eq. 14"]);
 }
 
-/// The same run, sample by sample through `Simulation`, with free vibration after the record.
+/// Computes the same run sample by sample with `Simulation`, with free vibration after the record.
 fn directly(study: &Study, wall: usize, model: usize, record: usize, intensity: f64) -> (f64, bool) {
     let parameters = study.models()[model].applied_to(&study.walls()[wall].parameters).unwrap();
     let motion = study.records()[record].motion.scaled(intensity / study.intensity(record));
@@ -92,7 +93,7 @@ fn levels_agree_with_runs_one_by_one() {
             assert_eq!(level.overturning.is_some(), falls, "{case:?} {level:?}");
             overturned += usize::from(falls);
             if !falls {
-                // the tolerance 1e-8 of CDR and SDR, and what the wall makes of it
+                // the tolerance 1e-8 of CDR and SDR, amplified by the wall
                 assert!((level.demand - demand).abs() < 1e-5, "{case:?} {level:?} {demand}");
             }
         }
@@ -110,8 +111,8 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
-/// Hunting finds the collapse that a grid as fine as its resolution finds, but for windows of collapse below: the hunt may
-/// step over one that the grid meets, or meet one that is narrower than the grid.
+/// Hunt and fill finds the same collapse as a grid of its resolution, except for windows of collapse below.
+/// It may step over a window that the grid meets, or meet one that is narrower than the grid.
 #[test]
 fn the_hunt_finds_the_collapse_of_a_fine_grid() {
     let step = 0.05;
@@ -144,7 +145,7 @@ fn the_hunt_finds_the_collapse_of_a_fine_grid() {
 #[test]
 fn stepping_ends_at_the_first_overturning() {
     let stepping = study(Levels::ToOverturning { step: 0.3, top: 20.1 }, Model::figure_15());
-    // so that a fragility can count at them
+    // a fragility counts at these levels
     assert_eq!(stepping.levels().shared().map(|levels| levels.len()), Some(67));
     assert_eq!(HUNT.shared(), None);
     let fixed = study(Levels::Grid((1..=67).map(|k| 0.3 * f64::from(k)).collect()), Model::figure_15());
@@ -195,7 +196,7 @@ fn intensities_scale_with_the_motion() {
 /// A wall that overturns after the end of its record has overturned.
 #[test]
 fn the_free_vibration_after_a_record_counts() {
-    // half a sine that leaves the wall on its way out
+    // half a sine, after which the wall still moves outwards
     let pulse = Pulse { shape: Shape::HalfSine, amplitude: 1.0, frequency: 1.0 }.motion(None).unwrap();
     let records = vec![NamedRecord { name: "pulse".into(), motion: pulse.clone() }];
     let levels = Levels::HuntAndFill { first: 0.1, increase: 0.1, top: 40.0, resolution: 1e-4, gap: 0.2 };

@@ -1,4 +1,5 @@
-//! `wall ida` and `wall merge`: the same bytes whoever runs what when, and what they refuse.
+//! Tests `wall ida` and `wall merge`: the same bytes for any threads, shards and interruptions, and what they
+//! refuse.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -115,7 +116,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
     succeed(&folder, &["merge", "shared"]);
     assert!(bytes(&at("shared")) == whole, "a shared folder");
 
-    // some runs lost, some cut short, one of another study, a half-written file, no results
+    // lost runs, truncated runs, a run of another study, a half-written file, no results
     let runs = run_files(&at("two"));
     fs::remove_file(&runs[3]).unwrap();
     let content = fs::read_to_string(&runs[7]).unwrap();
@@ -132,7 +133,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
     );
     assert!(bytes(&at("two")) == whole, "after losses");
 
-    // another report of the same runs runs nothing anew
+    // another report of the same runs computes nothing again
     fs::write(at("study.toml"), STUDY.replace("resamples = 200", "resamples = 300")).unwrap();
     let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
     assert!(text(&output.stderr).contains("24 of 24"), "{}", text(&output.stderr));
@@ -141,7 +142,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
     assert_ne!(again[Path::new("fragilities.csv")], whole[Path::new("fragilities.csv")]);
 }
 
-/// As `refused`, for a message of several lines, or a command that leaves what it has merged so far.
+/// Like `refused`, for a message of several lines, or a command that keeps what it has merged so far.
 fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
     let output = wall(folder, arguments);
     let message = text(&output.stderr);
@@ -151,7 +152,7 @@ fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
     }
 }
 
-/// Killed without warning, again and again, at moments that fall anywhere in a run, and started once more.
+/// Kills the command repeatedly at arbitrary moments of a run, and starts it again.
 #[test]
 fn a_killed_study_goes_on() {
     let folder = study("ida_killed");
@@ -167,7 +168,7 @@ fn a_killed_study_goes_on() {
             .unwrap();
         std::thread::sleep(Duration::from_millis(15 + 23 * attempt));
         if child.try_wait().unwrap().is_none() {
-            // SIGKILL: no chance to tidy up
+            // SIGKILL: the process cannot clean up
             child.kill().unwrap();
             killed += 1;
         }
@@ -259,7 +260,7 @@ fn other_studies_and_bad_ones_are_refused() {
     }
 }
 
-/// The study that comes with the project runs as it stands; its walls are those of Table 5.
+/// The study of the project runs unchanged; its walls are those of Table 5.
 #[test]
 fn the_example_is_a_study() {
     let folder = folder("ida_example");

@@ -31,7 +31,7 @@ mod rocking_spectrum;
 mod trigonometric;
 mod wiring;
 
-/// The root of the workspace.
+/// Returns the root of the workspace.
 fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }

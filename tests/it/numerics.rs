@@ -26,8 +26,9 @@ fn parapet() -> Parameters {
     }
 }
 
-/// u/u_ins at the end of a run under p(t) = strength F₀/m_eff sin(ωt), sampled `count` times over `duration`; with `corrected`
-/// nodes p − (Δt²/12) p″, which raise the order of a broken line from 2 to 4.
+/// Returns u/u_ins at the end of a run under p(t) = strength F₀/m_eff sin(ωt), sampled `count` times over
+/// `duration`. `corrected` uses the nodes p − (Δt²/12) p″, which raise the order of straight lines from 2
+/// to 4.
 fn end_of_run(
     parameters: &Parameters,
     tolerance: Option<f64>,
@@ -90,8 +91,8 @@ fn observed(
     order(&(0..7).map(error).collect::<Vec<_>>())
 }
 
-/// Newmark's linear acceleration is of order 2 inside a branch; a corner it does not locate costs h³ once, an impact it
-/// locates on its cubic costs no more.
+/// Newmark's linear acceleration is of order 2 inside a branch; a corner it does not locate costs h³ once, an
+/// impact it locates on its cubic costs no more.
 #[test]
 fn newmark_is_of_second_order() {
     let inside = Forced { strength: 0.01, rate: 3.0, duration: 2.0, start: 0.0 };
@@ -105,7 +106,7 @@ fn newmark_is_of_second_order() {
     }
 }
 
-/// With a damping that follows the secant its coefficient lags by a step: order 1.
+/// With secant damping the coefficient lags by one step: order 1.
 #[test]
 fn newmark_is_of_first_order_with_secant_damping() {
     let tilted = Forced { strength: 0.1, rate: 2.0, duration: 0.8, start: 0.5 };
@@ -115,9 +116,9 @@ fn newmark_is_of_first_order_with_secant_damping() {
     }
 }
 
-/// Driven by samples of a smooth motion the exact and the adaptive solver are as good as the broken line between: of order
-/// 2, and of order 4 with corrected nodes, across corners too. An impact scales u̇ inside a step, where the corrected line has
-/// made up for its error h² of p in u but not yet in u̇: order 3.
+/// Under samples of a smooth motion, the exact and the adaptive solver have the order of the straight lines
+/// between samples: 2, and 4 with corrected nodes, across corners too. An impact scales u̇ inside a step,
+/// where the corrected line has compensated its error h² of p in u but not yet in u̇: order 3.
 #[test]
 fn located_corners_keep_the_order_of_the_motion() {
     let across = Forced { strength: 0.3, rate: 2.0, duration: 1.5, start: 0.2 };
@@ -161,7 +162,8 @@ fn work_is_stored_or_dissipated() {
         let state = simulation.progress().state;
         let stored = wall.energy(state.displacement, state.velocity);
         largest = largest.max(stored);
-        // a kink of ü inside a step costs Boole's rule h⁴ of the jump of the jerk, 2e-14 of the energy here at each of some hundred
+        // a kink of ü inside a step costs Boole's rule h⁴ of the jump of the jerk, 2e-14 of the energy here
+        // at each of some hundred
         assert!(
             (input - stored - lost).abs() <= 1e-10 * largest,
             "{input} for {stored} and {lost} at {time} s"
@@ -174,8 +176,8 @@ fn work_is_stored_or_dissipated() {
 proptest! {
     #![proptest_config(configuration())]
 
-    /// A parapet and a strip with equal dimensionless groups move alike (physics of the model: u/u_ins over t √(k₀/m_eff)
-    /// depends on a₁, a₃, d₁, softening, ξ, e and λ m_eff a_g/F₀ alone).
+    /// A parapet and a strip with equal dimensionless groups move alike (physics of the model: u/u_ins over t
+    /// √(k₀/m_eff) depends on a₁, a₃, d₁, softening, ξ, e and λ m_eff a_g/F₀ alone).
     #[test]
     fn equal_groups_move_alike(
         law in 0..3_i32, model in 1..5_i32, a1 in 0.005_f64..0.1, a3 in 0.85_f64..1.0, d1 in 0.5_f64..0.7,
@@ -188,14 +190,15 @@ proptest! {
         prop_assume!(model != DampingModel::FreeStandingBlock);
         let damping_model = if rigid { DampingModel::None } else { model };
         let common = Parameters {
-            force_law, a1, a3, d1, xi, damping_model, softening: Softening::ALL[usize::try_from(softening).unwrap()],
+            force_law, a1, a3, d1, xi, damping_model,
+            softening: Softening::ALL[usize::try_from(softening).unwrap()],
             impact: if impact { Impact::Restitution } else { Impact::None },
             restitution: e, tolerance: 1e-13, ..parapet()
         };
         let parapet = Parameters { height: heights.0, thickness: 0.1 * heights.0, ..common.clone() };
         let strip = Parameters {
-            mechanism: Mechanism::VerticalSpanning, height: heights.1, thickness: 0.05 * heights.1 * hinge_ratio,
-            hinge_ratio, ..common
+            mechanism: Mechanism::VerticalSpanning, height: heights.1,
+            thickness: 0.05 * heights.1 * hinge_ratio, hinge_ratio, ..common
         };
         let one = normalised(&parapet, &motion, 1.0);
         let changed = normalised(&parapet, &motion, 1.0 + 1e-8);
@@ -213,7 +216,7 @@ proptest! {
     }
 }
 
-/// u/u_ins under a broken line in units of F₀/m_eff on the wall's own clock.
+/// Returns u/u_ins under a piecewise linear motion, in units of F₀/m_eff and of the wall's own time scale.
 fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> {
     let wall = Wall::new(parameters).unwrap();
     let onset = wall.body().strength.positive / wall.body().effective_mass;
@@ -229,8 +232,9 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     history
 }
 
-/// From mild to very stiff, the exact solver agrees with the adaptive one at 1e-13 to max(1e-10, 100 ε S) whatever the step,
-/// and with secant damping the adaptive one keeps its tolerance of 1e-8, or ten of its local shares of that (1e-12) amplified.
+/// For mild to very stiff walls and any step, the exact solver agrees with the adaptive one at 1e-13 to
+/// max(1e-10, 100 ε S). With secant damping the adaptive solver keeps its tolerance of 1e-8, or ten times its
+/// local share of it (1e-12), amplified.
 #[test]
 fn default_problems_stay_within_rounding() {
     let mut compared = 0;
@@ -239,7 +243,7 @@ fn default_problems_stay_within_rounding() {
         let settings: &[Setting] =
             if exact { &[Setting::Exact(1), Setting::Exact(4)] } else { &[Setting::Adaptive(1e-8)] };
         let study = measure_at(&problem, settings, 0.0).unwrap();
-        // beyond 1e6 a history is no figure to compare
+        // beyond 1e6 histories cannot be compared
         if study.amplification > 1e6 {
             continue;
         }
@@ -253,7 +257,7 @@ fn default_problems_stay_within_rounding() {
     assert!(compared >= 10, "only {compared} of the problems could be compared");
 }
 
-/// The work of the committed scenes: a change that costs more shows here before it shows on a clock.
+/// Pins the work of the committed scenes: a change that costs more shows here first.
 #[test]
 fn work_of_the_scenes() {
     let expected = [

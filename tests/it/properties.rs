@@ -1,4 +1,5 @@
-//! Properties that hold for every wall: mirror, time shift, splitting, energy, rest, agreement of the solvers.
+//! Properties that hold for every wall: mirror, time shift, splitting, energy, rest, agreement of the
+//! solvers.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -57,7 +58,7 @@ pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
     })
 }
 
-/// Accelerations of a random broken line, in units of the wall's own strength.
+/// Accelerations of a random piecewise linear motion, in units of the wall's strength.
 pub(crate) fn motions() -> impl Strategy<Value = Vec<f64>> {
     proptest::collection::vec(-1.8_f64..1.8, 8..40)
 }
@@ -108,7 +109,8 @@ fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The same cases every time, unless PROPTEST_RNG_SEED names others (or `random` ones) and PROPTEST_CASES how many.
+/// The same cases every time, unless PROPTEST_RNG_SEED names others (or `random` ones) and PROPTEST_CASES how
+/// many.
 pub(crate) fn configuration() -> ProptestConfig {
     let mut configuration = ProptestConfig { cases: 200, ..ProptestConfig::default() };
     match std::env::var("PROPTEST_RNG_SEED") {
@@ -122,9 +124,9 @@ pub(crate) fn configuration() -> ProptestConfig {
 /// Relative change of the motion that shows how much the wall amplifies.
 const PROBE: f64 = 1e-8;
 
-/// What rounding may make of a history in so many parts a segment: sixteen roundings for each piece of motion, amplified as the
-/// wall amplifies a change of its motion, on top of the adaptive solver's 1e-13 amplified likewise. Beyond an
-/// amplification of 1e5 (the limit of the reference cases too) no comparison means anything.
+/// Bounds the effect of rounding on a history with `parts` parts per segment: sixteen roundings for each
+/// piece, plus 1e-13 for the adaptive solver, both amplified as the wall amplifies a change of its motion.
+/// Beyond an amplification of 1e5, the limit of the reference cases too, histories cannot be compared.
 fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     let history = run.history(0.0, 1);
     // one change alone may cancel out: all samples alike, and every other one
@@ -153,7 +155,7 @@ proptest! {
         prop_assert!(difference == 0.0, "differs by {difference}");
     }
 
-    /// The clock does not matter.
+    /// Shifting time changes nothing.
     #[test]
     fn time_shift(parameters in walls(), motion in motions()) {
         let run = Run::new(parameters, &motion);
@@ -161,7 +163,7 @@ proptest! {
         prop_assert!(difference == 0.0, "differs by {difference}");
     }
 
-    /// A segment may be cut into parts.
+    /// Splitting a segment changes nothing.
     #[test]
     fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
         let run = Run::new(parameters, &motion);
@@ -171,7 +173,7 @@ proptest! {
         prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
     }
 
-    /// Where the exact solver is exact, the adaptive one agrees.
+    /// The adaptive solver agrees with the exact one wherever that applies.
     #[test]
     fn exact_and_adaptive_agree(parameters in walls(), motion in motions()) {
         let wall = Wall::new(&parameters).expect("a valid wall");
@@ -184,11 +186,11 @@ proptest! {
         prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
     }
 
-    /// Without motion nothing moves.
+    /// A wall at rest stays at rest without motion of its supports.
     #[test]
     fn rest_stays_rest(parameters in walls(), duration in 1e-6_f64..100.0) {
-        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
         let still = Support::default();
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
         simulation.advance(&Segment { duration, from: still, to: still }).expect("rest");
         prop_assert_eq!(simulation.progress().state.displacement, 0.0);
         prop_assert_eq!(simulation.progress().state.velocity, 0.0);
@@ -199,8 +201,8 @@ proptest! {
     fn energy_never_grows(parameters in walls(), start in -0.95_f64..0.95, step in 1e-3_f64..0.5) {
         let wall = Wall::new(&parameters).expect("a valid wall");
         let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
-        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
         let still = Support::default();
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
         let scale = wall.energy(wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
         let (mut before, mut pieces) = (f64::INFINITY, 0);
         for _ in 0..200 {

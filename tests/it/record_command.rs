@@ -36,7 +36,7 @@ fn the_table_lists_every_channel() {
             assert!(lines[line].contains(word), "no {word:?} in {}", lines[line]);
         }
     }
-    // Eight samples end in the middle of the shaking.
+    // The eight samples end during the strong motion.
     assert!(table.contains("check    two.V2 [2: Up]: ") && table.contains("is the end missing?"), "{table}");
 }
 
@@ -78,7 +78,7 @@ fn plots_are_svg_or_png() {
     for word in ["two.V2 [1: 90 Deg]", "one.AT2", "time (s)", "period T (s)", "Sa (g)"] {
         assert!(svg.contains(word), "no {word:?} in the plot");
     }
-    // More records than colours: their median.
+    // With more records than colours, the plot shows their median.
     let many =
         ["record", "one.AT2", "one.AT2", "one.AT2", "two.V2", "two.V2", "two.V2", "--plot", "many.svg"];
     assert!(wall(&folder, &many).status.success());

@@ -1,4 +1,4 @@
-//! The path over records against the path over segments, which the FMU takes.
+//! Compares the record path with the path over segments, which the FMU uses.
 
 use proptest::prelude::*;
 use rocking_wall::simulation::{Progress, Simulation};
@@ -19,7 +19,7 @@ fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, S
     (motion, Start { state, factor })
 }
 
-/// The history of u, and what became of the run.
+/// Returns the history of u and the outcome of the run.
 fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Passage) {
     let (motion, start) = prepared(parameters, forcing, factor);
     let mut history = vec![start.state.displacement];
@@ -37,8 +37,8 @@ fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (V
 proptest! {
     #![proptest_config(configuration())]
 
-    /// A run of a batch gives the same bits by itself and beside others, whatever their number and place, and agrees with
-    /// a run by itself over the record.
+    /// A run of a batch gives the same bits alone and beside others, for any number and order, and agrees
+    /// with a single run.
     #[test]
     fn lanes_do_not_disturb_each_other(
         parameters in prop_oneof![walls(), moving()],
@@ -68,7 +68,7 @@ proptest! {
         }
     }
 
-    /// The same of walls on their way, for steps from far below any motion to longer than a swing.
+    /// The same for walls that start in motion, with steps from far below any period to longer than a swing.
     #[test]
     fn any_step_agrees(parameters in moving(), motion in motions(), exponent in -4.0_f64..1.0) {
         let wall = Wall::new(&parameters).unwrap();
@@ -79,7 +79,7 @@ proptest! {
         agree(&parameters, &accelerations, step)?;
     }
 
-    /// Steps over a record and segments one by one agree to rounding: in u, in the extremes, in what happened.
+    /// Steps over a record and segments one by one agree to rounding in u, extremes and events.
     #[test]
     fn records_and_segments_agree(parameters in walls(), motion in motions(), refinement in 1_u32..40) {
         let wall = Wall::new(&parameters).unwrap();
@@ -92,7 +92,7 @@ proptest! {
     }
 }
 
-/// Compares a run of a batch with one by itself, where a little more of the forcing does not change what happens.
+/// Compares a run of a batch with a single run, unless slightly more forcing changes the events.
 fn passages_agree(
     wall: &Wall,
     solver: &RecordSolver<'_>,
@@ -169,7 +169,8 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     };
     let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
     prop_assume!(amplification < 1e5);
-    // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13 likewise
+    // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13
+    // likewise
     let end = reference[standing - 1];
     let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
     let difference = apart(&|i| history[i]);

@@ -17,7 +17,7 @@ fn value(table: &Table, row: usize, column: usize) -> Value {
     }
 }
 
-/// Ours minus print lies within `low` and `high`.
+/// Checks that computed minus printed value lies within `low` and `high`.
 fn within(table: &Table, [row, column]: [usize; 2], [low, high]: [f64; 2]) {
     let value = value(table, row, column);
     let deviation = value.deviation().unwrap();
@@ -28,8 +28,8 @@ fn within(table: &Table, [row, column]: [usize; 2], [low, high]: [f64; 2]) {
     );
 }
 
-/// To the last digit, but for the cavity wall, whose e is printed to two digits: 0.005/0.61 moves ln e by 0.008, and ξ by
-/// 0.002 at most. Its e = 0.61 is a tie within 0.00004.
+/// Agrees to the last digit, except for the cavity wall, whose e is printed with two digits: 0.005/0.61
+/// changes ln e by 0.008, and ξ by 0.002 at most. Its e = 0.61 is a tie within 0.00004.
 #[test]
 fn table_3_agrees_with_print() {
     let table = table_3();
@@ -44,7 +44,7 @@ fn table_3_agrees_with_print() {
     within(&table, [2, 6], [-0.002, 0.0]);
 }
 
-/// To the last digit, the last one cut off, not rounded: 0.0298 is printed as 0.029.
+/// Agrees to the last digit; one value is truncated, not rounded: 0.0298 is printed as 0.029.
 #[test]
 fn table_4_agrees_with_print() {
     let table = table_4();
@@ -55,8 +55,9 @@ fn table_4_agrees_with_print() {
     within(&table, [1, 8], [0.0, 0.001]);
 }
 
-/// CDC and SDR within 0.01 percentage points, CDR 0.014 to 0.042 below print throughout, Eq. (14) to the last digit;
-/// `e_an` to the last digit with h₁ = 0.58 h, `e_exp` = 0.9359 cut off to 0.935.
+/// CDC and SDR agree within 0.01 percentage points; CDR is 0.014 to 0.042 below print throughout; Eq. (14)
+/// agrees to the last digit. `e_an` agrees to the last digit with h₁ = 0.58 h; `e_exp` = 0.9359 is truncated
+/// to 0.935.
 #[test]
 fn table_5_agrees_with_print() {
     let table = table_5().unwrap();

@@ -1,4 +1,5 @@
-//! Rocking spectra: closed-form overturning thresholds, dimensionless groups, rest, threads, and `wall spectrum`.
+//! Rocking spectra: closed-form overturning thresholds, dimensionless groups, rest, threads, and
+//! `wall spectrum`.
 
 use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
@@ -23,12 +24,12 @@ fn rigid(restitution: f64) -> Parameters {
     }
 }
 
-/// A bilinear wall whose damping does not depend on its shape.
+/// Returns a bilinear wall whose damping does not depend on its shape.
 fn bilinear() -> Parameters {
     Parameters { damping_source: DampingSource::Given, xi: 0.03, ..Parameters::default() }
 }
 
-/// The least a_p/a₀ that overturns, by bisection to rounding.
+/// Returns the least a_p/a₀ that overturns, by bisection to rounding.
 fn threshold(form: PulseForm, frequency: f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let overturns = |amplitude: f64| {
         let spectrum = over_pulses(&rigid(0.9), form, &[frequency], &[amplitude], 1).unwrap();
@@ -54,8 +55,9 @@ fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
 
 /// A rigid block under a_p sin ω_p t up to its first impact, in closed form.
 ///
-/// With x = |u|/u_ins, η = a_p/a₀, β = ω_p/p, time in 1/p, and uplift at sin βt₀ = 1/η, it obeys ẍ = x − 1 + η sin βt. The modes
-/// z = x − 1 + ẋ and w = x − 1 − ẋ obey ż = z + η sin βt and ẇ = −w − η sin βt, both from −1 at t₀, so that
+/// With x = |u|/u_ins, η = a_p/a₀, β = ω_p/p, time in 1/p, and uplift at sin βt₀ = 1/η, it obeys ẍ = x − 1 +
+/// η sin βt. The modes z = x − 1 + ẋ and w = x − 1 − ẋ obey ż = z + η sin βt and ẇ = −w − η sin βt, both from
+/// −1 at t₀, so that
 /// ```text
 /// z = B (sin βt + β cos βt) + C e^{t−t₀},   w = B (sin βt − β cos βt) + D e^{t₀−t},   B = −η/(1 + β²)
 /// ```
@@ -87,12 +89,12 @@ impl Uplift {
     }
 }
 
-/// After a half sine the block overturns if z > 0 at its end: √(η² − 1) + η exp(−(π − asin(1/η))/β) = β. Without the
-/// exponential this is Housner's η² = 1 + β² (The behavior of inverted pendulum structures during earthquakes, Bulletin of the
-/// Seismological Society of America 53, 1963), whose pulse starts at uplift.
+/// After a half sine the block overturns if z > 0 at its end: √(η² − 1) + η exp(−(π − asin(1/η))/β) = β.
+/// Without the exponential this is Housner's η² = 1 + β² (The behavior of inverted pendulum structures during
+/// earthquakes, Bulletin of the Seismological Society of America 53, 1963), whose pulse starts at uplift.
 ///
-/// The pulse's samples are off by (ωΔt)² a″/12 or less between them and in the mean not at all, but for the step in which the
-/// block uplifts: what is left there is below (ωΔt)³/80 = 4e-10 of a_p/p.
+/// The pulse's samples are off by (ωΔt)² a″/12 or less between them and in the mean not at all, but for the
+/// step in which the block uplifts: what is left there is below (ωΔt)³/80 = 4e-10 of a_p/p.
 #[test]
 fn a_half_sine_overturns_at_the_closed_form() {
     for beta in [1.0, 2.0, 3.5, 6.0] {
@@ -105,8 +107,8 @@ fn a_half_sine_overturns_at_the_closed_form() {
     }
 }
 
-/// During one cycle of a sine the block reaches u_ins, by which it counts as overturned, from the amplitude on at which the
-/// closed form does; just below that amplitude it comes back.
+/// During one cycle of a sine the block reaches u_ins from the amplitude at which the closed form does. Just
+/// below that amplitude it returns.
 #[test]
 fn a_sine_cycle_reaches_instability_at_the_closed_form() {
     // longer pulses overturn it after an impact, while they last
@@ -143,7 +145,8 @@ fn assert_alike(a: &RockingSpectrum, b: &RockingSpectrum, tolerance: f64) {
     }
 }
 
-/// Walls of any size and slenderness, and both mechanisms, have one dimensionless spectrum if damping and restitution are alike.
+/// Walls of any size, slenderness and mechanism have the same dimensionless spectrum if damping and
+/// restitution agree.
 #[test]
 fn pulses_have_one_dimensionless_spectrum() {
     let (columns, rows) = ([0.7, 2.0, 5.0], [0.5, 1.5, 2.5, 4.0, 8.0]);
@@ -165,7 +168,7 @@ fn pulses_have_one_dimensionless_spectrum() {
     }
 }
 
-/// At one size, a record k times as strong does to a wall k times as stocky what the record does.
+/// At one size, a record k times as strong has the same effect on a wall k times as stocky.
 #[test]
 fn a_stocky_wall_needs_a_stronger_motion() {
     let motion = SyntheticMotion::default().motion().unwrap();
@@ -183,7 +186,7 @@ fn a_stocky_wall_needs_a_stronger_motion() {
     assert_alike(&spectrum(0.5, 10.0), &spectrum(1.0, 5.0), 1e-6);
 }
 
-/// A point is what a scene of the wall gives.
+/// A point of the spectrum equals the result of a scene of the wall.
 #[test]
 fn a_point_is_a_run() {
     let motion = SyntheticMotion::default().motion().unwrap().scaled(0.8);
@@ -215,7 +218,7 @@ fn a_point_is_a_run() {
     }
 }
 
-/// The peak may come long after a short pulse: free motion is followed until then, also without any damping.
+/// The peak may come long after a short pulse: free motion is followed until then, even without damping.
 #[test]
 fn peaks_after_the_motion_count() {
     let wall = Parameters { damping_model: DampingModel::None, ..Parameters::default() };
@@ -266,7 +269,7 @@ fn what_is_no_wall_is_refused_by_name() {
             walls(&bilinear(), (Size::Height, &[1.0; 600]), (Slenderness::Ratio, &[8.0; 600])),
             &["360000 points"],
         ),
-        // the first wall in order, whatever the threads do
+        // the first wall in order, for any number of threads
         (
             walls(&Parameters { a1: 0.99, a3: 0.9, ..bilinear() }, height, (Slenderness::Ratio, &[8.0, 9.0])),
             &["wall of 3 m by 0.375 m", "a1 = 0.99"],

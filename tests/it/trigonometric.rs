@@ -25,7 +25,7 @@ fn full(mechanism: Mechanism) -> Parameters {
     }
 }
 
-/// One with everything the model knows.
+/// A wall that uses all features of the model.
 fn loaded(mechanism: Mechanism, eccentricity_mode: EccentricityMode) -> Parameters {
     Parameters {
         hinge_ratio: 0.58,
@@ -43,7 +43,8 @@ fn motion(parameters: &Parameters, tolerance: f64) -> Motion {
     Motion::new(wall, method)
 }
 
-/// Moves through a motion of the ground, linear between samples, from rest at `start` of the unstable equilibrium.
+/// Moves through a motion of the ground, linear between samples, from rest at `start` of the unstable
+/// equilibrium.
 fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State> {
     let u_ins = motion.wall().body().instability.of(start);
     let mut state = motion.start(start * u_ins, 0.0, Support::rigid(samples[0]));
@@ -58,7 +59,8 @@ fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State>
     states
 }
 
-/// ∫₀¹ f over the tanh-sinh rule (Takahasi and Mori, 1974), which does not mind singular derivatives at the ends.
+/// Integrates f over 0…1 by the tanh-sinh rule (Takahasi and Mori, 1974), which tolerates singular
+/// derivatives at the ends.
 fn quadrature(f: impl Fn(f64) -> f64) -> f64 {
     let step = 1.0 / 64.0;
     let term = |index: i32| {
@@ -70,7 +72,8 @@ fn quadrature(f: impl Fn(f64) -> f64) -> f64 {
     step * (-200..=200).map(term).sum::<f64>()
 }
 
-/// Housner's block from the energy integral, θ̇² = 2p² (cos(α − θ) − cos(α − θ₀)), which shares nothing with the program.
+/// Housner's block from the energy integral, θ̇² = 2p² (cos(α − θ) − cos(α − θ₀)), independent of the
+/// program.
 #[test]
 fn the_quarter_period_of_housners_block() {
     for (thickness, start) in [(0.4, 0.9), (0.4, 0.1), (1.2, 0.5), (0.04, 0.99)] {
@@ -105,7 +108,7 @@ fn figure_2_of_the_paper() {
     assert!((1..10).all(|n| strip.time_ratio(n).unwrap() < strip.time_ratio(n - 1).unwrap()));
     let apart = strip.largest_difference();
     assert!((0.38..0.40).contains(&apart), "{apart}");
-    // out of phase, not of size
+    // they differ in phase, not in size
     assert!(strip.largest_amplitude_difference() < 2e-3, "{}", strip.largest_amplitude_difference());
     assert!(parapet.largest_amplitude_difference() < 2e-4);
 }
@@ -160,7 +163,7 @@ fn free_motion_keeps_its_energy_between_impacts() {
     }
 }
 
-/// θ̈ = −p² (sin(α − θ) + (a_g/g) cos(α − θ)) for θ > 0, with u = ½ (b + D sin(θ − α)) put into it.
+/// θ̈ = −p² (sin(α − θ) + (a_g/g) cos(α − θ)) for θ > 0, with u = ½ (b + D sin(θ − α)) substituted.
 #[test]
 fn a_parapet_obeys_housners_equation() {
     let motion = motion(&full(Mechanism::Parapet), 1e-12);
@@ -229,7 +232,8 @@ fn the_mirror_image_moves_as_the_mirror_image() {
     }
 }
 
-/// The error keeps below the tolerance, and the broken line between samples is of order 2, across impacts too.
+/// The error stays below the tolerance, and the straight lines between samples give order 2, across impacts
+/// too.
 #[test]
 fn forced_motion_follows_its_tolerance_and_the_order_of_its_samples() {
     for mechanism in MECHANISMS {
@@ -256,7 +260,8 @@ fn forced_motion_follows_its_tolerance_and_the_order_of_its_samples() {
 const SCENE: &str = "[geometry]\nkinematics = \"trigonometric\"\n[force_law]\nforce_law = \"rigid_linear\"\n\
                      [damping]\ndamping_model = \"none\"\n[impact]\nimpact = \"restitution\"\n";
 
-/// Under g b/h a block rests; under a strong pulse it overturns, falls, and lies where its side meets the ground.
+/// Under g b/h a block rests; under a strong pulse it overturns, falls, and lies where its side meets the
+/// ground.
 #[test]
 fn a_ricker_pulse_overturns_or_does_not() {
     let run = |amplitude: f64, mechanism: &str| {

@@ -1,4 +1,4 @@
-//! The model description is the one source of variables: what it lists is wired, what is wired it lists.
+//! Tests that every variable of the model description is wired, and that every wired variable is described.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,7 +8,8 @@ use rocking_wall::variables::{BooleanVariable, IntegerVariable, RealVariable};
 
 const XML: &str = "modelDescription/modelDescription.xml";
 
-/// Variants of the enums are named in the matches of these files, which have no `_` arm for what is left over.
+/// Variants of the enums are named in the matches of these files, which have no `_` arm for what is left
+/// over.
 #[test]
 fn every_variable_is_named_where_it_is_wired() {
     let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();
@@ -25,7 +26,7 @@ fn every_variable_is_named_where_it_is_wired() {
     assert!(wiring.contains("BooleanVariable::Overturned =>"));
 }
 
-/// A copy of the library's sources with another description.
+/// Copies the library's sources with another description.
 fn check_with(folder: &Path, xml: &str) -> (bool, String) {
     std::fs::write(folder.join(XML), xml).unwrap();
     let output = Command::new(env!("CARGO"))
@@ -55,7 +56,7 @@ fn workspace_copy() -> PathBuf {
     for part in ["src", "crates", "modelDescription", "xtask", "tests/conformance"] {
         copy(&crate::root().join(part), &folder.join(part));
     }
-    // the manifest names these; empty ones will do
+    // the manifest names these; empty ones suffice
     for file in ["tests/it/main.rs", "tests/allocation.rs", "benches/step.rs", "benches/record.rs"] {
         std::fs::create_dir_all(folder.join(file).parent().unwrap()).unwrap();
         std::fs::write(folder.join(file), "").unwrap();
@@ -73,8 +74,8 @@ fn the_compiler_holds_description_and_code_together() {
     let original = std::fs::read_to_string(crate::root().join(XML)).unwrap();
     let (builds, message) = check_with(&folder, &original);
     assert!(builds, "{message}");
-    // an input, an output, a parameter, a calculated parameter, an enumeration, a Boolean; renamed, so that the
-    // indices of the ModelStructure still hold and only the wiring can object
+    // an input, an output, a parameter, a calculated parameter, an enumeration, a Boolean; renamed, so that
+    // the indices of the ModelStructure still hold and only the wiring can object
     for (name, variant) in [
         ("drift", "Drift"),
         ("u_ratio", "URatio"),

@@ -1,5 +1,5 @@
-//! `cargo xtask bench`: what a step costs, in time and in instructions; with `--peers`, error against run time beside
-//! other tools in the same run.
+//! `cargo xtask bench`: measures the cost of a step in time and in instructions; with `--peers`, error
+//! against run time beside other tools in the same run.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,12 +24,12 @@ const PYTHON: [Peers; 2] = [
     ("peers", "xtask/locks/peers.lock", &[("numba", "numba"), ("scipy", "SciPy")]),
 ];
 
-/// Runs counted instructions are the difference of.
+/// Numbers of runs; the difference of their instructions counts.
 const FEW: u32 = 5;
 const MANY: u32 = 15;
 
-/// Nanoseconds of each path beside a bare oscillator, then the instructions of each by valgrind, which do not depend on the
-/// machine's load.
+/// Measures the time of each path beside a bare oscillator, then counts instructions by valgrind, which do
+/// not depend on the machine's load.
 ///
 /// # Errors
 /// If a benchmark fails.
@@ -63,13 +63,13 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     Ok(())
 }
 
-/// The benchmark's program, from cargo's messages.
+/// Finds the benchmark's program in cargo's messages.
 fn executable(messages: &str) -> Option<String> {
     let marked = messages.lines().filter_map(|line| line.split_once("\"executable\":\"")).next_back()?;
     marked.1.split('"').next().map(str::to_owned)
 }
 
-/// Instructions of so many runs of a path, and the samples in them.
+/// Counts the instructions of `runs` runs of a path, and the samples in them.
 fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
     let file = target().join("callgrind.out");
     let mut valgrind = program("valgrind");
@@ -82,12 +82,13 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
     Ok((total, samples))
 }
 
-/// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own motion.
+/// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
+/// motion.
 ///
 /// Returns the table it prints.
 ///
 /// # Errors
-/// If our own part fails; a peer that cannot be installed or fails is named in the table.
+/// If the Rust part fails. A peer that cannot be installed or fails is named in the table.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     if folder.exists() {
@@ -98,7 +99,7 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     rust.arg(&folder);
     rust.env("CARGO_TARGET_DIR", target().join("peers-build"));
     if let Some(record) = record {
-        // cargo runs in the root: a path is meant from where the user is
+        // cargo runs in the root folder, but the path is relative to the user's folder
         rust.arg(std::path::absolute(record).map_err(|error| format!("{record}: {error}"))?);
     }
     succeed(&mut rust, "see its message above")?;
@@ -127,7 +128,7 @@ fn in_python(name: &str, lock: &str, tools: &[(&str, &str)], folder: &Path) -> R
     succeed(&mut script, "see its message above")
 }
 
-/// The table as a file, the peers that did not run named in it.
+/// Returns the table as a file, with the peers that did not run.
 fn with_missing(mut text: String, missing: &[String]) -> String {
     for line in missing {
         let (tool, reason) = line.split_once(": ").unwrap_or((line, ""));
@@ -208,7 +209,7 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         if let Some((setting, figures)) = good {
             write_row(text, tool, setting, figures, base)?;
         } else {
-            // a tool without any figures says why
+            // a tool without figures states the reason
             let mut of_tool = rows.iter().filter(|row| row.tool == tool);
             let reason = of_tool.clone().all(|row| row.figures.is_none()).then(|| of_tool.next()).flatten();
             writeln!(text, "{tool:<14}{}", reason.map_or("none", |row| row.setting))?;
@@ -220,7 +221,8 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         let (seconds, error) = (figures.seconds, figures.error);
         writeln!(
             text,
-            "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error {error:.1e} u_ins",
+            "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error \
+             {error:.1e} u_ins",
             seconds * 1e3,
             seconds / base.seconds
         )?;
@@ -237,7 +239,7 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
     Ok(())
 }
 
-/// Our exact run; where there is no closed form, the cheapest good one.
+/// Finds rocking-wall's exact run or, without a closed form, its cheapest good one.
 fn own_run(rows: &[&Row<'_>]) -> Option<(String, Figures)> {
     let own = rows.iter().filter(|row| row.tool == OURS);
     let own = own.filter_map(|row| row.figures.map(|figures| (row.setting, figures)));
@@ -251,7 +253,7 @@ fn own_run(rows: &[&Row<'_>]) -> Option<(String, Figures)> {
     exact.or_else(cheapest).map(|(setting, figures)| (format!("{OURS} {setting}"), figures))
 }
 
-/// Whether the time is that of one run by itself, not its share of several.
+/// Tells whether the time is that of a single run, not the share of a batch.
 fn is_single(setting: &str) -> bool {
     !setting.ends_with("at once")
 }
@@ -267,7 +269,7 @@ fn write_row(
     writeln!(text, "{tool:<14}{setting:<26}{milliseconds:>12.3}{:>18.1e}{ratio:>12.2}", figures.error)
 }
 
-/// The values of a column in order of appearance.
+/// Returns the values of a column in order of appearance.
 fn distinct<'a>(rows: &[&Row<'a>], column: impl Fn(&Row<'a>) -> &'a str) -> Vec<&'a str> {
     let mut values = Vec::new();
     for row in rows {

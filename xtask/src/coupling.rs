@@ -1,4 +1,5 @@
-//! `cargo xtask coupling`: coupling error against communication step and run time, with a page; figures of `docs/coupling.md`.
+//! `cargo xtask coupling`: measures coupling error against communication step and run time; writes a page and
+//! the figures of `docs/coupling.md`.
 
 use crate::command::succeed;
 use crate::figures;

@@ -1,4 +1,4 @@
-//! `cargo xtask demo`: the FMU, shaken.
+//! `cargo xtask demo`: builds the FMU and runs it under a ground motion.
 
 use std::path::{Path, PathBuf};
 
@@ -63,7 +63,7 @@ fn run_quietly(command: &mut std::process::Command) -> Result<()> {
     succeed(command.stdout(std::process::Stdio::null()), "see its message above")
 }
 
-/// A number from flat JSON.
+/// Reads a number from flat JSON.
 fn number<'a>(json: &'a str, key: &str) -> &'a str {
     let rest = json.split(&format!("\"{key}\":")).nth(1).unwrap_or("?");
     rest.split([',', '}', '\n']).next().unwrap_or("?").trim()

@@ -1,4 +1,5 @@
-//! `cargo xtask figures`: measures accuracy, stability and the peers, and writes the figures into `docs/accuracy.md`.
+//! `cargo xtask figures`: measures accuracy, stability and the peers, and writes the figures into
+//! `docs/accuracy.md`.
 
 use std::fmt::Write as _;
 
@@ -62,8 +63,8 @@ pub(crate) fn replaced(document: &str, text: &str, mark: &str, figures: &str) ->
     Ok(format!("{before}{begin}{figures}{end}{after}"))
 }
 
-/// Keeps of each scene the run of rocking-wall, `OpenSeesPy` at the record's step, and each tool's cheapest good
-/// setting.
+/// Keeps of each scene the run of rocking-wall, `OpenSeesPy` at the record's step, and each tool's cheapest
+/// good setting.
 fn outlined(table: &str) -> String {
     let mut text = String::new();
     for scene in table.split("\n\n") {
@@ -81,7 +82,8 @@ fn outlined(table: &str) -> String {
     text
 }
 
-/// Makes one row for each scene: the solver that `automatic` selects, Newmark at the record's step and at its finest.
+/// Makes one row for each scene: the solver that `automatic` selects, Newmark at the record's step and at its
+/// finest.
 fn condensed(csv: &str) -> String {
     let mut table = String::from(
         "| scene | solver | time [ms] | error | Newmark: error | time [ms] | fine: error | time [ms] |\n\

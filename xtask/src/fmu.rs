@@ -1,4 +1,4 @@
-//! `cargo xtask fmu`: the library, then the archive.
+//! `cargo xtask fmu`: builds the library, then the archive.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,7 +7,7 @@ use crate::command::{cargo, succeed};
 use crate::python::Environment;
 use crate::{Result, root, target};
 
-/// What links the library.
+/// The linker of the library.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Linker {
     /// The machine's own linker and C library.
@@ -34,11 +34,11 @@ pub(crate) struct Unit {
 pub(crate) const WALL: Unit =
     Unit { package: "rocking-wall", file: "wall.fmu", description: "modelDescription" };
 
-/// The floor that walls couple with.
+/// The floor for coupling with walls.
 pub(crate) const FLOOR: Unit =
     Unit { package: "rocking-floor", file: "floor.fmu", description: "crates/floor/modelDescription" };
 
-/// Every FMU.
+/// All FMUs.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 
 /// Builds an FMU into `fmu_out/` and returns its path.
@@ -52,7 +52,7 @@ pub(crate) fn build(unit: Unit, linker: Linker) -> Result<PathBuf> {
     Ok(output)
 }
 
-/// Builds every FMU and shows where it is.
+/// Builds every FMU and prints its path.
 ///
 /// # Errors
 /// As [`build`].
@@ -105,7 +105,7 @@ fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     Ok(built)
 }
 
-/// Makes the library's bytes independent of the folders it is built in.
+/// Makes the library's bytes independent of the build folders.
 fn reproducible(build: &mut Command) {
     let cargo_home = std::env::var_os("CARGO_HOME")
         .map(PathBuf::from)
@@ -134,7 +134,7 @@ fn pack(unit: Unit, library: &Path, output: &Path) -> Result<()> {
     succeed(&mut pack, "see its message above")
 }
 
-/// FMI's name for this machine.
+/// Returns FMI's name for this machine.
 fn platform() -> &'static str {
     if cfg!(target_os = "windows") {
         "win64"

@@ -1,7 +1,7 @@
 //! The jobs of the project: `cargo xtask fmu | demo | test | bench`.
 //!
-//! No dependencies: this program builds in a second on a fresh machine. The Python packages a job needs it installs
-//! itself under the target folder, pinned by hash.
+//! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
+//! packages that a job needs under the target folder, pinned by hash.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
@@ -25,15 +25,21 @@ The jobs of the project.
 
   cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
                                    --portable: with zig, for Linux machines as old as glibc 2.17
-  cargo xtask demo [RECORD [UNIT]] build the FMU, shake it with the embedded motion and, if given, with a record
-                                   (with its unit, if it states none), write histories and pages to fmu_out/
-  cargo xtask figures [RECORD.AT2] measure accuracy, stability and the peers; write docs/accuracy.md and the pages
-  cargo xtask coupling             measure walls on floors: schemes, steps, run time; write docs/coupling.md and its page
-  cargo xtask test                 every test: Rust, the FMU through FMPy, the C boundary against fmi-sys
-  cargo xtask bench [RECORD.AT2]   ns a sample of each path, and instructions where valgrind is installed
+  cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
+                                   a record (UNIT if the file states none); write histories and pages
+                                   to fmu_out/
+  cargo xtask test                 run every test: Rust, the FMU through FMPy, the C interface against
+                                   fmi-sys
+  cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
+                                   the pages
+  cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
+                                   docs/coupling.md and its page
+  cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
+                                   valgrind is installed
   cargo xtask bench --peers [RECORD.AT2]
-                                   error against run time beside OpenSeesPy, SciPy, numba, diffsol and ode_solvers, under
-                                   the first 30 s of a record or a synthetic motion; fmu_out/peers.csv
+                                   measure error against run time beside OpenSeesPy, SciPy, numba, diffsol
+                                   and ode_solvers, under the first 30 s of a record or a synthetic
+                                   motion; write fmu_out/peers.csv
 ";
 
 fn main() -> ExitCode {
@@ -69,14 +75,14 @@ fn main() -> ExitCode {
     }
 }
 
-/// The root of the workspace.
+/// Returns the root of the workspace.
 pub(crate) fn root() -> PathBuf {
     let mut path = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     path.pop();
     path
 }
 
-/// The target folder, wherever the environment puts it.
+/// Returns the target folder, which the environment may set.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
 }

@@ -11,7 +11,7 @@ pub(crate) struct Environment {
 }
 
 impl Environment {
-    /// The environment of a lock file (relative to the root), made anew when the lock changed.
+    /// Returns the environment of a lock file (relative to the root), made again if the lock has changed.
     ///
     /// # Errors
     /// If Python 3 with venv is missing or a package cannot be installed.
@@ -49,22 +49,22 @@ impl Environment {
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 
-    /// A program of the environment.
+    /// Prepares a program of the environment.
     pub(crate) fn program(&self, name: &str) -> std::process::Command {
         program(self.folder.join("bin").join(name))
     }
 
-    /// The folder of an installed package.
+    /// Returns the folder of an installed package.
     ///
     /// # Errors
-    /// If the package is not there.
+    /// If the package is missing.
     pub(crate) fn package(&self, name: &str) -> Result<PathBuf> {
         let code = format!("import {name}, os; print(list({name}.__path__)[0])");
         let remedy = "remove the target folder's python/ and run the job again";
         output(self.program("python").args(["-c", &code]), remedy).map(|path| PathBuf::from(path.trim()))
     }
 
-    /// The environment's folder of programs.
+    /// Returns the environment's folder of programs.
     pub(crate) fn programs(&self) -> PathBuf {
         self.folder.join("bin")
     }

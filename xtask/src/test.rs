@@ -8,7 +8,7 @@ use crate::fmu::{self, Linker};
 use crate::python::Environment;
 use crate::{Result, root, target};
 
-/// Where real accelerograms are looked for if `ROCKING_WALL_RECORDS` does not say.
+/// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";
 
 /// One part of the tests.
@@ -26,7 +26,8 @@ pub(crate) fn run() -> Result<()> {
         ("the portable FMU", portable),
         ("the C boundary", conformance),
     ];
-    // linking the program takes one core for minutes: by the side of the first parts. Who needs it asks again, and hears of failures
+    // linking the program takes one core for minutes, so it runs beside the first parts; who needs the
+    // program builds it again and gets any error
     let program = std::thread::spawn(|| output(&mut build_of_wall(), "").is_ok());
     let mut lines = Vec::new();
     let (mut passed, mut failed) = (0, 0);
@@ -58,7 +59,7 @@ pub(crate) fn run() -> Result<()> {
     if failed == 0 { Ok(()) } else { Err(format!("{failed} of {} parts failed", passed + failed)) }
 }
 
-/// What the tests leave out on this machine, and the remedy.
+/// Lists what the tests leave out on this machine, and the remedy.
 fn not_run() -> Vec<String> {
     let mut lines = Vec::new();
     if !records().is_dir() {
@@ -74,7 +75,7 @@ fn records() -> PathBuf {
     std::env::var_os("ROCKING_WALL_RECORDS").map_or_else(|| root().join(RECORDS), PathBuf::from)
 }
 
-/// A Chromium with its driver.
+/// Finds a Chromium with its driver.
 fn browser() -> Option<PathBuf> {
     let paths = std::env::var_os("PATH")?;
     let find = |name: &str| {
@@ -98,7 +99,7 @@ fn build_of_wall() -> std::process::Command {
     build
 }
 
-/// The program `wall`, built.
+/// Builds the program `wall` and returns its path.
 pub(crate) fn wall_binary() -> Result<PathBuf> {
     succeed(&mut build_of_wall(), "see the compiler's message above")?;
     Ok(target().join("release").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
@@ -116,7 +117,8 @@ fn python() -> Result<()> {
     succeed(&mut pytest, "see the failures above")
 }
 
-/// Wall and floor in masters from `PyPI`, in an environment of their own: not every platform has all of them.
+/// Tests wall and floor in masters from `PyPI`, in an environment of their own, because not every platform
+/// has all of them.
 fn masters() -> Result<()> {
     let unit = fmu::build(fmu::WALL, Linker::System)?;
     let floor = fmu::build(fmu::FLOOR, Linker::System)?;

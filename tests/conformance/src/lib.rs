@@ -1,4 +1,4 @@
-//! The C boundary of the FMU against independent authorities; see the tests.
+//! Compares the C interface of the FMU with independent sources; see the tests.
 //!
-//! This crate is no default member of the workspace: fmi-sys makes its bindings from the standard's headers and needs
-//! libclang for that, which `cargo xtask test` provides.
+//! This crate is not a default member of the workspace: fmi-sys makes its bindings from the standard's
+//! headers with libclang, which `cargo xtask test` provides.

@@ -1,4 +1,4 @@
-//! The packed FMU, driven from Rust: by the importer `fmi`, and by `libloading` where that has no wrapper.
+//! Drives the packed FMU from Rust: by the importer `fmi`, and by `libloading` where that has no wrapper.
 
 #![allow(unsafe_code, reason = "a library is loaded and called")]
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test")]
@@ -81,7 +81,8 @@ impl Loaded {
 
     /// A function of the standard, by its name with a NUL.
     fn function<T: Copy>(&self, name: &CStr) -> T {
-        // SAFETY: `T` is the standard's type of the function of that name, and `signatures.rs` compares the two.
+        // SAFETY: `T` is the standard's type of the function of that name, and `signatures.rs` compares the
+        // two.
         let symbol = unsafe { self.library.get::<T>(name.to_bytes_with_nul()) };
         *symbol.unwrap_or_else(|error| panic!("{}: {error}", name.to_string_lossy()))
     }
@@ -110,7 +111,7 @@ impl Loaded {
 
 impl Drop for Loaded {
     fn drop(&mut self) {
-        // a folder that stays behind in the temporary folder is no failure
+        // failure to delete the temporary folder does not matter
         let _ = std::fs::remove_dir_all(&self.folder);
     }
 }
@@ -167,7 +168,7 @@ fn two_importers_agree_bit_for_bit() {
     unsafe { free(wall) };
 }
 
-/// Two unknowns by one known, which the crate fmi 0.8 cannot ask for.
+/// Two unknowns by one known, which the crate fmi 0.8 does not support.
 fn directional_derivative(loaded: &Loaded, wall: *mut c_void) {
     let derivative: Directional = loaded.function(c"fmi2GetDirectionalDerivative");
     let unknowns = [reference("u_ddot"), reference("reaction_bottom")];
@@ -183,7 +184,7 @@ fn directional_derivative(loaded: &Loaded, wall: *mut c_void) {
     assert!((found[1] - 720.0).abs() < 1e-12, "{found:?}");
 }
 
-/// A state through bytes and back.
+/// Serialises a state and restores it.
 fn states(loaded: &Loaded, wall: *mut c_void) {
     type Get = unsafe extern "C" fn(standard::fmi2Component, *mut standard::fmi2FMUstate) -> u32;
     type Set = unsafe extern "C" fn(standard::fmi2Component, standard::fmi2FMUstate) -> u32;
@@ -213,7 +214,7 @@ fn states(loaded: &Loaded, wall: *mut c_void) {
     assert!(state.is_null());
 }
 
-/// The function names of the standard, each there.
+/// Every function of the standard is exported.
 #[test]
 fn every_function_can_be_loaded() {
     let loaded = Loaded::new("names");

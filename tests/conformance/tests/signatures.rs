@@ -1,4 +1,5 @@
-//! Every exported function has the type that bindgen reads from the FMI 2.0 headers: this file compiles, or it does not.
+//! Every exported function has the type that bindgen reads from the FMI 2.0 headers. The test is that this
+//! file compiles.
 
 #![allow(unsafe_code, reason = "the boundary is made of unsafe functions")]
 #![allow(missing_docs, reason = "a test")]
@@ -62,7 +63,8 @@ same_type! {
     fmi2GetNominalsOfContinuousStates: fmi2GetNominalsOfContinuousStatesTYPE,
 }
 
-/// `fmi2Instantiate` takes a struct of callbacks, ours and theirs: with ours in its place the type is the same.
+/// `fmi2Instantiate` takes a struct of callbacks. With the layer's struct in place of the standard's, the
+/// type is the same.
 type Instantiate = unsafe extern "C" fn(
     standard::fmi2String,
     standard::fmi2Type,
@@ -88,7 +90,8 @@ const _: standard::fmi2InstantiateTYPE = {
     Some(theirs)
 };
 
-/// `fmi2NewDiscreteStates` fills a struct, ours and theirs: with ours in its place the type is the same.
+/// `fmi2NewDiscreteStates` fills a struct. With the layer's struct in place of the standard's, the type is
+/// the same.
 type NewDiscreteStates =
     unsafe extern "C" fn(standard::fmi2Component, *mut own::EventInfo) -> standard::fmi2Status;
 const _: NewDiscreteStates = exported::fmi2NewDiscreteStates;

@@ -1,4 +1,4 @@
-//! Pulses and harmonics: the record's double integral is the formula's.
+//! Tests pulses and harmonics: the double integral of the record equals that of the formula.
 
 use std::f64::consts::PI;
 
@@ -58,7 +58,8 @@ fn double_integral_is_of_fourth_order() {
 
 #[test]
 fn the_default_step_leaves_rounding_only() {
-    // Relative error (ωΔt)⁴/240 = 4e-13 at 2000 steps a period, and at most 12 000 roundings of 1e-16 in a sum.
+    // Relative error (ωΔt)⁴/240 = 4e-13 at 2000 steps a period, and at most 12 000 roundings of 1e-16 in a
+    // sum.
     let tolerance = 5e-12;
     let [velocity, displacement] = largest_error(&RICKER.motion(Some(8.0)).unwrap(), ricker_motion);
     let rate = PI * RICKER.frequency;
@@ -96,7 +97,8 @@ fn ends_exactly_where_the_motion_does() {
         assert!(motion.step() <= 1e-3 && motion.step() <= 1.0 / (2000.0 * pulse.frequency));
         assert_eq!(motion.at(end * (1.0 + 1e-12)), 0.0);
     }
-    // The harmonic stops at full value: A sin(2π f 7.3 + φ), by the factor 1 + (ωΔt)²/12 of the corrected nodes.
+    // The harmonic stops at full value: A sin(2π f 7.3 + φ), by the factor 1 + (ωΔt)²/12 of the corrected
+    // nodes.
     let last = *HARMONIC.motion(None).unwrap().samples().last().unwrap();
     let exact = 1.2 * (2.0 * PI * 1.1 * 7.3 + 0.4).sin();
     assert!((last / exact - 1.0).abs() < 1e-6 && exact.abs() > 0.1, "{last} {exact}");

@@ -87,7 +87,7 @@ fn takes_the_unit_from_the_text() {
         assert_eq!(record.unit, unit, "{units}");
         assert_eq!(record.motion.samples(), VALUES.map(|a| unit.to_si(a)));
     }
-    // Nothing stated: the user's word counts; contradicting the file is an error.
+    // If the file states nothing, the user's value counts; a value that contradicts the file is an error.
     let gal = ReadOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..ReadOptions::default() };
     for units in ["", "IN UNITS OF COUNTS\n"] {
         let text = format!("{HEADER}{units}NPTS= 6, DT= .005 SEC\n{SAMPLES}");

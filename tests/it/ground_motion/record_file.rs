@@ -1,4 +1,4 @@
-//! Files of any kind: bounds, binary content, what is no file.
+//! Tests files of any kind: size limits, binary content, paths that are not files.
 
 use std::fs::{self, File};
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// Bytes without any order, from the noise of a synthetic record.
+/// Returns random bytes, from the noise of a synthetic record.
 fn noise() -> Vec<u8> {
     let motion = SyntheticMotion::default().motion().expect("the default is valid");
     motion.samples().iter().flat_map(|a| a.to_bits().to_le_bytes()).collect()
@@ -36,7 +36,7 @@ fn reads_a_file() {
     let record = read(&path, &stated()).unwrap();
     assert_eq!(record.motion.samples().len(), 3);
     assert_eq!(record.notes, ["three samples"]);
-    // The format that is stated is the one that is tried.
+    // A stated format is the only one that is tried.
     let error = read(&path, &ReadOptions { format: Some(Format::At2), ..stated() }).unwrap_err().to_string();
     assert!(error.contains("NPTS"), "{error}");
     assert_eq!("CSV".parse::<Format>().unwrap(), Format::Csv);
@@ -65,7 +65,7 @@ fn refuses_noise_at_its_first_byte() {
 
 #[test]
 fn refuses_two_gigabytes_without_reading_them() {
-    // sparse: they take no space, and nobody reads them
+    // sparse files: they take no space and are not read
     for name in ["large.csv", "large.AT2", "large.ASC", "large.EW", "large.V2c", "large.V2", "large.smc"] {
         let path = file(name);
         File::create(&path).unwrap().set_len(2 << 30).unwrap();
@@ -84,7 +84,7 @@ fn refuses_megabytes_of_blanks() {
             let options = ReadOptions { format: Some(format), ..stated() };
             let error = parse("x", bytes.clone(), &options).unwrap_err().to_string();
             assert!(error.starts_with("x, line 1: expected") && error.len() < 300, "{error}");
-            // something behind them, so that nothing trims them away
+            // followed by other text, so that they are not trimmed
             bytes.push(b'1');
             let error = parse("x", bytes, &options).unwrap_err().to_string();
             assert!(error.starts_with("x, line ") && error.len() < 300, "{format:?}: {error}");

@@ -1,4 +1,5 @@
-//! Every format: recognised by its content, read to the digit, and refused with one clear message when damaged.
+//! Every format: recognised by its content, read to the digit, and refused with one clear message when
+//! damaged.
 
 use ground_motion::{
     Format, GroundMotionError, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse, parse_channels,
@@ -26,7 +27,7 @@ fn assert_holds(record: &Record, samples: &[f64]) {
 fn the_content_tells_the_format() {
     for (format, write) in ALL {
         for text in [write(&SAMPLES), write(&SAMPLES).replace('\n', "\r\n"), write(&SAMPLES) + "\u{1a}"] {
-            // A name that says nothing, or another thing.
+            // A file name without an extension, or with another one.
             for name in ["x", "x.txt", if format == Format::Csv { "x.csv" } else { "x.V2" }] {
                 let record = parse(name, text.clone().into_bytes(), &options(format)).unwrap();
                 assert_eq!(record.format, format);
@@ -134,7 +135,7 @@ fn other_units_are_read_where_the_file_states_them() {
         assert_eq!(record.unit, Unit::StandardGravity);
         assert!((record.motion.peak() - 103.25 * STANDARD_GRAVITY).abs() < 1e-9);
     }
-    // Nothing that is a unit: the user's word counts.
+    // The text is not a unit, so the user's value counts.
     let text = specimen::csmip(&SAMPLES).replace("in cm/sec2.", "in counts.");
     assert!(
         read(&text, &ReadOptions::default()).unwrap_err().contains("a unit of acceleration, found `counts`")
@@ -176,7 +177,7 @@ fn a_channel_is_picked_by_number_or_name() {
     );
 }
 
-/// Damage to a file and what the message must say.
+/// Damage to a file, and words that the message must contain.
 #[test]
 fn damage_is_named_with_its_line() {
     use specimen::{at2, cosmos, csmip, esm, knet, smc};
@@ -247,7 +248,8 @@ fn damage_is_named_with_its_line() {
     }
 }
 
-/// One line, with the file, the line where there is one, what was expected and found; short whatever the file holds.
+/// Checks that a message is one short line with the file, the line if there is one, what was expected and
+/// what was found.
 #[track_caller]
 fn assert_clear(error: &str, what: &str) {
     assert_clear_of("x", error, what);
@@ -267,7 +269,7 @@ fn a_file_cut_short_is_refused_wherever_it_is_cut() {
     for (format, write) in ALL {
         let text = write(&SAMPLES);
         let options = ReadOptions { format: Some(format), ..options(format) };
-        // Beyond, only blanks or the closing line are lost.
+        // Cuts beyond this place lose only blanks or the closing line.
         let ends: &[&str] = match format {
             Format::Csmip => &["/&"],
             Format::Cosmos => &["End-of-data"],
@@ -317,7 +319,7 @@ fn hostile_numbers_and_blanks_give_one_clear_message() {
         {
             let forced = ReadOptions { format: Some(format), ..options.clone() };
             assert_clear(&read(&blanks, &forced).unwrap_err(), &format!("{format:?} of blanks"));
-            // Blanks at the end are no matter, however many.
+            // Any number of blanks at the end is accepted.
             assert_holds(&read(&(text.clone() + &blanks), &options).unwrap(), &SAMPLES);
         }
     }
@@ -347,7 +349,7 @@ proptest! {
         }
     }
 
-    /// No panic, no endless loop, and a clear message, whatever happens to a file.
+    /// Damaged files cause no panic and no endless loop, and give a clear message.
     #[test]
     fn survives_damage(
         samples in prop::collection::vec(-900_i32..900, 2..40),
@@ -358,11 +360,13 @@ proptest! {
         for (format, write) in ALL {
             let mut bytes = mutated(&write(&samples), &edits);
             if printable {
-                // Past the check for text, into the readers.
-                bytes.iter_mut().filter(|byte| !matches!(byte, b'\n' | b' '..=b'~')).for_each(|byte| *byte = b'9');
+                // Printable bytes pass the check for text and reach the readers.
+                let shown = |byte: &u8| matches!(byte, b'\n' | b' '..=b'~');
+                bytes.iter_mut().filter(|byte| !shown(byte)).for_each(|byte| *byte = b'9');
             }
             for format in [None, Some(format)] {
-                let options = ReadOptions { format, unit: Some(Unit::CentimetrePerSecondSquared), ..ReadOptions::default() };
+                let unit = Some(Unit::CentimetrePerSecondSquared);
+                let options = ReadOptions { format, unit, ..ReadOptions::default() };
                 if let Err(error) = parse_channels("x", bytes.clone(), &options) {
                     assert_clear(&error.to_string(), "damaged");
                 }
@@ -370,7 +374,7 @@ proptest! {
         }
     }
 
-    /// The same for bytes without any order, read as every format.
+    /// The same for random bytes, read as every format.
     #[test]
     fn survives_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..2000), text in "[ -~\n\t]{0,2000}") {
         for (format, write) in ALL {

@@ -1,6 +1,7 @@
-//! Real records, where there are any: format, count, step, peak and AvgSA as in their index.
+//! Tests real records, if there are any: format, count, step, peak and AvgSA agree with their index.
 //!
-//! They cannot be copied into the project. The folder is the one `ROCKING_WALL_RECORDS` names, or `../shared/records`.
+//! They cannot be copied into the project. The folder is the one `ROCKING_WALL_RECORDS` names, or
+//! `../shared/records`.
 
 use std::env;
 use std::fs;
@@ -77,8 +78,8 @@ fn real_records_match_their_index() {
         let average = Spectrum::default().average(&motion, &AVERAGE_PERIODS).unwrap() / STANDARD_GRAVITY;
         for &column in &averages {
             let stated: f64 = row[column].parse().unwrap();
-            // Six decimals; the index's maxima are taken at samples of at most 5 ms: (ω h)² / 8 = 0.3 % at 0.2 s and a
-            // quarter of that on average at most, pyrotd's to 0.1 %.
+            // Six decimals; the index's maxima are taken at samples of at most 5 ms: (ω h)² / 8 = 0.3 % at
+            // 0.2 s and a quarter of that on average at most, pyrotd's to 0.1 %.
             assert!(
                 (average / stated - 1.0).abs() < 1e-3 + 0.5e-6 / stated,
                 "{name}: AvgSA {average}, {stated} g"

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use ground_motion::{Format, ReadOptions, Unit};
 use proptest::prelude::*;
 
-/// Samples with three decimals and five digits, so that every format holds them to the digit, and without a mean; an odd number, so
-/// that every format has a short last line.
+/// Samples with three decimals and five digits, so that every format holds them to the digit, and without a
+/// mean; an odd number, so that every format has a short last line.
 pub(crate) const SAMPLES: [f64; 11] =
     [0.125, -1.5, 22.75, -103.25, 87.5, -0.001, 44.25, -60.5, 12.0, -1.25, -0.124];
 
@@ -45,7 +45,8 @@ fn peak(samples: &[f64]) -> f64 {
 
 pub(crate) fn at2(samples: &[f64]) -> String {
     format!(
-        "PEER DATABASE, A TEST\nNowhere, 1/1/2001, Test hill, 90\nACCELERATION TIME SERIES IN UNITS OF CM/S2\n\
+        "PEER DATABASE, A TEST\nNowhere, 1/1/2001, Test hill, 90\n\
+         ACCELERATION TIME SERIES IN UNITS OF CM/S2\n\
          NPTS=  {:5}, DT=   .0100 SEC,\n{}",
         samples.len(),
         columns(samples, 5, |a| format!("{a:15.6E}"))
@@ -110,7 +111,8 @@ pub(crate) fn cosmos(samples: &[f64]) -> String {
          100 Integer-header values follow on  10 lines, Format= (10I8)\n{} \
          100 Real-header values follow on  20 lines, Format= (5F15.6)\n{}   \
          1 Comment line(s) follow, each starting with a \"|\":\n| 7 pts, Format=(1F2) is but a comment\n{:8} \
-         acceleration pts, approx {:4.0} secs, units=cm/sec2(04),Format=(8F10.3)\n{}End-of-data for Chan 2 acceleration\n",
+         acceleration pts, approx {:4.0} secs, units=cm/sec2(04),Format=(8F10.3)\n{}\
+         End-of-data for Chan 2 acceleration\n",
         columns(&[-999.0; 100], 10, |value| format!("{value:8.0}")),
         columns(&reals, 5, |value| format!("{value:15.6}")),
         samples.len(),

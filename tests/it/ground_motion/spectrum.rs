@@ -9,7 +9,8 @@ fn everywhere(damping: f64) -> Spectrum {
     Spectrum::new(damping, Peaks::Everywhere).unwrap()
 }
 
-/// A constant acceleration a answers with a (1 + exp(−π ξ / √(1 − ξ²))) after half a period, between the samples.
+/// A constant acceleration a answers with a (1 + exp(−π ξ / √(1 − ξ²))) after half a period, between the
+/// samples.
 #[test]
 fn a_step_overshoots_as_in_the_textbooks() {
     for (damping, period, step) in
@@ -24,8 +25,8 @@ fn a_step_overshoots_as_in_the_textbooks() {
     }
 }
 
-/// A triangle of height a and duration 2 d is a box of duration d passed twice: without damping the free vibration after it
-/// has the amplitude Sa = a ω d (sin(ω d / 2) / (ω d / 2))².
+/// A triangle of height a and duration 2 d is a box of duration d passed twice: without damping the free
+/// vibration after it has the amplitude Sa = a ω d (sin(ω d / 2) / (ω d / 2))².
 #[test]
 fn the_free_vibration_after_the_end_counts() {
     for (half, period) in [(0.1, 1.0), (0.1, 0.9), (0.05, 2.0)] {
@@ -43,7 +44,8 @@ fn the_free_vibration_after_the_end_counts() {
     }
 }
 
-/// Linear interpolation does not change the motion, so the true maximum stays and those at samples grow towards it.
+/// Linear interpolation does not change the motion, so the true maximum stays and those at samples grow
+/// towards it.
 #[test]
 fn refinement_changes_nothing_but_sampled_maxima() {
     let motion = SyntheticMotion::default().motion().unwrap();
@@ -64,7 +66,8 @@ fn refinement_changes_nothing_but_sampled_maxima() {
         assert!((again / truth - 1.0).abs() < 1e-9, "T = {period} s: {truth}, refined {again}");
         for (motion, sampled) in [(&motion, &sampled), (&fine, &sampled)] {
             let found = sampled.acceleration(motion, period).unwrap();
-            // Near its maximum the displacement turns no faster than that of an oscillator and a ground of twice Sa.
+            // Near its maximum the displacement turns no faster than that of an oscillator and a ground of
+            // twice Sa.
             let missed = 3.0 * (omega * motion.step()).powi(2) / 8.0;
             assert!(
                 found <= truth * (1.0 + 1e-12) && found >= truth * (1.0 - missed),
@@ -79,7 +82,8 @@ fn a_stiff_oscillator_follows_the_ground_and_a_soft_one_stays() {
     let motion = SyntheticMotion::default().motion().unwrap();
     let spectrum = Spectrum::default();
     assert_eq!(spectrum.acceleration(&motion, 0.0).unwrap(), motion.peak());
-    // The static answer, and the inertia of a ground that bends once a sample, (T / 2π)² a'' with a'' up to 4 a / step².
+    // The static answer, and the inertia of a ground that bends once a sample, (T / 2π)² a'' with a'' up to 4
+    // a / step².
     let stiff = spectrum.acceleration(&motion, 0.001).unwrap();
     assert!((stiff / motion.peak() - 1.0).abs() < 0.02, "{stiff}, {}", motion.peak());
     assert!(spectrum.acceleration(&motion, 100.0).unwrap() < 0.01 * motion.peak());

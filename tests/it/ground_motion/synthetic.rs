@@ -47,8 +47,8 @@ fn has_the_stated_length_and_peak() {
 
 #[test]
 fn ends_at_rest_where_it_began() {
-    // The high-pass filter rings down for 0.2 of 30 s by exp(−ζ ω 6 s) = 0.0045; before that it is no further out than
-    // its peak.
+    // The high-pass filter rings down for 0.2 of 30 s by exp(−ζ ω 6 s) = 0.0045; before that it is no further
+    // out than its peak.
     for seed in 0..20 {
         let motion = SyntheticMotion { seed, ..SyntheticMotion::default() }.motion().unwrap();
         let history = integrated(&motion, [0.0, 0.0]);

@@ -1,10 +1,12 @@
 //! The crate `ode_solvers`: Dormand–Prince of order 5 and 8.
 //!
-//! It has no event handling, so the force's corners are left to its step control. A run is made in one go with dense output
-//! at the samples, and once more restarted at each sample, where the slope of the forcing jumps.
+//! It has no event handling, so the force's corners are left to its step control. A run is made in one go
+//! with dense output at the samples, and once more restarted at each sample, where the slope of the forcing
+//! jumps.
 //!
-//! Time is the third state: version 0.6.2 evaluates the twelfth stage of its order 8 at the start of the step (c₁₂ = 0, not
-//! 1), which leaves order 1 of a forced motion, while a system that does not name the time keeps its order.
+//! Time is the third state: version 0.6.2 evaluates the twelfth stage of its order 8 at the start of the step
+//! (c₁₂ = 0, not 1), which leaves order 1 of a forced motion, while a system that does not name the time
+//! keeps its order.
 
 use ode_solvers::{Dop853, Dopri5, OutputType, System, Vector3};
 
@@ -12,10 +14,10 @@ use crate::measure::Rows;
 use crate::problem::{Equation, Problem};
 
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
-/// Defaults of the crate, but for the numbers of steps.
+/// Defaults of the crate, except the numbers of steps.
 const SAFETY: f64 = 0.9;
 const MOST_STEPS: u32 = 20_000_000;
-/// Never: its test gives up on walls it can solve.
+/// The stiffness test is off: it rejects walls that the method can solve.
 const STIFFNESS_TEST: u32 = u32::MAX;
 
 struct Rocking<'a>(&'a Equation);
@@ -30,7 +32,10 @@ impl System<f64, Vector3<f64>> for Rocking<'_> {
 
 /// Names a method of the crate: both have the same constructor, but no common trait.
 macro_rules! integrate {
-    ($method:ident, $beta:expr, $factors:expr, $equation:expr, $span:expr, $state:expr, $tolerance:expr, $output:expr) => {{
+    (
+        $method:ident, $beta:expr, $factors:expr, $equation:expr, $span:expr, $state:expr, $tolerance:expr,
+        $output:expr
+    ) => {{
         let ([from, to], absolute) = ($span, $tolerance * $equation.u_ins);
         let mut stepper = $method::from_param(
             Rocking($equation),

@@ -1,5 +1,5 @@
-//! Times the wall's solvers and those of other Rust crates on the same problems, and writes the problems for tools outside
-//! Rust: `rocking-wall-peers FOLDER [RECORD.AT2]`. `cargo xtask bench --peers` runs it.
+//! Times the wall's solvers and those of other Rust crates on the same problems, and writes the problems for
+//! tools outside Rust: `rocking-wall-peers FOLDER [RECORD.AT2]`. `cargo xtask bench --peers` runs it.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
@@ -51,11 +51,11 @@ fn compare(folder: &Path, record: Option<&Path>) -> Result<(), String> {
     std::fs::write(&path, rows.text()).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// A motion of the project's own recipe under which every wall rocks beyond a third of `u_ins`, none overturns, and a change
-/// of the input grows no more than a thousandfold: with many others a comparison measures chance.
+/// A synthetic motion under which every wall rocks beyond a third of `u_ins`, none overturns, and a change of
+/// the input grows at most a thousandfold. Under many other motions a comparison would measure chance.
 const SYNTHETIC: SyntheticMotion = SyntheticMotion { seed: 11, duration: 30.0, step: 0.005, peak: 3.2 };
 
-/// The first half minute of a record, or a motion of the project's own.
+/// Returns the first 30 s of a record, or a synthetic motion.
 fn motion(record: Option<&Path>) -> Result<GroundMotion, String> {
     let motion = match record {
         Some(path) => read(path, &ReadOptions::default()).map(|record| record.motion),

@@ -8,7 +8,7 @@ use crate::problem::Problem;
 
 /// Runs after the warm-up: at least so many and for [`SHORTEST`], unless that takes longer than [`PATIENCE`].
 const RUNS: usize = 25;
-/// A machine is disturbed for milliseconds now and then.
+/// Disturbances of the machine last milliseconds.
 const SHORTEST: Duration = Duration::from_millis(100);
 const FEWEST_RUNS: usize = 3;
 const PATIENCE: Duration = Duration::from_millis(800);
@@ -25,7 +25,8 @@ impl Rows {
         &self.0
     }
 
-    /// Times `run`, which writes the displacement at each sample, and adds a row; a run that fails is named in it.
+    /// Times `run`, which writes the displacement at each sample, and adds a row; a run that fails is named
+    /// in it.
     pub(crate) fn measure(
         &mut self,
         problem: &Problem,
@@ -39,8 +40,8 @@ impl Rows {
         self.measure_many(problem, tool, setting, 1, |history| run.borrow_mut()(history), timed);
     }
 
-    /// As [`Rows::measure`], where `timed`, which makes `count` runs at once and records nothing, is timed in the place of `run`; the
-    /// row has the time of one.
+    /// Like [`Rows::measure`], but times `timed`, which computes `count` runs together and records nothing.
+    /// The row has the time of one run.
     pub(crate) fn measure_many(
         &mut self,
         problem: &Problem,

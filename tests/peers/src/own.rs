@@ -1,4 +1,5 @@
-//! The project's own solvers, over the record in one go, several runs at once, and step by step as a co-simulation does.
+//! The project's own solvers: over the whole record, several runs together, and step by step as in
+//! co-simulation.
 
 use rocking_wall::solver::record::{RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion};
@@ -12,8 +13,8 @@ const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const SUBSTEPS: [u32; 4] = [1, 4, 16, 64];
 /// Runs at once: the scene itself, then others with factors down to 0.65.
 const BATCH: usize = 64;
-/// Largest distance over `u_ins` at the end between a run of a batch and one by itself \[-\]: their roundings differ, and walls amplify
-/// them up to 1e5 times here.
+/// Largest distance over `u_ins` at the end between a run of a batch and one by itself \[-\]: their roundings
+/// differ, and walls amplify them up to 1e5 times here.
 const AGREEMENT: f64 = 1e-9;
 
 pub(crate) fn measure(problem: &Problem, rows: &mut Rows) {
@@ -42,8 +43,8 @@ fn both_ways(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Par
     by_step(problem, rows, &format!("{setting} by step"), parameters);
 }
 
-/// A run, or so many at once, of which the first is the scene: the time is that of one, with nothing recorded. The history is that
-/// of the scene by itself; a batch is to agree with it.
+/// Measures one run, or several together, of which the first is the scene. The time is that of one run, with
+/// nothing recorded. The history is that of the scene alone; a batch must agree with it.
 fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &Parameters, count: usize) {
     let motion = Wall::new(parameters).and_then(|wall| {
         let method = Method::new(parameters, &wall, parameters.tolerance)?;

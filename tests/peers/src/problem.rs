@@ -37,7 +37,7 @@ pub(crate) struct Problem {
     pub(crate) reference: Vec<f64>,
 }
 
-/// ü = −λ `a_g` − c(u) u̇ − F(u)/`m_eff`, written out for tools that know nothing of walls.
+/// ü = −λ `a_g` − c(u) u̇ − F(u)/`m_eff`, written out for tools without a model of walls.
 pub(crate) struct Equation {
     pub(crate) u_ins: f64,
     pub(crate) step: f64,
@@ -75,7 +75,7 @@ impl Problem {
     /// Walls 2, 5 and 6, each with CDC and CDR and the predicted ξ.
     ///
     /// # Errors
-    /// If a wall cannot be followed, or overturns: errors mean nothing then.
+    /// If a wall cannot be followed, or overturns, in which case errors are meaningless.
     pub(crate) fn all(motion: &GroundMotion) -> Result<Vec<Self>, String> {
         let models = [("CDC", DampingModel::ConstantCoefficient), ("CDR", DampingModel::ConstantRatio)];
         let pairs = PARAPETS.iter().flat_map(|parapet| models.map(|model| (parapet, model)));

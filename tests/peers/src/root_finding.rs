@@ -1,6 +1,7 @@
 //! The crate `diffsol`: Tsitouras 5(4), TR-BDF2 and BDF, with its root finding at the force's corners.
 //!
-//! The right-hand side keeps to the line it is on until a root ends it, as the crate's manual has it: each step is smooth.
+//! The right-hand side stays on its line until a root ends it, as the crate's manual recommends, so that each
+//! step is smooth.
 
 use std::cell::Cell;
 
@@ -43,7 +44,7 @@ pub(crate) fn measure(problem: &Problem, rows: &mut Rows) {
         for tolerance in TOLERANCES {
             for (words, stops) in [("", Stops::None), (" by sample", Stops::Samples)] {
                 if stops == Stops::Samples && !matches!(method, Method::Tsit45) {
-                    // an implicit method gains nothing from it: it keeps its own steps
+                    // an implicit method does not benefit from it and keeps its own steps
                     continue;
                 }
                 let setting = format!("{name} {tolerance:.0e}{words}");
@@ -153,7 +154,8 @@ where
     Err(format!("gave up after {MOST_STEPS} steps"))
 }
 
-/// Goes over to the neighbouring line and puts the state a rounding inside it, where its own root function has a sign.
+/// Changes to the neighbouring line and moves the state by one rounding into it, where its root function has
+/// a sign.
 fn cross<'a, Eqn, S>(solver: &mut S, equation: &Equation, line: &Cell<usize>, side: usize)
 where
     Eqn: OdeEquations<T = f64> + 'a,
