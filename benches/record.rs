@@ -10,9 +10,9 @@ use std::time::Instant;
 use ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::record::{RecordSolver, Samples, Start};
-use rocking_wall::solver::{Method, Motion, Segment};
+use rocking_wall::solver::{Motion, Segment};
 use rocking_wall::variables::DampingModel;
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::wall::{Parameters, Support};
 
 const RUNS: usize = 200;
 /// Runs of one batch.
@@ -59,10 +59,8 @@ fn wall(
 ) {
     let parameters =
         Parameters { height, thickness, a1, damping_model: model, u_start: 0.0, ..Parameters::default() };
-    let wall = Wall::new(&parameters).expect("a valid wall");
-    let participation = wall.body().forcing(Support::rigid(1.0));
-    let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
-    let motion = Motion::new(wall, method);
+    let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
+    let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let samples = record.samples();
     let count = samples.len() - 1;
     let solver = RecordSolver::new(&motion, record.step());
@@ -137,10 +135,8 @@ fn count(path: &str, runs: u32) -> u64 {
         u_start: 0.0,
         ..Parameters::default()
     };
-    let wall = Wall::new(&parameters).expect("a valid wall");
-    let participation = wall.body().forcing(Support::rigid(1.0));
-    let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
-    let motion = Motion::new(wall, method);
+    let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
+    let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let solver = RecordSolver::new(&motion, record.step());
     let state = motion.start(0.0, 0.0, Support::default());
     let start = |factor: f64| Start { state, factor: factor * participation };

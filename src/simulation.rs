@@ -7,5 +7,5 @@ mod stepping;
 
 pub use events::Handled;
 pub use excitation::{Excitation, segment_of};
-pub use outputs::{Outputs, Sensitivity};
+pub use outputs::Outputs;
 pub use stepping::{Progress, RunError, Simulation, Step};

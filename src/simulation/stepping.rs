@@ -86,10 +86,8 @@ impl Simulation {
         time: f64,
         support: Support,
     ) -> Result<Self, ParameterError> {
-        let wall = Wall::new(parameters)?;
         let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
-        let method = Method::new(parameters, &wall, tolerance)?;
-        let motion = Motion::new(wall, method);
+        let motion = Motion::of(parameters, tolerance)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
         let drift = support.drift != 0.0;

@@ -5,7 +5,7 @@
 
 use super::motion::Motion;
 use super::state::{Phase, State};
-use super::transition::{self, Arrival, Event, Rebound};
+use super::transition::{self, Event, Rebound};
 
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
@@ -63,10 +63,9 @@ impl Motion {
                 Phase::Moving => match self.left(state) {
                     None => break,
                     Some(upwards) => {
-                        let corner = state.branch + usize::from(upwards);
-                        let arrival = Arrival { corner, upwards, forcing: [forcing, 0.0] };
+                        let corner = (state.branch + usize::from(upwards), upwards);
                         let rebound = |state: &State| self.late_rebound(state, forcing);
-                        event.add(transition::pass(self, state, arrival, rebound));
+                        event.add(transition::pass(self, state, corner, [forcing, 0.0], rebound));
                     }
                 },
             }
@@ -84,13 +83,8 @@ impl Motion {
             let over = (state.displacement - corner) * direction;
             over > margin || (over >= 0.0 && state.velocity * direction > 0.0)
         };
-        if beyond(state.branch + 1, 1.0) {
-            Some(true)
-        } else if beyond(state.branch, -1.0) {
-            Some(false)
-        } else {
-            None
-        }
+        let upwards = beyond(state.branch + 1, 1.0);
+        (upwards || beyond(state.branch, -1.0)).then_some(upwards)
     }
 
     /// The motion after an impact, met a margin or more beyond u = 0. A rigid wall rests once its bounces are too low to follow.

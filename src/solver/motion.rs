@@ -54,6 +54,17 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// The motion of the wall that the parameters describe, by the method they ask for; `tolerance` is theirs or a
+    /// tighter one.
+    ///
+    /// # Errors
+    /// [`ParameterError`], of [`Wall::new`] or [`Method::new`].
+    pub fn of(parameters: &Parameters, tolerance: f64) -> Result<Self, ParameterError> {
+        let wall = Wall::new(parameters)?;
+        let method = Method::new(parameters, &wall, tolerance)?;
+        Ok(Self::new(wall, method))
+    }
+
     /// Prepares the motion of a wall.
     ///
     /// # Panics

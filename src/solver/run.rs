@@ -7,7 +7,7 @@ use super::exact::{ClosedForm, Memo, Quiet};
 use super::motion::{Method, Motion, is_constant};
 use super::newmark;
 use super::state::{Phase, Report, Segment, SolverError, State};
-use super::transition::{self, Arrival, Rebound};
+use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
 
 /// Impacts in one segment, after which a wall that could rest is put to rest.
@@ -45,9 +45,9 @@ impl Motion {
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
         let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
-        let watch =
+        let mut run = Run::new(self, *state, segment.duration, [from, to], integral, memo);
+        run.watch =
             watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
-        let run = Run::new(self, *state, segment.duration, [from, to], integral, memo).watched(watch);
         let (end, report) = run.finish()?;
         *state = end;
         Ok(report)
@@ -65,8 +65,8 @@ pub(super) struct Run<'a> {
     rate: f64,
     integral: bool,
     memo: &'a mut Memo,
-    /// The end of the first piece, where it is known.
-    first_end: Option<Kinematics>,
+    /// The motion at the end of the segment if nothing happens before, where it is known.
+    pub(super) first_end: Option<Kinematics>,
     watch: Option<Watch<'a>>,
     report: Report,
 }
@@ -95,18 +95,6 @@ impl<'a> Run<'a> {
             watch: None,
             report: Report::default(),
         }
-    }
-
-    /// The same, the motion at the end of the segment being known if nothing happens before.
-    pub(super) fn ending_at(mut self, end: Option<Kinematics>) -> Self {
-        self.first_end = end;
-        self
-    }
-
-    /// The same, with its demands collected.
-    pub(super) fn watched(mut self, watch: Option<Watch<'a>>) -> Self {
-        self.watch = watch;
-        self
     }
 
     /// Moves to the end of the segment.
@@ -283,11 +271,12 @@ impl<'a> Run<'a> {
         let too_many = self.report.work.impacts + 1 >= MOST_IMPACTS
             && motion.wall.is_rigid()
             && (lowest..=highest).contains(&forcing);
-        let arrival = Arrival { corner, upwards, forcing: [forcing, self.rate] };
-        let event = transition::pass(motion, &mut self.state, arrival, |state| {
+        let rebound = |state: &State| {
             let velocity = state.velocity * motion.wall.passage_factor();
             Rebound { velocity, rests: too_many || velocity.abs() < motion.rest_speed }
-        });
+        };
+        let forcing = [forcing, self.rate];
+        let event = transition::pass(motion, &mut self.state, (corner, upwards), forcing, rebound);
         self.report.work.add(event.work);
         self.report.stilled |= too_many && event.work.impacts > 0;
         if event.overturned {

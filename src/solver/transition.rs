@@ -74,17 +74,6 @@ impl Motion {
     }
 }
 
-/// A corner reached.
-#[derive(Clone, Copy)]
-pub(super) struct Arrival {
-    /// Index of the corner.
-    pub(super) corner: usize,
-    /// Whether u grows there.
-    pub(super) upwards: bool,
-    /// Forcing p there \[m/s²\] and its rate \[m/s³\].
-    pub(super) forcing: [f64; 2],
-}
-
 /// The motion after an impact at u = 0.
 #[derive(Clone, Copy)]
 pub(super) struct Rebound {
@@ -100,15 +89,16 @@ pub(super) fn branch_beyond(corner: usize, upwards: bool) -> usize {
     if upwards { corner } else { corner - 1 }
 }
 
-/// Takes `state` through the corner it has reached. `rebound` tells what an impact there makes of the motion.
+/// Takes `state` through the corner it has reached, upwards or downwards, under the forcing p and its rate
+/// \[m/s², m/s³\]. `rebound` tells what an impact there makes of the motion.
 pub(super) fn pass(
     motion: &Motion,
     state: &mut State,
-    arrival: Arrival,
+    (corner, upwards): (usize, bool),
+    forcing: [f64; 2],
     rebound: impl FnOnce(&State) -> Rebound,
 ) -> Event {
-    let Arrival { corner: index, upwards, forcing } = arrival;
-    let Corner { displacement, passage, overturning, departure, landing } = motion.wall.corners()[index];
+    let Corner { displacement, passage, overturning, departure, landing } = motion.wall.corners()[corner];
     let outwards = upwards == (displacement > 0.0);
     let mut event = Event {
         overturned: overturning && outwards && !state.overturned,
@@ -123,7 +113,7 @@ pub(super) fn pass(
         event.stopped = true;
         return event;
     }
-    state.branch = branch_beyond(index, upwards);
+    state.branch = branch_beyond(corner, upwards);
     if passage {
         let before = state.velocity;
         let rebound = rebound(state);

@@ -9,7 +9,7 @@ use fmi2_export::{
 };
 
 use crate::scene::Scene;
-use crate::simulation::Sensitivity;
+use crate::simulation::Outputs;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
 };
@@ -121,11 +121,14 @@ impl Model for Unit {
     }
 
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
-        let support_rate = self.inputs.rate(|input| input.last_rate);
-        let rates = || self.simulation.rates(self.support(), support_rate);
+        let Outputs { velocity, acceleration, .. } = self.outputs();
+        let rates = || {
+            let support_rate = self.inputs.rate(|input| input.last_rate);
+            self.simulation.derivative(self.support(), [velocity, acceleration], support_rate)
+        };
         match variable {
-            RealVariable::U => Some(self.outputs().velocity),
-            RealVariable::UDot => Some(self.outputs().acceleration),
+            RealVariable::U => Some(velocity),
+            RealVariable::UDot => Some(acceleration),
             RealVariable::UDdot => Some(rates().acceleration),
             RealVariable::ReactionBottom => Some(rates().reactions.bottom),
             RealVariable::ReactionTop => Some(rates().reactions.top),
@@ -135,27 +138,25 @@ impl Model for Unit {
 
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
         use RealVariable as V;
-        let ratio = 1.0 / self.wall().body().instability.of(self.outputs().displacement);
-        let support = |bottom, top, drift| self.simulation.by_support(Support { bottom, top, drift });
-        let (by_u, by_velocity, along) = match known {
-            V::U => (1.0, 0.0, self.simulation.by_displacement(self.support())),
-            V::UDot => (0.0, 1.0, self.simulation.by_velocity()),
-            V::AG => (0.0, 0.0, support(1.0, 1.0, 0.0)),
-            V::ABottom => (0.0, 0.0, support(1.0, 0.0, 0.0)),
-            V::ATop => (0.0, 0.0, support(0.0, 1.0, 0.0)),
-            V::Drift => (0.0, 0.0, support(0.0, 0.0, 1.0)),
+        let (motion, [bottom, top, drift]) = match known {
+            V::U => ([1.0, 0.0], [0.0; 3]),
+            V::UDot => ([0.0, 1.0], [0.0; 3]),
+            V::AG => ([0.0; 2], [1.0, 1.0, 0.0]),
+            V::ABottom => ([0.0; 2], [1.0, 0.0, 0.0]),
+            V::ATop => ([0.0; 2], [0.0, 1.0, 0.0]),
+            V::Drift => ([0.0; 2], [0.0, 0.0, 1.0]),
             _ => return None,
         };
-        let Sensitivity { acceleration, restoring_force, damping_force, reactions } = along;
+        let along = self.simulation.derivative(self.support(), motion, Support { bottom, top, drift });
         match unknown {
-            V::U => Some(by_u),
-            V::UDot => Some(by_velocity),
-            V::UDdot => Some(acceleration),
-            V::URatio => Some(by_u * ratio),
-            V::RestoringForce => Some(restoring_force),
-            V::DampingForce => Some(damping_force),
-            V::ReactionBottom => Some(reactions.bottom),
-            V::ReactionTop => Some(reactions.top),
+            V::U => Some(along.displacement),
+            V::UDot => Some(along.velocity),
+            V::UDdot => Some(along.acceleration),
+            V::URatio => Some(along.ratio),
+            V::RestoringForce => Some(along.restoring_force),
+            V::DampingForce => Some(along.damping_force),
+            V::ReactionBottom => Some(along.reactions.bottom),
+            V::ReactionTop => Some(along.reactions.top),
             // memories of the past: not functions of the present state and inputs
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
             _ => None,

@@ -21,9 +21,9 @@ use fmi2_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
 use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
-use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError};
+use rocking_wall::solver::{Memo, Motion, Segment, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::wall::{Parameters, Support};
 
 use super::free_motion::has_peaked;
 use super::parallel;
@@ -195,10 +195,12 @@ struct Prepared {
 impl Prepared {
     fn new(parameters: &Parameters) -> Result<Self, SpectrumError> {
         let Parameters { height, thickness, .. } = *parameters;
-        let failed = |source| SpectrumError::Wall { height, thickness, source };
-        let wall = Wall::new(parameters).map_err(failed)?;
-        let method = Method::new(parameters, &wall, parameters.tolerance).map_err(failed)?;
-        Ok(Self { height, thickness, motion: Motion::new(wall, method) })
+        let motion = Motion::of(parameters, parameters.tolerance).map_err(|source| SpectrumError::Wall {
+            height,
+            thickness,
+            source,
+        })?;
+        Ok(Self { height, thickness, motion })
     }
 
     /// λ, by which the ground acceleration enters.

@@ -140,8 +140,9 @@ impl<'a, F: Forcing> Lane<'a, F> {
         let (motion, step) = (self.solver.motion, self.solver.step);
         let start = self.now;
         [self.state.displacement, self.state.velocity] = start;
-        let run = Run::new(motion, self.state, step, p, false, &mut self.memo);
-        let (state, report) = run.ending_at(known_end).finish()?;
+        let mut run = Run::new(motion, self.state, step, p, false, &mut self.memo);
+        run.first_end = known_end;
+        let (state, report) = run.finish()?;
         let Report { overturning, work, stilled, .. } = report;
         self.state = state;
         self.work.add(work);

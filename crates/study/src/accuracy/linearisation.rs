@@ -3,11 +3,11 @@
 //! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full ones, so that
 //! both start at the same θ₀/α of Eq. (5).
 
-use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError, State};
+use rocking_wall::solver::{Memo, Motion, Segment, SolverError, State};
 use rocking_wall::variables::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Solver,
 };
-use rocking_wall::wall::{Kinematics, Parameters, Support, Wall, equivalence};
+use rocking_wall::wall::{Kinematics, Parameters, Support, equivalence};
 
 use super::AccuracyError;
 
@@ -215,9 +215,7 @@ impl Release {
             u_dot_start: 0.0,
             ..parameters.clone()
         };
-        let wall = Wall::new(&rigid)?;
-        let method = Method::new(&rigid, &wall, TOLERANCE)?;
-        Ok(Self { motion: Motion::new(wall, method) })
+        Ok(Self { motion: Motion::of(&rigid, TOLERANCE)? })
     }
 
     /// The displacement at a fraction of the unstable equilibrium \[m\].

@@ -1,8 +1,8 @@
 //! A free vibration, and how far two of them are apart.
 
 use rocking_wall::solver::record::{RecordSolver, Start, Still};
-use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError, State};
-use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
+use rocking_wall::solver::{Memo, Motion, Segment, SolverError, State};
+use rocking_wall::wall::{ParameterError, Parameters, Support};
 
 /// The decay has ended when |u| stays below this part of `u_ins`.
 pub(super) const DECAYED: f64 = 1e-3;
@@ -20,9 +20,7 @@ pub(super) struct Decay {
 
 impl Decay {
     pub(super) fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        let wall = Wall::new(parameters)?;
-        let method = Method::new(parameters, &wall, parameters.tolerance)?;
-        let motion = Motion::new(wall, method);
+        let motion = Motion::of(parameters, parameters.tolerance)?;
         let state = motion.start_under(parameters.u_start, parameters.u_dot_start, 0.0);
         Ok(Self { motion, state, memo: Memo::default() })
     }

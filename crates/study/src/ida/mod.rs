@@ -13,7 +13,7 @@ use crate::free_motion::has_peaked;
 use crate::parallel;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::solver::record::{Batch, Passage, RecordSolver, Samples, Start, Still};
-use rocking_wall::solver::{Method, Motion, SolverError, State};
+use rocking_wall::solver::{Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
 
 pub use curve::{Curve, Level, Occurrence};
@@ -261,9 +261,7 @@ fn motion(wall: &NamedWall, model: &Model) -> Result<Motion, IdaError> {
         source: Box::new(source),
     };
     let parameters = model.applied_to(&wall.parameters).map_err(fail)?;
-    let built = Wall::new(&parameters).map_err(fail)?;
-    let method = Method::new(&parameters, &built, parameters.tolerance).map_err(fail)?;
-    Ok(Motion::new(built, method))
+    Motion::of(&parameters, parameters.tolerance).map_err(fail)
 }
 
 /// Runs of one wall under one record.

@@ -9,7 +9,7 @@ pub use extreme::{Extreme, extremes};
 
 use rocking_wall::solver::{Memo, Method, Motion, Segment, SolverError, State};
 use rocking_wall::variables::{DampingModel, DampingSource, Solver};
-use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
+use rocking_wall::wall::{ParameterError, Parameters, Support};
 
 /// Growth of the energy from one step to the next, over the energy at the start, that counts as none: the adaptive solver's
 /// tolerance of 1e-8 on u allows ten times as much on the energy.
@@ -132,13 +132,13 @@ fn cell(
         newmark_step: step,
         ..Parameters::default()
     };
-    let wall = Wall::new(&parameters)?;
+    let motion = Motion::of(&parameters, parameters.tolerance)?;
+    let wall = motion.wall().clone();
     let tightest =
         if wall.has_constant_damping() { Method::Exact } else { Method::Adaptive { tolerance: 1e-13 } };
-    let method = Method::new(&parameters, &wall, parameters.tolerance)?;
     let start = RELEASE * wall.body().instability.positive;
-    let mut reference = FreeMotion::new(Motion::new(wall.clone(), tightest), start);
-    let mut tried = FreeMotion::new(Motion::new(wall, method), start);
+    let mut reference = FreeMotion::new(Motion::new(wall, tightest), start);
+    let mut tried = FreeMotion::new(motion, start);
     let mut cell = Cell { stable: true, error: 0.0, growth: 0.0 };
     let scale = tried.motion.wall().displacement_scale();
     for _ in 0..INSTANTS {
