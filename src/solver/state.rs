@@ -2,7 +2,7 @@
 
 use crate::wall::{Sides, Support};
 
-/// A stretch of support motion, linear in time: one record sample or one communication step.
+/// Support motion, linear in time: one record sample or one communication step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Length \[s\].
@@ -34,19 +34,19 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// The peaks of a wall that stands at `displacement`.
+    /// Returns the peaks of a wall that stands at `displacement`.
     #[must_use]
     pub fn at(displacement: f64) -> Self {
         Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
     }
 
-    /// Largest |u|/`u_ins`, each side by its own \[-\].
+    /// Returns the largest |u|/`u_ins`, each side by its own \[-\].
     #[must_use]
     pub fn ratio(&self, u_ins: Sides) -> f64 {
         (self.positive / u_ins.positive).max(self.negative / u_ins.negative)
     }
 
-    /// Largest |u| \[m\].
+    /// Returns the largest |u| \[m\].
     #[must_use]
     pub fn largest(&self) -> f64 {
         self.positive.max(self.negative)
@@ -57,7 +57,7 @@ impl Peaks {
         self.negative = self.negative.max(-displacement);
     }
 
-    /// Whether a range holds nothing new.
+    /// Whether the peaks cover a range of u.
     pub(super) fn cover(&self, lowest: f64, highest: f64) -> bool {
         highest <= self.positive && -lowest <= self.negative
     }
@@ -109,7 +109,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// Adds the work of another stretch.
+    /// Adds further work.
     pub fn add(&mut self, other: Self) {
         self.pieces += other.pieces;
         self.corners += other.corners;
@@ -119,39 +119,18 @@ impl Work {
 
 /// The motion could not be followed to the end of a segment; the state is as it was.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum SolverError {
     /// Too many pieces in one segment.
     #[error(
         "gave up {reached} s into a step of {duration} s after {limit} pieces of motion (u = {displacement} m, \
          u_dot = {velocity} m/s); use smaller steps"
     )]
-    TooManyPieces {
-        /// Time reached \[s\].
-        reached: f64,
-        /// Length of the segment \[s\].
-        duration: f64,
-        /// The bound.
-        limit: u32,
-        /// Displacement reached \[m\].
-        displacement: f64,
-        /// Velocity reached \[m/s\].
-        velocity: f64,
-    },
+    TooManyPieces { reached: f64, duration: f64, limit: u32, displacement: f64, velocity: f64 },
     /// Overflow.
     #[error(
-        "the motion left the range of numbers {reached} s into a step of {duration} s (u = {displacement} m, u_dot = \
-         {velocity} m/s, forcing {forcing} m/s2); check the accelerations given"
+        "the motion left the range of numbers {reached} s into a step of {duration} s (u = {displacement} m, \
+         u_dot = {velocity} m/s, forcing {forcing} m/s2); check the accelerations given"
     )]
-    NotFinite {
-        /// Time reached \[s\].
-        reached: f64,
-        /// Length of the segment \[s\].
-        duration: f64,
-        /// Displacement \[m\].
-        displacement: f64,
-        /// Velocity \[m/s\].
-        velocity: f64,
-        /// Forcing p \[m/s²\].
-        forcing: f64,
-    },
+    NotFinite { reached: f64, duration: f64, displacement: f64, velocity: f64, forcing: f64 },
 }

@@ -1,11 +1,19 @@
-//! Transitions: what happens where a motion reaches a corner, whoever follows the motion.
+//! Transitions: how branch, phase and marks of a state follow from its motion, at the start and at corners.
+//!
+//! | corner | transition |
+//! |---|---|
+//! | between two branches | branch i ↔ i + 1 |
+//! | `u_ins`, outwards | the wall overturns, once |
+//! | departure, outwards | the wall leaves its supports, once |
+//! | landing | u̇ = 0, the end of the fall |
+//! | u = 0 with restitution | u̇ → e u̇; a rigid wall may come to rest, one stopped by e = 0 follows the forcing |
 
 use crate::wall::{Corner, Support};
 
 use super::motion::Motion;
 use super::state::{Peaks, Phase, State, Work};
 
-/// What a transition did.
+/// What transitions did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Event {
     /// The wall overturned.
@@ -32,13 +40,13 @@ impl Event {
 }
 
 impl Motion {
-    /// The state at the start, under the supports' motion at that instant.
+    /// Returns the state at the start, under the supports' motion at that instant.
     #[must_use]
     pub fn start(&self, displacement: f64, velocity: f64, support: Support) -> State {
         self.start_under(displacement, velocity, self.wall.body().forcing(support))
     }
 
-    /// The state at the start, under a forcing p \[m/s²\].
+    /// Returns the state at the start, under a forcing p \[m/s²\].
     #[must_use]
     pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
@@ -65,8 +73,8 @@ impl Motion {
         state
     }
 
-    /// The state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to under the forcing p
-    /// \[m/s²\]; its memories stay.
+    /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to under the
+    /// forcing p \[m/s²\]. Marks and peaks stay.
     #[must_use]
     pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
         let anew = self.start_under(displacement, velocity, forcing);
@@ -79,7 +87,7 @@ impl Motion {
 pub(super) struct Rebound {
     /// u̇ \[m/s\].
     pub(super) velocity: f64,
-    /// Whether the impact ends the rocking of a rigid wall.
+    /// Whether a rigid wall comes to rest.
     pub(super) rests: bool,
 }
 
@@ -90,7 +98,7 @@ pub(super) fn branch_beyond(corner: usize, upwards: bool) -> usize {
 }
 
 /// Takes `state` through the corner it has reached, upwards or downwards, under the forcing p and its rate
-/// \[m/s², m/s³\]. `rebound` tells what an impact there makes of the motion.
+/// \[m/s², m/s³\]. `rebound` gives the motion after an impact there.
 pub(super) fn pass(
     motion: &Motion,
     state: &mut State,
@@ -117,7 +125,7 @@ pub(super) fn pass(
     if passage {
         let before = state.velocity;
         let rebound = rebound(state);
-        leave_zero(motion, state, rebound, forcing);
+        rebound_from_zero(motion, state, rebound, forcing);
         event.stopped = state.phase == Phase::Resting;
         event.velocity_jump = state.velocity - before;
         event.work.impacts = 1;
@@ -125,22 +133,22 @@ pub(super) fn pass(
     event
 }
 
-/// Leaves u = 0 after an impact: with the velocity left, else as the forcing leads.
-fn leave_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forcing, rate]: [f64; 2]) {
+/// Goes on from u = 0 after an impact.
+fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forcing, rate]: [f64; 2]) {
     state.velocity = rebound.velocity;
     if motion.wall.is_rigid() {
         if rebound.rests {
             settle(motion, state, [forcing, rate]);
         }
     } else if state.velocity == 0.0 {
-        // e = 0
+        // stopped by e = 0: it follows the forcing
         let direction = if forcing == 0.0 { rate } else { forcing };
         state.displacement = 0.0;
         state.branch = motion.wall.branch_of(0.0, direction);
     }
 }
 
-/// Stops a rigid wall at u = 0: it rests while the forcing keeps within the band of F₀, else it follows the forcing.
+/// Stops a rigid wall at u = 0. It rests while the forcing keeps within the band of F₀, and else follows the forcing.
 pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 2]) {
     let [lowest, highest] = motion.rest_band;
     let leaves_up = forcing > highest || (forcing == highest && rate > 0.0);

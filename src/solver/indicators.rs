@@ -1,7 +1,7 @@
-//! The motion for a solver that is not ours: between events the branch is frozen, and an event changes it.
+//! Event indicators, for an importer's solver that moves the wall itself. Between events the branch stays.
 //!
-//! An indicator is positive while its branch holds, and zero a margin beyond the corner. After an event each is at least half
-//! that margin, so that no solver meets it at zero, and a wall that turns at a corner makes no second event.
+//! An indicator is positive while its branch holds, and zero a margin beyond the corner. After an event each is at
+//! least half that margin. So no solver meets it at zero, and a wall that turns at a corner makes no second event.
 
 use super::motion::Motion;
 use super::state::{Phase, State};
@@ -10,17 +10,17 @@ use super::transition::{self, Event, Rebound};
 /// Event indicators: lower and upper end of the branch or of the band of rest, and the largest |u|.
 pub const INDICATORS: usize = 3;
 
-/// Part of the scale of an indicator by which it goes beyond its corner.
+/// How far beyond its corner an indicator becomes zero, as a part of its scale.
 ///
-/// Far above rounding, and far below any solver's tolerance. Where the force of a rigid wall jumps, [`Motion::event`] takes
-/// back what the way beyond the corner adds to the energy.
+/// The margin is far above rounding and far below any solver's tolerance. Where the force of a rigid wall jumps,
+/// [`Motion::event`] takes back the energy gained on the way beyond the corner.
 const MARGIN: f64 = 1e-12;
 
-/// Bounces lower than this many margins are rest: a solver of tolerance 1e-9 or so tells them from nothing no more.
+/// Bounces lower than this many margins count as rest: a solver with a tolerance of about 1e-9 cannot resolve them.
 const REST_MARGINS: f64 = 4.0;
 
 impl Motion {
-    /// The event indicators under the forcing p \[m/s²\]. `rising` is what [`event`](Self::event) left it at.
+    /// Returns the event indicators under the forcing p \[m/s²\]; `rising` as [`event`](Self::event) left it.
     #[must_use]
     pub fn indicators(&self, state: &State, rising: bool, forcing: f64) -> [f64; INDICATORS] {
         let State { displacement, velocity, branch, phase, .. } = *state;
@@ -45,7 +45,7 @@ impl Motion {
         [lower + MARGIN, upper + MARGIN, peak + MARGIN]
     }
 
-    /// Brings the discrete state up to what displacement, velocity and forcing p \[m/s²\] have become. `rising` says
+    /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising` says
     /// whether |u| is beyond its largest so far and grows.
     pub fn event(&self, state: &mut State, rising: &mut bool, forcing: f64) -> Event {
         let mut event = Event::default();
@@ -60,7 +60,7 @@ impl Motion {
                     }
                     transition::settle(self, state, [forcing, 0.0]);
                 }
-                Phase::Moving => match self.left(state) {
+                Phase::Moving => match self.exit(state) {
                     None => break,
                     Some(upwards) => {
                         let corner = (state.branch + usize::from(upwards), upwards);
@@ -70,12 +70,17 @@ impl Motion {
                 },
             }
         }
-        follow_peak(state, rising);
+        let outwards = state.velocity * state.displacement.signum();
+        *rising |= state.displacement.abs() >= state.peaks.largest();
+        if *rising {
+            state.include_peak();
+        }
+        *rising &= outwards > 0.0 && state.phase == Phase::Moving;
         event
     }
 
-    /// Whether the wall has left its branch: upwards or downwards.
-    fn left(&self, state: &State) -> Option<bool> {
+    /// Returns whether the wall has left its branch upwards or downwards.
+    fn exit(&self, state: &State) -> Option<bool> {
         let corners = self.wall.corners();
         let beyond = |index: usize, direction: f64| {
             let corner = corners[index].displacement;
@@ -87,10 +92,11 @@ impl Motion {
         (upwards || beyond(state.branch, -1.0)).then_some(upwards)
     }
 
-    /// The motion after an impact, met a margin or more beyond u = 0. A rigid wall rests once its bounces are too low to follow.
+    /// Returns the motion after an impact that is met a margin or more beyond u = 0. A rigid wall comes to rest once its
+    /// bounces are too low to follow.
     ///
-    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to what an impact at u = 0
-    /// makes of it: else each bounce would gain energy, and never become low.
+    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to that of an impact
+    /// at u = 0. Otherwise each bounce would gain energy, and never become low.
     fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
         let factor = self.wall.passage_factor();
         if !self.wall.is_rigid() {
@@ -99,7 +105,7 @@ impl Motion {
         let [lowest, highest] = self.rest_band;
         let in_band = (lowest..=highest).contains(&forcing);
         let late = state.displacement.abs();
-        // accelerations towards the way it goes on the old side, and against it on the new one
+        // accelerations in the direction of motion on the old side, and against it on the new one
         let (push, pull) = if state.velocity > 0.0 {
             (forcing - lowest, highest - forcing)
         } else {
@@ -119,17 +125,8 @@ impl Motion {
 }
 
 impl State {
-    /// Counts the displacement that a solver has reached among the peaks.
+    /// Includes the present displacement in the peaks.
     pub fn include_peak(&mut self) {
         self.peaks.include(self.displacement);
     }
-}
-
-fn follow_peak(state: &mut State, rising: &mut bool) {
-    let outwards = state.velocity * state.displacement.signum();
-    let new = state.displacement.abs() >= state.peaks.largest();
-    if *rising || new {
-        state.include_peak();
-    }
-    *rising = (*rising || new) && outwards > 0.0 && state.phase == Phase::Moving;
 }
