@@ -1,4 +1,4 @@
-//! A wall that somebody else's solver moves: states set from outside, events handled here.
+//! A wall that an importer's solver moves: it sets the state, and events are handled here.
 
 use super::stepping::Simulation;
 use crate::solver::{Event, INDICATORS};
@@ -16,7 +16,7 @@ pub struct Handled {
 }
 
 impl Simulation {
-    /// Sets displacement \[m\] and velocity \[m/s\]; the branch stays, and goes on beyond its ends.
+    /// Sets displacement \[m\] and velocity \[m/s\]. The branch stays, and is continued beyond its ends.
     pub fn set_motion(&mut self, displacement: f64, velocity: f64) {
         (self.progress.state.displacement, self.progress.state.velocity) = (displacement, velocity);
     }
@@ -27,13 +27,13 @@ impl Simulation {
         self.progress.state = self.motion.placed(&self.progress.state, displacement, velocity, forcing);
     }
 
-    /// The event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
+    /// Returns the event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
     #[must_use]
     pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
         self.motion.indicators(&self.progress.state, rising, self.wall().body().forcing(support))
     }
 
-    /// Brings the discrete state up to time, motion and supports.
+    /// Updates branch, phase and marks to time, motion and supports.
     pub fn handle_event(&mut self, rising: &mut bool, support: Support) -> Handled {
         let body = self.motion.wall().body();
         let before = self.progress.state;
@@ -54,7 +54,7 @@ impl Simulation {
         Handled { event, impulses, jumped }
     }
 
-    /// The solver has come to the present time and motion to stay.
+    /// Accepts the present time and motion as those of a completed step.
     pub fn complete_step(&mut self, rising: bool, support: Support) {
         if rising {
             self.progress.state.include_peak();

@@ -14,13 +14,14 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// One motion for both supports, or `top` for the top support (a wall in an upper storey).
+    /// One motion for both supports, or `top` for the top support of a wall in an upper storey.
     #[must_use]
     pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
         Self { bottom, top, held: false }
     }
 
-    /// The same motion, but each sample held until the next as most importers do with an input, not linear between.
+    /// Holds each sample until the next, as most importers do with an input, instead of going linearly
+    /// between.
     #[must_use]
     pub fn held(self) -> Self {
         Self { held: true, ..self }
@@ -44,7 +45,8 @@ impl Excitation {
         self.top.as_ref().map_or(0.0, GroundMotion::duration).max(self.bottom.duration())
     }
 
-    /// The segment from `elapsed` seconds after the start that lasts `remaining` \[s\], or to the next sample.
+    /// Returns the segment that begins `elapsed` seconds after the start, and lasts `remaining` \[s\] or to
+    /// the next sample.
     #[must_use]
     pub fn segment(&self, elapsed: f64, remaining: f64) -> Segment {
         let mut duration = remaining;
@@ -110,7 +112,8 @@ fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
     [value(elapsed), value(elapsed + duration)]
 }
 
-/// The segment of a motion, if there is one, from `elapsed` seconds after its start; supports without a motion stand still.
+/// Returns the segment of a motion that may be absent, as [`Excitation::segment`]; without one the supports
+/// stand still.
 #[must_use]
 pub fn segment_of(motion: Option<&Excitation>, elapsed: f64, remaining: f64) -> Segment {
     match motion {

@@ -1,7 +1,7 @@
-//! What a wall shows of itself, and how that changes with its state and its supports.
+//! The outputs of a wall, and their derivatives.
 
 use super::stepping::Simulation;
-use crate::solver::{Demands, Phase, Start, State};
+use crate::solver::{Demands, Phase, State};
 use crate::wall::{Ends, Support};
 
 /// Outputs that follow from the state and the supports' present motion.
@@ -24,7 +24,7 @@ pub struct Outputs {
 }
 
 impl Simulation {
-    /// The outputs under the supports' present motion.
+    /// Returns the outputs under the supports' present motion.
     #[must_use]
     pub fn outputs(&self, support: Support) -> Outputs {
         let wall = self.motion.wall();
@@ -64,17 +64,17 @@ impl Simulation {
         }
     }
 
-    /// The demands of a motion that starts now, under the supports' present motion: `fractions` of `u_ins`, each above 0 and
-    /// at most 1, are the limit states whose first crossings are wanted.
+    /// Returns the demands of a motion that starts now, under the supports' present motion. `fractions` of
+    /// `u_ins`, each above 0 and at most 1, are the limit states whose first crossings are wanted.
     #[must_use]
     pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
         let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
         let motion = [displacement, velocity, acceleration];
-        Demands::new(self.wall(), &Start { time: self.progress.time, motion, reactions }, fractions)
+        Demands::new(self.wall(), self.progress.time, motion, reactions, fractions)
     }
 
-    /// The derivative of the outputs along a change of u, of u̇ and of the supports' motion, which is `support` now.
-    /// A change of drift brings its couple.
+    /// Returns the derivative of the outputs along a change of u, of u̇ and of the supports' motion, which is
+    /// `support` now. A change of drift includes that of its couple.
     ///
     /// # Panics
     /// If the wall moves in full rotations.

@@ -75,8 +75,8 @@ pub enum RunError {
 const MOST_SEGMENTS: usize = 100_000_000;
 
 impl Simulation {
-    /// A wall at its start, at `time` \[s\], with the supports moving as `support` says; `tolerance` is the importer's, of
-    /// which and the parameter the tighter applies.
+    /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. Of the
+    /// importer's `tolerance` and the parameter the tighter applies.
     ///
     /// # Errors
     /// [`ParameterError`].
@@ -107,13 +107,13 @@ impl Simulation {
         self.motion.method()
     }
 
-    /// Where the simulation stands.
+    /// What the simulation has come to.
     #[must_use]
     pub fn progress(&self) -> &Progress {
         &self.progress
     }
 
-    /// Goes back, or on, to where a simulation of the same wall stood.
+    /// Returns to what a simulation of the same wall has come to.
     ///
     /// # Panics
     /// If the branch is not one of the wall's.
@@ -125,7 +125,7 @@ impl Simulation {
     /// Moves the wall through a segment.
     ///
     /// # Errors
-    /// [`SolverError`]; the simulation then stands where it stood.
+    /// [`SolverError`]; the simulation is then as it was.
     pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
         self.step(segment, None)
     }
@@ -133,16 +133,18 @@ impl Simulation {
     /// Moves the wall through a segment, and takes up its demands in `demands`.
     ///
     /// # Errors
-    /// [`SolverError`]; the simulation then stands where it stood, and `demands` may know of the motion up to the failure.
+    /// [`SolverError`]; the simulation is then as it was, and `demands` may hold the motion up to the
+    /// failure.
     pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
         self.step(segment, Some(demands))
     }
 
-    /// Moves the wall through one segment after another, and takes up their demands in `demands`. `next` is shown the time and
-    /// how much of the step is done \[s\]; it gives the segment that follows, and how much of the step is left \[s\].
+    /// Moves the wall through the segments of a step, and takes up their demands in `demands`. `next`
+    /// receives the time and the part of the step that is done \[s\]. It returns the next segment and the
+    /// part that is left \[s\].
     ///
     /// # Errors
-    /// [`RunError`]; the simulation then stands where that segment begins.
+    /// [`RunError`]; the simulation is then at the start of that segment.
     pub fn advance_through(
         &mut self,
         mut next: impl FnMut(f64, f64) -> (Segment, f64),
@@ -205,7 +207,7 @@ impl Simulation {
         Ok(step)
     }
 
-    /// Sets the clock, where the importer's and the sum of steps differ by rounding \[s\].
+    /// Sets the time \[s\], where the importer's and the sum of steps differ by rounding.
     pub fn set_time(&mut self, time: f64) {
         self.progress.time = time;
     }

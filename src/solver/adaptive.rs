@@ -1,28 +1,29 @@
 //! Taylor series of variable order, for damping that follows the secant stiffness.
 //!
-//! On a branch u is an analytic function of time, and its Taylor coefficients follow from the equation of motion by
-//! recurrence: with the law F/m = f₀ + k (u − uₐ), the secant ω² = (F/m)/u and c = 2ξ ω or (2ξ₁/ω₁) ω²,
+//! On a branch u is an analytic function of time, and its Taylor coefficients follow from the equation of
+//! motion by recurrence. With the law F/m = f₀ + k (u − uₐ), the secant ω² = (F/m)/u and c = 2ξ ω or (2ξ₁/ω₁)
+//! ω²,
 //! ```text
 //! (n+1)(n+2) uₙ₊₂ = pₙ − (F/m)ₙ − Σ cᵢ u̇ₙ₋ᵢ
 //! ω²ₙ = ((F/m)ₙ − Σ_{i≥1} uᵢ ω²ₙ₋ᵢ)/u₀           ωₙ = (ω²ₙ − Σ_{0<i<n} ωᵢ ωₙ₋ᵢ)/(2 ω₀)
 //! ```
-//! The order grows until two consecutive terms fall below the tolerance at the end of the step; where the highest order
-//! does not suffice the step shrinks instead (Jorba and Zou, Experimental Mathematics 14, 2005). The series is its own
-//! dense output, on which events are located.
+//! The order grows until two consecutive terms fall below the tolerance at the end of the step. Where the
+//! highest order does not suffice the step shrinks instead (Jorba and Zou, Experimental Mathematics 14,
+//! 2005). The series is its own dense output, on which events are located.
 
 use crate::wall::{Branch, BranchDamping};
 
 use super::event::{Kinematics, Piece};
 use super::polynomial::{HIGHEST_ORDER, Polynomial};
 
-/// Scales against which a term is judged: the largest term in u \[m\] and in u̇ \[m/s\] that may be left out.
+/// The largest terms in u \[m\] and in u̇ \[m/s\] that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerances {
     pub(super) displacement: f64,
     pub(super) velocity: f64,
 }
 
-/// A stretch of motion by its Taylor series.
+/// A piece of motion by its Taylor series.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Series {
     polynomial: Polynomial,
@@ -120,8 +121,8 @@ impl Recurrence for Damped<'_> {
 }
 
 impl Series {
-    /// The motion from `start` under the forcing p₀ + p₁ t, over `remaining` or as much of it as the highest order
-    /// reaches within the tolerance.
+    /// The motion from `start` under the forcing p₀ + p₁ t, over `remaining` or as much of it as the highest
+    /// order reaches within the tolerance.
     pub(super) fn new(
         branch: &Branch,
         start: Kinematics,
@@ -141,7 +142,8 @@ impl Series {
         Self::of(work, remaining, tolerances)
     }
 
-    /// The motion of a recurrence, over `remaining` or as much of it as the highest order reaches within the tolerance.
+    /// The motion of a recurrence, over `remaining` or as much of it as the highest order reaches within the
+    /// tolerance.
     pub(super) fn of(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
         let mut power = remaining;
         let mut small_before = false;
@@ -165,7 +167,7 @@ impl Series {
         Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon }
     }
 
-    /// A given polynomial, as other schemes make them.
+    /// The cubic of constant d³u/dt³.
     pub(super) fn cubic(start: Kinematics, acceleration_rate: f64, horizon: f64) -> Self {
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
         coefficients[0] = start.displacement;

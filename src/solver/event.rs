@@ -10,7 +10,7 @@ pub(super) struct Kinematics {
     pub(super) acceleration: f64,
 }
 
-/// A smooth stretch of motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
+/// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
     /// The motion at the start of the piece.
     fn start(&self) -> Kinematics;
@@ -65,11 +65,12 @@ struct Node {
     motion: Kinematics,
 }
 
-/// Follows a piece to its horizon or to the first time u passes `bounds` = \[lower, upper\]. Raises `peaks` to the extremes of u
-/// at turning points and ends before that.
+/// Follows a piece to its horizon, or to the first time u passes `bounds` = \[lower, upper\]. Raises `peaks`
+/// to the extremes of u on the way.
 ///
-/// Works through intervals from left to right. An interval is settled when it is too short for u to reach anything
-/// (|ü| bound), when u̇ keeps its sign in it, or when ü does, so that u̇ has at most one zero; else it is halved.
+/// Works through intervals from left to right. An interval is settled when it is too short for u to reach a
+/// bound or a peak, when u̇ keeps its sign, or when ü does, so that u̇ has at most one zero. Otherwise it is
+/// halved.
 pub(super) fn follow<P: Piece>(
     piece: &P,
     bounds: [f64; 2],
@@ -80,7 +81,7 @@ pub(super) fn follow<P: Piece>(
     let left = Node { time: 0.0, motion: piece.start() };
     let right = Node { time: horizon, motion: piece.at(horizon) };
     match search.settle(left, right, false, peaks) {
-        // The ordinary step: nothing to look for.
+        // the ordinary step
         Verdict::Quiet => {
             peaks.include(right.motion.displacement);
             Ok(Ending::Horizon(right.motion))
@@ -95,17 +96,18 @@ fn ending(exit: Option<Exit>, end: Node) -> Ending {
 }
 
 pub(super) enum Verdict {
-    /// Nothing can happen inside.
+    /// No bound or peak can be reached inside.
     Quiet,
     /// u̇ keeps its sign.
     Monotone,
     /// u̇ changes its sign once.
     Turning,
-    /// Too long to tell.
+    /// Too long to decide.
     Split,
 }
 
-/// What can happen between two instants `length` apart, given bounds on |ü| and on the jerk between them.
+/// Decides what can happen between two instants `length` apart, given bounds on |ü| and on the jerk between
+/// them.
 #[inline]
 pub(super) fn settle(
     [from, to]: [Kinematics; 2],
@@ -142,7 +144,7 @@ struct Search<'a, P> {
 }
 
 impl<P: Piece> Search<'_, P> {
-    /// Works through `left`…`right` in halves.
+    /// Searches `left`…`right` in halves.
     fn by_halves(&self, left: Node, right: Node, peaks: &mut Peaks) -> Result<Option<Exit>, SearchExhausted> {
         let mut left = left;
         let mut pending = [(right, 0_u32); DEEPEST as usize + 1];
@@ -167,7 +169,7 @@ impl<P: Piece> Search<'_, P> {
         Err(SearchExhausted)
     }
 
-    /// The exit in an interval that needs no more halving.
+    /// Returns the exit in an interval that needs no more halving.
     fn settled(&self, left: Node, right: Node, verdict: &Verdict, peaks: &mut Peaks) -> Option<Exit> {
         match verdict {
             Verdict::Quiet | Verdict::Split => {}
@@ -203,7 +205,7 @@ impl<P: Piece> Search<'_, P> {
         }
     }
 
-    /// The one zero of u̇ in an interval.
+    /// Finds the one zero of u̇ in an interval.
     fn turning_point(&self, left: Node, right: Node) -> Node {
         let (from, to) = (left.motion, right.motion);
         // the chord of u̇
@@ -222,7 +224,7 @@ impl<P: Piece> Search<'_, P> {
         })
     }
 
-    /// The exit in an interval over which u is monotone.
+    /// Returns the exit in an interval over which u is monotone.
     fn monotone(&self, left: Node, right: Node) -> Option<Exit> {
         let [lower, upper] = self.bounds;
         let upwards = left.motion.velocity + right.motion.velocity > 0.0;
@@ -253,7 +255,7 @@ impl<P: Piece> Search<'_, P> {
     }
 }
 
-/// One evaluation on the way to a root.
+/// One evaluation in the search for a root.
 struct Trial {
     value: f64,
     /// Step to the root.
@@ -263,7 +265,8 @@ struct Trial {
     node: Node,
 }
 
-/// Step to the zero of a parabola with `[value, slope, curvature]`, the one nearer in the direction of Newton's.
+/// Returns the step to the zero of a parabola with `[value, slope, curvature]`, in the direction of Newton's
+/// step.
 fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     let discriminant = slope * slope - 2.0 * curvature * value;
     if discriminant > 0.0 {
@@ -274,8 +277,8 @@ fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     }
 }
 
-/// Where, as a fraction of an interval, the quintic through the motion at both ends passes `bound`: a parabola's root improved
-/// by so many steps of Newton's.
+/// Returns the fraction of an interval at which the quintic through the motion at both ends passes `bound`: a
+/// parabola's root, improved by a number of Newton steps.
 pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64, improvements: u32) -> f64 {
     let (v0, v1) = (from.velocity * length, to.velocity * length);
     let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
@@ -293,8 +296,8 @@ pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64, imp
     x
 }
 
-/// Root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection; `rising` tells the sign at the
-/// bracket's low end. The last step is made along the motion itself.
+/// Finds a root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection.
+/// `rising` says that the value is negative at the low end. The last step is made along the motion itself.
 fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Trial) -> Node {
     let [mut low, mut high] = bracket;
     let mut last_step = high - low;
@@ -330,7 +333,7 @@ fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Tria
 }
 
 impl Node {
-    /// The motion a little later, as far as ü tells.
+    /// Returns the motion a small step later, by constant ü.
     fn shifted(self, step: f64) -> Self {
         let Kinematics { displacement, velocity, acceleration } = self.motion;
         let motion = Kinematics {

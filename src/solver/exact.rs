@@ -19,14 +19,14 @@ pub(super) struct ClosedForm {
     horizon: f64,
     /// The motion at the horizon, where it is known already.
     end: Option<Kinematics>,
-    /// The Taylor series of a short piece, once asked for.
+    /// The Taylor series of a short piece, once needed.
     series: OnceCell<Option<Polynomial>>,
 }
 
-/// The propagator of the last whole step on a branch: steps of one length need it but once.
+/// The propagator of the last whole step on a branch. Steps of one length compute it once.
 ///
-/// Lengths that differ by the rounding of clocks share one: the length is rounded to 40 bits and the rest, 5e-13 of it, is
-/// made up by the Taylor series. What is remembered changes no bit of any result.
+/// Lengths that differ by the rounding of clocks share one. The length is rounded to 40 bits, and the rest,
+/// 5e-13 of it, is made up by the Taylor series. The memo changes no bit of any result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Memo {
     branch: usize,
@@ -50,8 +50,8 @@ fn rounded(duration: f64) -> f64 {
 }
 
 impl ClosedForm {
-    /// The motion from `start`, for `remaining` or as long as the closed form is well behaved. `quiet` is the largest |u|
-    /// that an oscillation inside the branch may reach without being looked at.
+    /// The motion from `start`, for `remaining` or as long as the closed form is well behaved. An oscillation
+    /// that stays within `quiet` needs no search for events.
     pub(super) fn new(
         oscillator: Oscillator,
         start: Kinematics,
@@ -98,7 +98,7 @@ impl ClosedForm {
         self.series.get_or_init(make).as_ref()
     }
 
-    /// Whether the whole motion stays in the range: around the moving equilibrium by no more than the amplitude.
+    /// Whether the whole motion stays in the range, by its amplitude around the moving equilibrium.
     fn stays_within(&self, quiet: &Quiet) -> bool {
         let Oscillator { damping: c, stiffness: k, regime, .. } = self.oscillator;
         let Regime::Oscillating(omega) = regime else { return false };
@@ -124,7 +124,7 @@ impl ClosedForm {
 /// Rounding of the amplitude against a peak already seen.
 const PEAK_ROUNDING: f64 = 1e-14;
 
-/// Range within which nothing needs to be looked for.
+/// The range within which no event can happen.
 pub(super) struct Quiet {
     pub(super) lower: f64,
     pub(super) upper: f64,

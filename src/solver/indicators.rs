@@ -1,7 +1,8 @@
 //! Event indicators, for an importer's solver that moves the wall itself. Between events the branch stays.
 //!
-//! An indicator is positive while its branch holds, and zero a margin beyond the corner. After an event each is at
-//! least half that margin. So no solver meets it at zero, and a wall that turns at a corner makes no second event.
+//! An indicator is positive while its branch holds, and zero a margin beyond the corner. After an event each
+//! is at least half that margin. So no solver meets it at zero, and a wall that turns at a corner makes no
+//! second event.
 
 use super::motion::Motion;
 use super::state::{Phase, State};
@@ -12,11 +13,12 @@ pub const INDICATORS: usize = 3;
 
 /// How far beyond its corner an indicator becomes zero, as a part of its scale.
 ///
-/// The margin is far above rounding and far below any solver's tolerance. Where the force of a rigid wall jumps,
-/// [`Motion::event`] takes back the energy gained on the way beyond the corner.
+/// The margin is far above rounding and far below any solver's tolerance. Where the force of a rigid wall
+/// jumps, [`Motion::event`] takes back the energy gained on the way beyond the corner.
 const MARGIN: f64 = 1e-12;
 
-/// Bounces lower than this many margins count as rest: a solver with a tolerance of about 1e-9 cannot resolve them.
+/// Bounces lower than this many margins count as rest: a solver with a tolerance of about 1e-9 cannot resolve
+/// them.
 const REST_MARGINS: f64 = 4.0;
 
 impl Motion {
@@ -45,8 +47,8 @@ impl Motion {
         [lower + MARGIN, upper + MARGIN, peak + MARGIN]
     }
 
-    /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising` says
-    /// whether |u| is beyond its largest so far and grows.
+    /// Updates branch, phase and marks to the present displacement, velocity and forcing p \[m/s²\]. `rising`
+    /// says whether |u| is beyond its largest so far and grows.
     pub fn event(&self, state: &mut State, rising: &mut bool, forcing: f64) -> Event {
         let mut event = Event::default();
         // each corner once, and once more for those at which the wall turns back
@@ -92,11 +94,11 @@ impl Motion {
         (upwards || beyond(state.branch, -1.0)).then_some(upwards)
     }
 
-    /// Returns the motion after an impact that is met a margin or more beyond u = 0. A rigid wall comes to rest once its
-    /// bounces are too low to follow.
+    /// Returns the motion after an impact that is met a margin or more beyond u = 0. A rigid wall comes to
+    /// rest once its bounces are too low to follow.
     ///
-    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to that of an impact
-    /// at u = 0. Otherwise each bounce would gain energy, and never become low.
+    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to that of
+    /// an impact at u = 0. Otherwise each bounce would gain energy, and never become low.
     fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
         let factor = self.wall.passage_factor();
         if !self.wall.is_rigid() {

@@ -1,7 +1,7 @@
 //! Solvers: from a state and a segment of support motion to the state at its end.
 //!
-//! One loop serves all of them. It asks the method for the next piece of motion, follows it to its end or to the first corner,
-//! and applies what happens there: change of branch, impact, overturning, departure from the supports, landing.
+//! One loop serves all of them (`run`). It asks the method for the next piece of motion and follows it to its
+//! end or to the first corner (`event`). The transition there is applied by `transition`.
 
 mod adaptive;
 mod demand;
@@ -17,12 +17,13 @@ mod run;
 mod state;
 mod transition;
 mod trigonometric;
+mod watch;
 
-pub(crate) use demand::Start;
-pub use demand::{ACCURACY, Crossing, Demands, Extremes, Instant};
+pub use demand::{Crossing, Demands, Extremes, Instant};
 pub use exact::Memo;
 pub use indicators::INDICATORS;
 use motion::is_constant;
 pub use motion::{Method, Motion};
 pub use state::{Peaks, Phase, Report, Segment, SolverError, State, Work};
 pub use transition::Event;
+pub use watch::ACCURACY;

@@ -6,7 +6,8 @@ use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
 use super::adaptive::Tolerances;
 use super::oscillator::Oscillator;
 
-/// Part of the tolerance given to the terms a Taylor step leaves out: a run of 10⁴ steps then stays within it.
+/// Part of the tolerance for the terms that a Taylor step leaves out. A run of 10⁴ steps then stays within
+/// it.
 const LOCAL_SHARE: f64 = 1e-4;
 
 /// How the motion between events is found.
@@ -27,7 +28,8 @@ pub enum Method {
 }
 
 impl Method {
-    /// The method the parameters ask for; `tolerance` is the tighter of theirs and the importer's.
+    /// Returns the method that the parameters ask for; `tolerance` is the tighter of theirs and the
+    /// importer's.
     ///
     /// # Errors
     /// [`ParameterError::NotExact`] where the exact solver is asked for damping that varies on a branch.
@@ -42,7 +44,7 @@ impl Method {
     }
 }
 
-/// A wall and the method that moves it, with all that both prepare once.
+/// A wall and the method that moves it, with what they prepare once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     pub(super) wall: Wall,
@@ -54,8 +56,8 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion of the wall that the parameters describe, by the method they ask for; `tolerance` is theirs or a
-    /// tighter one.
+    /// Prepares the motion of the wall and by the method that the parameters ask for. `tolerance` is theirs
+    /// or a tighter one.
     ///
     /// # Errors
     /// [`ParameterError`], of [`Wall::new`] or [`Method::new`].
@@ -75,7 +77,7 @@ impl Motion {
         assert!(adaptive || wall.rotations().is_none(), "full rotations need the adaptive method");
         let constant = |damping| match damping {
             BranchDamping::Constant(c) => c,
-            // never used: a curved branch has no closed form
+            // unused: a curved branch has no closed form
             BranchDamping::SecantRatio(_) | BranchDamping::SecantStiffness(_) => 0.0,
         };
         let oscillators =

@@ -1,16 +1,16 @@
 //! The paper's own scheme: Newmark linear acceleration without iteration at a fixed step.
 //!
-//! Tangent stiffness and damping are those at the start of the step, and the acceleration is reset from equilibrium at
-//! each start (Chopra, Dynamics of Structures, section 15). Corners are not located: what a corner costs is what this
-//! scheme is here to show. Within a step the acceleration is linear, so the motion is a cubic, on which overturning,
-//! impacts and the end of the fall are located.
+//! Tangent stiffness and damping are those at the start of the step, and the acceleration is reset from
+//! equilibrium at each start (Chopra, Dynamics of Structures, section 15). Corners are not located: this
+//! scheme is here to show their cost. Within a step the acceleration is linear, so the motion is a cubic, on
+//! which overturning, impacts and the end of the fall are located.
 
 use crate::wall::Branch;
 
 use super::adaptive::Series;
 use super::event::Kinematics;
 
-/// One step of `duration` \[s\] from `start`, whose acceleration obeys equilibrium, while the forcing grows by
+/// Makes one step of `duration` \[s\] from `start`, in equilibrium, while the forcing grows by
 /// `forcing_change` \[m/s²\].
 pub(super) fn step(branch: &Branch, start: Kinematics, forcing_change: f64, duration: f64) -> Series {
     let Kinematics { displacement, velocity, acceleration } = start;

@@ -1,7 +1,7 @@
-//! A segment under way: pieces of motion between the places where something happens.
+//! Moves a state through one segment: pieces of motion, and the transitions between them.
 
 use super::adaptive::Series;
-use super::demand::{Demands, Stretch, Watch};
+use super::demand::Demands;
 use super::event::{self, Ending, Exit, Kinematics, Piece};
 use super::exact::{ClosedForm, Memo, Quiet};
 use super::motion::{Method, Motion, is_constant};
@@ -9,14 +9,15 @@ use super::newmark;
 use super::state::{Phase, Report, Segment, SolverError, State};
 use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
+use super::watch::{Followed, Watch};
 
-/// Impacts in one segment, after which a wall that could rest is put to rest.
+/// Impacts in one segment after which a wall that could rest is put to rest.
 const MOST_IMPACTS: u64 = 1_000_000;
 /// Pieces of motion in one segment.
 const MOST_PIECES: u32 = 4_000_000;
 
 impl Motion {
-    /// Moves `state` through a segment; `integral` asks for ∫u dt, `memo` remembers the propagator of a step.
+    /// Moves `state` through a segment. `integral` asks for ∫u dt, and `memo` keeps the propagator of a step.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was.
@@ -30,8 +31,8 @@ impl Motion {
         self.advance_watched(state, segment, integral, memo, None)
     }
 
-    /// [`Self::advance`], and the demands of the segment: `watch` holds those so far, the time at the start of the segment \[s\],
-    /// and whether the couple of a drift acts.
+    /// Moves `state` through a segment and takes up its demands. `watch` holds those so far, the time at the
+    /// start of the segment \[s\], and whether the couple of a drift acts.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
@@ -54,7 +55,7 @@ impl Motion {
     }
 }
 
-/// A segment under way.
+/// The motion through one segment.
 pub(super) struct Run<'a> {
     motion: &'a Motion,
     state: State,
@@ -72,7 +73,7 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A segment of `duration` over which the forcing goes linearly between `forcing` \[m/s²\].
+    /// Prepares a segment of `duration` \[s\] with a forcing linear between two values \[m/s²\].
     pub(super) fn new(
         motion: &'a Motion,
         state: State,
@@ -120,7 +121,7 @@ impl<'a> Run<'a> {
         self.forcing + self.rate * self.time
     }
 
-    /// Rest until the forcing leaves the band.
+    /// Rests until the forcing leaves the band.
     fn rest(&mut self) {
         let [lowest, highest] = self.motion.rest_band;
         let now = self.forcing_now();
@@ -212,10 +213,9 @@ impl<'a> Run<'a> {
                 Ending::Horizon(end) => end.displacement,
                 Ending::Exit(exit) => places[usize::from(exit.upwards)],
             };
-            let stretch = Stretch { piece, branch: self.state.branch, from: self.time, length, displacement };
-            if watch.piece(&stretch).is_err() {
-                return Err(self.exhausted());
-            }
+            let branch = self.state.branch;
+            let followed = Followed { piece, branch, from: self.time, length, displacement };
+            watch.piece(&followed).map_err(|_| self.exhausted())?;
         }
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
@@ -246,7 +246,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The corners between which the piece holds: those of the branch, for Newmark the next ones where something happens.
+    /// Returns the corners that end a piece: those of the branch, for Newmark the next marked ones.
     fn bounds(&self) -> [usize; 2] {
         let (mut lower, mut upper) = (self.state.branch, self.state.branch + 1);
         if let Method::Newmark { .. } = self.motion.method {
@@ -261,7 +261,7 @@ impl<'a> Run<'a> {
         [lower, upper]
     }
 
-    /// Arrives at a corner and goes through it.
+    /// Arrives at a corner and passes it.
     fn reach(&mut self, corner: usize, upwards: bool) {
         let (motion, forcing) = (self.motion, self.forcing_now());
         self.state.displacement = motion.wall.corners()[corner].displacement;

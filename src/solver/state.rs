@@ -13,6 +13,13 @@ pub struct Segment {
     pub to: Support,
 }
 
+impl Segment {
+    /// Returns the supports at a time after the start \[s\]; from the end on, those at the end.
+    pub(super) fn support(&self, time: f64) -> Support {
+        self.from.towards(self.to, if self.duration > 0.0 { (time / self.duration).min(1.0) } else { 0.0 })
+    }
+}
+
 /// Whether the wall moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -123,8 +130,8 @@ impl Work {
 pub enum SolverError {
     /// Too many pieces in one segment.
     #[error(
-        "gave up {reached} s into a step of {duration} s after {limit} pieces of motion (u = {displacement} m, \
-         u_dot = {velocity} m/s); use smaller steps"
+        "gave up {reached} s into a step of {duration} s after {limit} pieces of motion \
+         (u = {displacement} m, u_dot = {velocity} m/s); use smaller steps"
     )]
     TooManyPieces { reached: f64, duration: f64, limit: u32, displacement: f64, velocity: f64 },
     /// Overflow.

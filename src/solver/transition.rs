@@ -6,7 +6,7 @@
 //! | `u_ins`, outwards | the wall overturns, once |
 //! | departure, outwards | the wall leaves its supports, once |
 //! | landing | u̇ = 0, the end of the fall |
-//! | u = 0 with restitution | u̇ → e u̇; a rigid wall may come to rest, one stopped by e = 0 follows the forcing |
+//! | u = 0 with impact | u̇ → e u̇; a rigid wall may come to rest; for e = 0 the wall follows the forcing |
 
 use crate::wall::{Corner, Support};
 
@@ -64,7 +64,8 @@ impl Motion {
         if wall.is_rigid() && displacement == 0.0 && velocity == 0.0 {
             settle(self, &mut state, [forcing, 0.0]);
         } else {
-            // At a corner the motion chooses the side; the force is continuous there, but for the rigid one at u = 0.
+            // At a corner the motion chooses the side; the force is continuous there, but for the rigid one
+            // at u = 0.
             let outer = wall.branch_of(displacement, 0.0);
             let acceleration = wall.acceleration(outer, displacement, velocity, forcing);
             state.branch =
@@ -73,8 +74,8 @@ impl Motion {
         state
     }
 
-    /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to under the
-    /// forcing p \[m/s²\]. Marks and peaks stay.
+    /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to
+    /// under the forcing p \[m/s²\]. Marks and peaks stay.
     #[must_use]
     pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
         let anew = self.start_under(displacement, velocity, forcing);
@@ -148,7 +149,8 @@ fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forc
     }
 }
 
-/// Stops a rigid wall at u = 0. It rests while the forcing keeps within the band of F₀, and else follows the forcing.
+/// Stops a rigid wall at u = 0. It rests while the forcing keeps within the band of F₀, and else follows the
+/// forcing.
 pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 2]) {
     let [lowest, highest] = motion.rest_band;
     let leaves_up = forcing > highest || (forcing == highest && rate > 0.0);

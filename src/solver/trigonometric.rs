@@ -1,7 +1,7 @@
 //! Taylor series of a wall in full rotations ([`FullRotations`]).
 //!
-//! With the angular velocities zᵢ = ṡ/cᵢ the tangents and the reciprocals rᵢ = 1/cᵢ obey ṫ = (1 + t²) z and ṙ = t r z, so that
-//! products of series give every coefficient, and no sine is evaluated:
+//! With the angular velocities zᵢ = ṡ/cᵢ the tangents and the reciprocals rᵢ = 1/cᵢ obey ṫ = (1 + t²) z and ṙ
+//! = t r z, so that products of series give every coefficient, and no sine is evaluated:
 //!
 //! ```text
 //! zₙ = Σ rᵢ ṡₙ₋ᵢ    (n+1) tₙ₊₁ = Σ (1 + t²)ᵢ zₙ₋ᵢ    (n+1) rₙ₊₁ = Σ (t r)ᵢ zₙ₋ᵢ

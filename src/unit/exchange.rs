@@ -15,7 +15,7 @@ pub(super) struct Exchange {
     pub(super) stretch: Stretch,
 }
 
-/// A stretch of the scene's own motion between two samples, which goes on straight beyond them.
+/// The scene's own motion between two samples, continued linearly beyond them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Stretch {
     /// Seconds from the start of the simulation to its start.
@@ -29,7 +29,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// The stretch that begins or goes on `elapsed` seconds after the start.
+    /// Returns the motion from `elapsed` seconds after the start to the next sample.
     pub(super) fn new(motion: &Excitation, elapsed: f64) -> Self {
         let segment = motion.segment(elapsed, f64::INFINITY);
         let (from, to, duration) = (segment.from, segment.to, segment.duration);

@@ -2,7 +2,7 @@
 
 use crate::wall::Support;
 
-/// The inputs as they stand, and their rates for the next step.
+/// The present inputs, and their rates for the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Inputs {
     /// Ground acceleration, held over a step \[m/s²\].
@@ -27,14 +27,14 @@ impl Input {
         *self = Self { value, ..Self::default() };
     }
 
-    /// After a step the input counts as extrapolated to its end.
+    /// Extrapolates the input to the end of a step.
     pub(super) fn pass(&mut self, duration: f64) {
         *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
     }
 }
 
 impl Inputs {
-    /// The supports' motion `ahead` seconds after the present, given the motion a scene brings along.
+    /// Returns the supports' motion `ahead` seconds after the present, on top of the scene's `own`.
     pub(super) fn support(&self, own: Support, ahead: f64) -> Support {
         let at = |input: &Input| input.value + input.rate * ahead;
         Support {

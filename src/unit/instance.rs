@@ -20,14 +20,14 @@ pub struct Unit {
     pub(super) excitation: Option<Arc<Excitation>>,
     pub(super) inputs: Inputs,
     pub(super) experiment: Experiment,
-    /// The wall as the parameters stand: while they may change, without a past.
+    /// The wall. While parameters may change, it is at its start.
     pub(super) simulation: Simulation,
     /// Initialisation is over.
     pub(super) running: bool,
     pub(super) impulses: Ends,
     /// What Model Exchange adds; none in co-simulation.
     pub(super) exchange: Option<Exchange>,
-    /// The outputs as they follow from state and inputs, once asked for.
+    /// The outputs at the present state and inputs, once needed.
     outputs: Cell<Option<Outputs>>,
     pub(super) top_ignored_told: bool,
 }
@@ -55,7 +55,7 @@ impl Unit {
         Ok(unit)
     }
 
-    /// Builds the wall at its start from parameters and inputs as they stand, unless it moves already.
+    /// Builds the wall at its start from the present parameters and inputs, unless initialisation is over.
     pub(super) fn prepare(&mut self) -> Result<(), Failure> {
         if self.running {
             return Ok(());
@@ -67,7 +67,7 @@ impl Unit {
         Ok(())
     }
 
-    /// The motion the scene brings along, at the present.
+    /// Returns the scene's own motion at the present time.
     fn own_support(&self) -> Support {
         let elapsed = self.simulation.progress().time - self.experiment.start;
         if let (Some(exchange), true) = (&self.exchange, self.running) {
@@ -76,7 +76,7 @@ impl Unit {
         segment_of(self.excitation.as_deref(), elapsed, 0.0).from
     }
 
-    /// The supports now.
+    /// Returns the present motion of the supports.
     pub(super) fn support(&self) -> Support {
         self.inputs.support(self.own_support(), 0.0)
     }
@@ -87,7 +87,7 @@ impl Unit {
         outputs
     }
 
-    /// State or inputs have changed.
+    /// Forgets the outputs after a change of state or inputs.
     pub(super) fn refresh(&mut self) {
         self.outputs.set(None);
     }
@@ -105,7 +105,8 @@ impl Unit {
         }
     }
 
-    /// One communication step, through the samples of the scene's own motion; on an error all is as it was.
+    /// Makes one communication step, through the samples of the scene's own motion. On an error the unit is
+    /// as it was.
     pub(super) fn advance(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
         let before = *self.simulation.progress();
         self.simulation.set_time(step.from);

@@ -19,7 +19,7 @@ impl Unit {
         self.exchange.get_or_insert_default()
     }
 
-    /// The stretch of the scene's own motion that begins now.
+    /// Takes up the scene's own motion from now to the next sample.
     pub(super) fn begin_stretch(&mut self) {
         let elapsed = self.elapsed();
         let stretch = self.excitation.as_ref().map(|motion| Stretch::new(motion, elapsed));
@@ -37,7 +37,7 @@ impl Unit {
         }
     }
 
-    /// Sets one state as if it were an input; the branch follows.
+    /// Sets one state as if it were an input, and the branch with it.
     pub(super) fn place(&mut self, variable: RealVariable, value: f64) {
         let state = self.simulation.progress().state;
         let (displacement, velocity) = match variable {
@@ -133,5 +133,5 @@ impl ModelExchange for Unit {
     }
 }
 
-/// Importers may be this early at an event that they were told of, relative to the larger of the time and 1 s.
+/// How early importers may be at an event announced to them, relative to the larger of the time and 1 s.
 const TIME_ROUNDING: f64 = 1e-9;

@@ -25,7 +25,8 @@ pub struct CapacityPoint {
     pub spectral_acceleration: f64,
     /// Secant stiffness F/u \[N/m\]; `None` at u = 0.
     pub secant_stiffness: Option<f64>,
-    /// Secant period T = 2π √(`m_eff` u/F) = 2π √(d*/a*) \[s\]; `None` at u = 0 and where the force is not positive.
+    /// Secant period T = 2π √(`m_eff` u/F) = 2π √(d*/a*) \[s\]; `None` at u = 0 and where the force is not
+    /// positive.
     pub secant_period: Option<f64>,
 }
 

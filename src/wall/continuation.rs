@@ -1,4 +1,4 @@
-//! A branch beyond its ends, for solvers that look there before the event that changes the branch.
+//! A branch continued beyond its ends, for an importer's solver that goes there before the event.
 
 use super::branch::Branch;
 use super::damping::BranchDamping;
@@ -6,9 +6,9 @@ use super::damping::BranchDamping;
 impl Branch {
     /// C/`m_eff` \[1/s\] and its slope \[1/(m s)\] on this branch, continued smoothly beyond its ends.
     ///
-    /// Between the ends it is [`damping_at`](Self::damping_at). Towards u = 0, where F/u grows without bound, it goes on
-    /// with the same slope and curvature, and stays bounded. Beyond u₃ a stiffness-proportional coefficient changes
-    /// its sign; that of a constant ratio ends there.
+    /// Between the ends it is [`damping_at`](Self::damping_at). Towards u = 0, where F/u grows without bound,
+    /// it keeps its slope and curvature at the end and stays bounded. Beyond u₃ a stiffness-proportional
+    /// coefficient changes its sign, and that of a constant ratio is 0.
     #[must_use]
     pub fn continued_damping(&self, displacement: f64) -> (f64, f64) {
         if let BranchDamping::Constant(c) = self.damping {
@@ -30,8 +30,8 @@ impl Branch {
         (self.damping_at(displacement), self.damping_slope(displacement))
     }
 
-    /// Beyond the end `inner` by the fraction s = `inwards` of it: c₀ + a t + b t² with t = s/(1 + s), which has the
-    /// first and second derivative of C at s = 0.
+    /// Beyond the end `inner` by the fraction s = `inwards` of it: c₀ + a t + b t² with t = s/(1 + s), which
+    /// has the first and second derivative of C at s = 0.
     fn towards_zero(&self, inner: f64, inwards: f64) -> (f64, f64) {
         let w = self.restoring(inner) / inner;
         // with u = inner (1 − s): w = k + const/u, so that dw/ds = w − k and d²w/ds² = 2 (w − k)

@@ -74,7 +74,7 @@ impl Wall {
         &self.corners
     }
 
-    /// What the user should know about a valid choice of parameters.
+    /// Warnings about a valid choice of parameters.
     #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
@@ -86,7 +86,7 @@ impl Wall {
         self.force.elastic_stiffness.is_none()
     }
 
-    /// The wall in full rotations, unless they are taken as small.
+    /// The wall in full rotations; `None` where they are taken as small.
     #[must_use]
     pub fn rotations(&self) -> Option<&FullRotations> {
         self.rotations.as_ref()
@@ -163,7 +163,7 @@ impl Wall {
     /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
     #[must_use]
     pub fn rest_band(&self) -> [f64; 2] {
-        // of the branches themselves, so that a wall beyond the band is accelerated away from it bit for bit
+        // from the branches, so that a wall beyond the band is accelerated away from it bit for bit
         [-1.0, 1.0].map(|direction| self.restoring(self.branch_of(0.0, direction), 0.0))
     }
 
@@ -179,7 +179,8 @@ impl Wall {
         (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
     }
 
-    /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip twice the physical one, as Eq. (12) is.
+    /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip it is twice the
+    /// physical one, as Eq. (12) is.
     #[must_use]
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
         if let Some(rotations) = &self.rotations {
@@ -201,8 +202,8 @@ impl Wall {
         self.body.instability.positive.max(self.body.instability.negative)
     }
 
-    /// The branch of a displacement; at a corner the one into which a motion of the given `direction` leads, at
-    /// rest the outer one.
+    /// Returns the branch of a displacement. At a corner it is the one ahead of a motion of the given
+    /// `direction`, at rest the outer one.
     #[must_use]
     pub fn branch_of(&self, displacement: f64, direction: f64) -> usize {
         let last = self.branches.len() - 1;
@@ -220,7 +221,7 @@ impl Wall {
     pub fn backbone(&self) -> Vec<(f64, f64)> {
         let m = self.body.effective_mass;
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());
-        // the branch before u₃ that only drops the damping is no corner of the force
+        // the short branch before u₃ only drops the damping
         let branches = self.branches.iter().enumerate();
         let drawn = branches.filter(|(_, b)| b.upper - b.lower > 2.0 * RATIO_CUTOFF * b.upper.abs());
         for (index, branch) in drawn {

@@ -43,8 +43,8 @@ pub fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
     }
 }
 
-/// Damping ratio of an elastic oscillator that decays like a rocking block over `impacts` impacts from the rotation
-/// ratio θ₀/α. Priestley et al., Eq. (13).
+/// Damping ratio of an elastic oscillator that decays like a rocking block over `impacts` impacts from the
+/// rotation ratio θ₀/α. Priestley et al., Eq. (13).
 #[must_use]
 pub fn priestley(restitution: f64, rotation_ratio: f64, impacts: u32) -> f64 {
     let n = f64::from(impacts);
@@ -66,7 +66,8 @@ pub fn giannini_masiani(restitution: f64) -> f64 {
     2.0 * (1.0 - restitution) / (std::f64::consts::PI * (1.0 + restitution))
 }
 
-/// Period of free rocking from the rotation ratio θ₀/α, T = (4/p) acosh(1/(1 − θ₀/α)) \[s\]. Housner, Eq. (5).
+/// Period of free rocking from the rotation ratio θ₀/α, T = (4/p) acosh(1/(1 − θ₀/α)) \[s\]. Housner, Eq.
+/// (5).
 ///
 /// `frequency` is the frequency parameter p = √(3g/(4R)) \[rad/s\].
 #[must_use]

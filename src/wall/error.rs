@@ -6,18 +6,21 @@
 pub enum ParameterError {
     /// The overburden leaves no positive F₀ on a side.
     #[error(
-        "no rocking strength for {side}: F0 = {force} N must be positive, but overburden = {overburden} N acts at \
-         overburden_eccentricity = {eccentricity} m; bring the eccentricity closer to the axis or reduce the overburden"
+        "no rocking strength for {side}: F0 = {force} N must be positive, but overburden = {overburden} N \
+         acts at overburden_eccentricity = {eccentricity} m; bring the eccentricity closer to the axis or \
+         reduce the overburden"
     )]
     NoStrength { side: &'static str, force: f64, eccentricity: f64, overburden: f64 },
     /// a₁ ≥ a₃.
     #[error(
-        "a1 = {a1} must be smaller than a3 = {a3}: the elastic branch ends before the force does; reduce a1 or raise a3"
+        "a1 = {a1} must be smaller than a3 = {a3}: the elastic branch ends before the force does; reduce \
+         a1 or raise a3"
     )]
     ElasticBranchTooLong { a1: f64, a3: f64 },
     /// u₁ ≥ u₂.
     #[error(
-        "d1 = {d1} must be smaller than {formula} = {limit:.6} (softening = {softening}): no plateau is left; reduce d1 or a1"
+        "d1 = {d1} must be smaller than {formula} = {limit:.6} (softening = {softening}): no plateau is \
+         left; reduce d1 or a1"
     )]
     PlateauTooHigh { d1: f64, limit: f64, formula: &'static str, softening: &'static str },
     /// A point of a multilinear law.
@@ -25,8 +28,8 @@ pub enum ParameterError {
     Points { number: usize, displacement: f64, force: f64, reason: &'static str },
     /// A squat wall.
     #[error(
-        "restitution_source = {source} gives e = {value}, outside 0 to 1: the wall is too squat for this formula; \
-         set restitution_source = given and restitution"
+        "restitution_source = {source} gives e = {value}, outside 0 to 1: the wall is too squat for this \
+         formula; set restitution_source = given and restitution"
     )]
     Restitution {
         #[allow(missing_docs)]
@@ -39,31 +42,35 @@ pub enum ParameterError {
          damping_model = free_standing_block, impact = restitution, or force_law = bilinear"
     )]
     NoElasticBranch { model: &'static str },
-    /// ln e at e = 0.
+    /// e = 0 leaves no prediction of damping.
     #[error(
-        "damping_source = predicted needs a coefficient of restitution above 0, but it is {restitution}; give xi or c_bar instead"
+        "damping_source = predicted needs a coefficient of restitution above 0, but it is {restitution}; \
+         give xi or c_bar instead"
     )]
     Prediction { restitution: f64 },
-    /// The start lies where the wall has landed.
+    /// The start is beyond the landing.
     #[error(
-        "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to upright"
+        "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to \
+         upright"
     )]
     StartBeyondLanding { u_start: f64, limit: f64 },
-    /// Full rotations know rigid bodies with impacts only.
+    /// Full rotations are those of rigid bodies with impacts only.
     #[error(
-        "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or kinematics = linear"
+        "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or \
+         kinematics = linear"
     )]
     Trigonometric { name: &'static str, value: String, remedy: &'static str },
     /// No unstable equilibrium in full rotations.
     #[error(
-        "kinematics = trigonometric: for {side} the wall lies flat at u = {end} m before it becomes unstable; make it more \
-         slender, bring the overburden's eccentricity closer to the axis, or set kinematics = linear"
+        "kinematics = trigonometric: for {side} the wall lies flat at u = {end} m before it becomes \
+         unstable; make it more slender, bring the overburden's eccentricity closer to the axis, or set \
+         kinematics = linear"
     )]
     NoFall { side: &'static str, end: f64 },
-    /// The closed form does not hold.
+    /// Damping that varies on a branch has no closed form.
     #[error(
-        "solver = exact needs damping that is constant on each branch, and damping_model = {model} is not; use \
-         solver = automatic or adaptive"
+        "solver = exact needs damping that is constant on each branch, and damping_model = {model} is not; \
+         use solver = automatic or adaptive"
     )]
     NotExact { model: &'static str },
 }

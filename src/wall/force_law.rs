@@ -8,7 +8,7 @@ use super::parameters::Parameters;
 
 /// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`).
 ///
-/// The anchor of the last line is its zero u₃, so that the force keeps its relative accuracy on the way there.
+/// The anchor of the last line is its zero u₃, so that the force keeps its relative accuracy towards it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// Displacement of the anchor \[m\].
@@ -131,7 +131,7 @@ impl Side {
             corners.push(to[0]);
             from = to;
         }
-        // The force goes on along the last line.
+        // the force continues along the last line
         corners.pop();
         Self { corners, lines, end }
     }

@@ -8,12 +8,14 @@ use super::force_law::{RestoringForce, Side};
 use super::mechanism::Body;
 use super::sides::Sides;
 
-/// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the root of √(u₃ − u).
+/// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the zero of √(u₃
+/// − u).
 ///
 /// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
 pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
-/// Returns the corners in order of displacement, the two landings first and last; `fully` says that rotations are full.
+/// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations
+/// are full.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,

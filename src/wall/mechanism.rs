@@ -1,4 +1,4 @@
-//! The two mechanisms: what geometry and loads make of Eq. (1).
+//! The two mechanisms: Eq. (1) from geometry and loads.
 
 use crate::variables::{EccentricityMode, Mechanism};
 
@@ -39,7 +39,8 @@ pub struct Body {
     pub landing: Sides,
     /// Displacement from which the wall has left its supports: max(half the geometric end, `u_ins`) \[m\].
     pub departure: Sides,
-    /// Share of the bottom and of the top support in the effective support acceleration, `w_b` and `w_t` \[-\].
+    /// Share of the bottom and of the top support in the effective support acceleration, `w_b` and `w_t`
+    /// \[-\].
     pub support_weights: [f64; 2],
 }
 

@@ -4,8 +4,9 @@
 //! m_eff ü + C(u) u̇ + F(u) = −λ m_eff a_eff                                              Eq. (12)
 //! ```
 //!
-//! A [`Wall`] that exists is valid and never changes. It is a short sorted list of [`Branch`]es, straight pieces of the
-//! restoring force per unit effective mass, and of the [`Corner`]s between them; a solver sees only the branch it is on.
+//! A [`Wall`] that exists is valid and never changes. It is a short sorted list of [`Branch`]es, straight
+//! pieces of the restoring force per unit effective mass, and of the [`Corner`]s between them. A solver sees
+//! only the branch it is on.
 
 mod branch;
 mod capacity;

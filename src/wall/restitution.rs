@@ -18,8 +18,8 @@ pub fn analytic_vertical_spanning(slenderness: f64) -> f64 {
     1.0 - 2.0 * slenderness.sin().powi(2)
 }
 
-/// Conservation of angular momentum about the new bottom hinge of a vertical spanning wall, for any hinge height:
-/// e = (h h₁ + h₁² − 3b²)/(h h₁ + h₁² + 3b²). Equals Eq. (3) at h₁ = h/2.
+/// Conservation of angular momentum about the new bottom hinge of a vertical spanning wall, for any hinge
+/// height: e = (h h₁ + h₁² − 3b²)/(h h₁ + h₁² + 3b²). Equals Eq. (3) at h₁ = h/2.
 #[must_use]
 pub fn momentum_vertical_spanning(body: &Body) -> f64 {
     let h1 = body.hinge_height;
@@ -29,8 +29,8 @@ pub fn momentum_vertical_spanning(body: &Body) -> f64 {
     (sum - loss) / (sum + loss)
 }
 
-/// Ratio `e_exp`/`e_an` of restitution measured on masonry: 0.95 for a parapet, 0.90 for a vertical spanning wall.
-/// Tomassetti et al., section 3.2.
+/// Ratio `e_exp`/`e_an` of restitution measured on masonry: 0.95 for a parapet, 0.90 for a vertical spanning
+/// wall. Tomassetti et al., section 3.2.
 #[must_use]
 pub fn calibration(mechanism: Mechanism) -> f64 {
     match mechanism {

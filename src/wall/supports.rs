@@ -4,7 +4,8 @@ use crate::variables::Mechanism;
 
 use super::mechanism::Body;
 
-/// Motion of the supports at one instant: absolute accelerations \[m/s²\] and the drift `x_top` − `x_bottom` \[m\].
+/// Motion of the supports at one instant: absolute accelerations \[m/s²\] and the drift `x_top` − `x_bottom`
+/// \[m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Support {
     /// Absolute acceleration of the bottom support \[m/s²\].
@@ -67,15 +68,15 @@ impl Body {
 
     /// Forces the supports exert on the wall \[N\]; `acceleration` is ü \[m/s²\].
     ///
-    /// `drift` says whether a drift is in play: then the couple G = −W u/(2h) − (W/2 + O) d/h acts too.
+    /// `drift` says whether a drift has been given: then the couple G = −W u/(2h) − (W/2 + O) d/h acts too.
     #[must_use]
     pub fn reactions(&self, support: Support, acceleration: f64, displacement: f64, drift: bool) -> Ends {
         let couple = if drift { self.couple(displacement, support.drift) } else { 0.0 };
         self.exchange([support.bottom, support.top], acceleration, couple)
     }
 
-    /// Impulses of the supports on the wall \[N s\], from the changes of velocity: impacts are jumps of u̇ and need no
-    /// look. `velocity_changes` are those of the bottom and top support \[m/s\], `couple_impulse` is ∫G dt.
+    /// Impulses of the supports on the wall \[N s\], from the changes of velocity, jumps at impacts included.
+    /// `velocity_changes` are those of the bottom and top support \[m/s\], `couple_impulse` is ∫G dt.
     #[must_use]
     pub fn impulses(&self, velocity_changes: [f64; 2], velocity_change: f64, couple_impulse: f64) -> Ends {
         self.exchange(velocity_changes, velocity_change, couple_impulse)

@@ -1,24 +1,26 @@
 //! Full rotations: Housner's block and the two-body strip, the check on the small rotations of Eq. (12).
 //!
 //! # Kinematics
-//! While the wall leans towards +x the lower body turns by θ₁ about its toe (b/2, 0) and carries the hinge B at its far
-//! corner (−b/2, h₁). The upper body turns back by θ₂ about B; its corner (b/2, h) slides up along the top support. With
-//! the diagonals Dᵢ² = hᵢ² + b² and ψᵢ = θᵢ − αᵢ, tan αᵢ = b/hᵢ, measured from the toe,
+//! While the wall leans towards +x the lower body turns by θ₁ about its toe (b/2, 0) and carries the hinge B
+//! at its far corner (−b/2, h₁). The upper body turns back by θ₂ about B; its corner (b/2, h) slides up along
+//! the top support. With the diagonals Dᵢ² = hᵢ² + b² and ψᵢ = θᵢ − αᵢ, tan αᵢ = b/hᵢ, measured from the toe,
 //!
 //! ```text
 //! B = D₁ (sin ψ₁, cos ψ₁)        top corner = B + D₂ (−sin ψ₂, cos ψ₂)
 //! ```
 //!
-//! The top corner stays above the toe: D₁ sin ψ₁ = D₂ sin ψ₂ = s. So s, the place of the hinge, is a coordinate of both
-//! bodies, both centres of mass lie at s/2, and u = s + b is the displacement of the hinge. A parapet is the lower body
-//! alone with h₁ = h; its centre is at s/2 and moves by u = (s + b)/2. Hence s = κ u − b with κ = 2 (parapet), 1 (strip).
+//! The top corner stays above the toe: D₁ sin ψ₁ = D₂ sin ψ₂ = s. So s, the place of the hinge, is a
+//! coordinate of both bodies, both centres of mass lie at s/2, and u = s + b is the displacement of the
+//! hinge. A parapet is the lower body alone with h₁ = h; its centre is at s/2 and moves by u = (s + b)/2.
+//! Hence s = κ u − b with κ = 2 (parapet), 1 (strip).
 //!
 //! # Lagrange
-//! With cᵢ = √(Dᵢ² − s²) and tᵢ = s/cᵢ = tan ψᵢ the heights are c₁/2 and c₁ + c₂/2, the angular velocities ṡ/cᵢ, and
+//! With cᵢ = √(Dᵢ² − s²) and tᵢ = s/cᵢ = tan ψᵢ the heights are c₁/2 and c₁ + c₂/2, the angular velocities
+//! ṡ/cᵢ, and
 //!
 //! ```text
 //! T = ½ ṡ² [m₁ (1 + t₁²)/3 + m₂ (1/4 + (t₁ + t₂/2)² + (1 + t₂²)/12)]
-//! V = W [m₁ c₁/2 + m₂ (c₁ + c₂/2)]/m + O y      y: height of the load point, fixed to the wall, linear in c₁, c₂ and s
+//! V = W [m₁ c₁/2 + m₂ (c₁ + c₂/2)]/m + O y   y: height of the load point on the wall, linear in c₁, c₂, s
 //! Q = −½ m a_g                                  of the supports' acceleration, exactly
 //! ```
 //!
@@ -30,15 +32,16 @@
 //! f = g₀ − g₁ t₁ − g₂ t₂ = 2 (dV/ds)/m_eff
 //! ```
 //!
-//! A parapet has μ = 1/cos²ψ: with u̇ = ½ D cos ψ θ̇ this is Housner's θ̈ = −p² (sin(α − θ) + (`a_g`/g) cos(α − θ)). At u = 0
-//! f is F₀/`m_eff` of Table 2. For small rotations μ → 1 but for b²/h², which the paper drops: 1 + b²/h² for a parapet, and
-//! 1 + 4 b²/h₁² for a strip with its hinge at mid-height.
+//! A parapet has μ = 1/cos²ψ: with u̇ = ½ D cos ψ θ̇ this is Housner's θ̈ = −p² (sin(α − θ) + (`a_g`/g) cos(α
+//! − θ)). At u = 0 f is F₀/`m_eff` of Table 2. For small rotations μ → 1 but for b²/h², which the paper
+//! drops: 1 + b²/h² for a parapet, and 1 + 4 b²/h₁² for a strip with its hinge at mid-height.
 //!
 //! # What is supported
-//! Any hinge height, overburden with either eccentricity mode (a dead load on a point of the top section), both directions
-//! of rocking (u < 0 is the mirror image), restitution at u = 0, where u̇ is proportional to θ̇. The sum of the reactions
-//! follows from ü exactly; their split between the supports of a strip is that of the small rotations. Supports that move
-//! differently, and drift, enter with their weights for small rotations.
+//! Any hinge height, overburden with either eccentricity mode (a dead load on a point of the top section),
+//! both directions of rocking (u < 0 is the mirror image), restitution at u = 0, where u̇ is proportional to
+//! θ̇. The sum of the reactions follows from ü exactly; their split between the supports of a strip is that
+//! of the small rotations. Supports that move differently, and drift, enter with their weights for small
+//! rotations.
 
 use crate::variables::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
@@ -47,7 +50,7 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
 
-/// How rotations are taken.
+/// Small or full rotations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kinematics {
     /// Small rotations, Eq. (12).
@@ -122,7 +125,8 @@ impl FullRotations {
         Ok(rotations)
     }
 
-    /// Displacements of the unstable equilibrium on both sides, which without overburden are `u_ins` of Table 2 \[m\].
+    /// Displacements of the unstable equilibrium on both sides, which without overburden are `u_ins` of Table
+    /// 2 \[m\].
     #[must_use]
     pub fn instability(&self) -> Sides {
         Sides { positive: self.equilibrium(1.0), negative: self.equilibrium(-1.0) }
@@ -172,7 +176,8 @@ impl FullRotations {
         sign * (sign * forcing - self.force(t, sign) - half_mass_rate * sign * velocity) / self.mass(t)
     }
 
-    /// Energy over `m_eff`, ½ μ u̇² + ∫f du from 0 \[m²/s²\]; for a strip twice the physical one, as Eq. (12) is.
+    /// Energy over `m_eff`, ½ μ u̇² + ∫f du from 0 \[m²/s²\]; for a strip twice the physical one, as Eq. (12)
+    /// is.
     #[must_use]
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
         let s = self.place(displacement);
@@ -249,7 +254,8 @@ impl Body {
 /// g₀, g₁, g₂ for the load point at the eccentricity `c` towards the side.
 fn forces(b: f64, [h1, h2]: [f64; 2], [m1, m2]: [f64; 2], body: &Body, c: f64) -> [f64; 3] {
     let (w, o) = (body.weight, body.overburden);
-    // height of the load point: that of the corner on its body's diagonal, and the distance from there along the section
+    // height of the load point: that of the corner on its body's diagonal, and the distance from there along
+    // the section
     let (load, sine) = match body.mechanism {
         // y = c₁ − (b/2 + c) sin θ₁,  sin θ₁ = (s h + c₁ b)/D²
         Mechanism::Parapet => {

@@ -28,18 +28,19 @@ impl std::fmt::Display for Warning {
                 "predicted c_bar (Eq. 23) holds for a parapet without overburden only; give c_bar instead",
             ),
             Self::CountedTwice => f.write_str(
-                "predicted damping already stands for the impacts: with impact = restitution the loss counts twice; \
-                 set damping_model = none or impact = none",
+                "predicted damping already stands for the impacts: with impact = restitution the loss counts \
+                 twice; set damping_model = none or impact = none",
             ),
             Self::OutsideFit { a1 } => write!(
                 f,
-                "a1 = {a1} is outside the range {} to {} in which predicted damping (Eqs. 20 to 22) was fitted",
+                "a1 = {a1} is outside the range {} to {} in which predicted damping (Eqs. 20 to 22) was \
+                 fitted",
                 equivalence::FITTED_A1.start(),
                 equivalence::FITTED_A1.end()
             ),
-            Self::NeverRests => {
-                f.write_str("restitution = 1 without damping: the wall loses no energy and never comes to rest")
-            }
+            Self::NeverRests => f.write_str(
+                "restitution = 1 without damping: the wall loses no energy and never comes to rest",
+            ),
         }
     }
 }

@@ -1,0 +1,276 @@
+//! Collects demands on each piece of a motion.
+//!
+//! They are found on the pieces, not at samples. On a piece every quantity g watched has a bound M on |g̈|,
+//! so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed the
+//! extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
+
+use crate::wall::{Ends, Support, Wall};
+
+use super::demand::{Demands, Extremes, Instant};
+use super::event::{self, Ending, Kinematics, Piece, SearchExhausted};
+use super::state::{Peaks, Segment};
+
+/// Error of an extreme, relative to the terms it is the sum of. Its time is then good to about 1e-6 of the
+/// time scale of the motion around it.
+pub const ACCURACY: f64 = 1e-12;
+/// Intervals of one search after which its tolerance doubles, time and again: hundreds of undamped
+/// oscillations of one height in one step are not worth twelve digits each.
+const PATIENCE: u32 = 1 << 14;
+/// Intervals of one search: by then the tolerance is a million times the value.
+const MOST_INTERVALS: u32 = 60 * PATIENCE;
+/// Intervals pending at once.
+const DEEPEST: usize = 64;
+
+/// Demands being collected over one segment.
+pub(super) struct Watch<'a> {
+    pub(super) demands: &'a mut Demands,
+    pub(super) wall: &'a Wall,
+    pub(super) segment: &'a Segment,
+    /// Time at the start of the segment \[s\].
+    pub(super) time: f64,
+    /// Whether the couple of a drift acts.
+    pub(super) drift: bool,
+}
+
+/// A piece of motion that has been followed.
+pub(super) struct Followed<'a, P> {
+    pub(super) piece: &'a P,
+    /// Its branch.
+    pub(super) branch: usize,
+    /// Its start within the segment \[s\].
+    pub(super) from: f64,
+    /// How far it was followed \[s\].
+    pub(super) length: f64,
+    /// u there, at a corner that of the corner \[m\].
+    pub(super) displacement: f64,
+}
+
+/// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
+/// terms.
+struct Quantity<F> {
+    value: F,
+    curvature: f64,
+    size: f64,
+}
+
+impl Watch<'_> {
+    /// Takes in rest from one time within the segment to another: forces are linear in between.
+    pub(super) fn rest(&mut self, from: f64, to: f64) {
+        for offset in [from, to] {
+            let (support, time) = (self.segment.support(offset), self.time + offset);
+            let reactions = self.wall.body().reactions(support, 0.0, 0.0, self.drift);
+            self.demands.acceleration.include(0.0, time);
+            self.demands.reaction_bottom.include(reactions.bottom, time);
+            self.demands.reaction_top.include(reactions.top, time);
+        }
+    }
+
+    /// Takes in a piece of motion.
+    #[inline(never)]
+    pub(super) fn piece<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
+        let &Followed { piece, length, from, .. } = followed;
+        let search = ExtremeSearch::new(piece, length, [self.time, from]);
+        let (acceleration, jerk) = piece.bounds(search.seen[0].1, length);
+        let snap = piece.snap((acceleration, jerk));
+        let demands = &mut *self.demands;
+        let [u, v, a]: [fn(&Kinematics) -> f64; 3] = [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
+        for (extremes, pick, curvature) in [
+            (&mut demands.displacement, u, acceleration),
+            (&mut demands.velocity, v, jerk),
+            (&mut demands.acceleration, a, snap),
+        ] {
+            let value = |_: f64, motion: &Kinematics| pick(motion);
+            search.raise(extremes, &Quantity { value, curvature, size: search.largest(pick) })?;
+        }
+        self.forces(&search, acceleration, snap)?;
+        self.cross(followed)?;
+        self.count(followed)
+    }
+
+    /// Takes in the reactions over a piece, on which the accelerations of the supports are linear.
+    fn forces<P: Piece>(
+        &mut self,
+        search: &ExtremeSearch<'_, P>,
+        acceleration: f64,
+        snap: f64,
+    ) -> Result<(), SearchExhausted> {
+        let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
+        let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
+        let given = largest(|support| support.bottom) + largest(|support| support.top);
+        let [most_u, most_a] = [search.largest(|m| m.displacement), search.largest(|m| m.acceleration)];
+        // ∂R/∂ü and ∂R/∂u
+        let [by_a, by_u] =
+            [[1.0, 0.0], [0.0, 1.0]].map(|[a, u]| body.reactions(Support::default(), a, u, drift));
+        let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
+        let Demands { reaction_bottom, reaction_top, .. } = &mut *self.demands;
+        for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
+            let value = |offset: f64, motion: &Kinematics| {
+                let support = segment.support(search.from + offset);
+                pick(body.reactions(support, motion.acceleration, motion.displacement, drift))
+            };
+            let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
+            let curvature = slope_a * snap + slope_u * acceleration;
+            let size = slope_a * (most_a + given) + slope_u * most_u;
+            search.raise(extremes, &Quantity { value, curvature, size })?;
+        }
+        Ok(())
+    }
+
+    /// Takes in first crossings on a piece.
+    fn cross<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
+        let start = self.time;
+        let u_ins = self.wall.body().instability;
+        let Demands { displacement: reached, crossings, .. } = &mut *self.demands;
+        for crossing in crossings.iter_mut().filter(|crossing| crossing.first.is_none()) {
+            let limits = [-crossing.fraction * u_ins.negative, crossing.fraction * u_ins.positive];
+            let extremes = [reached.lowest.value, reached.highest.value];
+            let is_end = followed.displacement <= limits[0] || followed.displacement >= limits[1];
+            if extremes[0] > limits[0] && extremes[1] < limits[1] && !is_end {
+                continue;
+            }
+            let mut peaks = Peaks::at(followed.piece.start().displacement);
+            let ending = event::follow(followed.piece, limits, &mut peaks)?;
+            let (offset, upwards) = match ending {
+                Ending::Exit(exit) if exit.time <= followed.length => (exit.time, exit.upwards),
+                // at the end itself, within rounding
+                _ => (followed.length, followed.displacement > 0.0),
+            };
+            crossing.first =
+                Some(Instant { value: limits[usize::from(upwards)], time: start + (followed.from + offset) });
+        }
+        Ok(())
+    }
+
+    /// Counts half cycles: an excursion begins where the motion leaves the elastic branch, and ends at u = 0.
+    fn count<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
+        let branch = &self.wall.branches()[followed.branch];
+        let start = followed.piece.start();
+        let elastic = !self.wall.is_rigid() && branch.lower <= 0.0 && branch.upper >= 0.0;
+        let demands = &mut *self.demands;
+        if !elastic {
+            if self.wall.is_rigid() && start.displacement == 0.0 {
+                demands.excursion = None;
+            }
+            let sign = if branch.lower + branch.upper < 0.0 { -1.0 } else { 1.0 };
+            if demands.excursion != Some(sign) {
+                demands.excursion = Some(sign);
+                demands.half_cycles += 1;
+            }
+            return Ok(());
+        }
+        let Some(sign) = demands.excursion else { return Ok(()) };
+        if sign * start.displacement <= 0.0 || sign * followed.displacement <= 0.0 {
+            demands.excursion = None;
+            return Ok(());
+        }
+        // there and back within one piece
+        let limits = if sign > 0.0 { [0.0, f64::INFINITY] } else { [f64::NEG_INFINITY, 0.0] };
+        let mut peaks = Peaks::at(start.displacement);
+        if let Ending::Exit(exit) = event::follow(followed.piece, limits, &mut peaks)?
+            && exit.time <= followed.length
+        {
+            demands.excursion = None;
+        }
+        Ok(())
+    }
+}
+
+/// Instants of a piece evaluated first. They give the size of what varies on it.
+const FIRST: usize = 5;
+
+/// A piece to search up to a length; it starts `from` after the `time` of its segment.
+struct ExtremeSearch<'a, P> {
+    piece: &'a P,
+    time: f64,
+    from: f64,
+    seen: [(f64, Kinematics); FIRST],
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    offset: f64,
+    value: f64,
+}
+
+impl<'a, P: Piece> ExtremeSearch<'a, P> {
+    fn new(piece: &'a P, length: f64, [time, from]: [f64; 2]) -> Self {
+        let seen = std::array::from_fn(|index| match index {
+            0 => (0.0, piece.start()),
+            _ if index + 1 == FIRST => (length, piece.at(length)),
+            _ => {
+                let offset = length * (index as f64 / (FIRST - 1) as f64);
+                (offset, piece.at(offset))
+            }
+        });
+        Self { piece, time, from, seen }
+    }
+
+    fn largest(&self, pick: fn(&Kinematics) -> f64) -> f64 {
+        self.seen.iter().map(|(_, motion)| pick(motion).abs()).fold(0.0, f64::max)
+    }
+
+    /// Raises the extremes to those of a quantity.
+    fn raise<F: Fn(f64, &Kinematics) -> f64>(
+        &self,
+        extremes: &mut Extremes,
+        quantity: &Quantity<F>,
+    ) -> Result<(), SearchExhausted> {
+        if let Some(instant) = self.highest(1.0, extremes.highest.value, quantity)? {
+            extremes.highest = instant;
+        }
+        if let Some(Instant { value, time }) = self.highest(-1.0, -extremes.lowest.value, quantity)? {
+            extremes.lowest = Instant { value: -value, time };
+        }
+        Ok(())
+    }
+
+    /// Returns the highest value of `sign` times a quantity, if it exceeds `best`.
+    fn highest<F: Fn(f64, &Kinematics) -> f64>(
+        &self,
+        sign: f64,
+        best: f64,
+        quantity: &Quantity<F>,
+    ) -> Result<Option<Instant>, SearchExhausted> {
+        let node = |offset: f64, motion: &Kinematics| Node {
+            offset,
+            value: sign * (quantity.value)(offset, motion),
+        };
+        let mut found = Node { offset: f64::NAN, value: best };
+        let mut left = node(0.0, &self.seen[0].1);
+        // from right to left: the first interval is the last in
+        let mut pending = [left; DEEPEST];
+        for (place, (offset, motion)) in pending.iter_mut().zip(self.seen[1..].iter().rev()) {
+            *place = node(*offset, motion);
+        }
+        let mut count = FIRST - 1;
+        for node in [left].iter().chain(&pending[..count]) {
+            if node.value > found.value {
+                found = *node;
+            }
+        }
+        for visited in 0..MOST_INTERVALS {
+            let Some(index) = usize::checked_sub(count, 1) else {
+                let time = self.time + (self.from + found.offset);
+                return Ok((found.value > best).then_some(Instant { value: found.value, time }));
+            };
+            let right = pending[index];
+            let width = right.offset - left.offset;
+            let most = left.value.max(right.value) + 0.125 * width * width * quantity.curvature;
+            // a sum that cancels has no more digits than its terms
+            let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
+            let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
+            if most <= found.value + tolerance || count == DEEPEST {
+                (left, count) = (right, index);
+                continue;
+            }
+            let offset = 0.5 * (left.offset + right.offset);
+            let middle = node(offset, &self.piece.at(offset));
+            if middle.value > found.value {
+                found = middle;
+            }
+            pending[count] = middle;
+            count += 1;
+        }
+        Err(SearchExhausted)
+    }
+}
