@@ -13,8 +13,9 @@
 
 use crate::wall::{Branch, BranchDamping};
 
+use oscillator::{HIGHEST_ORDER, Polynomial};
+
 use super::event::{Kinematics, Piece};
-use super::polynomial::{HIGHEST_ORDER, Polynomial};
 
 /// The largest terms in u \[m\] and in u̇ \[m/s\] that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]

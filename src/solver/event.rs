@@ -1,14 +1,8 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
-use super::state::Peaks;
+pub(super) use oscillator::KinematicState as Kinematics;
 
-/// Displacement, velocity and acceleration at one instant \[m, m/s, m/s²\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kinematics {
-    pub(super) displacement: f64,
-    pub(super) velocity: f64,
-    pub(super) acceleration: f64,
-}
+use super::state::Peaks;
 
 /// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {

@@ -2,11 +2,10 @@
 
 use std::cell::OnceCell;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
+use oscillator::{Green, Oscillator, Polynomial, Regime};
 
 use super::event::{Kinematics, Piece};
-use super::oscillator::{Green, Oscillator, Regime, propagated};
-use super::polynomial::Polynomial;
 use super::state::Peaks;
 
 /// Motion on a branch in closed form.
@@ -77,18 +76,18 @@ impl ClosedForm {
     pub(super) fn remembered(mut self, branch: usize, memo: &mut Memo) -> Self {
         let duration = rounded(self.horizon);
         if memo.duration != duration || memo.branch != branch {
-            *memo = Memo { branch, duration, propagator: self.oscillator.propagator(duration) };
+            let rows = self.oscillator.propagator(duration);
+            *memo = Memo { branch, duration, propagator: Matrix3::from_fn(|i, j| rows[i][j]) };
         }
-        let Kinematics { displacement, velocity, acceleration } =
-            propagated(&memo.propagator, self.start, self.forcing_rate);
+        let from = Vector3::new(self.start.velocity, self.start.acceleration, self.forcing_rate);
+        let change = memo.propagator * from;
+        let (velocity, acceleration) = (change[1], change[2]);
+        let end = Kinematics { displacement: self.start.displacement + change[0], velocity, acceleration };
         let rest = self.horizon - duration;
-        let Oscillator { damping: c, stiffness: k, .. } = self.oscillator;
-        // d ü/dt = p₁ − c ü − k u̇
-        let jerk = self.forcing_rate - c * acceleration - k * velocity;
         self.end = Some(Kinematics {
-            displacement: displacement + rest * velocity,
+            displacement: end.displacement + rest * velocity,
             velocity: velocity + rest * acceleration,
-            acceleration: acceleration + rest * jerk,
+            acceleration: acceleration + rest * self.oscillator.jerk(end, self.forcing_rate),
         });
         self
     }
@@ -100,8 +99,8 @@ impl ClosedForm {
 
     /// Whether the whole motion stays in the range, by its amplitude around the moving equilibrium.
     fn stays_within(&self, quiet: &Quiet) -> bool {
-        let Oscillator { damping: c, stiffness: k, regime, .. } = self.oscillator;
-        let Regime::Oscillating(omega) = regime else { return false };
+        let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
+        let Regime::Oscillating(omega) = self.oscillator.regime() else { return false };
         if k <= 0.0 || omega == 0.0 {
             return false;
         }
@@ -160,7 +159,7 @@ impl Piece for ClosedForm {
 
     fn snap(&self, (acceleration, jerk): (f64, f64)) -> f64 {
         // u⁗ = −c u‴ − k ü
-        self.oscillator.damping * jerk + self.oscillator.stiffness.abs() * acceleration
+        self.oscillator.damping() * jerk + self.oscillator.stiffness().abs() * acceleration
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
@@ -168,7 +167,7 @@ impl Piece for ClosedForm {
         let Kinematics { displacement, velocity, acceleration } = self.start;
         // ∫u dt = u₀ t + (H + cJ) u̇₀ + J ü₀ + K p₁
         displacement * time
-            + (h + self.oscillator.damping * j) * velocity
+            + (h + self.oscillator.damping() * j) * velocity
             + j * acceleration
             + k * self.forcing_rate
     }

@@ -10,8 +10,6 @@ mod exact;
 mod indicators;
 mod motion;
 mod newmark;
-mod oscillator;
-mod polynomial;
 pub mod record;
 mod run;
 mod state;

@@ -1,10 +1,11 @@
 //! A wall and the method that moves it.
 
+use oscillator::Oscillator;
+
 use crate::variables::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
 
 use super::adaptive::Tolerances;
-use super::oscillator::Oscillator;
 
 /// Part of the tolerance for the terms that a Taylor step leaves out. A run of 10⁴ steps then stays within
 /// it.

@@ -29,10 +29,10 @@ mod short;
 mod stretches;
 mod wide;
 
-use super::oscillator::Oscillator;
 use super::{Method, Motion, SolverError, State, Work, is_constant};
 pub use batch::{Batch, LANES};
 use lane::{Lane, Plain};
+use oscillator::Oscillator;
 use short::Short;
 
 use crate::wall::Branch;
@@ -154,7 +154,7 @@ struct Affine {
 impl Affine {
     /// One step h: q₂ does not count.
     fn single(oscillator: &Oscillator, step: f64) -> Self {
-        let (c, k) = (oscillator.damping, oscillator.stiffness);
+        let (c, k) = (oscillator.damping(), oscillator.stiffness());
         let green = oscillator.green(step);
         let (g, h, j) = (green.g, green.h, green.j / step);
         let (of_u, of_v) = ([-k * h, -k * g], [g, -(k * h + c * g)]);
@@ -214,7 +214,7 @@ struct StepMap {
 
 /// A over P + c V + f̂, over a length of time: 1/(1 − c h/2 − |k| h²/8), infinite where that is too long for the argument.
 fn growth(oscillator: &Oscillator, length: f64) -> f64 {
-    let (c, k) = (oscillator.damping, oscillator.stiffness);
+    let (c, k) = (oscillator.damping(), oscillator.stiffness());
     let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
     if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
 }
@@ -223,7 +223,7 @@ impl StepMap {
     /// A over one step and over two, where the forcing and the branch's force together are up to `driving`.
     #[inline(always)]
     fn most(&self, driving: f64) -> [f64; 2] {
-        let braking = if self.oscillator.damping > 0.0 { lane::BRAKING } else { 0.0 };
+        let braking = if self.oscillator.damping() > 0.0 { lane::BRAKING } else { 0.0 };
         self.growth.map(|growth| growth * (driving + braking * driving))
     }
 
@@ -242,7 +242,7 @@ impl StepMap {
             corners: [f64::NEG_INFINITY, f64::INFINITY],
             growth: [growth(&oscillator, step), growth(&oscillator, 2.0 * step)],
             oscillator,
-            inverse_damping: 1.0 / oscillator.damping,
+            inverse_damping: 1.0 / oscillator.damping(),
             force_at_zero: 0.0,
             short: Short::new(&oscillator, step),
         }
@@ -283,7 +283,7 @@ impl<'a> RecordSolver<'a> {
         for map in self.maps.iter().flatten() {
             let [lower, upper] = [map.corners[0].max(-reach), map.corners[1].min(reach)];
             if lower <= upper {
-                let force = |u: f64| (map.force_at_zero + map.oscillator.stiffness * u).abs();
+                let force = |u: f64| (map.force_at_zero + map.oscillator.stiffness() * u).abs();
                 largest = largest.max(force(lower)).max(force(upper));
             }
         }

@@ -11,8 +11,9 @@
 use crate::wall::FullRotations;
 
 use super::adaptive::Recurrence;
+use oscillator::HIGHEST_ORDER;
+
 use super::event::Kinematics;
-use super::polynomial::HIGHEST_ORDER;
 
 /// Coefficients of one quantity.
 type Terms = [f64; HIGHEST_ORDER + 1];

@@ -1,6 +1,7 @@
 //! Parameters of a floor, and the validated floor they make.
 
-use crate::oscillator::Oscillator;
+use oscillator::Oscillator;
+
 use crate::variables::{Coupling, Hysteresis};
 
 /// What a floor is made of, in SI units.

@@ -1,7 +1,7 @@
 //! A floor in time: from corner to corner in closed form.
 
 use crate::floor::{Branch, Floor, Yielding};
-use crate::oscillator::Motion;
+use crate::piece::Piece;
 
 /// State of a floor: plain data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,10 +97,10 @@ impl State {
         for corners in 0..MOST_CORNERS {
             let now = Load { value: load.value + load.rate * done, rate: load.rate };
             let remaining = duration - done;
-            let motion = self.motion(floor, now);
-            let corner = self.corner(floor, &motion, remaining)?;
+            let piece = self.piece(floor, now);
+            let corner = self.corner(floor, &piece, remaining)?;
             let length = corner.map_or(remaining, |corner| corner.after);
-            self.follow(floor, &motion, length);
+            self.follow(floor, &piece, length);
             let Some(Corner { branch, .. }) = corner else {
                 let finite = self.displacement.is_finite() && self.velocity.is_finite();
                 return if finite { Ok(corners) } else { Err(MotionError::NotFinite { mass: floor.mass }) };
@@ -115,8 +115,8 @@ impl State {
         Err(MotionError::Corners { duration })
     }
 
-    fn motion(&self, floor: &Floor, load: Load) -> Motion {
-        Motion {
+    fn piece(&self, floor: &Floor, load: Load) -> Piece {
+        Piece {
             oscillator: floor.oscillator(self.branch),
             velocity: self.velocity,
             acceleration: self.acceleration(floor, load.value),
@@ -125,8 +125,8 @@ impl State {
     }
 
     /// Moves along one branch.
-    fn follow(&mut self, floor: &Floor, motion: &Motion, length: f64) {
-        let (point, loss) = motion.with_loss(length);
+    fn follow(&mut self, floor: &Floor, piece: &Piece, length: f64) {
+        let (point, loss) = piece.with_loss(length);
         self.displacement += point.displacement;
         self.velocity = point.velocity;
         self.damping_energy += floor.mass * loss;
@@ -156,27 +156,27 @@ impl State {
     }
 
     /// The first corner within `remaining`, if there is one.
-    fn corner(&self, floor: &Floor, motion: &Motion, remaining: f64) -> Result<Option<Corner>, MotionError> {
+    fn corner(&self, floor: &Floor, piece: &Piece, remaining: f64) -> Result<Option<Corner>, MotionError> {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Ok(None) };
         // A start within rounding beyond the limit that moves inwards has not crossed it.
         let upper = (self.plastic + limit - self.displacement).max(0.0);
         let lower = (self.plastic - limit - self.displacement).min(0.0);
-        let (mut from, mut velocity) = (0.0, motion.velocity);
-        for (count, to) in motion.monotonic_until(remaining).enumerate() {
+        let (mut from, mut velocity) = (0.0, piece.velocity);
+        for (count, to) in piece.monotonic_until(remaining).enumerate() {
             if count >= MOST_CORNERS {
                 return Err(MotionError::Corners { duration: remaining });
             }
-            let at_end = motion.at(to).velocity;
+            let at_end = piece.at(to).velocity;
             let turns = velocity * at_end < 0.0;
             if self.branch == Branch::Elastic {
-                let turn = if turns { motion.crossing(from, to, |point| point.velocity) } else { to };
+                let turn = if turns { piece.crossing(from, to, |point| point.velocity) } else { to };
                 for (start, end) in [(from, turn), (turn, to)] {
-                    if let Some(corner) = yield_point(motion, start, end, lower, upper) {
+                    if let Some(corner) = yield_point(piece, start, end, lower, upper) {
                         return Ok(Some(corner));
                     }
                 }
             } else if self.branch.sign() * at_end < 0.0 {
-                let after = if turns { motion.crossing(from, to, |point| point.velocity) } else { from };
+                let after = if turns { piece.crossing(from, to, |point| point.velocity) } else { from };
                 return Ok(Some(Corner { after, branch: Branch::Elastic }));
             }
             (from, velocity) = (to, at_end);
@@ -195,14 +195,14 @@ struct Corner {
 }
 
 /// The corner at which a monotonic stretch of an elastic motion leaves the elastic range.
-fn yield_point(motion: &Motion, start: f64, end: f64, lower: f64, upper: f64) -> Option<Corner> {
-    let reached = motion.at(end).displacement;
+fn yield_point(piece: &Piece, start: f64, end: f64, lower: f64, upper: f64) -> Option<Corner> {
+    let reached = piece.at(end).displacement;
     if reached > upper {
-        let after = motion.crossing(start, end, |point| point.displacement - upper);
+        let after = piece.crossing(start, end, |point| point.displacement - upper);
         return Some(Corner { after, branch: Branch::YieldingUp });
     }
     if reached < lower {
-        let after = motion.crossing(start, end, |point| point.displacement - lower);
+        let after = piece.crossing(start, end, |point| point.displacement - lower);
         return Some(Corner { after, branch: Branch::YieldingDown });
     }
     None

@@ -8,10 +8,12 @@
 //!
 //! The acceleration is linear between samples, so the recursion from step to step is exact (N. C. Nigam, P. C. Jennings:
 //! Calculation of response spectra from strong-motion earthquake records. Bulletin of the Seismological Society of America
-//! 59(2), 1969, 909–922). Its coefficients are summed here as power series over pieces of at most a twentieth of the period:
+//! 59(2), 1969, 909–922). Pieces are at most a twentieth of the period; over those [`Oscillator`] sums power series, because
 //! the printed closed forms lose digits to cancellation where ω · step is small.
 
 use std::f64::consts::TAU;
+
+use oscillator::{KinematicState, Oscillator};
 
 use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64};
 
@@ -29,9 +31,6 @@ const PIECES_PER_PERIOD: f64 = 20.0;
 
 /// Most pieces of a step.
 const PIECES_PER_STEP: f64 = 1e4;
-
-/// Terms of the power series: (2π / 20)^k / k! is below 1e-19 from there.
-const TERMS: usize = 15;
 
 /// Largest velocity at a turning point, as part of those around it; the displacement's error is of the square of it.
 const STILL: f64 = 1e-9;
@@ -99,7 +98,8 @@ impl Spectrum {
             let limit = "at most 500 periods of the oscillator";
             return Err(GroundMotionError::Parameter { name: "time step in s", value: motion.step(), limit });
         }
-        let mut piece = Piece::new(omega, self.damping, motion.step() / pieces);
+        let oscillator = Oscillator::new(2.0 * self.damping * omega, omega * omega);
+        let mut piece = Piece::new(oscillator, motion.step() / pieces);
         let mut search = Search { state: [0.0; 2], largest: 0.0 };
         for pair in motion.samples().windows(2) {
             let slope = (pair[1] - pair[0]) / pieces;
@@ -110,7 +110,7 @@ impl Spectrum {
             search.largest = search.largest.max(search.state[0].abs());
         }
         if self.peaks == Peaks::Everywhere {
-            piece = Piece::new(omega, self.damping, period / PIECES_PER_PERIOD);
+            piece = Piece::new(oscillator, period / PIECES_PER_PERIOD);
             for _ in 0..floor_index(PIECES_PER_PERIOD) {
                 search.pass(&piece, [0.0; 2], self.peaks);
             }
@@ -148,7 +148,7 @@ impl Spectrum {
     }
 }
 
-/// The way of an oscillator and its largest displacement (m).
+/// An oscillator's displacement and velocity (m, m/s) and its largest displacement so far (m).
 struct Search {
     state: [f64; 2],
     largest: f64,
@@ -172,8 +172,7 @@ impl Search {
 
 /// The recursion over a short time: a state (u, u̇) and the ground acceleration at both ends give the next state.
 struct Piece {
-    omega: f64,
-    damping: f64,
+    oscillator: Oscillator,
     /// Duration (s).
     duration: f64,
     /// For u and u̇ at the end, the factors of u and u̇ at the start and of the ground acceleration at both ends.
@@ -181,8 +180,8 @@ struct Piece {
 }
 
 impl Piece {
-    fn new(omega: f64, damping: f64, duration: f64) -> Self {
-        let mut piece = Self { omega, damping, duration, factors: [[0.0; 4]; 2] };
+    fn new(oscillator: Oscillator, duration: f64) -> Self {
+        let mut piece = Self { oscillator, duration, factors: [[0.0; 4]; 2] };
         // The answer is linear in each of the four.
         for column in 0..4 {
             let unit: [f64; 4] = std::array::from_fn(|index| if index == column { 1.0 } else { 0.0 });
@@ -196,25 +195,12 @@ impl Piece {
         self.factors.map(|[from_u, from_v, from_a, from_b]| from_u * u + from_v * v + from_a * a + from_b * b)
     }
 
-    /// The state after a time within the piece, as a power series of it: the equation of motion gives each coefficient of u
-    /// from the two before.
+    /// The state after a time within the piece.
     fn after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
-        let (stiffness, damping) = (self.omega * self.omega, 2.0 * self.damping * self.omega);
-        let mut ground = [a, (b - a) / self.duration].into_iter();
-        let (mut coefficient, mut next) = (u, v);
-        let (mut displacement, mut velocity, mut power) = (u, 0.0, 1.0);
-        for order in 1..=TERMS {
-            let order = index_as_f64(order);
-            // `next` is the coefficient of time^order, `power` is time^(order − 1).
-            velocity += order * next * power;
-            power *= time;
-            displacement += next * power;
-            let force = ground.next().unwrap_or(0.0);
-            let following =
-                -(force + stiffness * coefficient + damping * order * next) / (order * (order + 1.0));
-            (coefficient, next) = (next, following);
-        }
-        [displacement, velocity]
+        let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
+        let start = KinematicState { displacement: u, velocity: v, acceleration: -a - c * v - k * u };
+        let end = self.oscillator.propagate(start, (a - b) / self.duration, time);
+        [end.displacement, end.velocity]
     }
 
     /// The displacement where the velocity, of another sign at the end than at the start, passes zero.

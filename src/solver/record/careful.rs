@@ -52,8 +52,8 @@ impl<'a, F: Forcing> Lane<'a, F> {
             displacement,
             velocity,
             acceleration: p
-                - map.oscillator.damping * velocity
-                - (map.force_at_zero + map.oscillator.stiffness * displacement),
+                - map.oscillator.damping() * velocity
+                - (map.force_at_zero + map.oscillator.stiffness() * displacement),
         };
         let (from, to) = (kinematics(start, p[0]), kinematics(end, p[1]));
         let stretch = Stretch { from, to, length: step, rate: (p[1] - p[0]) / step };
@@ -94,7 +94,7 @@ impl<'a, F: Forcing> Lane<'a, F> {
                 Some((map, map.short.as_ref()?))
             });
             let [Some((map, short)), Some((ahead, short_ahead))] = shorts else { return false };
-            let change = ahead.oscillator.stiffness - map.oscillator.stiffness;
+            let change = ahead.oscillator.stiffness() - map.oscillator.stiffness();
             let Some((time, start)) = passage(map, short, &stretch, corner.displacement, change) else {
                 return false;
             };
@@ -218,7 +218,7 @@ fn passage(
             continue;
         }
         // d⁴u/dt⁴ = −c d³u/dt³ − k ü
-        let snap = -map.oscillator.damping * jerk - map.oscillator.stiffness * acceleration;
+        let snap = -map.oscillator.damping() * jerk - map.oscillator.stiffness() * acceleration;
         let velocity = velocity + shift * (acceleration + shift * (jerk / 2.0 + shift * snap / 6.0));
         let acceleration = acceleration + shift * (jerk + shift * snap / 2.0);
         return Some((time, Kinematics { displacement: corner, velocity, acceleration }));
@@ -265,8 +265,8 @@ fn turning(stretch: &Stretch) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::oscillator::Oscillator;
     use crate::wall::{Branch, BranchDamping};
+    use oscillator::Oscillator;
 
     /// Corners passed shortly before u turns, beyond which the force stays the same: at the end of the step the motion is that
     /// from the corner found by halving, to the rounding of u.

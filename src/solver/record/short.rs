@@ -1,7 +1,7 @@
 //! Green's functions of a branch as polynomials, for times up to one step.
 
 use super::super::event::Kinematics;
-use super::super::oscillator::Oscillator;
+use oscillator::Oscillator;
 
 /// Coefficients taken together: four chains run side by side.
 const WIDTH: usize = 4;
@@ -28,7 +28,7 @@ pub(super) struct Short {
 impl Short {
     /// For times up to `step` \[s\]; `None` where the polynomials would be long.
     pub(super) fn new(oscillator: &Oscillator, step: f64) -> Option<Self> {
-        let (c, k) = (oscillator.damping, oscillator.stiffness);
+        let (c, k) = (oscillator.damping(), oscillator.stiffness());
         // |γₙ| ≤ (c + √|k|)ⁿ
         let reach = (c + k.abs().sqrt()) * step;
         let left_out = |blocks: usize| {

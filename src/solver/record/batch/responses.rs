@@ -84,7 +84,8 @@ impl Responses {
         }
         let maps: Vec<&StepMap> = solver.maps.iter().map(Option::as_ref).collect::<Option<_>>()?;
         let step = solver.step;
-        let reach = |map: &StepMap| (map.oscillator.damping + map.oscillator.stiffness.abs().sqrt()) * step;
+        let reach =
+            |map: &StepMap| (map.oscillator.damping() + map.oscillator.stiffness().abs().sqrt()) * step;
         let longest = maps.iter().map(|map| reach(map)).fold(0.0, f64::max);
         if longest > LONGEST {
             return None;
@@ -121,7 +122,7 @@ impl Responses {
     /// Enters what is looked up by a branch, but for its response.
     fn fill_in(&mut self, branch: usize, map: &StepMap, growth: f64, solver: &RecordSolver<'_>) {
         let step = solver.step;
-        let (c, k) = (map.oscillator.damping, map.oscillator.stiffness);
+        let (c, k) = (map.oscillator.damping(), map.oscillator.stiffness());
         let [[uu, vu], [uv, vv], [u0, v0], [u1, v1], _] = map.single.terms;
         let [[uu4, vu4], [uv4, vv4], ..] = Affine::single(&map.oscillator, AT_ONCE as f64 * step).terms;
         // the response to a constant forcing of −1, step by step
@@ -132,7 +133,7 @@ impl Responses {
         let plain = |index: Option<usize>, next: Option<usize>| {
             let corner = corners.get(index?)?;
             let ahead = solver.maps.get(next?)?.as_ref()?;
-            let plain = !corner.is_marked() && ahead.oscillator.damping == c;
+            let plain = !corner.is_marked() && ahead.oscillator.damping() == c;
             plain.then_some(corner.displacement)
         };
         for (by, value) in [

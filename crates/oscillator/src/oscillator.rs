@@ -1,52 +1,26 @@
-//! The linear oscillator of a branch: its impulse response, the integrals of that, and its propagators.
-//!
-//! ```text
-//! ü + c u̇ + f(u) = p₀ + p₁ t,   f linear with slope k
-//! ```
-//! With G the response to a unit impulse, H = ∫G and J = ∫H, and ü₀ taken from the equation itself,
-//! ```text
-//! u(t) = u₀ + (G + cH) u̇₀ + H ü₀ + J p₁
-//! u̇(t) = (1 − kH) u̇₀ + G ü₀ + H p₁
-//! ü(t) = −kG u̇₀ + (1 − cG − kH) ü₀ + G p₁
-//! ```
-//! There is no particular solution to subtract, so rest stays rest bit for bit and k → 0 is no special case.
-//!
-//! Where the motion is a sum of two exponentials, e^{r₁t} and e^{r₂t}, products of large G and H would cancel; there
-//! α = ü − r₂ u̇ and β = ü − r₁ u̇ obey α̇ = r₁ α + p₁ and β̇ = r₂ β + p₁, each on its own, and
-//! ```text
-//! u̇ = (α − β)/(r₁ − r₂),   ü = (r₁ α − r₂ β)/(r₁ − r₂)
-//! ```
+//! The oscillator: its Green's functions, series, propagation and bounds.
 
-use nalgebra::{Matrix3, Vector3};
+use crate::green::{Green, Phi, phi1};
+use crate::kinematic_state::KinematicState;
+use crate::polynomial::{HIGHEST_ORDER, Polynomial};
 
-use super::event::Kinematics;
-use super::polynomial::{HIGHEST_ORDER, Polynomial};
-
-/// Impulse response G and its integrals H = ∫G, J = ∫H, K = ∫J.
+/// A linear oscillator ü + c u̇ + k u = p₀ + p₁ t.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Green {
-    pub(super) g: f64,
-    pub(super) h: f64,
-    pub(super) j: f64,
-    pub(super) k: f64,
-}
-
-/// ü + c u̇ + k u: what stays the same on a branch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Oscillator {
-    pub(super) damping: f64,
-    pub(super) stiffness: f64,
-    pub(super) regime: Regime,
+pub struct Oscillator {
+    damping: f64,
+    stiffness: f64,
+    regime: Regime,
     /// √|k| and its inverse.
     root: f64,
     inverse_root: f64,
 }
 
+/// Form of the free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Regime {
-    /// Circular frequency √(k − c²/4), possibly 0.
+pub enum Regime {
+    /// Up to critical damping: circular frequency √(k − c²/4) \[rad/s\], possibly 0.
     Oscillating(f64),
-    /// Rates r₁ > r₂ of e^{rt}.
+    /// Beyond it, or with negative stiffness: rates r₁ > r₂ of e^{rt} \[1/s\].
     Exponential(f64, f64),
 }
 
@@ -62,7 +36,7 @@ const INVERSE_FACTORIALS: [f64; HIGHEST_ORDER] = {
 };
 
 /// Difference of the exponents from which the two modes are followed on their own.
-pub(super) const SEPARATE: f64 = 0.5;
+const SEPARATE: f64 = 0.5;
 
 /// 1/n for n = 0 (unused), 1, 2, …
 const RECIPROCALS: [f64; HIGHEST_ORDER + 1] = {
@@ -82,7 +56,9 @@ const SHORT: f64 = 1.0;
 const NEGLIGIBLE: f64 = 1e-18;
 
 impl Oscillator {
-    pub(super) fn new(damping: f64, stiffness: f64) -> Self {
+    /// The oscillator with damping c \[1/s\] and stiffness k \[1/s²\], per unit mass and of any sign.
+    #[must_use]
+    pub fn new(damping: f64, stiffness: f64) -> Self {
         let half = 0.5 * damping;
         let discriminant = stiffness - half * half;
         let regime = if discriminant >= 0.0 {
@@ -97,8 +73,31 @@ impl Oscillator {
         Self { damping, stiffness, regime, root, inverse_root: 1.0 / root }
     }
 
+    /// Damping c \[1/s\].
+    #[inline]
+    #[must_use]
+    pub fn damping(&self) -> f64 {
+        self.damping
+    }
+
+    /// Stiffness k \[1/s²\].
+    #[inline]
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Form of the free motion.
+    #[inline]
+    #[must_use]
+    pub fn regime(&self) -> Regime {
+        self.regime
+    }
+
     /// Time over which the closed form neither overflows nor hides an unbounded number of turning points \[s\].
-    pub(super) fn longest_piece(&self) -> f64 {
+    #[inline]
+    #[must_use]
+    pub fn longest_piece(&self) -> f64 {
         match self.regime {
             // a little more than a period; without stiffness and damping there is no limit
             Regime::Oscillating(omega) => 7.0 / omega,
@@ -108,7 +107,19 @@ impl Oscillator {
         }
     }
 
-    pub(super) fn green(&self, time: f64) -> Green {
+    /// Green's functions after `time` \[s\].
+    ///
+    /// ```
+    /// # use oscillator::Oscillator;
+    /// let undamped = Oscillator::new(0.0, 9.0).green(0.7);
+    /// assert!((undamped.g - (3.0 * 0.7_f64).sin() / 3.0).abs() < 1e-15);
+    /// // a negative stiffness: G = sinh(3 t)/3
+    /// let softening = Oscillator::new(0.0, -9.0).green(0.7);
+    /// assert!((softening.g - (3.0 * 0.7_f64).sinh() / 3.0).abs() < 1e-14);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn green(&self, time: f64) -> Green {
         let (c, k) = (self.damping, self.stiffness);
         if k.abs() * time * time + c * time <= SHORT {
             return self.series(time);
@@ -147,7 +158,7 @@ impl Oscillator {
         Green { g, h, j, k: (0.5 * time * time - h - c * j) / k }
     }
 
-    /// Power series, for short times: there the closed forms cancel.
+    /// Green's functions as power series, for short times: there the closed forms cancel.
     ///
     /// G = t Σ γₙ/(n+1)! with γ₀ = 1, γₙ = −(c t γₙ₋₁ + k t² γₙ₋₂); each integral raises the factorial by one.
     fn series(&self, time: f64) -> Green {
@@ -173,18 +184,20 @@ impl Oscillator {
         }
     }
 
-    /// The Taylor series of the motion from `start`, for times up to `time`; `None` where it converges too slowly.
+    /// Taylor series of the motion from `start` under a load that changes at `rate` \[m/s³\], for times up to `time`
+    /// \[s\]; `None` where c t + |k| t² > 1, so that it converges too slowly.
     ///
     /// From ü and the jerk on each derivative follows from the two before, u⁽ⁿ⁺²⁾ = −c u⁽ⁿ⁺¹⁾ − k u⁽ⁿ⁾.
-    pub(super) fn series_from(&self, start: Kinematics, forcing_rate: f64, time: f64) -> Option<Polynomial> {
+    #[inline]
+    #[must_use]
+    pub fn series_from(&self, start: KinematicState, rate: f64, time: f64) -> Option<Polynomial> {
         let (c, k) = (self.damping, self.stiffness);
         let reach = k.abs() * time * time + c * time;
         if reach > SHORT {
             return None;
         }
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
-        let (mut before, mut derivative) =
-            (start.acceleration, forcing_rate - c * start.acceleration - k * start.velocity);
+        let (mut before, mut derivative) = (start.acceleration, self.jerk(start, rate));
         coefficients[0] = start.displacement;
         coefficients[1] = start.velocity;
         coefficients[2] = 0.5 * before;
@@ -201,14 +214,15 @@ impl Oscillator {
         Some(Polynomial { coefficients, order })
     }
 
-    /// [`Self::series_from`] summed at `time` at once.
-    pub(super) fn series_at(&self, start: Kinematics, forcing_rate: f64, time: f64) -> Option<Kinematics> {
+    /// [`Self::series_from`], summed at `time` \[s\] at once.
+    #[inline]
+    #[must_use]
+    pub fn series_at(&self, start: KinematicState, rate: f64, time: f64) -> Option<KinematicState> {
         let (c, k) = (self.damping, self.stiffness);
         if k.abs() * time * time + c * time > SHORT {
             return None;
         }
-        let (mut before, mut derivative) =
-            (start.acceleration, forcing_rate - c * start.acceleration - k * start.velocity);
+        let (mut before, mut derivative) = (start.acceleration, self.jerk(start, rate));
         let (mut du, mut dv, mut da) = (0.5 * before, before, 0.0);
         let ratio = c * time + self.root * time;
         let (mut power, mut size) = (time, ratio);
@@ -225,108 +239,119 @@ impl Oscillator {
             power *= time;
             size *= ratio * RECIPROCALS[n + 1];
         }
-        Some(Kinematics {
+        Some(KinematicState {
             displacement: start.displacement + time * (start.velocity + time * du),
             velocity: start.velocity + time * dv,
             acceleration: start.acceleration + da,
         })
     }
 
-    /// The motion `time` after `start` under a forcing that changes at the rate `forcing_rate`.
-    pub(super) fn propagate(&self, start: Kinematics, forcing_rate: f64, time: f64) -> Kinematics {
+    /// The motion `time` \[s\] after `start`, under a load that changes at `rate` \[m/s³\].
+    ///
+    /// The load itself enters by the acceleration at the start, ü₀ = p₀ − c u̇₀ − k u₀.
+    #[inline]
+    #[must_use]
+    pub fn propagate(&self, start: KinematicState, rate: f64, time: f64) -> KinematicState {
         match self.regime {
-            Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE => {
+            Regime::Exponential(slow, fast) if self.is_spread(time) => {
                 let spread = slow - fast;
                 let (p, q) = (Phi::new(slow * time), Phi::new(fast * time));
                 let alpha = start.acceleration - fast * start.velocity;
                 let beta = start.acceleration - slow * start.velocity;
                 // α(t) = α₀ e^{rt} + p₁ t φ₁(rt), and its integral
-                let later = |mode: f64, phi: &Phi| mode * phi.exp + forcing_rate * time * phi.one;
-                let integral = |mode: f64, phi: &Phi| time * (mode * phi.one + forcing_rate * time * phi.two);
+                let later = |mode: f64, phi: &Phi| mode * phi.exp + rate * time * phi.one;
+                let integral = |mode: f64, phi: &Phi| time * (mode * phi.one + rate * time * phi.two);
                 let (alpha_later, beta_later) = (later(alpha, &p), later(beta, &q));
-                Kinematics {
+                KinematicState {
                     displacement: start.displacement + (integral(alpha, &p) - integral(beta, &q)) / spread,
                     velocity: (alpha_later - beta_later) / spread,
                     acceleration: (slow * alpha_later - fast * beta_later) / spread,
                 }
             }
-            _ => propagated(&self.propagator(time), start, forcing_rate),
+            _ => {
+                let rows = self.propagator(time);
+                // summed from the left, as a matrix product does
+                let [du, velocity, acceleration] =
+                    rows.map(|[v, a, p]| v * start.velocity + a * start.acceleration + p * rate);
+                KinematicState { displacement: start.displacement + du, velocity, acceleration }
+            }
         }
     }
 
-    /// d ü/dt = p₁ − c ü − k u̇
+    /// The matrix, row by row, that maps (u̇₀, ü₀, p₁) to (u − u₀, u̇, ü) after `time` \[s\].
+    ///
+    /// Where [the two modes are spread](Self::is_spread), products with it lose digits to cancellation.
     #[inline]
-    pub(super) fn jerk(&self, at: Kinematics, forcing_rate: f64) -> f64 {
-        forcing_rate - self.damping * at.acceleration - self.stiffness * at.velocity
+    #[must_use]
+    pub fn propagator(&self, time: f64) -> [[f64; 3]; 3] {
+        let Green { g, h, j, .. } = self.green(time);
+        let (c, k) = (self.damping, self.stiffness);
+        [[g + c * h, h, j], [1.0 - k * h, g, h], [-k * g, 1.0 - c * g - k * h, g]]
     }
 
-    /// Bounds on |ü| and on the jerk for `length` seconds after an instant under a forcing that changes at `forcing_rate`.
+    /// Whether over `time` \[s\] the two modes part so far that [`Self::propagate`] follows each on its own.
     #[inline]
-    pub(super) fn bounds(&self, from: Kinematics, forcing_rate: f64, length: f64) -> (f64, f64) {
-        let (c, k) = (self.damping, self.stiffness);
+    #[must_use]
+    pub fn is_spread(&self, time: f64) -> bool {
+        matches!(self.regime, Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE)
+    }
+
+    /// Jerk dü/dt = p₁ − c ü − k u̇ \[m/s³\] under a load that changes at `rate` \[m/s³\].
+    #[inline]
+    #[must_use]
+    pub fn jerk(&self, at: KinematicState, rate: f64) -> f64 {
+        rate - self.damping * at.acceleration - self.stiffness * at.velocity
+    }
+
+    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant, under a load that changes
+    /// at `rate` \[m/s³\]. Damping must not be negative.
+    #[inline]
+    #[must_use]
+    pub fn bounds(&self, from: KinematicState, rate: f64, length: f64) -> (f64, f64) {
+        let k = self.stiffness;
         let acceleration = from.acceleration.abs();
-        // ü obeys the free equation, starting from ü and the jerk p₁ − c ü − k u̇
-        let jerk = (forcing_rate - c * from.acceleration - k * from.velocity).abs();
+        // ü obeys the free equation, starting from ü and the jerk
+        let jerk = self.jerk(from, rate).abs();
         if k > 0.0 {
             // ü² + (d ü/dt)²/k never grows; the sum of the parts bounds its root
             let most = acceleration + jerk * self.inverse_root;
             (most, most * self.root)
         } else {
             // |ü| ≤ (|ü₀| + |jerk₀| t) cosh(√−k t), and its rate likewise
-            let (rate, x) = (self.root, -k * length * length);
+            let (growth_rate, x) = (self.root, -k * length * length);
             // cosh x − 1 ≤ 0.5431 x² for x ≤ 1
             let growth = if x <= 1.0 { 1.0 + 0.5431 * x } else { x.sqrt().cosh() };
             let most = (acceleration + jerk * length) * growth;
-            (most, jerk * growth + rate * rate * length * most)
+            (most, jerk * growth + growth_rate * growth_rate * length * most)
         }
     }
+}
 
-    /// Whether over `time` the motion is followed by its two modes, not by the propagator.
-    pub(super) fn is_spread(&self, time: f64) -> bool {
-        matches!(self.regime, Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of the closed forms.
+    const ROUNDING: f64 = 2e-14;
+
+    fn close(found: f64, wanted: f64, scale: f64) -> bool {
+        (found - wanted).abs() <= ROUNDING * scale.max(wanted.abs())
     }
 
-    /// The propagator of one duration: maps (u̇₀, ü₀, p₁) to (u − u₀, u̇, ü).
-    pub(super) fn propagator(&self, time: f64) -> Matrix3<f64> {
-        let Green { g, h, j, .. } = self.green(time);
-        let (c, k) = (self.damping, self.stiffness);
-        Matrix3::new(g + c * h, h, j, 1.0 - k * h, g, h, -k * g, 1.0 - c * g - k * h, g)
-    }
-}
-
-/// The motion after the duration of a propagator.
-pub(super) fn propagated(propagator: &Matrix3<f64>, start: Kinematics, forcing_rate: f64) -> Kinematics {
-    let change = propagator * Vector3::new(start.velocity, start.acceleration, forcing_rate);
-    Kinematics { displacement: start.displacement + change[0], velocity: change[1], acceleration: change[2] }
-}
-
-/// φ₁(x) = (eˣ − 1)/x.
-fn phi1(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { x.exp_m1() / x }
-}
-
-/// eˣ and φ₁, φ₂, φ₃ with φₙ₊₁(x) = (φₙ(x) − 1/n!)/x.
-struct Phi {
-    exp: f64,
-    one: f64,
-    two: f64,
-    three: f64,
-}
-
-impl Phi {
-    fn new(x: f64) -> Self {
-        let (exp, one) = (x.exp(), phi1(x));
-        if x.abs() > 1.0 {
-            let two = (one - 1.0) / x;
-            return Self { exp, one, two, three: (two - 0.5) / x };
+    #[test]
+    fn known_responses() {
+        for t in [1e-6_f64, 1e-3, 0.3, 0.9, 1.1, 2.0, 30.0] {
+            let free = Oscillator::new(0.0, 0.0).green(t);
+            assert!(close(free.g, t, 0.0) && close(free.k, t.powi(4) / 24.0, 0.0));
+            let undamped = Oscillator::new(0.0, 9.0).green(t);
+            assert!(close(undamped.g, (3.0 * t).sin() / 3.0, 1.0));
+            assert!(close(undamped.h, 2.0 * (1.5 * t).sin().powi(2) / 9.0, 1.0), "{t}");
+            let critical = Oscillator::new(6.0, 9.0).green(t);
+            assert!(close(critical.g, t * (-3.0 * t).exp(), t));
+            let dashpot = Oscillator::new(3.0, 0.0).green(t);
+            assert!(close(dashpot.g, -(-3.0 * t).exp_m1() / 3.0, 0.0));
+            let over = Oscillator::new(10.0, 9.0).green(t);
+            assert!(close(over.g, -(-t).exp() * (-8.0 * t).exp_m1() / 8.0, t));
         }
-        // φ₂ = Σ xⁿ/(n+2)!, φ₃ = Σ xⁿ/(n+3)!
-        let (mut two, mut three) = (0.0, 0.0);
-        for n in (0..18_u32).rev() {
-            let n = f64::from(n);
-            two = 1.0 + x / (n + 3.0) * two;
-            three = 1.0 + x / (n + 4.0) * three;
-        }
-        Self { exp, one, two: two / 2.0, three: three / 6.0 }
     }
 }

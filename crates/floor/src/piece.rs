@@ -1,133 +1,15 @@
-//! Closed form of ÿ + c ẏ + k y = q₀ + q₁ t from y = 0.
+//! A piece of motion: one branch of the spring, with what is looked for along it.
 //!
-//! With G the response to a unit impulse, H = ∫G, J = ∫H, K = ∫J, and a₀ = q₀ − c v₀ the acceleration at the start,
-//! ```text
-//! y(t) = (G + cH) v₀ + H a₀ + J q₁
-//! v(t) = (1 − kH) v₀ + G a₀ + H q₁
-//! a(t) = −kG v₀ + (1 − cG − kH) a₀ + G q₁
-//! ```
-//! No particular solution is subtracted: rest stays rest bit for bit, and neither k = 0 nor critical damping is special.
-//! The acceleration obeys the free equation, so that its zeros are known in closed form; between them the velocity is monotonic.
+//! The acceleration obeys the free equation, so its zeros are known in closed form; between them the velocity is monotonic.
 
 use std::f64::consts::PI;
 
-/// G and its integrals.
-#[derive(Clone, Copy, Debug)]
-struct Green {
-    g: f64,
-    h: f64,
-    j: f64,
-    k: f64,
-}
+use oscillator::{Green, Oscillator, Regime};
 
-/// Damping c \[1/s\] and stiffness k \[1/s²\] per unit mass, neither negative.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Oscillator {
-    damping: f64,
-    stiffness: f64,
-    regime: Regime,
-}
+/// Illinois takes about ten; bisection of a whole f64 bracket would take 64.
+const MOST_ITERATIONS: usize = 100;
 
-#[derive(Clone, Copy, Debug)]
-enum Regime {
-    /// Circular frequency √(k − c²/4), possibly 0.
-    Oscillating(f64),
-    /// Rates r₁ > r₂ of e^{rt}, neither positive.
-    Decaying(f64, f64),
-}
-
-/// Terms of the power series: where k t² + c t ≤ 1, the first one left out is below 1/24!.
-const TERMS: u32 = 24;
-
-impl Oscillator {
-    pub(crate) fn new(damping: f64, stiffness: f64) -> Self {
-        let half = 0.5 * damping;
-        let discriminant = stiffness - half * half;
-        let regime = if discriminant >= 0.0 {
-            Regime::Oscillating(discriminant.sqrt())
-        } else {
-            let fast = -(half + (-discriminant).sqrt());
-            // r₁ r₂ = k; the difference of the two terms of r₁ would cancel
-            Regime::Decaying(-(stiffness / -fast), fast)
-        };
-        Self { damping, stiffness, regime }
-    }
-
-    fn green(&self, time: f64) -> Green {
-        let (c, k) = (self.damping, self.stiffness);
-        if k * time * time + c * time <= 1.0 {
-            return self.series(time);
-        }
-        match self.regime {
-            Regime::Oscillating(omega) => {
-                let decay = (-0.5 * c * time).exp();
-                let (sin, cos) = (omega * time).sin_cos();
-                let g = if omega == 0.0 { decay * time } else { decay * sin / omega };
-                self.integrals(time, g, decay * cos)
-            }
-            Regime::Decaying(slow, fast) => {
-                let (slow, fast) = (slow * time, fast * time);
-                let spread = slow - fast;
-                if spread < 0.5 {
-                    let g = slow.exp() * time * phi(1, -spread);
-                    return self.integrals(time, g, 0.5 * (slow.exp() + fast.exp()));
-                }
-                // ∫…∫G is the divided difference of tⁿ⁺¹ φₙ between the two rates
-                let divided = |n| (phi(n, slow) - phi(n, fast)) / spread;
-                Green {
-                    g: time * divided(0),
-                    h: time.powi(2) * divided(1),
-                    j: time.powi(3) * divided(2),
-                    k: time.powi(4) * divided(3),
-                }
-            }
-        }
-    }
-
-    /// H, J, K from G″ + cG′ + kG = 0 integrated once to three times; `even` is G′ + (c/2) G. Only for k t² of order 1.
-    fn integrals(&self, time: f64, g: f64, even: f64) -> Green {
-        let (c, k) = (self.damping, self.stiffness);
-        let h = (1.0 - even - 0.5 * c * g) / k;
-        let j = (time - g - c * h) / k;
-        Green { g, h, j, k: (0.5 * time * time - h - c * j) / k }
-    }
-
-    /// G = t Σ γₙ/(n+1)! with γ₀ = 1, γₙ = −(c t γₙ₋₁ + k t² γₙ₋₂); each integral raises the factorial by one. |γₙ| ≤ 1.
-    fn series(&self, time: f64) -> Green {
-        let (c, k) = (self.damping * time, self.stiffness * time * time);
-        let (mut before, mut term, mut inverse_factorial) = (0.0, 1.0, 1.0);
-        let [mut g, mut h, mut j, mut l] = [0.0; 4];
-        for n in 0..TERMS {
-            let n = f64::from(n);
-            inverse_factorial /= n + 1.0;
-            let weighted: f64 = term * inverse_factorial;
-            g += weighted;
-            h += weighted / (n + 2.0);
-            j += weighted / ((n + 2.0) * (n + 3.0));
-            l += weighted / ((n + 2.0) * (n + 3.0) * (n + 4.0));
-            (before, term) = (term, -(c * term + k * before));
-        }
-        let square = time * time;
-        Green { g: time * g, h: square * h, j: square * time * j, k: square * square * l }
-    }
-}
-
-/// φ₀ = eˣ, φₙ₊₁(x) = (φₙ(x) − 1/n!)/x, for n up to 3 and x not above 0.
-fn phi(n: u32, x: f64) -> f64 {
-    if x.abs() <= 1.0 {
-        // Σ xⁱ/(i + n)!
-        let sum = (1..TERMS).rev().fold(1.0, |sum, i| 1.0 + x / f64::from(i + n) * sum);
-        return sum / [1.0, 1.0, 2.0, 6.0][n as usize];
-    }
-    match n {
-        0 => x.exp(),
-        1 => x.exp_m1() / x,
-        2 => (phi(1, x) - 1.0) / x,
-        _ => (phi(2, x) - 0.5) / x,
-    }
-}
-
-/// Where a motion is after some time, relative to its start.
+/// Displacement and velocity after some time, relative to the start of a piece.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     /// \[m\]
@@ -136,9 +18,9 @@ pub(crate) struct Point {
     pub(crate) velocity: f64,
 }
 
-/// A motion on one branch.
+/// Motion on one branch, ÿ + c ẏ + k y = q₀ + q₁ t from y = 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion {
+pub(crate) struct Piece {
     pub(crate) oscillator: Oscillator,
     /// Velocity at the start \[m/s\].
     pub(crate) velocity: f64,
@@ -148,26 +30,27 @@ pub(crate) struct Motion {
     pub(crate) forcing_rate: f64,
 }
 
-impl Motion {
+impl Piece {
+    /// The point after `time` \[s\].
     pub(crate) fn at(&self, time: f64) -> Point {
         let Green { g, h, j, .. } = self.oscillator.green(time);
         self.point(g, h, j)
     }
 
     fn point(&self, g: f64, h: f64, j: f64) -> Point {
-        let Oscillator { damping, stiffness, .. } = self.oscillator;
+        let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
         let Self { velocity, acceleration, forcing_rate, .. } = *self;
         Point {
-            displacement: (g + damping * h) * velocity + h * acceleration + j * forcing_rate,
-            velocity: (1.0 - stiffness * h) * velocity + g * acceleration + h * forcing_rate,
+            displacement: (g + c * h) * velocity + h * acceleration + j * forcing_rate,
+            velocity: (1.0 - k * h) * velocity + g * acceleration + h * forcing_rate,
         }
     }
 
-    /// The point after some time, and the energy c ∫v² dt lost until then, per unit mass \[m²/s²\].
+    /// The point after `time` \[s\], and the energy c ∫v² dt lost until then, per unit mass \[m²/s²\].
     ///
     /// It is the work of q₀ + q₁ t less what the motion has gained: ∫(q₀ + q₁ t) v dt − Δv²/2 − k y²/2.
     pub(crate) fn with_loss(&self, time: f64) -> (Point, f64) {
-        let Oscillator { damping: c, stiffness, .. } = self.oscillator;
+        let (c, stiffness) = (self.oscillator.damping(), self.oscillator.stiffness());
         let Self { velocity, acceleration, forcing_rate, .. } = *self;
         let Green { g, h, j, k } = self.oscillator.green(time);
         let point = self.point(g, h, j);
@@ -192,11 +75,10 @@ impl Motion {
 
     /// First zero of the acceleration after the start, and the distance between zeros; infinite where there is none.
     fn first_flat(&self) -> (f64, f64) {
-        let Oscillator { damping: c, stiffness: k, regime } = self.oscillator;
-        let a = self.acceleration;
+        let (c, k, a) = (self.oscillator.damping(), self.oscillator.stiffness(), self.acceleration);
         // ȧ at the start
         let jerk = self.forcing_rate - c * a - k * self.velocity;
-        let time = match regime {
+        let time = match self.oscillator.regime() {
             // a e^{ct/2} = a₀ cos ωt + (ȧ₀ + c a₀/2)/ω sin ωt
             Regime::Oscillating(omega) if omega > 0.0 => {
                 let quadrature = (jerk + 0.5 * c * a) / omega;
@@ -210,7 +92,7 @@ impl Motion {
             }
             Regime::Oscillating(_) => -a / (jerk + 0.5 * c * a),
             // a = A e^{r₁t} + B e^{r₂t} with e^{(r₁ − r₂)t} = −B/A
-            Regime::Decaying(slow, fast) => {
+            Regime::Exponential(slow, fast) => {
                 let spread = slow - fast;
                 (-spread * a / (jerk - fast * a)).ln_1p() / spread
             }
@@ -249,9 +131,6 @@ impl Motion {
     }
 }
 
-/// Illinois takes about ten; bisection of a whole f64 bracket would take 64.
-const MOST_ITERATIONS: usize = 100;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -278,37 +157,20 @@ mod tests {
         (found - wanted).abs() <= ROUNDING * scale.max(wanted.abs())
     }
 
-    #[test]
-    fn known_responses() {
-        for t in [1e-6_f64, 1e-3, 0.3, 0.9, 1.1, 2.0, 30.0] {
-            let free = Oscillator::new(0.0, 0.0).green(t);
-            assert!(close(free.g, t, 0.0) && close(free.k, t.powi(4) / 24.0, 0.0));
-            let undamped = Oscillator::new(0.0, 9.0).green(t);
-            assert!(close(undamped.g, (3.0 * t).sin() / 3.0, 1.0));
-            assert!(close(undamped.h, 2.0 * (1.5 * t).sin().powi(2) / 9.0, 1.0), "{t}");
-            let critical = Oscillator::new(6.0, 9.0).green(t);
-            assert!(close(critical.g, t * (-3.0 * t).exp(), t));
-            let dashpot = Oscillator::new(3.0, 0.0).green(t);
-            assert!(close(dashpot.g, -(-3.0 * t).exp_m1() / 3.0, 0.0));
-            let over = Oscillator::new(10.0, 9.0).green(t);
-            assert!(close(over.g, -(-t).exp() * (-8.0 * t).exp_m1() / 8.0, t));
-        }
-    }
-
     /// Two steps make one: this ties the regimes, the series and the integrals together.
     #[test]
     fn two_steps_make_one() {
         for (c, k) in CASES {
             let oscillator = Oscillator::new(c, k);
             for whole in [1e-5, 1e-2, 0.2, 0.34, 1.0, 3.0] {
-                let motion = Motion { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 11.0 };
+                let motion = Piece { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 11.0 };
                 let (end, loss) = motion.with_loss(whole);
                 let first = 0.37 * whole;
                 let (middle, first_loss) = motion.with_loss(first);
                 // ÿ = q₀ + q₁ t − c v − k y with q₀ = a₀ + c v₀
                 let acceleration =
                     -2.0 + c * 0.7 + 11.0 * first - c * middle.velocity - k * middle.displacement;
-                let rest = Motion { velocity: middle.velocity, acceleration, ..motion };
+                let rest = Piece { velocity: middle.velocity, acceleration, ..motion };
                 let (second, second_loss) = rest.with_loss(whole - first);
                 let context = format!("c = {c}, k = {k}, t = {whole}");
                 let way = middle.displacement + second.displacement;
@@ -332,7 +194,7 @@ mod tests {
     fn the_loss_is_that_of_the_damper() {
         for (c, k) in CASES.into_iter().filter(|(c, k)| *c < 100.0 && *k < 100.0) {
             let oscillator = Oscillator::new(c, k);
-            let motion = Motion { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 1.5 };
+            let motion = Piece { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 1.5 };
             let intervals = 2000;
             let step = 1.4 / f64::from(intervals);
             let squares: f64 = (0..=intervals)
@@ -354,7 +216,7 @@ mod tests {
             for (velocity, acceleration, forcing_rate) in
                 [(0.7, -2.0, 11.0), (0.0, 1.0, -1.0), (-1.0, 0.0, 2.0), (0.0, 0.0, 1.0), (0.3, 0.4, 0.0)]
             {
-                let motion = Motion { oscillator, velocity, acceleration, forcing_rate };
+                let motion = Piece { oscillator, velocity, acceleration, forcing_rate };
                 let until = 2.0_f64.min(40.0 / k.sqrt());
                 let mut from = 0.0;
                 for to in motion.monotonic_until(until) {

@@ -1,15 +1,17 @@
 //! Motion as a polynomial in time.
 
-use super::event::Kinematics;
+use crate::kinematic_state::KinematicState;
 
-/// Highest power of time.
-pub(super) const HIGHEST_ORDER: usize = 26;
+/// Highest power of time in a [`Polynomial`].
+pub const HIGHEST_ORDER: usize = 26;
 
-/// u(t) = Σ uₙ tⁿ.
+/// Motion as a polynomial in time, u(t) = Σ uₙ tⁿ.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Polynomial {
-    pub(super) coefficients: [f64; HIGHEST_ORDER + 1],
-    pub(super) order: usize,
+pub struct Polynomial {
+    /// u₀, u₁ … \[m/sⁿ\]; those beyond `order` are not used.
+    pub coefficients: [f64; HIGHEST_ORDER + 1],
+    /// Highest power in use.
+    pub order: usize,
 }
 
 impl Polynomial {
@@ -17,23 +19,32 @@ impl Polynomial {
         &self.coefficients[..=self.order]
     }
 
-    pub(super) fn start(&self) -> Kinematics {
+    /// The motion at time zero.
+    #[inline]
+    #[must_use]
+    pub fn start(&self) -> KinematicState {
         let [displacement, velocity, half_acceleration, ..] = self.coefficients;
-        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+        KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    pub(super) fn at(&self, time: f64) -> Kinematics {
+    /// The motion at a time \[s\].
+    #[inline]
+    #[must_use]
+    pub fn at(&self, time: f64) -> KinematicState {
         let (mut displacement, mut velocity, mut half_acceleration) = (0.0, 0.0, 0.0);
         for &coefficient in self.used().iter().rev() {
             half_acceleration = half_acceleration * time + velocity;
             velocity = velocity * time + displacement;
             displacement = displacement * time + coefficient;
         }
-        Kinematics { displacement, velocity, acceleration: 2.0 * half_acceleration }
+        KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    /// Bounds on |ü| and on the jerk up to `horizon`: Σ n(n−1) |uₙ| Tⁿ⁻² and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
-    pub(super) fn bounds(&self, horizon: f64) -> (f64, f64) {
+    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻² and
+    /// Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
+    #[inline]
+    #[must_use]
+    pub fn bounds(&self, horizon: f64) -> (f64, f64) {
         let (mut acceleration, mut jerk) = (0.0, 0.0);
         for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
             let second = (n * (n - 1)) as f64 * coefficient.abs();
@@ -45,16 +56,20 @@ impl Polynomial {
         (acceleration, jerk)
     }
 
-    /// Bound on the rate of the jerk up to `horizon`: Σ n(n−1)(n−2)(n−3) |uₙ| Tⁿ⁻⁴.
-    pub(super) fn snap(&self, horizon: f64) -> f64 {
+    /// Bound on the rate of the jerk \[m/s⁴\] up to the time T = `horizon` \[s\]: Σ n(n−1)(n−2)(n−3) |uₙ| Tⁿ⁻⁴.
+    #[inline]
+    #[must_use]
+    pub fn snap(&self, horizon: f64) -> f64 {
         let terms = self.used().iter().enumerate().skip(4).rev();
         terms.fold(0.0, |sum, (n, coefficient)| {
             sum * horizon + (n * (n - 1) * (n - 2) * (n - 3)) as f64 * coefficient.abs()
         })
     }
 
-    /// ∫u dt from 0.
-    pub(super) fn integral(&self, time: f64) -> f64 {
+    /// ∫u dt from time zero to `time` \[m s\].
+    #[inline]
+    #[must_use]
+    pub fn integral(&self, time: f64) -> f64 {
         let mut sum = 0.0;
         for (n, coefficient) in self.used().iter().enumerate().rev() {
             sum = sum * time + coefficient / (n + 1) as f64;
