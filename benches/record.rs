@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use ground_motion::{GroundMotion, ReadOptions, SyntheticMotion};
+use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::record::{RecordSolver, Samples, Start};
 use rocking_wall::solver::{Motion, Segment};
@@ -27,7 +27,7 @@ fn main() {
         return;
     }
     let record = match arguments.first() {
-        Some(path) => ground_motion::read(path, &ReadOptions::default()).expect("a record").motion,
+        Some(path) => ground_motion::read(path, &RecordOptions::default()).expect("a record").motion,
         None => SyntheticMotion::default().motion().expect("the default motion"),
     };
     let record = record.trimmed(0.0, record.duration().min(30.0)).expect("30 s");

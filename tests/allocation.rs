@@ -8,7 +8,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use fmi2_export::{Environment, Interface, Log, Model, ModelExchange, Step};
-use ground_motion::{Format, ReadOptions, Unit as RecordUnit, parse_channels};
+use ground_motion::{Format, RecordOptions, Unit as RecordUnit, parse_channels};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rocking_wall::simulation::Simulation;
@@ -160,11 +160,11 @@ fn a_step_allocates_nothing() {
 
 /// The most bytes held while a text is read, beyond those held before; the text counts.
 fn peak_of_reading(text: &[u8], format: Format) -> usize {
-    let options = ReadOptions {
+    let options = RecordOptions {
         format: Some(format),
         unit: Some(RecordUnit::CentimetrePerSecondSquared),
         step: Some(0.01),
-        ..ReadOptions::default()
+        ..RecordOptions::default()
     };
     let before = HELD.with(Cell::get);
     PEAK.with(|peak| peak.set(before));

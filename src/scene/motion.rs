@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::simulation::Excitation;
 use ground_motion::{
-    Format, GroundMotion, GroundMotionError, Pulse, ReadOptions, Shape, SyntheticMotion, Unit, read,
+    Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion, Unit, read,
 };
 
 use super::error::Place;
@@ -20,7 +20,7 @@ pub struct MotionTable {
     /// Record file, beside the scene file: in any format the library reads.
     pub record: Option<PathBuf>,
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g (9.80665 m/s²); an AT2 file states its own.
-    pub unit: Option<String>,
+    pub unit: Option<Unit>,
     /// Time between samples (s), for a record that does not state it.
     pub step: Option<f64>,
     /// Column of a CSV table.
@@ -28,7 +28,7 @@ pub struct MotionTable {
     /// Channel of a record with several, by its number.
     pub channel: Option<String>,
     /// Format of the record, found from its content if none is given.
-    pub format: Option<String>,
+    pub format: Option<Format>,
     /// Ricker pulse.
     pub ricker: Option<RickerTable>,
     /// Harmonic motion.
@@ -61,12 +61,12 @@ pub struct MotionTable {
 #[allow(missing_docs, reason = "as in MotionTable")]
 pub struct TopTable {
     pub record: PathBuf,
-    pub unit: Option<String>,
+    pub unit: Option<Unit>,
     pub step: Option<f64>,
     pub column: Option<String>,
     /// Channel of a record with several, by its number.
     pub channel: Option<String>,
-    pub format: Option<String>,
+    pub format: Option<Format>,
     pub scale: Option<f64>,
     pub pga: Option<f64>,
     pub fingerprint: Option<String>,
@@ -128,14 +128,10 @@ pub(super) struct Loaded {
     pub(super) notes: Vec<String>,
 }
 
-/// How a record file is to be read and scaled.
-struct RecordSpec<'a> {
+/// A record file, and how to read it.
+struct RecordFile<'a> {
     path: &'a Path,
-    unit: Option<&'a str>,
-    step: Option<f64>,
-    column: Option<&'a str>,
-    channel: Option<&'a str>,
-    format: Option<&'a str>,
+    options: RecordOptions,
     fingerprint: Option<&'a str>,
 }
 
@@ -144,44 +140,17 @@ pub(super) fn load(
     place: &Place<'_>,
     folder: &Path,
 ) -> Result<Loaded, SceneError> {
-    let motion = |source| SceneError::Motion {
-        file: place.name().to_owned(),
-        line: place.line(table.span()),
-        source: Box::new(source),
-    };
-    let refuse = |message: String| place.error(table.span(), message);
-    let spec = table.get_ref();
-    let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
-    if !(0.0..=1e6).contains(&tail) {
-        return Err(refuse(format!("tail = {tail} s must be between 0 and 1e6 s")));
-    }
-    let mut notes = Vec::new();
-    let source = source(spec, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
-    let bottom = scale(trim(source, spec).map_err(motion)?, spec.scale, spec.pga)
-        .map_err(|problem| problem.at(&motion, &refuse))?;
-    let top = match &spec.top {
-        None => None,
-        Some(top) => {
-            let record = RecordSpec {
-                path: &top.record,
-                unit: top.unit.as_deref(),
-                step: top.step,
-                column: top.column.as_deref(),
-                channel: top.channel.as_deref(),
-                format: top.format.as_deref(),
-                fingerprint: top.fingerprint.as_deref(),
-            };
-            let source =
-                read_record(&record, folder, &mut notes).map_err(|problem| problem.at(&motion, &refuse))?;
-            let source = trim(source, spec).map_err(motion)?;
-            Some(scale(source, top.scale, top.pga).map_err(|problem| problem.at(&motion, &refuse))?)
-        }
-    };
-    notes.push(format!("peak acceleration {:.4} m/s², {} s", bottom.peak(), bottom.duration()));
-    Ok(Loaded { excitation: Excitation::new(bottom, top), tail, notes })
+    loaded(table.get_ref(), folder).map_err(|problem| match problem {
+        Problem::Table(message) => place.error(table.span(), message),
+        Problem::Motion(source) => SceneError::Motion {
+            file: place.name().to_owned(),
+            line: place.line(table.span()),
+            source: Box::new(source),
+        },
+    })
 }
 
-/// What went wrong with a motion: in the table itself or in the record.
+/// What is wrong with a motion: something in the table itself, or in the record.
 enum Problem {
     Table(String),
     Motion(GroundMotionError),
@@ -193,37 +162,37 @@ impl From<GroundMotionError> for Problem {
     }
 }
 
-impl Problem {
-    fn at(
-        self,
-        motion: &impl Fn(GroundMotionError) -> SceneError,
-        refuse: &impl Fn(String) -> SceneError,
-    ) -> SceneError {
-        match self {
-            Self::Table(message) => refuse(message),
-            Self::Motion(error) => motion(error),
-        }
+fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
+    let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
+    if !(0.0..=1e6).contains(&tail) {
+        return Err(Problem::Table(format!("tail = {tail} s must be between 0 and 1e6 s")));
     }
+    let mut notes = Vec::new();
+    let bottom = scale(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
+    let top = spec.top.as_ref().map(|top| {
+        let TopTable { unit, step, format, .. } = *top;
+        let (column, channel) = (top.column.clone(), top.channel.clone());
+        let options = RecordOptions { unit, step, column, channel, format };
+        let file = RecordFile { path: &top.record, options, fingerprint: top.fingerprint.as_deref() };
+        scale(trim(read_record(&file, folder, &mut notes)?, spec)?, top.scale, top.pga)
+    });
+    let top = top.transpose()?;
+    notes.push(format!("peak acceleration {:.4} m/s², {} s", bottom.peak(), bottom.duration()));
+    Ok(Loaded { excitation: Excitation::new(bottom, top), tail, notes })
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {
     let pulse = |shape, amplitude, frequency| Pulse { shape, amplitude, frequency }.motion(None);
     let mut found: Vec<(&str, Result<GroundMotion, Problem>)> = Vec::new();
+    let MotionTable { unit, step, format, .. } = *spec;
+    let (column, channel) = (spec.column.clone(), spec.channel.clone());
+    let options = RecordOptions { unit, step, column, channel, format };
     if let Some(path) = &spec.record {
-        let record = RecordSpec {
-            path,
-            unit: spec.unit.as_deref(),
-            step: spec.step,
-            column: spec.column.as_deref(),
-            channel: spec.channel.as_deref(),
-            format: spec.format.as_deref(),
-            fingerprint: spec.fingerprint.as_deref(),
-        };
-        found.push(("record", read_record(&record, folder, notes)));
-    } else if [&spec.unit, &spec.column, &spec.channel, &spec.format].into_iter().any(Option::is_some)
-        || spec.step.is_some()
-    {
-        let message = "unit, step, column, channel and format belong to a record; add record = \"FILE\" or leave them out";
+        let file = RecordFile { path, options, fingerprint: spec.fingerprint.as_deref() };
+        found.push(("record", read_record(&file, folder, notes)));
+    } else if options != RecordOptions::default() {
+        let message = "unit, step, column, channel and format belong to a record; \
+                       add record = \"FILE\" or leave them out";
         return Err(Problem::Table(message.into()));
     }
     if let Some(&RickerTable { amplitude, frequency, centre }) = spec.ricker.as_ref() {
@@ -266,22 +235,13 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
 }
 
 fn read_record(
-    spec: &RecordSpec<'_>,
+    file: &RecordFile<'_>,
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<GroundMotion, Problem> {
-    let unit = spec.unit.map(str::parse::<Unit>).transpose()?;
-    let format = spec.format.map(str::parse::<Format>).transpose()?;
-    let options = ReadOptions {
-        unit,
-        step: spec.step,
-        column: spec.column.map(str::to_owned),
-        channel: spec.channel.map(str::to_owned),
-        format,
-    };
-    let path = folder.join(spec.path);
-    let record = read(&path, &options)?;
-    if let Some(expected) = spec.fingerprint {
+    let path = folder.join(file.path);
+    let record = read(&path, &file.options)?;
+    if let Some(expected) = file.fingerprint {
         let bytes =
             std::fs::read(&path).map_err(|error| Problem::Table(format!("{}: {error}", path.display())))?;
         let found = fingerprint(&bytes);
@@ -292,9 +252,9 @@ fn read_record(
             )));
         }
     }
-    let name = spec.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let name = file.path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     notes.push(format!("record {name} ({})", record.format.description()));
-    notes.extend(record.check().findings.iter().map(ToString::to_string));
+    notes.extend(record.check().warnings.iter().map(ToString::to_string));
     Ok(record.motion)
 }
 

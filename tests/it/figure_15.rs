@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use ground_motion::{ReadOptions, SyntheticMotion, read};
+use ground_motion::{RecordOptions, SyntheticMotion, read};
 use study::fragility::Summary;
 use study::ida::NamedRecord;
 use study::parallel::threads;
@@ -70,7 +70,7 @@ fn equation_14_overestimates_under_real_records() {
     assert!(files.len() >= 20, "{} AT2 records in {}", files.len(), folder.display());
     let record = |path: &PathBuf| NamedRecord {
         name: path.display().to_string(),
-        motion: read(path, &ReadOptions::default()).unwrap().motion,
+        motion: read(path, &RecordOptions::default()).unwrap().motion,
     };
     check(files.iter().map(record).collect(), 0.1);
 }

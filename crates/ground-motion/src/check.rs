@@ -1,8 +1,10 @@
-//! A quick check of a record: baseline, unit, missing start and tail.
+//! A quick check of a record: baseline, unit, stated peak, missing start and tail.
 
 use std::fmt;
 
-use super::{GroundMotion, Record, STANDARD_GRAVITY, Unit, floor_index, index_as_f64};
+use crate::motion::{GroundMotion, floor_index};
+use crate::record::Record;
+use crate::unit::{STANDARD_GRAVITY, Unit};
 
 /// Largest part of its peak velocity that the ground may have at the end; processed records have less than 0.1 %.
 const FINAL_VELOCITY: f64 = 0.05;
@@ -11,13 +13,24 @@ const FINAL_VELOCITY: f64 = 0.05;
 /// to 2 % and 6 %.
 const AT_THE_ENDS: f64 = 0.1;
 
-/// Peaks (g) beyond which a unit is doubted; the strongest records have about 4 g, few have more than 2 g.
+/// Range of peaks (g) without a warning about the unit; the strongest records have about 4 g, few have more than 2 g.
 const CREDIBLE_PEAK: [f64; 2] = [1e-4, 3.0];
 
 /// Largest difference from the peak that the file itself states, as part of it.
 const STATED_PEAK: f64 = 0.01;
 
-/// What a quick check of a record measures, and what it doubts.
+/// Result of a quick check of a record.
+///
+/// ```
+/// use ground_motion::{RecordOptions, Unit, Warning, parse};
+///
+/// // half a sine in cm/s², read as if it were in g, and without its end
+/// let samples: Vec<_> = (0..300).map(|i| (100.0 * (0.01 * f64::from(i)).sin()).to_string()).collect();
+/// let options = RecordOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..RecordOptions::default() };
+/// let check = parse("example.csv", samples.join("\n").into(), &options)?.check();
+/// assert!(matches!(check.warnings[..], [Warning::Baseline { .. }, Warning::Unit { .. }, Warning::MissingTail { .. }]));
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Check {
     /// Mean acceleration (m/s²).
@@ -26,14 +39,14 @@ pub struct Check {
     pub peak_velocity: f64,
     /// Velocity of the ground at the end (m/s).
     pub final_velocity: f64,
-    /// What should be looked at before the record is used.
-    pub findings: Vec<Finding>,
+    /// What to look at before the record is used.
+    pub warnings: Vec<Warning>,
 }
 
-/// Something that a sound record has not.
+/// A sign that a record is not ready for use.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
-pub enum Finding {
+pub enum Warning {
     /// Every sample is zero.
     NoMotion,
     /// The ground still moves at the end.
@@ -43,7 +56,7 @@ pub enum Finding {
         /// Largest velocity (m/s).
         peak: f64,
     },
-    /// No earthquake has had such a peak.
+    /// The peak is out of the range of earthquakes, so the unit may be wrong.
     Unit {
         /// Peak acceleration (g).
         peak: f64,
@@ -71,7 +84,7 @@ pub enum Finding {
     },
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoMotion => write!(f, "every sample is 0"),
@@ -88,14 +101,12 @@ impl fmt::Display for Finding {
                 Ok(())
             }
             Self::MissingStart { part } => {
-                write!(
-                    f,
-                    "start: the first sample has {:.0} % of the peak; is the onset missing?",
-                    100.0 * part
-                )
+                let percent = 100.0 * part;
+                write!(f, "start: the first sample has {percent:.0} % of the peak; is the onset missing?")
             }
             Self::MissingTail { part } => {
-                write!(f, "tail: the last second has {:.0} % of the peak; is the end missing?", 100.0 * part)
+                let percent = 100.0 * part;
+                write!(f, "tail: the last second has {percent:.0} % of the peak; is the end missing?")
             }
             Self::StatedPeak { peak, stated } => {
                 write!(f, "peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")
@@ -105,42 +116,42 @@ impl fmt::Display for Finding {
 }
 
 impl Record {
-    /// A quick check: whether the ground comes to rest, the peak is credible and the one stated, and the shaking is all there.
+    /// Checks whether the ground comes to rest, whether the peak is credible and the one that the file states, and
+    /// whether the shaking has its start and its end.
     #[must_use]
     pub fn check(&self) -> Check {
         let motion = &self.motion;
-        let velocities = velocities(motion);
-        let [peak_velocity, final_velocity] = velocities;
+        let [peak_velocity, final_velocity] = velocities(motion);
         let samples = motion.samples();
-        let mean = samples.iter().sum::<f64>() / index_as_f64(samples.len());
-        let mut findings = Vec::new();
+        let mean = samples.iter().sum::<f64>() / samples.len() as f64;
+        let mut warnings = Vec::new();
         let peak = motion.peak();
         if peak == 0.0 {
-            findings.push(Finding::NoMotion);
-            return Check { mean, peak_velocity, final_velocity, findings };
+            warnings.push(Warning::NoMotion);
+            return Check { mean, peak_velocity, final_velocity, warnings };
         }
         if final_velocity.abs() > FINAL_VELOCITY * peak_velocity {
-            findings.push(Finding::Baseline { last: final_velocity, peak: peak_velocity });
+            warnings.push(Warning::Baseline { last: final_velocity, peak: peak_velocity });
         }
         if let Some(stated) = self.stated_peak.filter(|stated| (peak - stated).abs() > STATED_PEAK * stated) {
-            findings.push(Finding::StatedPeak { peak, stated });
+            warnings.push(Warning::StatedPeak { peak, stated });
         }
         if !is_credible(peak) {
             let raw = peak / self.unit.to_si(1.0);
             let others =
                 Unit::ALL.into_iter().filter(|unit| *unit != self.unit && is_credible(unit.to_si(raw)));
             let peak = peak / STANDARD_GRAVITY;
-            findings.push(Finding::Unit { peak, unit: self.unit, others: others.collect() });
+            warnings.push(Warning::Unit { peak, unit: self.unit, others: others.collect() });
         }
         let start = samples[0].abs() / peak;
         if start > AT_THE_ENDS {
-            findings.push(Finding::MissingStart { part: start });
+            warnings.push(Warning::MissingStart { part: start });
         }
         let tail = tail(motion) / peak;
         if tail > AT_THE_ENDS {
-            findings.push(Finding::MissingTail { part: tail });
+            warnings.push(Warning::MissingTail { part: tail });
         }
-        Check { mean, peak_velocity, final_velocity, findings }
+        Check { mean, peak_velocity, final_velocity, warnings }
     }
 }
 

@@ -166,15 +166,15 @@ pub enum GroundMotionError {
 
 /// A fault in a record's text, before the name of its file is known.
 #[derive(Debug)]
-pub(super) struct Fault {
-    pub(super) line: usize,
-    pub(super) expected: String,
-    pub(super) found: String,
-    pub(super) remedy: String,
+pub(crate) struct Fault {
+    pub(crate) line: usize,
+    pub(crate) expected: String,
+    pub(crate) found: String,
+    pub(crate) remedy: String,
 }
 
 impl Fault {
-    pub(super) fn new(
+    pub(crate) fn new(
         line: usize,
         expected: impl Into<String>,
         found: impl Into<String>,
@@ -183,16 +183,32 @@ impl Fault {
         Self { line, expected: expected.into(), found: found.into(), remedy: remedy.into() }
     }
 
-    pub(super) fn in_file(self, file: &str) -> GroundMotionError {
+    /// A fault whose `found` quotes a piece of the file.
+    pub(crate) fn excerpt(
+        line: usize,
+        expected: impl Into<String>,
+        found: &str,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::new(line, expected, excerpt(found), remedy)
+    }
+
+    pub(crate) fn in_file(self, file: &str) -> GroundMotionError {
         let Self { line, expected, found, remedy } = self;
         GroundMotionError::Content { file: file.to_owned(), line, expected, found, remedy }
     }
 }
 
 /// The start of a piece of a file, quoted and made printable for a message.
-pub(super) fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 40;
     let shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     let more = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
     format!("`{shown}{more}`")
 }
+
+/// The remedy for a file whose numbers are not where they should be.
+pub(crate) const DAMAGED: &str = "correct the file or fetch it again";
+
+/// The remedy for a file that ends too early.
+pub(crate) const CUT_SHORT: &str = "the file is cut short or damaged: fetch it again";

@@ -1,27 +1,38 @@
-//! Numbers in the lines of a record: free form, and the fixed widths Fortran wrote.
+//! Lines, words and numbers of a record: in free form, and in the fixed widths that Fortran wrote.
 
-use super::error::{Fault, excerpt};
+use crate::error::{CUT_SHORT, DAMAGED, Fault};
 
 /// A line and its number, from 1.
-pub(super) type Line<'a> = (usize, &'a str);
+pub(crate) type Line<'a> = (usize, &'a str);
+
+/// The lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or `\r\r\n`.
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+    untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
+}
+
+/// The lines that are not blank, with their numbers from 1 and the blanks they start with.
+pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
+    numbered.filter(|(_, line)| !line.is_empty())
+}
 
 /// Position of an ASCII word, in any case.
-pub(super) fn find(line: &str, word: &str) -> Option<usize> {
+pub(crate) fn find(line: &str, word: &str) -> Option<usize> {
     line.as_bytes().windows(word.len()).position(|window| window.eq_ignore_ascii_case(word.as_bytes()))
 }
 
 /// What follows an ASCII word, in any case.
-pub(super) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
+pub(crate) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
     find(line, word).map(|at| &line[at + word.len()..])
 }
 
 /// A number as Fortran writes it: the exponent's letter may be D. Not necessarily finite.
-pub(super) fn real(word: &str) -> Option<f64> {
+pub(crate) fn real(word: &str) -> Option<f64> {
     word.parse().ok().or_else(|| word.replace(['D', 'd'], "E").parse().ok())
 }
 
 /// The number a text starts with, after blanks, commas and an equals sign or colon, and what follows it.
-pub(super) fn leading_number(text: &str) -> (&str, &str) {
+pub(crate) fn leading_number(text: &str) -> (&str, &str) {
     let text = text.trim_start_matches(|c: char| c.is_ascii_whitespace() || matches!(c, '=' | ':' | ','));
     let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'E' | 'e' | 'D' | 'd');
     // A word such as `DT` also starts with such a letter, a number does not.
@@ -31,13 +42,28 @@ pub(super) fn leading_number(text: &str) -> (&str, &str) {
     text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
 }
 
+/// A number that is finite and above 0.
+pub(crate) fn positive(word: &str) -> Option<f64> {
+    real(word).filter(|value| value.is_finite() && *value > 0.0)
+}
+
 /// The leading number of a text, if it is finite.
-pub(super) fn leading_real(text: &str) -> Option<f64> {
+pub(crate) fn leading_real(text: &str) -> Option<f64> {
     real(leading_number(text).0).filter(|value| value.is_finite())
 }
 
+/// The word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
+pub(crate) fn unit_word(line: &str) -> Option<&str> {
+    let text = after(line, "UNITS")?;
+    let is_edge = |c: char| matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
+    let words = text.split_ascii_whitespace().map(|word| word.trim_matches(is_edge));
+    let is_filler =
+        |word: &str| ["of", "are", "is", "in", ""].iter().any(|filler| word.eq_ignore_ascii_case(filler));
+    words.into_iter().find(|word| !is_filler(word))
+}
+
 /// Refuses a number of samples that is not the stated one.
-pub(super) fn check_count(
+pub(crate) fn check_count(
     found: usize,
     stated: usize,
     stated_by: &str,
@@ -52,14 +78,14 @@ pub(super) fn check_count(
 
 /// A Fortran format of numbers, `(8F10.6)`: so many a line, each so wide; neighbours may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Layout {
-    pub(super) per_line: usize,
-    pub(super) width: usize,
+pub(crate) struct Layout {
+    pub(crate) per_line: usize,
+    pub(crate) width: usize,
 }
 
 impl Layout {
     /// The last format of one kind of numbers that a line states in parentheses.
-    pub(super) fn stated_in(line: &str) -> Option<Self> {
+    pub(crate) fn stated_in(line: &str) -> Option<Self> {
         let candidates = line.rsplit('(').filter_map(|text| text.split_once(')')).map(|(format, _)| format);
         candidates.into_iter().find_map(Self::of)
     }
@@ -95,7 +121,7 @@ impl Layout {
 
     /// Reads `count` numbers from the lines that follow and returns the last line's number; `stated` is the line that
     /// says how many.
-    pub(super) fn read<'a>(
+    pub(crate) fn read<'a>(
         self,
         lines: &mut impl Iterator<Item = Line<'a>>,
         count: usize,
@@ -112,7 +138,7 @@ impl Layout {
             for field in self.fields(line) {
                 if taken == count {
                     let expected = format!("an end after {count} numbers, as line {stated} says");
-                    return Err(Fault::new(number, expected, excerpt(field), DAMAGED));
+                    return Err(Fault::excerpt(number, expected, field, DAMAGED));
                 }
                 let Some(value) = real(field).filter(|value| value.is_finite()) else {
                     return Err(self.no_number(number, field, [taken, count, stated]));
@@ -130,11 +156,26 @@ impl Layout {
             "a finite number ({} of {count}, as line {stated} says; {per_line} a line, {width} characters each)",
             taken + 1
         );
-        Fault::new(line, expected, excerpt(field), DAMAGED)
+        Fault::excerpt(line, expected, field, DAMAGED)
+    }
+
+    /// Reads `count` numbers, as [`Self::read`].
+    pub(crate) fn numbers<'a>(
+        self,
+        lines: &mut impl Iterator<Item = Line<'a>>,
+        count: usize,
+        stated: usize,
+    ) -> Result<Vec<f64>, Fault> {
+        let mut numbers = Vec::new();
+        self.read(lines, count, stated, |value, _, _| {
+            numbers.push(value);
+            Ok(())
+        })?;
+        Ok(numbers)
     }
 
     /// Refuses more numbers where a block should have ended.
-    pub(super) fn check_ended(
+    pub(crate) fn check_ended(
         self,
         next: Option<Line<'_>>,
         count: usize,
@@ -144,15 +185,9 @@ impl Layout {
         match self.fields(line).next() {
             Some(field) if real(field).is_some() => {
                 let expected = format!("an end after {count} numbers, as line {stated} says");
-                Err(Fault::new(number, expected, excerpt(line.trim()), DAMAGED))
+                Err(Fault::excerpt(number, expected, line.trim(), DAMAGED))
             }
             _ => Ok(()),
         }
     }
 }
-
-/// The remedy for a file whose numbers are not where they should be.
-pub(super) const DAMAGED: &str = "correct the file or fetch it again";
-
-/// The remedy for a file that ends too early.
-pub(super) const CUT_SHORT: &str = "the file is cut short or damaged: fetch it again";

@@ -16,7 +16,8 @@
 
 use std::f64::consts::PI;
 
-use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64, time_of};
+use crate::error::GroundMotionError;
+use crate::motion::{GroundMotion, floor_index};
 
 /// Steps in a period.
 const STEPS_PER_PERIOD: f64 = 2000.0;
@@ -49,6 +50,16 @@ pub enum Shape {
 }
 
 /// A motion given by a formula.
+///
+/// ```
+/// use ground_motion::{Pulse, Shape};
+///
+/// let pulse = Pulse { shape: Shape::SineCycle, amplitude: 3.0, frequency: 2.0 };
+/// let motion = pulse.motion(None)?;
+/// assert_eq!(motion.duration(), 0.5);
+/// assert!((motion.at(0.125) - 3.0).abs() < 1e-5);
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pulse {
     /// Its form.
@@ -60,9 +71,7 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// The pulse as a record from time zero to its own end, or to `duration` (s) if that comes first.
-    ///
-    /// The record stops with the motion, it is not filled up with zeros.
+    /// Samples the pulse from time zero to its own end, or to `duration` (s) if that comes first. No zeros follow.
     ///
     /// # Errors
     /// If a parameter is outside its limits, if nothing ends the motion, if it would take too many samples.
@@ -70,8 +79,8 @@ impl Pulse {
         self.sampled(duration, (1.0 / (STEPS_PER_PERIOD * self.frequency)).min(LONGEST_STEP))
     }
 
-    /// As [`motion`](Self::motion), with the longest step (s) of the caller's choice; the step taken divides the
-    /// duration.
+    /// Samples the pulse as [`motion`](Self::motion) does, with steps of at most `longest_step` (s); the step taken
+    /// divides the duration.
     ///
     /// # Errors
     /// As [`motion`](Self::motion), and if the step is not positive and finite.
@@ -95,12 +104,12 @@ impl Pulse {
         };
         // The last sample lies on the end: a jump there must not turn into a ramp.
         let intervals = (end / longest_step).ceil().max(1.0);
-        if intervals >= index_as_f64(MAX_SAMPLES) {
+        if intervals >= MAX_SAMPLES as f64 {
             return Err(GroundMotionError::TooManySamples { found: intervals + 1.0, limit: MAX_SAMPLES });
         }
         let step = end / intervals;
         let node = |index| {
-            let time = time_of(index, step);
+            let time = index as f64 * step;
             self.acceleration(time) - step * step / 12.0 * self.second_derivative(time)
         };
         GroundMotion::new(step, (0..=floor_index(intervals)).map(node).collect())
@@ -157,12 +166,10 @@ impl Pulse {
         check_finite("amplitude [m/s2]", self.amplitude)?;
         check_positive("frequency [Hz]", self.frequency)?;
         match self.shape {
-            Shape::Ricker { centre } if centre < 0.0 => Err(GroundMotionError::Parameter {
-                name: "centre [s]",
-                value: centre,
-                limit: "zero or positive",
-            }),
-            Shape::Ricker { centre } => check_finite("centre [s]", centre),
+            Shape::Ricker { centre } => {
+                check(centre >= 0.0 || centre.is_nan(), "centre [s]", centre, "zero or positive")?;
+                check_finite("centre [s]", centre)
+            }
             Shape::Harmonic { phase, end } => {
                 check_finite("phase [rad]", phase)?;
                 end.map_or(Ok(()), |end| check_positive("end [s]", end))
@@ -172,16 +179,14 @@ impl Pulse {
     }
 }
 
+fn check(holds: bool, name: &'static str, value: f64, limit: &'static str) -> Result<(), GroundMotionError> {
+    if holds { Ok(()) } else { Err(GroundMotionError::Parameter { name, value, limit }) }
+}
+
 fn check_finite(name: &'static str, value: f64) -> Result<(), GroundMotionError> {
-    let limit = "finite";
-    if value.is_finite() { Ok(()) } else { Err(GroundMotionError::Parameter { name, value, limit }) }
+    check(value.is_finite(), name, value, "finite")
 }
 
 fn check_positive(name: &'static str, value: f64) -> Result<(), GroundMotionError> {
-    let limit = "positive and finite";
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(GroundMotionError::Parameter { name, value, limit })
-    }
+    check(value > 0.0 && value.is_finite(), name, value, "positive and finite")
 }

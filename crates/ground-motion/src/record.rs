@@ -1,36 +1,18 @@
-//! Record files: finding the format, reading within bounds.
-//!
-//! A format is one module with `parse(text, options) -> Result<Parsed, Fault>`, a variant of [`Format`] and, if its
-//! content gives it away, `recognises(head)` with a line in [`Format::of`].
+//! Record files: reading them within bounds, and choosing among their channels.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::error::{Fault, excerpt};
-use super::{Format, GroundMotion, GroundMotionError, Unit};
+use crate::error::{Fault, GroundMotionError, excerpt};
+use crate::format::Format;
+use crate::motion::GroundMotion;
+use crate::options::RecordOptions;
+use crate::parsed::Parsed;
+use crate::unit::Unit;
 
 /// Largest file that is read: about four million samples in AT2, hours of shaking.
 pub const MAX_FILE_BYTES: u64 = 64 << 20;
-
-/// How many lines of a header are kept as notes, and how many characters of each.
-const NOTE_LINES: usize = 4;
-const NOTE_CHARACTERS: usize = 200;
-
-/// What the user states about a record file.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct ReadOptions {
-    /// Unit of the samples. Needed where the file does not state it; must not contradict a file that does.
-    pub unit: Option<Unit>,
-    /// Time between samples (s). Needed where the file does not state it; must not contradict a file that does.
-    pub step: Option<f64>,
-    /// Name of the column to read, for tables with several.
-    pub column: Option<String>,
-    /// Channel to read, by its number or its whole name; needed where a file has several.
-    pub channel: Option<String>,
-    /// Format of the file; found from its content if none is given.
-    pub format: Option<Format>,
-}
 
 /// A motion as read from a file.
 #[derive(Clone, PartialEq, Debug)]
@@ -48,35 +30,12 @@ pub struct Record {
     /// Peak acceleration the file itself states (m/s²).
     pub stated_peak: Option<f64>,
     /// First lines of the header.
-    pub notes: Vec<String>,
-}
-
-/// What a format's reader returns: samples in m/s².
-pub(super) struct Parsed {
-    pub(super) step: f64,
-    pub(super) samples: Vec<f64>,
-    pub(super) unit: Unit,
-    pub(super) first_time: f64,
-    pub(super) channel: Option<String>,
-    pub(super) stated_peak: Option<f64>,
-    pub(super) notes: Vec<String>,
-    pub(super) last_line: usize,
+    pub header: Vec<String>,
 }
 
 impl Parsed {
-    /// One channel without a name that starts at time zero.
-    pub(super) fn new(
-        step: f64,
-        samples: Vec<f64>,
-        unit: Unit,
-        last_line: usize,
-        notes: Vec<String>,
-    ) -> Self {
-        Self { step, samples, unit, first_time: 0.0, channel: None, stated_peak: None, notes, last_line }
-    }
-
     fn into_record(self, name: &str, format: Format) -> Result<Record, GroundMotionError> {
-        let Self { step, samples, unit, first_time, channel, stated_peak, notes, last_line } = self;
+        let Self { step, samples, unit, first_time, channel, stated_peak, header, last_line } = self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
             let fault =
@@ -86,7 +45,7 @@ impl Parsed {
         let motion = GroundMotion::new(step, samples).map_err(|error| {
             Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file").in_file(name)
         })?;
-        Ok(Record { motion, format, unit, first_time, channel, stated_peak, notes })
+        Ok(Record { motion, format, unit, first_time, channel, stated_peak, header })
     }
 }
 
@@ -98,7 +57,7 @@ impl Parsed {
 /// # Errors
 /// If the file cannot be read or is not a record, or if it has several channels and none of them is asked for; the
 /// message names the file, the line, what was expected, what was found and the remedy.
-pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, GroundMotionError> {
+pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
     parse(&name, read_bounded(path, &name)?, options)
@@ -110,7 +69,7 @@ pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, Gro
 /// As [`read`], but for several channels.
 pub fn read_channels(
     path: impl AsRef<Path>,
-    options: &ReadOptions,
+    options: &RecordOptions,
 ) -> Result<Vec<Record>, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -121,7 +80,7 @@ pub fn read_channels(
 ///
 /// # Errors
 /// As [`read`].
-pub fn parse(name: &str, bytes: Vec<u8>, options: &ReadOptions) -> Result<Record, GroundMotionError> {
+pub fn parse(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let mut records = parse_channels(name, bytes, options)?;
     let channels: Vec<_> = records.iter().map(|record| record.channel.clone().unwrap_or_default()).collect();
     match records.pop() {
@@ -137,7 +96,7 @@ pub fn parse(name: &str, bytes: Vec<u8>, options: &ReadOptions) -> Result<Record
 pub fn parse_channels(
     name: &str,
     bytes: Vec<u8>,
-    options: &ReadOptions,
+    options: &RecordOptions,
 ) -> Result<Vec<Record>, GroundMotionError> {
     if let Some(step) = options.step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(GroundMotionError::Step { step });
@@ -183,36 +142,6 @@ fn listed(channels: &[String]) -> String {
         names.push("…".to_owned());
     }
     names.join(", ")
-}
-
-/// A step stated beside the file's own must be the same.
-pub(super) fn check_stated_step(stated: Option<f64>, step: f64, line: usize) -> Result<(), Fault> {
-    // Either may be rounded in the fourth digit: 0.0029 for 1/350.
-    const TOLERANCE: f64 = 1e-3;
-    match stated {
-        Some(stated) if (stated - step).abs() > TOLERANCE * step => {
-            let expected = format!("the stated step of {stated} s");
-            Err(Fault::new(line, expected, format!("{step} s"), "state no step: the file has its own"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// The lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or `\r\r\n`.
-pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
-    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim()));
-    numbered.filter(|(_, line)| !line.is_empty())
-}
-
-/// The lines that are not blank, with their numbers from 1 and the blanks they start with.
-pub(super) fn untrimmed_lines(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
-    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
-    numbered.filter(|(_, line)| !line.is_empty())
-}
-
-/// The first lines of a header, shortened.
-pub(super) fn notes<'a>(header: impl Iterator<Item = &'a str>) -> Vec<String> {
-    header.take(NOTE_LINES).map(|line| line.chars().take(NOTE_CHARACTERS).collect()).collect()
 }
 
 fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {

@@ -1,6 +1,6 @@
-//! Response spectra of ground motions and the intensities made of them.
+//! Response spectra of ground motions, and intensities derived from them.
 //!
-//! An elastic oscillator with period T and damping ratio ξ, at rest at time zero, answers
+//! An elastic oscillator with period T and damping ratio ξ, at rest at time zero, obeys
 //!
 //! ```text
 //! ü + 2 ξ ω u̇ + ω² u = −a(t),      ω = 2π / T,      Sa(T) = ω² max |u|
@@ -13,9 +13,10 @@
 
 use std::f64::consts::TAU;
 
-use oscillator::{KinematicState, Oscillator};
+use oscillator::{Green, KinematicState, Oscillator};
 
-use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64};
+use crate::error::GroundMotionError;
+use crate::motion::{GroundMotion, floor_index};
 
 /// Damping ratio of the spectra of seismic engineering.
 pub const DAMPING: f64 = 0.05;
@@ -26,7 +27,7 @@ pub const AVERAGE_PERIODS: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4];
 /// Shortest and longest period of an oscillator (s); 0 stands for the ground itself.
 pub const PERIOD_LIMITS: [f64; 2] = [1e-3, 100.0];
 
-/// Pieces of a period, in each of which one turning point is looked for.
+/// Pieces of a period, in each of which one turning point is searched.
 const PIECES_PER_PERIOD: f64 = 20.0;
 
 /// Most pieces of a step.
@@ -38,9 +39,9 @@ const STILL: f64 = 1e-9;
 /// Bound on the steps towards a turning point; few are needed where the velocity is nearly a straight line.
 const SEARCH_STEPS: usize = 40;
 
-/// Where the largest displacement is looked for.
+/// Where the largest displacement is searched.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, Default)]
-pub enum Peaks {
+pub enum Maxima {
     /// At the turning points wherever they lie, in the free vibration after the motion too: the true maximum.
     #[default]
     Everywhere,
@@ -48,38 +49,51 @@ pub enum Peaks {
     AtSamples,
 }
 
-/// How spectra are computed.
+/// Elastic response spectrum: the damping ratio, and where maxima are searched.
+///
+/// ```
+/// use ground_motion::spectrum::AVERAGE_PERIODS;
+/// use ground_motion::{Maxima, Spectrum, SyntheticMotion};
+///
+/// let motion = SyntheticMotion::default().motion()?;
+/// let true_maximum = Spectrum::default().acceleration(&motion, 0.2)?;
+/// let at_samples = Spectrum::new(0.05, Maxima::AtSamples)?.acceleration(&motion, 0.2)?;
+/// assert!(at_samples <= true_maximum);
+/// let average = Spectrum::default().average(&motion, &AVERAGE_PERIODS)?;
+/// assert!(average < true_maximum);
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Spectrum {
     damping: f64,
-    peaks: Peaks,
+    maxima: Maxima,
 }
 
 impl Default for Spectrum {
     /// 5 % damping, true maxima.
     fn default() -> Self {
-        Self { damping: DAMPING, peaks: Peaks::Everywhere }
+        Self { damping: DAMPING, maxima: Maxima::Everywhere }
     }
 }
 
 impl Spectrum {
-    /// Spectra of oscillators with a damping ratio (-).
+    /// Makes the spectrum of oscillators with a damping ratio (-).
     ///
     /// # Errors
     /// If the damping ratio is not from 0 to below 1.
-    pub fn new(damping: f64, peaks: Peaks) -> Result<Self, GroundMotionError> {
+    pub fn new(damping: f64, maxima: Maxima) -> Result<Self, GroundMotionError> {
         if !(0.0..1.0).contains(&damping) {
             let limit = "from 0 to below 1";
             return Err(GroundMotionError::Parameter { name: "damping ratio", value: damping, limit });
         }
-        Ok(Self { damping, peaks })
+        Ok(Self { damping, maxima })
     }
 
     /// Pseudo-spectral acceleration Sa (m/s²) at a period (s); at the period 0 the peak ground acceleration.
     ///
-    /// The largest displacement is looked for at the samples and at the turning points between: each piece of at most a
-    /// twentieth of the period is searched where the velocity changes its sign. After the motion the acceleration is zero,
-    /// as [`GroundMotion::at`] says; the free vibration is followed for one period.
+    /// The largest displacement is searched at the samples and at the turning points between: in each piece of at most
+    /// a twentieth of the period in which the velocity changes its sign. After the motion the acceleration is zero, as
+    /// [`GroundMotion::at`] says, and the free vibration is followed for one period.
     ///
     /// # Errors
     /// If the period is outside [`PERIOD_LIMITS`], or so short that a step of the motion spans more than 500 of it.
@@ -103,19 +117,20 @@ impl Spectrum {
         let mut search = Search { state: [0.0; 2], largest: 0.0 };
         for pair in motion.samples().windows(2) {
             let slope = (pair[1] - pair[0]) / pieces;
-            let at = |index: usize| pair[0] + slope * index_as_f64(index);
+            let at = |index: usize| pair[0] + slope * index as f64;
             for index in 0..floor_index(pieces) {
-                search.pass(&piece, [at(index), at(index + 1)], self.peaks);
+                search.pass(&piece, [at(index), at(index + 1)], self.maxima);
             }
             search.largest = search.largest.max(search.state[0].abs());
         }
-        if self.peaks == Peaks::Everywhere {
+        if self.maxima == Maxima::Everywhere {
             piece = Piece::new(oscillator, period / PIECES_PER_PERIOD);
             for _ in 0..floor_index(PIECES_PER_PERIOD) {
-                search.pass(&piece, [0.0; 2], self.peaks);
+                search.pass(&piece, [0.0; 2], self.maxima);
             }
         }
-        Ok(omega * omega * search.largest)
+        // ω times the pseudo-velocity
+        Ok(omega * (omega * search.largest))
     }
 
     /// Sa (m/s²) at each period (s).
@@ -144,7 +159,7 @@ impl Spectrum {
             });
         }
         let logarithms = self.accelerations(motion, periods)?.into_iter().map(libm::log).sum::<f64>();
-        Ok(libm::exp(logarithms / index_as_f64(periods.len())))
+        Ok(libm::exp(logarithms / periods.len() as f64))
     }
 }
 
@@ -156,10 +171,10 @@ struct Search {
 
 impl Search {
     /// Goes through one piece whose ground acceleration (m/s²) is linear between the ends given.
-    fn pass(&mut self, piece: &Piece, ground: [f64; 2], peaks: Peaks) {
+    fn pass(&mut self, piece: &Piece, ground: [f64; 2], maxima: Maxima) {
         let (start, end) = (self.state, piece.advance(self.state, ground));
         self.state = end;
-        if peaks == Peaks::AtSamples || start[1] * end[1] >= 0.0 {
+        if maxima == Maxima::AtSamples || start[1] * end[1] >= 0.0 {
             return;
         }
         // Twice what a velocity that turns evenly would add: most turning points are lower than the largest by far.
@@ -181,14 +196,12 @@ struct Piece {
 
 impl Piece {
     fn new(oscillator: Oscillator, duration: f64) -> Self {
-        let mut piece = Self { oscillator, duration, factors: [[0.0; 4]; 2] };
-        // The answer is linear in each of the four.
-        for column in 0..4 {
-            let unit: [f64; 4] = std::array::from_fn(|index| if index == column { 1.0 } else { 0.0 });
-            let answer = piece.after(duration, [unit[0], unit[1]], [unit[2], unit[3]]);
-            (piece.factors[0][column], piece.factors[1][column]) = (answer[0], answer[1]);
-        }
-        piece
+        let (c, k) = (oscillator.damping(), oscillator.stiffness());
+        let Green { g, h, j, .. } = oscillator.green(duration);
+        // ü₀ = −a − c u̇₀ − k u₀ and p₁ = (a − b)/duration, put into the formulas of the oscillator
+        let of_u = [1.0 - k * h, g, j / duration - h, -j / duration];
+        let of_v = [-k * g, 1.0 - k * h - c * g, h / duration - g, -h / duration];
+        Self { oscillator, duration, factors: [of_u, of_v] }
     }
 
     fn advance(&self, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
@@ -199,7 +212,9 @@ impl Piece {
     fn after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
         let start = KinematicState { displacement: u, velocity: v, acceleration: -a - c * v - k * u };
-        let end = self.oscillator.propagate(start, (a - b) / self.duration, time);
+        let rate = (a - b) / self.duration;
+        let series = self.oscillator.series_at(start, rate, time);
+        let end = series.unwrap_or_else(|| self.oscillator.propagate(start, rate, time));
         [end.displacement, end.velocity]
     }
 

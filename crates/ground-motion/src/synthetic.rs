@@ -1,4 +1,4 @@
-//! The project's own record: filtered noise with an envelope.
+//! Synthetic motions: filtered noise with an envelope.
 //!
 //! 1. White noise: independent standard normal numbers, one at each step, by the Box–Muller transform of
 //!    `SplitMix64` (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014) started at
@@ -18,15 +18,16 @@
 //! ```
 //!
 //! The filters advance by the linear acceleration method, which integrates an acceleration that is linear between
-//! samples without error. The displacement of the record as this project plays it is therefore y itself, which the
-//! filter draws back to zero: the record needs no other baseline correction.
+//! samples without error, as a [`GroundMotion`] is. Its displacement is therefore y itself, which the filter draws
+//! back to zero: the motion needs no other baseline correction.
 //!
-//! Only IEEE basic operations, square roots and the software functions of `libm` are used, in a fixed order: the record
+//! Only IEEE basic operations, square roots and the software functions of `libm` are used, in a fixed order: the motion
 //! is the same bit for bit on every platform.
 
 use std::f64::consts::TAU;
 
-use super::{GroundMotion, GroundMotionError, floor_index, index_as_f64};
+use crate::error::GroundMotionError;
+use crate::motion::{GroundMotion, floor_index};
 
 /// Soil layer of Kanai and Tajimi, firm ground.
 const SOIL: Filter = Filter { angular_frequency: 15.6, damping_ratio: 0.6 };
@@ -40,14 +41,22 @@ const END: f64 = 0.8;
 /// Logarithm of the envelope's decay from `FULL_TO` to `END`, to 1 %.
 const DECAY: f64 = std::f64::consts::LN_10 * 2.0;
 
-/// Recipe of a synthetic record; the default is the record embedded in the project.
+/// Recipe of a synthetic motion.
+///
+/// ```
+/// use ground_motion::SyntheticMotion;
+///
+/// let motion = SyntheticMotion { seed: 7, peak: 2.0, ..SyntheticMotion::default() }.motion()?;
+/// assert_eq!((motion.step(), motion.duration(), motion.peak()), (0.005, 30.0, 2.0));
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SyntheticMotion {
-    /// Start of the random numbers: another seed gives another record of the same kind.
+    /// Start of the random numbers: another seed gives another motion of the same kind.
     pub seed: u64,
     /// Duration (s), from 10 to 600; the nearest whole number of steps is taken.
     pub duration: f64,
-    /// Step (s), from 0.0005 to 0.02. Another step gives another record.
+    /// Step (s), from 0.0005 to 0.02. Another step gives another motion.
     pub step: f64,
     /// Peak ground acceleration (m/s²).
     pub peak: f64,
@@ -60,7 +69,7 @@ impl Default for SyntheticMotion {
 }
 
 impl SyntheticMotion {
-    /// Makes the record.
+    /// Makes the motion.
     ///
     /// # Errors
     /// If the duration, the step or the peak is outside its limits.
@@ -71,21 +80,18 @@ impl SyntheticMotion {
             return Err(GroundMotionError::Parameter { name, value: duration, limit: "from 10 to 600" });
         }
         if !(0.0005..=0.02).contains(&step) {
-            return Err(GroundMotionError::Parameter {
-                name: "step [s]",
-                value: step,
-                limit: "from 0.0005 to 0.02",
-            });
+            let limit = "from 0.0005 to 0.02";
+            return Err(GroundMotionError::Parameter { name: "step [s]", value: step, limit });
         }
         let intervals = floor_index((duration / step).round());
         let mut noise = Noise::new(self.seed);
-        let mut soil = Oscillator::default();
-        let mut ground = Oscillator::default();
+        let mut soil = FilterState::default();
+        let mut ground = FilterState::default();
         let mut samples = Vec::with_capacity(intervals + 1);
         // At rest until the first sample; the envelope starts at zero.
         samples.push(0.0);
         for index in 1..=intervals {
-            let rock = noise.next() * envelope(index_as_f64(index) / index_as_f64(intervals));
+            let rock = noise.next() * envelope(index as f64 / intervals as f64);
             soil.advance(SOIL, -rock, step);
             ground.advance(HIGH_PASS, soil.spring_and_damper(SOIL), step);
             samples.push(ground.acceleration);
@@ -118,13 +124,13 @@ struct Filter {
 
 /// State of ẍ + 2 ζ ω ẋ + ω² x = p.
 #[derive(Default)]
-struct Oscillator {
+struct FilterState {
     displacement: f64,
     velocity: f64,
     acceleration: f64,
 }
 
-impl Oscillator {
+impl FilterState {
     /// Advances by one step at whose end the load is p; the acceleration is linear in between.
     fn advance(&mut self, filter: Filter, load: f64, step: f64) {
         let Filter { angular_frequency: omega, damping_ratio: zeta } = filter;
@@ -167,7 +173,6 @@ impl Noise {
     }
 
     /// Uniform in (0, 1].
-    #[expect(clippy::cast_precision_loss, reason = "at most 53 bits")]
     fn uniform(&mut self) -> f64 {
         const UNIT: f64 = 1.0 / (1_u64 << 53) as f64;
         ((self.bits() >> 11) + 1) as f64 * UNIT

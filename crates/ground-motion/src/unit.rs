@@ -3,19 +3,24 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::GroundMotionError;
-use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, after};
+use serde::Deserialize;
 
-/// Standard gravity, the unit g of records (m/s²), whatever gravity acts on the wall
-/// (3rd General Conference on Weights and Measures, 1901).
+use crate::error::GroundMotionError;
+
+/// Standard gravity, the unit g of records (m/s²): 3rd General Conference on Weights and Measures, 1901.
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// The remedy for a record whose unit is not known.
-pub(super) const REMEDY: &str = "state the unit of the record (m/s2, cm/s2, mm/s2 or g)";
-
 /// Unit of acceleration of a record.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+///
+/// ```
+/// use ground_motion::Unit;
+///
+/// assert_eq!("cm/s^2".parse::<Unit>()?, Unit::CentimetrePerSecondSquared);
+/// assert_eq!(Unit::StandardGravity.to_si(2.0), 19.6133);
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, Deserialize)]
+#[serde(try_from = "String")]
 pub enum Unit {
     /// m/s².
     MetrePerSecondSquared,
@@ -36,7 +41,7 @@ impl Unit {
         Self::StandardGravity,
     ];
 
-    /// The unit's name as this project writes it.
+    /// The unit's plain name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -58,29 +63,6 @@ impl Unit {
             Self::CentimetrePerSecondSquared => value / 100.0,
             Self::MillimetrePerSecondSquared => value / 1000.0,
             Self::StandardGravity => value * STANDARD_GRAVITY,
-        }
-    }
-
-    /// The value of a field in m/s², which must be finite.
-    pub(super) fn checked_to_si(self, value: f64, line: usize, field: &str) -> Result<f64, Fault> {
-        let converted = self.to_si(value);
-        if converted.is_finite() {
-            return Ok(converted);
-        }
-        Err(Fault::new(line, "a finite number", excerpt(field), DAMAGED))
-    }
-
-    /// The unit of a file that writes `word` on `line`. What the user states decides where the word says nothing, and
-    /// must not contradict one that does.
-    pub(super) fn settled(word: &str, line: usize, given: Option<Self>) -> Result<Self, Fault> {
-        match (word.parse::<Self>(), given) {
-            (Ok(unit), Some(given)) if unit != given => {
-                let expected = format!("the stated unit {given}");
-                Err(Fault::new(line, expected, unit.name(), "state no unit: the file has its own"))
-            }
-            (Ok(unit), _) => Ok(unit),
-            (Err(_), Some(given)) => Ok(given),
-            (Err(_), None) => Err(Fault::new(line, "a unit of acceleration", excerpt(word), REMEDY)),
         }
     }
 }
@@ -120,12 +102,10 @@ impl FromStr for Unit {
     }
 }
 
-/// The word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
-pub(super) fn unit_word(line: &str) -> Option<&str> {
-    let text = after(line, "UNITS")?;
-    let is_edge = |c: char| matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
-    let words = text.split_ascii_whitespace().map(|word| word.trim_matches(is_edge));
-    let is_filler =
-        |word: &str| ["of", "are", "is", "in", ""].iter().any(|filler| word.eq_ignore_ascii_case(filler));
-    words.into_iter().find(|word| !is_filler(word))
+impl TryFrom<String> for Unit {
+    type Error = GroundMotionError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
 }

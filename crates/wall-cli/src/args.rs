@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, Parser, Subcommand};
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Format, GroundMotion, ReadOptions, SyntheticMotion, Unit, read};
+use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion, read};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
 use rocking_wall::simulation::Excitation;
 
@@ -78,21 +78,8 @@ pub(crate) struct RecordArguments {
     /// Accelerogram that replaces the scene's motion, in any format `wall record` reads
     #[arg(long, value_name = "FILE")]
     pub(crate) record: Option<PathBuf>,
-    /// Unit of the record: m/s2, cm/s2, mm/s2 or g; an AT2 file states its own
-    #[arg(long, requires = "record")]
-    pub(crate) unit: Option<String>,
-    /// Time between samples in s, for a record that does not state it
-    #[arg(long, requires = "record", value_name = "SECONDS")]
-    pub(crate) record_step: Option<f64>,
-    /// Column of a CSV table
-    #[arg(long, requires = "record")]
-    pub(crate) column: Option<String>,
-    /// Channel of a record with several, by its number; `wall record` lists them
-    #[arg(long, requires = "record")]
-    pub(crate) channel: Option<String>,
-    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
-    #[arg(long, requires = "record")]
-    pub(crate) format: Option<String>,
+    #[command(flatten)]
+    pub(crate) options: RecordOptionsArguments,
     /// Shake with the project's synthetic motion
     #[arg(long, conflicts_with = "record")]
     pub(crate) synthetic: bool,
@@ -102,6 +89,39 @@ pub(crate) struct RecordArguments {
     /// Peak acceleration in m/s2 to scale the motion given here to
     #[arg(long, value_name = "M_PER_S2")]
     pub(crate) pga: Option<f64>,
+}
+
+/// How to read a record; each of these needs the argument `record`.
+#[derive(Debug, Args)]
+pub(crate) struct RecordOptionsArguments {
+    /// Unit of the record: m/s2, cm/s2, mm/s2 or g; needed where the file does not state its own
+    #[arg(long, requires = "record")]
+    unit: Option<String>,
+    /// Time between samples in s, for a record that does not state it
+    #[arg(long, requires = "record", value_name = "SECONDS")]
+    record_step: Option<f64>,
+    /// Column of a CSV table
+    #[arg(long, requires = "record")]
+    column: Option<String>,
+    /// Channel of a record with several, by its number; `wall record` without it shows all
+    #[arg(long, requires = "record")]
+    channel: Option<String>,
+    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
+    #[arg(long, requires = "record")]
+    format: Option<String>,
+}
+
+impl RecordOptionsArguments {
+    /// The options that they state.
+    pub(crate) fn options(&self) -> Result<RecordOptions> {
+        Ok(RecordOptions {
+            unit: self.unit.as_deref().map(str::parse).transpose()?,
+            step: self.record_step,
+            column: self.column.clone(),
+            channel: self.channel.clone(),
+            format: self.format.as_deref().map(str::parse).transpose()?,
+        })
+    }
 }
 
 #[derive(Debug, Args)]
@@ -229,23 +249,10 @@ pub(crate) struct StabilityArguments {
 #[derive(Debug, Args)]
 pub(crate) struct RecordFilesArguments {
     /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(id = "record", required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// Unit of the records: m/s2, cm/s2, mm/s2 or g; needed where a file does not state its own
-    #[arg(long)]
-    pub(crate) unit: Option<String>,
-    /// Time between samples in s, for records that do not state it
-    #[arg(long, value_name = "SECONDS")]
-    pub(crate) record_step: Option<f64>,
-    /// Column of a CSV table
-    #[arg(long)]
-    pub(crate) column: Option<String>,
-    /// Channel to show, by its number; otherwise all
-    #[arg(long)]
-    pub(crate) channel: Option<String>,
-    /// Format (at2, esm, knet, cosmos, csmip, smc, csv), if the content does not tell
-    #[arg(long)]
-    pub(crate) format: Option<String>,
+    #[command(flatten)]
+    pub(crate) options: RecordOptionsArguments,
     /// Periods in s to show Sa at
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = [0.2, 0.5, 1.0, 2.0])]
     pub(crate) periods: Vec<f64>,
@@ -326,16 +333,9 @@ impl RecordArguments {
     }
 
     fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
-        let options = ReadOptions {
-            unit: self.unit.as_deref().map(str::parse::<Unit>).transpose()?,
-            step: self.record_step,
-            column: self.column.clone(),
-            channel: self.channel.clone(),
-            format: self.format.as_deref().map(str::parse::<Format>).transpose()?,
-        };
-        let record = read(path, &options)?;
-        for finding in &record.check().findings {
-            output::note(&format!("{}: {finding}", path.display()));
+        let record = read(path, &self.options.options()?)?;
+        for warning in &record.check().warnings {
+            output::note(&format!("{}: {warning}", path.display()));
         }
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         Ok((record.motion, format!("record {name} ({})", record.format.description())))

@@ -4,9 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use ground_motion::{
-    Check, Format, Peaks, ReadOptions, Record, STANDARD_GRAVITY, Spectrum, Unit, read_channels,
-};
+use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum, read_channels};
 use serde_json::{Value, json};
 
 use crate::args::RecordFilesArguments;
@@ -24,9 +22,9 @@ struct Row {
 }
 
 pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
-    let peaks = if arguments.at_samples { Peaks::AtSamples } else { Peaks::Everywhere };
-    let spectrum = Spectrum::new(arguments.damping, peaks)?;
-    let options = options(arguments)?;
+    let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
+    let spectrum = Spectrum::new(arguments.damping, maxima)?;
+    let options = arguments.options.options()?;
     let mut rows = Vec::new();
     let mut failures = Vec::new();
     for path in &arguments.files {
@@ -50,19 +48,9 @@ pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
     Ok(())
 }
 
-fn options(arguments: &RecordFilesArguments) -> Result<ReadOptions> {
-    Ok(ReadOptions {
-        unit: arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?,
-        step: arguments.record_step,
-        column: arguments.column.clone(),
-        channel: arguments.channel.clone(),
-        format: arguments.format.as_deref().map(str::parse::<Format>).transpose()?,
-    })
-}
-
 fn read(
     path: &Path,
-    options: &ReadOptions,
+    options: &RecordOptions,
     arguments: &RecordFilesArguments,
     spectrum: Spectrum,
 ) -> Result<Vec<Row>> {
@@ -144,8 +132,8 @@ impl Row {
             "mean_m_s2": self.check.mean,
             "peak_velocity_m_s": self.check.peak_velocity,
             "final_velocity_m_s": self.check.final_velocity,
-            "findings": self.check.findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-            "notes": self.record.notes,
+            "findings": self.check.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "notes": self.record.header,
         })
     }
 }
@@ -182,8 +170,8 @@ fn table(rows: &[Row], arguments: &RecordFilesArguments) -> String {
     let percent = 100.0 * arguments.damping;
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
-        for finding in &row.check.findings {
-            let _ = writeln!(text, "check    {}: {finding}", row.name());
+        for warning in &row.check.warnings {
+            let _ = writeln!(text, "check    {}: {warning}", row.name());
         }
     }
     text
@@ -217,8 +205,8 @@ fn csv(rows: &[Row], periods: &[f64]) -> String {
         for acceleration in &row.accelerations {
             let _ = write!(text, ",{acceleration}");
         }
-        let findings: Vec<_> = row.check.findings.iter().map(ToString::to_string).collect();
-        let _ = writeln!(text, ",{}", quoted(&findings.join(" | ")));
+        let warnings: Vec<_> = row.check.warnings.iter().map(ToString::to_string).collect();
+        let _ = writeln!(text, ",{}", quoted(&warnings.join(" | ")));
     }
     text
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use ground_motion::{ReadOptions, read};
+use ground_motion::{RecordOptions, read};
 use study::ida::NamedRecord;
 use study::parallel::threads;
 use study::reproduce::collapse::{Collapses, figure_15};
@@ -50,7 +50,7 @@ fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
     paths.sort();
     let mut records = Vec::new();
     for path in paths {
-        match read(&path, &ReadOptions::default()) {
+        match read(&path, &RecordOptions::default()) {
             Ok(record) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 records.push(NamedRecord { name, motion: record.motion });

@@ -1,6 +1,6 @@
 //! PEER AT2 files: the variants in use, and what is refused.
 
-use ground_motion::{Format, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse};
+use ground_motion::{Format, Record, RecordOptions, STANDARD_GRAVITY, Unit, parse};
 use proptest::prelude::*;
 
 const HEADER: &str = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1/1/2000, Station, 90\n";
@@ -10,10 +10,10 @@ const SAMPLES: &str = "  -.8075668E-03   .1000000E+00   .2500000E-01   0.5  -1.\
 const VALUES: [f64; 6] = [-0.000_807_566_8, 0.1, 0.025, 0.5, -1.0, 0.3];
 
 fn read(text: &str) -> Result<Record, String> {
-    read_with(text, &ReadOptions::default())
+    read_with(text, &RecordOptions::default())
 }
 
-fn read_with(text: &str, options: &ReadOptions) -> Result<Record, String> {
+fn read_with(text: &str, options: &RecordOptions) -> Result<Record, String> {
     parse("x.AT2", text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
 }
 
@@ -47,7 +47,7 @@ fn searches_for_the_count_line_between_blank_lines() {
     let text = format!("\u{feff}\n{HEADER}\n\n{UNITS}one more line\nNPTS= 6, DT= .005 SEC\n\n{SAMPLES}\n\n");
     let unix = read(&text).unwrap();
     assert_holds_the_samples(&unix, 0.005);
-    assert_eq!(unix.notes[0], "PEER NGA STRONG MOTION DATABASE RECORD");
+    assert_eq!(unix.header[0], "PEER NGA STRONG MOTION DATABASE RECORD");
     for ending in ["\r\n", "\r\r\n"] {
         assert_eq!(read(&text.replace('\n', ending)).unwrap(), unix, "{ending:?}");
     }
@@ -66,9 +66,9 @@ fn separates_numbers_that_touch() {
 fn reads_a_station_name_in_latin_1() {
     let mut bytes = b"Ca\xf1on, 1/1/1980\n".to_vec();
     bytes.extend_from_slice(format!("{UNITS}NPTS= 6, DT= .005 SEC\n{SAMPLES}").as_bytes());
-    let record = parse("x.AT2", bytes, &ReadOptions::default()).unwrap();
+    let record = parse("x.AT2", bytes, &RecordOptions::default()).unwrap();
     assert_holds_the_samples(&record, 0.005);
-    assert_eq!(record.notes[0], "Cañon, 1/1/1980");
+    assert_eq!(record.header[0], "Cañon, 1/1/1980");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn takes_the_unit_from_the_text() {
         assert_eq!(record.motion.samples(), VALUES.map(|a| unit.to_si(a)));
     }
     // If the file states nothing, the user's value counts; a value that contradicts the file is an error.
-    let gal = ReadOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..ReadOptions::default() };
+    let gal = RecordOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..RecordOptions::default() };
     for units in ["", "IN UNITS OF COUNTS\n"] {
         let text = format!("{HEADER}{units}NPTS= 6, DT= .005 SEC\n{SAMPLES}");
         assert_eq!(read_with(&text, &gal).unwrap().unit, Unit::CentimetrePerSecondSquared);
@@ -102,7 +102,7 @@ fn takes_the_unit_from_the_text() {
 #[test]
 fn refuses_a_step_that_contradicts_the_file() {
     let text = format!("{HEADER}{UNITS}NPTS= 6, DT= .005 SEC\n{SAMPLES}");
-    let with_step = |step| read_with(&text, &ReadOptions { step: Some(step), ..ReadOptions::default() });
+    let with_step = |step| read_with(&text, &RecordOptions { step: Some(step), ..RecordOptions::default() });
     assert!(with_step(0.005).is_ok());
     let error = with_step(0.01).unwrap_err();
     assert!(error.contains("line 4: expected the stated step of 0.01 s, found 0.005 s"), "{error}");

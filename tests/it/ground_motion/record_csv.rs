@@ -1,26 +1,26 @@
 //! CSV files: a table with times, one column with a step, and what is refused.
 
-use ground_motion::{Format, ReadOptions, Record, Unit, parse};
+use ground_motion::{Format, Record, RecordOptions, Unit, parse};
 use proptest::prelude::*;
 
-fn si() -> ReadOptions {
-    ReadOptions { unit: Some(Unit::MetrePerSecondSquared), ..ReadOptions::default() }
+fn si() -> RecordOptions {
+    RecordOptions { unit: Some(Unit::MetrePerSecondSquared), ..RecordOptions::default() }
 }
 
-fn with_step(step: f64) -> ReadOptions {
-    ReadOptions { step: Some(step), ..si() }
+fn with_step(step: f64) -> RecordOptions {
+    RecordOptions { step: Some(step), ..si() }
 }
 
-fn with_column(column: &str) -> ReadOptions {
-    ReadOptions { column: Some(column.to_owned()), ..si() }
+fn with_column(column: &str) -> RecordOptions {
+    RecordOptions { column: Some(column.to_owned()), ..si() }
 }
 
-fn read(text: &str, options: &ReadOptions) -> Result<Record, String> {
+fn read(text: &str, options: &RecordOptions) -> Result<Record, String> {
     parse("x.csv", text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
 }
 
 #[track_caller]
-fn assert_refused(text: &str, options: &ReadOptions, fragments: &[&str]) {
+fn assert_refused(text: &str, options: &RecordOptions, fragments: &[&str]) {
     let error = read(text, options).expect_err(text);
     assert!(error.starts_with("x.csv, line "), "{error}");
     for fragment in fragments {
@@ -41,7 +41,7 @@ fn reads_a_table() {
     ] {
         assert_eq!(read(text, &si()).unwrap().motion, expected.motion, "{text}");
     }
-    let gal = ReadOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..si() };
+    let gal = RecordOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..si() };
     let in_gal = read("time_s,acc_cm_s2\n0,50\n0.005,-10\n0.01,25\n", &gal).unwrap();
     assert_eq!(in_gal.motion, expected.motion);
     assert!(read("time,a_g\n0,1\n0.005,2\n", &with_step(0.005)).is_ok());
@@ -58,7 +58,7 @@ fn chooses_a_column_by_name() {
     assert_refused("time,a,a\n0,1,2\n1,2,3\n", &with_column("a"), &["line 1", "one column `a`"]);
     assert_refused(
         "a\n1\n2\n",
-        &ReadOptions { step: Some(0.1), ..with_column("b") },
+        &RecordOptions { step: Some(0.1), ..with_column("b") },
         &["line 1", "`b`", "`a`"],
     );
 }
@@ -87,7 +87,7 @@ fn reads_one_column() {
 
 #[test]
 fn the_unit_must_be_stated() {
-    let no_unit = ReadOptions { unit: None, ..with_step(0.1) };
+    let no_unit = RecordOptions { unit: None, ..with_step(0.1) };
     for text in ["time,a_g\n0,1\n0.1,2\n", "1\n2\n"] {
         assert_refused(text, &no_unit, &["a stated unit", "found no unit", "m/s2, cm/s2, mm/s2 or g"]);
     }
@@ -148,7 +148,7 @@ fn refuses_what_is_no_csv() {
     ] {
         assert_refused(text, &options, fragments);
     }
-    let in_g = ReadOptions { unit: Some(Unit::StandardGravity), ..si() };
+    let in_g = RecordOptions { unit: Some(Unit::StandardGravity), ..si() };
     assert_refused("time,a_g\n0,1e308\n0.1,1\n", &in_g, &["line 2", "`1e308`"]);
 }
 

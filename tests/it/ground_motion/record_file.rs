@@ -3,11 +3,11 @@
 use std::fs::{self, File};
 use std::path::PathBuf;
 
-use ground_motion::{Format, MAX_FILE_BYTES, ReadOptions, SyntheticMotion, Unit, parse, read};
+use ground_motion::{Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, parse, read};
 use proptest::prelude::*;
 
-fn stated() -> ReadOptions {
-    ReadOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..ReadOptions::default() }
+fn stated() -> RecordOptions {
+    RecordOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..RecordOptions::default() }
 }
 
 fn file(name: &str) -> PathBuf {
@@ -35,9 +35,10 @@ fn reads_a_file() {
     fs::write(&path, "# three samples\n0.1\n0.2\n-0.3\n").unwrap();
     let record = read(&path, &stated()).unwrap();
     assert_eq!(record.motion.samples().len(), 3);
-    assert_eq!(record.notes, ["three samples"]);
+    assert_eq!(record.header, ["three samples"]);
     // A stated format is the only one that is tried.
-    let error = read(&path, &ReadOptions { format: Some(Format::At2), ..stated() }).unwrap_err().to_string();
+    let error =
+        read(&path, &RecordOptions { format: Some(Format::At2), ..stated() }).unwrap_err().to_string();
     assert!(error.contains("NPTS"), "{error}");
     assert_eq!("CSV".parse::<Format>().unwrap(), Format::Csv);
     assert!("wav".parse::<Format>().unwrap_err().to_string().contains("`wav`"));
@@ -81,7 +82,7 @@ fn refuses_megabytes_of_blanks() {
     for format in Format::ALL {
         for blank in [b' ', b'\n'] {
             let mut bytes = vec![blank; usize::try_from(MAX_FILE_BYTES).unwrap() / 8];
-            let options = ReadOptions { format: Some(format), ..stated() };
+            let options = RecordOptions { format: Some(format), ..stated() };
             let error = parse("x", bytes.clone(), &options).unwrap_err().to_string();
             assert!(error.starts_with("x, line 1: expected") && error.len() < 300, "{error}");
             // followed by other text, so that they are not trimmed
@@ -104,14 +105,14 @@ proptest! {
     #[test]
     fn never_panics_on_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         for format in [None, Some(Format::At2), Some(Format::Csv)] {
-            let _ = parse("x", bytes.clone(), &ReadOptions { format, ..stated() });
+            let _ = parse("x", bytes.clone(), &RecordOptions { format, ..stated() });
         }
     }
 
     #[test]
     fn never_panics_on_any_text(text in "\\PC{0,200}") {
         for format in [None, Some(Format::At2), Some(Format::Csv)] {
-            let _ = parse("x", text.clone().into_bytes(), &ReadOptions { format, ..stated() });
+            let _ = parse("x", text.clone().into_bytes(), &RecordOptions { format, ..stated() });
         }
     }
 }

@@ -2,14 +2,14 @@
 //! damaged.
 
 use ground_motion::{
-    Format, GroundMotionError, ReadOptions, Record, STANDARD_GRAVITY, Unit, parse, parse_channels,
+    Format, GroundMotionError, Record, RecordOptions, STANDARD_GRAVITY, Unit, parse, parse_channels,
 };
 use proptest::prelude::*;
 
 use super::specimen::{self, ALL, SAMPLES, STEP, csmip_channels, mutated, options};
 use crate::properties::configuration;
 
-fn read(text: &str, options: &ReadOptions) -> Result<Record, String> {
+fn read(text: &str, options: &RecordOptions) -> Result<Record, String> {
     parse("x", text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
 }
 
@@ -54,7 +54,7 @@ fn headers_state_their_peak_and_channel() {
             _ => None,
         };
         assert_eq!(record.channel.as_deref(), channel, "{format:?}");
-        assert!(!record.notes.is_empty(), "{format:?}");
+        assert!(!record.header.is_empty(), "{format:?}");
     }
 }
 
@@ -76,10 +76,10 @@ fn line_ends_and_blank_lines_do_not_matter() {
 fn a_stated_format_is_the_one_tried() {
     for (format, write) in ALL {
         for (other, _) in ALL {
-            let options = ReadOptions {
+            let options = RecordOptions {
                 format: Some(other),
                 unit: Some(Unit::CentimetrePerSecondSquared),
-                ..ReadOptions::default()
+                ..RecordOptions::default()
             };
             let outcome = read(&write(&SAMPLES), &options);
             assert_eq!(outcome.is_ok(), format == other, "{format:?} read as {other:?}");
@@ -102,7 +102,7 @@ fn a_stated_layout_is_used() {
         [("(6e12.4)", 6), ("(1P3E12.4)", 3), ("( 4 F 12.4 )", 4), ("(old style) (1E12.4)", 1)]
     {
         let text = format!("{}in cm/sec2. {format}\n{}{}", &text[..start], rows(per_line), &text[end..]);
-        assert_holds(&read(&text, &ReadOptions::default()).unwrap(), &SAMPLES);
+        assert_holds(&read(&text, &RecordOptions::default()).unwrap(), &SAMPLES);
     }
 }
 
@@ -111,13 +111,13 @@ fn units_and_steps_must_not_contradict_the_file() {
     for (format, write) in ALL {
         let text = write(&SAMPLES);
         if format != Format::Csv {
-            let options = ReadOptions { unit: Some(Unit::StandardGravity), ..ReadOptions::default() };
+            let options = RecordOptions { unit: Some(Unit::StandardGravity), ..RecordOptions::default() };
             let error = read(&text, &options).unwrap_err();
             assert!(error.contains("expected the stated unit g, found cm/s2"), "{format:?}: {error}");
         }
-        let error = read(&text, &ReadOptions { step: Some(0.02), ..options(format) }).unwrap_err();
+        let error = read(&text, &RecordOptions { step: Some(0.02), ..options(format) }).unwrap_err();
         assert!(error.contains("expected the stated step of 0.02 s, found 0.01 s"), "{format:?}: {error}");
-        assert!(read(&text, &ReadOptions { step: Some(0.01), ..options(format) }).is_ok(), "{format:?}");
+        assert!(read(&text, &RecordOptions { step: Some(0.01), ..options(format) }).is_ok(), "{format:?}");
     }
 }
 
@@ -125,7 +125,7 @@ fn units_and_steps_must_not_contradict_the_file() {
 fn other_units_are_read_where_the_file_states_them() {
     let in_g = |text: String, from: &str, to: &str| {
         assert!(text.contains(from), "{from} in {text}");
-        read(&text.replace(from, to), &ReadOptions::default()).unwrap()
+        read(&text.replace(from, to), &RecordOptions::default()).unwrap()
     };
     for record in [
         in_g(specimen::cosmos(&SAMPLES), "cm/sec2(04)", "g(02)"),
@@ -138,9 +138,11 @@ fn other_units_are_read_where_the_file_states_them() {
     // The text is not a unit, so the user's value counts.
     let text = specimen::csmip(&SAMPLES).replace("in cm/sec2.", "in counts.");
     assert!(
-        read(&text, &ReadOptions::default()).unwrap_err().contains("a unit of acceleration, found `counts`")
+        read(&text, &RecordOptions::default())
+            .unwrap_err()
+            .contains("a unit of acceleration, found `counts`")
     );
-    let stated = ReadOptions { unit: Some(Unit::MillimetrePerSecondSquared), ..ReadOptions::default() };
+    let stated = RecordOptions { unit: Some(Unit::MillimetrePerSecondSquared), ..RecordOptions::default() };
     assert_eq!(read(&text, &stated).unwrap().unit, Unit::MillimetrePerSecondSquared);
 }
 
@@ -149,30 +151,30 @@ fn a_channel_is_picked_by_number_or_name() {
     let other: Vec<f64> = SAMPLES.iter().map(|a| a / 2.0).map(|a| (1e3 * a).round() / 1e3).collect();
     let text = csmip_channels(&[(1, " 90 Deg", &SAMPLES), (2, " Up", &other[..7]), (3, " 360 Deg", &other)]);
     let with = |channel: &str| {
-        read(&text, &ReadOptions { channel: Some(channel.to_owned()), ..ReadOptions::default() })
+        read(&text, &RecordOptions { channel: Some(channel.to_owned()), ..RecordOptions::default() })
     };
     assert_holds(&with("1").unwrap(), &SAMPLES);
     assert_holds(&with("2").unwrap(), &other[..7]);
     assert_holds(&with("3: 360 deg").unwrap(), &other);
-    let all = parse_channels("x", text.clone().into_bytes(), &ReadOptions::default()).unwrap();
+    let all = parse_channels("x", text.clone().into_bytes(), &RecordOptions::default()).unwrap();
     let names: Vec<_> = all.iter().map(|record| record.channel.clone().unwrap()).collect();
     assert_eq!(names, ["1: 90 Deg", "2: Up", "3: 360 Deg"]);
-    for error in [read(&text, &ReadOptions::default()).unwrap_err(), with("4").unwrap_err()] {
+    for error in [read(&text, &RecordOptions::default()).unwrap_err(), with("4").unwrap_err()] {
         assert!(error.contains("expected one channel"), "{error}");
         assert!(error.contains("found `1: 90 Deg`, `2: Up`, `3: 360 Deg`; state"), "{error}");
     }
     for (format, write) in ALL {
-        let options = ReadOptions { channel: Some("9".into()), ..options(format) };
+        let options = RecordOptions { channel: Some("9".into()), ..options(format) };
         let error = parse("x", write(&SAMPLES).into_bytes(), &options).unwrap_err();
         assert!(matches!(error, GroundMotionError::Channel { .. }), "{error}");
     }
     // Two COSMOS records in one file, and two channels of the same number.
     let twice = specimen::cosmos(&SAMPLES) + &specimen::cosmos(&SAMPLES).replace("  2: 90", "  ?: Up");
-    let options = ReadOptions { channel: Some("2".into()), ..ReadOptions::default() };
+    let options = RecordOptions { channel: Some("2".into()), ..RecordOptions::default() };
     let error = read(&twice, &options).unwrap_err();
     assert!(error.contains("found `2: 90 Deg`, `2: Up Deg`"), "{error}");
     assert_holds(
-        &read(&twice, &ReadOptions { channel: Some("2: Up Deg".into()), ..options }).unwrap(),
+        &read(&twice, &RecordOptions { channel: Some("2: Up Deg".into()), ..options }).unwrap(),
         &SAMPLES,
     );
 }
@@ -241,7 +243,7 @@ fn damage_is_named_with_its_line() {
     ];
     for (text, from, to, fragments) in cases {
         assert!(text.contains(from), "{from:?} is not in\n{text}");
-        let error = read(&text.replacen(from, to, 1), &ReadOptions::default()).unwrap_err();
+        let error = read(&text.replacen(from, to, 1), &RecordOptions::default()).unwrap_err();
         for fragment in fragments {
             assert!(error.contains(fragment), "{fragment:?} is missing after {from:?} → {to:?}: {error}");
         }
@@ -268,7 +270,7 @@ pub(super) fn assert_clear_of(file: &str, error: &str, what: &str) {
 fn a_file_cut_short_is_refused_wherever_it_is_cut() {
     for (format, write) in ALL {
         let text = write(&SAMPLES);
-        let options = ReadOptions { format: Some(format), ..options(format) };
+        let options = RecordOptions { format: Some(format), ..options(format) };
         // Cuts beyond this place lose only blanks or the closing line.
         let ends: &[&str] = match format {
             Format::Csmip => &["/&"],
@@ -317,7 +319,7 @@ fn hostile_numbers_and_blanks_give_one_clear_message() {
         for blanks in
             [" ".repeat(1 << 20), "\n".repeat(1 << 20), "\t".repeat(1 << 20), " \r\r\n".repeat(1 << 18)]
         {
-            let forced = ReadOptions { format: Some(format), ..options.clone() };
+            let forced = RecordOptions { format: Some(format), ..options.clone() };
             assert_clear(&read(&blanks, &forced).unwrap_err(), &format!("{format:?} of blanks"));
             // Any number of blanks at the end is accepted.
             assert_holds(&read(&(text.clone() + &blanks), &options).unwrap(), &SAMPLES);
@@ -366,7 +368,7 @@ proptest! {
             }
             for format in [None, Some(format)] {
                 let unit = Some(Unit::CentimetrePerSecondSquared);
-                let options = ReadOptions { format, unit, ..ReadOptions::default() };
+                let options = RecordOptions { format, unit, ..RecordOptions::default() };
                 if let Err(error) = parse_channels("x", bytes.clone(), &options) {
                     assert_clear(&error.to_string(), "damaged");
                 }
@@ -378,11 +380,11 @@ proptest! {
     #[test]
     fn survives_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..2000), text in "[ -~\n\t]{0,2000}") {
         for (format, write) in ALL {
-            let options = ReadOptions {
+            let options = RecordOptions {
                 format: Some(format),
                 unit: Some(Unit::CentimetrePerSecondSquared),
                 step: Some(0.01),
-                ..ReadOptions::default()
+                ..RecordOptions::default()
             };
             let head: String = write(&SAMPLES).lines().take(12).map(|line| line.to_owned() + "\n").collect();
             let spliced = [head.as_bytes(), text.as_bytes()].concat();

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use ground_motion::spectrum::AVERAGE_PERIODS;
 use ground_motion::{
-    Format, ReadOptions, Record, STANDARD_GRAVITY, Spectrum, Unit, parse, parse_channels, read,
+    Format, Record, RecordOptions, STANDARD_GRAVITY, Spectrum, Unit, parse, parse_channels, read,
 };
 
 use super::record_formats::assert_clear_of;
@@ -105,12 +105,12 @@ fn format_of(name: &str) -> Format {
 }
 
 /// What has to be stated to read a file of the index.
-fn options(format: &str) -> ReadOptions {
+fn options(format: &str) -> RecordOptions {
     match format {
-        "xlsx" => ReadOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..ReadOptions::default() },
+        "xlsx" => RecordOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..RecordOptions::default() },
         // The index describes the first channel.
-        "CSMIP-V2" => ReadOptions { channel: Some("1".into()), ..ReadOptions::default() },
-        _ => ReadOptions::default(),
+        "CSMIP-V2" => RecordOptions { channel: Some("1".into()), ..RecordOptions::default() },
+        _ => RecordOptions::default(),
     }
 }
 
@@ -139,7 +139,7 @@ fn the_index_lists_every_real_record() {
 
 /// What a file says when it is damaged in one of the ways files are.
 #[track_caller]
-fn assert_refused(name: &str, bytes: Vec<u8>, options: &ReadOptions, what: &str) {
+fn assert_refused(name: &str, bytes: Vec<u8>, options: &RecordOptions, what: &str) {
     match parse_channels(name, bytes, options) {
         Ok(records) => {
             let found: Vec<_> = records.iter().map(|record| record.motion.samples().len()).collect();

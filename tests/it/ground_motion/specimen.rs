@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ground_motion::{Format, ReadOptions, Unit};
+use ground_motion::{Format, RecordOptions, Unit};
 use proptest::prelude::*;
 
 /// Samples with three decimals and five digits, so that every format holds them to the digit, and without a
@@ -27,9 +27,9 @@ pub(crate) const ALL: [(Format, Writer); 7] = [
 ];
 
 /// What has to be stated to read a format.
-pub(crate) fn options(format: Format) -> ReadOptions {
+pub(crate) fn options(format: Format) -> RecordOptions {
     let unit = (format == Format::Csv).then_some(Unit::CentimetrePerSecondSquared);
-    ReadOptions { unit, ..ReadOptions::default() }
+    RecordOptions { unit, ..RecordOptions::default() }
 }
 
 /// Numbers in fixed columns, so many a line.

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Finding, GroundMotion, Peaks, ReadOptions, Spectrum, SyntheticMotion, Unit, parse};
+use ground_motion::{GroundMotion, Maxima, RecordOptions, Spectrum, SyntheticMotion, Unit, Warning, parse};
 
 fn everywhere(damping: f64) -> Spectrum {
-    Spectrum::new(damping, Peaks::Everywhere).unwrap()
+    Spectrum::new(damping, Maxima::Everywhere).unwrap()
 }
 
 /// A constant acceleration a answers with a (1 + exp(−π ξ / √(1 − ξ²))) after half a period, between the
@@ -39,7 +39,7 @@ fn the_free_vibration_after_the_end_counts() {
             (found - expected).abs() < 1e-11 * expected,
             "d = {half} s, T = {period} s: {found}, {expected}"
         );
-        let inside = Spectrum::new(0.0, Peaks::AtSamples).unwrap().acceleration(&motion, period).unwrap();
+        let inside = Spectrum::new(0.0, Maxima::AtSamples).unwrap().acceleration(&motion, period).unwrap();
         assert!(inside < 0.9 * expected, "the maximum lies after the end: {inside}, {expected}");
     }
 }
@@ -58,7 +58,7 @@ fn refinement_changes_nothing_but_sampled_maxima() {
         samples.push(*motion.samples().last().unwrap());
         GroundMotion::new(motion.step() / f64::from(parts), samples).unwrap()
     };
-    let (fine, sampled) = (refined(10), Spectrum::new(DAMPING, Peaks::AtSamples).unwrap());
+    let (fine, sampled) = (refined(10), Spectrum::new(DAMPING, Maxima::AtSamples).unwrap());
     for period in [0.03, 0.1, 0.2, 0.37, 1.0, 1.4, 3.0] {
         let omega = TAU / period;
         let truth = everywhere(DAMPING).acceleration(&motion, period).unwrap();
@@ -110,7 +110,9 @@ fn the_average_is_the_geometric_mean_and_scales_with_the_motion() {
 fn refuses_what_is_no_oscillator() {
     let motion = GroundMotion::new(1.0, vec![0.0, 1.0]).unwrap();
     for damping in [-0.01, 1.0, f64::NAN] {
-        assert!(Spectrum::new(damping, Peaks::Everywhere).unwrap_err().to_string().contains("damping ratio"));
+        assert!(
+            Spectrum::new(damping, Maxima::Everywhere).unwrap_err().to_string().contains("damping ratio")
+        );
     }
     for period in [-1.0, 1e-4, 101.0, f64::NAN, f64::INFINITY] {
         let error = Spectrum::default().acceleration(&motion, period).unwrap_err().to_string();
@@ -134,31 +136,31 @@ fn the_check_finds_what_is_wrong_with_a_record() {
     };
     let findings = |unit: Unit, samples: Vec<f64>| {
         let lines: Vec<_> = samples.iter().map(ToString::to_string).collect();
-        let options = ReadOptions { unit: Some(unit), step: Some(0.01), ..ReadOptions::default() };
+        let options = RecordOptions { unit: Some(unit), step: Some(0.01), ..RecordOptions::default() };
         parse("x.csv", lines.join("\n").into_bytes(), &options).unwrap().check()
     };
     let samples: Vec<f64> = (0..=2000).map(sound).collect();
     let gal = Unit::CentimetrePerSecondSquared;
     let check = findings(gal, samples.clone());
-    assert_eq!(check.findings, []);
+    assert_eq!(check.warnings, []);
     assert!((check.peak_velocity - 3.0 / TAU).abs() < 0.05 && check.mean.abs() < 1e-3, "{check:?}");
 
     let shifted = findings(gal, samples.iter().map(|a| a + 3.0).collect());
     assert!(
-        matches!(shifted.findings[..], [Finding::Baseline { last, .. }] if (last - 0.6).abs() < 0.01),
+        matches!(shifted.warnings[..], [Warning::Baseline { last, .. }] if (last - 0.6).abs() < 0.01),
         "{shifted:?}"
     );
     let cut = findings(gal, samples[..1200].to_vec());
-    assert!(cut.findings.iter().any(|finding| matches!(finding, Finding::MissingTail { .. })), "{cut:?}");
+    assert!(cut.warnings.iter().any(|finding| matches!(finding, Warning::MissingTail { .. })), "{cut:?}");
     let late = findings(gal, samples[825..].to_vec());
-    assert!(late.findings.iter().any(|finding| matches!(finding, Finding::MissingStart { .. })), "{late:?}");
+    assert!(late.warnings.iter().any(|finding| matches!(finding, Warning::MissingStart { .. })), "{late:?}");
     let strong = findings(Unit::StandardGravity, samples);
-    let [Finding::Unit { others, .. }] = &strong.findings[..] else { panic!("{strong:?}") };
+    let [Warning::Unit { others, .. }] = &strong.warnings[..] else { panic!("{strong:?}") };
     assert_eq!(others, &[gal, Unit::MillimetrePerSecondSquared]);
     assert!(
-        strong.findings[0].to_string().ends_with("Credible would be cm/s2 or mm/s2"),
+        strong.warnings[0].to_string().ends_with("Credible would be cm/s2 or mm/s2"),
         "{}",
-        strong.findings[0]
+        strong.warnings[0]
     );
-    assert_eq!(findings(gal, vec![0.0; 10]).findings, [Finding::NoMotion]);
+    assert_eq!(findings(gal, vec![0.0; 10]).warnings, [Warning::NoMotion]);
 }

@@ -12,7 +12,7 @@ mod root_finding;
 use std::path::Path;
 use std::process::ExitCode;
 
-use ground_motion::{GroundMotion, ReadOptions, SyntheticMotion, read};
+use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion, read};
 
 use measure::Rows;
 use problem::Problem;
@@ -58,7 +58,7 @@ const SYNTHETIC: SyntheticMotion = SyntheticMotion { seed: 11, duration: 30.0, s
 /// Returns the first 30 s of a record, or a synthetic motion.
 fn motion(record: Option<&Path>) -> Result<GroundMotion, String> {
     let motion = match record {
-        Some(path) => read(path, &ReadOptions::default()).map(|record| record.motion),
+        Some(path) => read(path, &RecordOptions::default()).map(|record| record.motion),
         None => SYNTHETIC.motion(),
     };
     let motion = motion.map_err(|error| error.to_string())?;

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use ground_motion::{Format, ReadOptions, SyntheticMotion, Unit};
+use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
 use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
 use rocking_wall::wall::Parameters;
 
@@ -71,7 +71,7 @@ pub struct RecordsEntry {
     /// Files, folders and patterns with `*` and `?`, beside the study file, each with its line.
     pub files: Vec<(String, usize)>,
     /// How to read them.
-    pub options: ReadOptions,
+    pub options: RecordOptions,
     /// Synthetic records after them.
     pub synthetic: Vec<SyntheticMotion>,
 }
@@ -108,11 +108,11 @@ struct Document {
 struct RecordsTable {
     #[serde(default)]
     files: Vec<Spanned<String>>,
-    unit: Option<Spanned<String>>,
+    unit: Option<Unit>,
     step: Option<f64>,
     column: Option<String>,
     channel: Option<String>,
-    format: Option<Spanned<String>>,
+    format: Option<Format>,
     synthetic: Option<Spanned<SyntheticRecords>>,
 }
 
@@ -221,19 +221,9 @@ fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEn
     if spec.files.is_empty() && spec.synthetic.is_none() {
         return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));
     }
-    let unit = spec.unit.as_ref().map(|text| {
-        text.get_ref().parse::<Unit>().map_err(|error| place.error(text.span(), error.to_string()))
-    });
-    let format = spec.format.as_ref().map(|text| {
-        text.get_ref().parse::<Format>().map_err(|error| place.error(text.span(), error.to_string()))
-    });
-    let options = ReadOptions {
-        unit: unit.transpose()?,
-        step: spec.step,
-        column: spec.column.clone(),
-        channel: spec.channel.clone(),
-        format: format.transpose()?,
-    };
+    let RecordsTable { unit, step, format, .. } = *spec;
+    let (column, channel) = (spec.column.clone(), spec.channel.clone());
+    let options = RecordOptions { unit, step, column, channel, format };
     let files = spec.files.iter().map(|file| (file.get_ref().clone(), place.line(file.span()))).collect();
     let mut synthetic = Vec::new();
     if let Some(recipe) = &spec.synthetic {

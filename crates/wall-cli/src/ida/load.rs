@@ -77,7 +77,7 @@ fn all_records(
     let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
     for path in &paths {
         let record = read(path, &entry.options)?;
-        doubts.extend(record.check().findings.iter().map(|finding| format!("{}: {finding}", path.display())));
+        doubts.extend(record.check().warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
         let motion = record.motion;
         let name = short(path);
         // of two files with one name each goes by its whole path

@@ -17,10 +17,12 @@
 //!
 //! The recorder has a large offset: acceleration = (count − mean count) · scale factor.
 
-use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, Line, check_count, leading_number, real};
-use super::record::{Parsed, ReadOptions, check_stated_step, lines, notes};
-use super::{Unit, index_as_f64};
+use crate::error::{DAMAGED, Fault, excerpt};
+use crate::fields::{Line, check_count, leading_number, lines, positive};
+use crate::motion::floor_index;
+use crate::options::RecordOptions;
+use crate::parsed::Parsed;
+use crate::unit::Unit;
 
 const HEADER_LINES: usize = 17;
 
@@ -31,38 +33,35 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 }
 
 /// Reads the text of a K-NET or KiK-net file.
-pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
     let header: Vec<Line<'_>> = lines(text).take(HEADER_LINES).collect();
     let (frequency_line, frequency) = number(&header, "Sampling Freq(Hz)")?;
     let step = 1.0 / frequency;
-    check_stated_step(options.step, step, frequency_line)?;
+    options.check_step(step, frequency_line)?;
     let (duration_line, duration) = number(&header, "Duration Time(s)")?;
     let (factor_line, factor) = field(&header, "Scale Factor")?;
     let Some((numerator, unit, denominator)) = scale(factor) else {
         let expected = "a scale factor `3920(gal)/6182761`";
-        return Err(Fault::new(factor_line, expected, excerpt(factor), "correct the header"));
+        return Err(Fault::excerpt(factor_line, expected, factor, "correct the header"));
     };
-    let unit = Unit::settled(unit, factor_line, options.unit)?;
+    let unit = options.unit_of(unit, factor_line)?;
 
+    let mut parsed = Parsed::new(step, unit, header.last().map_or(1, |(number, _)| *number));
     let mut counts: Vec<i32> = Vec::new();
-    let mut last_line = header.last().map_or(1, |(number, _)| *number);
     for (number, line) in lines(text).skip(HEADER_LINES) {
-        last_line = number;
+        parsed.last_line = number;
         for word in line.split_ascii_whitespace() {
             let count = word.parse();
-            counts.push(count.map_err(|_| Fault::new(number, "a whole number", excerpt(word), DAMAGED))?);
+            counts.push(count.map_err(|_| Fault::excerpt(number, "a whole number", word, DAMAGED))?);
         }
     }
-    check_duration(counts.len(), [duration, frequency], duration_line, last_line)?;
+    check_duration(counts.len(), [duration, frequency], duration_line, parsed.last_line)?;
+    // 2^24 counts of 2^31 stay below 2^56
     let sum: i64 = counts.iter().copied().map(i64::from).sum();
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "2^24 counts of 2^31 stay below 2^56; a rounding is no matter"
-    )]
-    let mean = sum as f64 / index_as_f64(counts.len().max(1));
-    let samples = counts.iter().map(|&count| unit.to_si((f64::from(count) - mean) * numerator / denominator));
-    let mut parsed =
-        Parsed::new(step, samples.collect(), unit, last_line, notes(header.iter().map(|(_, line)| *line)));
+    let mean = sum as f64 / counts.len().max(1) as f64;
+    let sample = |count: i32| unit.to_si((f64::from(count) - mean) * numerator / denominator);
+    parsed.samples = counts.into_iter().map(sample).collect();
+    parsed.keep_header(header.iter().map(|(_, line)| *line));
     parsed.stated_peak =
         number(&header, "Max. Acc. (gal)").ok().map(|(_, peak)| Unit::CentimetrePerSecondSquared.to_si(peak));
     Ok(parsed)
@@ -76,12 +75,12 @@ fn check_duration(
     last_line: usize,
 ) -> Result<(), Fault> {
     let stated = (duration * frequency).round();
-    if (index_as_f64(found) - stated).abs() < 0.5 {
+    if (found as f64 - stated).abs() < 0.5 {
         return Ok(());
     }
     // More than a file can hold: any other number than the one found says so as well.
     let stated_by = format!("Duration Time(s) on line {duration_line}, {duration} s at {frequency} Hz,");
-    check_count(found, super::floor_index(stated), &stated_by, last_line)
+    check_count(found, floor_index(stated), &stated_by, last_line)
 }
 
 /// The value after a label.
@@ -98,9 +97,9 @@ fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
 /// The positive number after a label; a unit may follow.
 fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
     let (line, value) = field(header, label)?;
-    let number = real(leading_number(value).0).filter(|value| value.is_finite() && *value > 0.0);
+    let number = positive(leading_number(value).0);
     number.map(|number| (line, number)).ok_or_else(|| {
-        Fault::new(line, format!("a positive number for `{label}`"), excerpt(value), "correct the header")
+        Fault::excerpt(line, format!("a positive number for `{label}`"), value, "correct the header")
     })
 }
 
@@ -108,6 +107,6 @@ fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
 fn scale(text: &str) -> Option<(f64, &str, f64)> {
     let (numerator, rest) = text.split_once('(')?;
     let (unit, denominator) = rest.split_once(')')?;
-    let positive = |text: &str| real(text.trim()).filter(|value| value.is_finite() && *value > 0.0);
-    Some((positive(numerator)?, unit, positive(denominator.trim().strip_prefix('/')?)?))
+    let denominator = denominator.trim().strip_prefix('/')?;
+    Some((positive(numerator.trim())?, unit, positive(denominator.trim())?))
 }

@@ -14,10 +14,11 @@
 //! Integer 16 is the number of comment lines, integer 17 that of samples, real 2 the samples a second, reals 30 and 32
 //! the largest and the smallest sample.
 
-use super::Unit;
-use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, Layout, Line, find};
-use super::record::{Parsed, ReadOptions, check_stated_step, notes, untrimmed_lines};
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{Layout, Line, find, untrimmed_lines};
+use crate::motion::floor_index;
+use crate::options::RecordOptions;
+use crate::parsed::Parsed;
 
 const TEXT_LINES: usize = 11;
 const INTEGERS: (usize, Layout) = (48, Layout { per_line: 8, width: 10 });
@@ -37,78 +38,57 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 }
 
 /// Reads the text of an SMC file.
-pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
     let mut rest = untrimmed_lines(text).peekable();
     let Some(&(first_line, first)) = rest.peek() else {
         return Err(Fault::new(1, "an SMC file", "an empty file", "check that this is the right file"));
     };
     if find(first, "CORRECTED ACC").is_none() {
         let expected = "an accelerogram, `2 CORRECTED ACCELEROGRAM`";
-        return Err(Fault::new(
+        return Err(Fault::excerpt(
             first_line,
             expected,
-            excerpt(first.trim()),
+            first.trim(),
             "use the accelerogram of this record",
         ));
     }
-    let unit = Unit::settled("cm/s2", first_line, options.unit)?;
+    let unit = options.unit_of("cm/s2", first_line)?;
     let header: Vec<Line<'_>> = rest.by_ref().take(TEXT_LINES).collect();
     let text_end = header.last().map_or(1, |(number, _)| *number);
-    let integers = block(&mut rest, INTEGERS, text_end)?;
-    let (comments, count) = (whole(&integers, 16, text_end)?, whole(&integers, 17, text_end)?);
+    let (count, layout) = INTEGERS;
+    let integers = layout.numbers(&mut rest, count, text_end)?;
+    let (comments, samples) = (whole(&integers, 16, text_end)?, whole(&integers, 17, text_end)?);
     let reals_line = rest.peek().map_or(text_end, |(number, _)| *number);
-    let reals = block(&mut rest, REALS, text_end)?;
+    let (count, layout) = REALS;
+    let reals = layout.numbers(&mut rest, count, text_end)?;
     let frequency = reals.get(1).copied().filter(|frequency| *frequency > 0.0 && *frequency < UNKNOWN);
     let Some(frequency) = frequency else {
         let expected = "the samples a second as real 2 of the header";
         return Err(Fault::new(reals_line, expected, "none", "complete the header"));
     };
-    let step = 1.0 / frequency;
-    check_stated_step(options.step, step, reals_line)?;
-    let mut last_line = text_end;
+    let mut parsed = Parsed::new(1.0 / frequency, unit, text_end);
+    options.check_step(parsed.step, reals_line)?;
     for _ in 0..comments {
         let Some((number, line)) = rest.next() else { break };
-        last_line = number;
+        parsed.last_line = number;
         if !line.starts_with('|') {
             let expected = format!("{comments} comment lines that start with `|`, as integer 16 says");
-            return Err(Fault::new(number, expected, excerpt(line.trim()), DAMAGED));
+            return Err(Fault::excerpt(number, expected, line.trim(), DAMAGED));
         }
     }
-    let stated = text_end + 3;
-    let mut samples = Vec::new();
-    let end = DATA.read(&mut rest, count, stated, |value, line, field| {
-        samples.push(unit.checked_to_si(value, line, field)?);
-        Ok(())
-    })?;
-    DATA.check_ended(rest.peek().copied(), count, stated)?;
-    last_line = last_line.max(end);
-    let described = header.iter().map(|(_, line)| line.trim()).filter(|line| *line != "*");
-    let mut parsed = Parsed::new(step, samples, unit, last_line, notes(described));
+    parsed.read(DATA, &mut rest, samples, text_end + 3)?;
+    parsed.keep_header(header.iter().map(|(_, line)| line.trim()).filter(|line| *line != "*"));
     let extremes =
         [29, 31].iter().filter_map(|&place| reals.get(place)).filter(|value| value.abs() < UNKNOWN);
     parsed.stated_peak = extremes.map(|value| unit.to_si(value.abs())).reduce(f64::max);
     Ok(parsed)
 }
 
-/// The numbers of one part of the header.
-fn block<'a>(
-    lines: &mut impl Iterator<Item = Line<'a>>,
-    (count, layout): (usize, Layout),
-    after: usize,
-) -> Result<Vec<f64>, Fault> {
-    let mut numbers = Vec::with_capacity(count);
-    layout.read(lines, count, after, |value, _, _| {
-        numbers.push(value);
-        Ok(())
-    })?;
-    Ok(numbers)
-}
-
 /// Integer `place` of the header, from 1, where it counts something.
 fn whole(integers: &[f64], place: usize, text_end: usize) -> Result<usize, Fault> {
     let value = integers.get(place - 1).copied().unwrap_or(f64::NAN);
     if value >= 0.0 && value.fract() == 0.0 {
-        return Ok(super::floor_index(value));
+        return Ok(floor_index(value));
     }
     let line = text_end + place.div_ceil(INTEGERS.1.per_line);
     Err(Fault::new(line, format!("a count as integer {place}"), value.to_string(), "correct the header"))

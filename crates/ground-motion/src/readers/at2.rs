@@ -12,11 +12,11 @@
 //!
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
-use super::Unit;
-use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, check_count, find, leading_number, real};
-use super::record::{Parsed, ReadOptions, check_stated_step, lines, notes};
-use super::unit::{REMEDY, unit_word};
+use crate::error::{Fault, excerpt};
+use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
+use crate::options::{RecordOptions, STATE_THE_UNIT};
+use crate::parsed::Parsed;
+use crate::unit::Unit;
 
 /// The line with NPTS is looked for among this many lines that are not blank.
 const HEADER_LINES: usize = 50;
@@ -29,7 +29,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 }
 
 /// Reads the text of an AT2 file.
-pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
     let header_length = lines(text).take(HEADER_LINES).position(|(_, line)| find(line, "NPTS").is_some());
     let Some(header_length) = header_length else {
         let found = lines(text).next().map_or_else(|| "an empty file".to_owned(), |(_, line)| excerpt(line));
@@ -40,27 +40,23 @@ pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> 
     let mut rest = lines(text).skip(header_length);
     let (count_line, count_text) = rest.next().unwrap_or((1, ""));
     let (count, step) = count_and_step(count_text, count_line)?;
-    check_stated_step(options.step, step, count_line)?;
-    let unit = unit(header(), count_line, options.unit)?;
+    options.check_step(step, count_line)?;
+    let unit = unit(header(), count_line, options)?;
 
-    let mut samples = Vec::new();
-    let mut last_line = count_line;
+    let mut parsed = Parsed::new(step, unit, count_line);
     for (number, line) in rest {
-        last_line = number;
         for word in line.split_ascii_whitespace().flat_map(|word| Touching { rest: word }) {
-            let value =
-                real(word).ok_or_else(|| Fault::new(number, "a finite number", excerpt(word), DAMAGED))?;
-            samples.push(unit.checked_to_si(value, number, word)?);
+            parsed.push(real(word), number, word, "a finite number")?;
         }
     }
-    check_count(samples.len(), count, &format!("NPTS on line {count_line}"), last_line)?;
-    let notes = notes(header().map(|(_, line)| line));
-    Ok(Parsed::new(step, samples, unit, last_line, notes))
+    parsed.check_count(count, &format!("NPTS on line {count_line}"))?;
+    parsed.keep_header(header().map(|(_, line)| line));
+    Ok(parsed)
 }
 
 /// NPTS and DT from their line.
 fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
-    let fault = |remedy: &str| Fault::new(number, COUNT_AND_STEP, excerpt(line), remedy);
+    let fault = |remedy: &str| Fault::excerpt(number, COUNT_AND_STEP, line, remedy);
     let unreadable = || fault("correct this line of the header");
     let after = |word: &str| find(line, word).map(|at| leading_number(&line[at + word.len()..]));
     let (count, (step, step_unit)) = match (after("NPTS"), after("DT")) {
@@ -78,35 +74,30 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
         return Err(fault("the step must be in seconds"));
     }
     let count = count.parse::<usize>().map_err(|_| unreadable())?;
-    let step = real(step).filter(|step| *step > 0.0 && step.is_finite()).ok_or_else(unreadable)?;
-    Ok((count, step))
+    Ok((count, positive(step).ok_or_else(unreadable)?))
 }
 
 /// The unit the header states, or the one the user states; never a guess.
 fn unit<'a>(
-    header: impl Iterator<Item = (usize, &'a str)>,
+    header: impl Iterator<Item = Line<'a>>,
     count_line: usize,
-    given: Option<Unit>,
+    options: &RecordOptions,
 ) -> Result<Unit, Fault> {
     let mut stated = None;
     for (number, line) in header {
-        for quantity in ["VELOCITY TIME", "DISPLACEMENT TIME"] {
-            if find(line, quantity).is_some() {
-                let remedy = "use the acceleration file (.AT2) of this record";
-                return Err(Fault::new(number, "an acceleration record", excerpt(line), remedy));
-            }
+        if ["VELOCITY TIME", "DISPLACEMENT TIME"].iter().any(|quantity| find(line, quantity).is_some()) {
+            let remedy = "use the acceleration file (.AT2) of this record";
+            return Err(Fault::excerpt(number, "an acceleration record", line, remedy));
         }
-        if stated.is_none() {
-            stated = unit_word(line).map(|word| (number, word));
-        }
+        stated = stated.or_else(|| Some((number, unit_word(line)?)));
     }
-    match (stated, given) {
+    match (stated, options.unit) {
+        (Some((number, word)), _) => options.unit_of(word, number),
+        (None, Some(given)) => Ok(given),
         (None, None) => {
             let expected = "a unit in the header, `IN UNITS OF G`";
-            Err(Fault::new(count_line, expected, "none before this line", REMEDY))
+            Err(Fault::new(count_line, expected, "none before this line", STATE_THE_UNIT))
         }
-        (None, Some(given)) => Ok(given),
-        (Some((number, word)), given) => Unit::settled(word, number, given),
     }
 }
 

@@ -15,10 +15,11 @@
 //! 0.001234
 //! ```
 
-use super::Unit;
-use super::error::{Fault, excerpt};
-use super::fields::{DAMAGED, Line, check_count, real};
-use super::record::{Parsed, ReadOptions, check_stated_step, lines};
+use crate::error::Fault;
+use crate::fields::{Line, lines, real};
+use crate::options::RecordOptions;
+use crate::parsed::Parsed;
+use crate::unit::Unit;
 
 const HEADER_LINES: usize = 64;
 
@@ -40,26 +41,21 @@ impl<'a> Header<'a> {
         for (number, line) in lines.take(HEADER_LINES) {
             let Some((key, value)) = line.split_once(':') else {
                 let expected = format!("{HEADER_LINES} header lines `KEY: value`, {} so far", entries.len());
-                return Err(Fault::new(
+                return Err(Fault::excerpt(
                     number,
                     expected,
-                    excerpt(line),
+                    line,
                     "check that this is an ESM or ITACA file",
                 ));
             };
             entries.push((number, key.trim(), value.trim()));
         }
-        let last_line = entries.last().map_or(1, |(number, ..)| *number);
         if entries.len() < HEADER_LINES {
+            let line = entries.last().map_or(1, |(number, ..)| *number);
             let expected = format!("{HEADER_LINES} header lines `KEY: value`");
             let found =
                 if entries.is_empty() { "an empty file".to_owned() } else { entries.len().to_string() };
-            return Err(Fault::new(
-                last_line,
-                expected,
-                found,
-                "check that this is a whole ESM or ITACA file",
-            ));
+            return Err(Fault::new(line, expected, found, "check that this is a whole ESM or ITACA file"));
         }
         Ok(Self(entries))
     }
@@ -80,61 +76,55 @@ impl<'a> Header<'a> {
         let (line, value) = self.get(key)?;
         let number = real(value).filter(|value| value.is_finite() && is_sound(*value));
         number.map(|number| (line, number)).ok_or_else(|| {
-            Fault::new(line, format!("{key} as a sound number"), excerpt(value), "correct the header")
+            Fault::excerpt(line, format!("{key} as a sound number"), value, "correct the header")
         })
     }
 }
 
 /// Reads the text of an ESM or ITACA file.
-pub(super) fn parse(text: &str, options: &ReadOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
     let mut rest = lines(text);
     let header = Header::read(&mut rest)?;
     let quantity =
         header.optional("DATA_TYPE").filter(|(_, value)| !value.eq_ignore_ascii_case("ACCELERATION"));
     if let Some((line, value)) = quantity {
         let remedy = "use the acceleration file of this record";
-        return Err(Fault::new(line, "an acceleration record", excerpt(value), remedy));
+        return Err(Fault::excerpt(line, "an acceleration record", value, remedy));
     }
     let (step_line, step) = header.number("SAMPLING_INTERVAL_S", |step| step > 0.0)?;
-    check_stated_step(options.step, step, step_line)?;
+    options.check_step(step, step_line)?;
     let (count_line, count) = header.get("NDATA")?;
-    let count = count.parse().map_err(|_| {
-        Fault::new(count_line, "NDATA as a whole number", excerpt(count), "correct the header")
-    })?;
+    let count = count
+        .parse()
+        .map_err(|_| Fault::excerpt(count_line, "NDATA as a whole number", count, "correct the header"))?;
     let (unit_line, unit) = header.get("UNITS")?;
-    let unit = Unit::settled(unit, unit_line, options.unit)?;
+    let unit = options.unit_of(unit, unit_line)?;
 
-    let mut samples = Vec::new();
-    let mut last_line = header.0.last().map_or(1, |(number, ..)| *number);
+    let mut parsed = Parsed::new(step, unit, header.0.last().map_or(1, |(number, ..)| *number));
     for (number, line) in rest {
-        last_line = number;
-        let value = real(line).map(|value| unit.to_si(value)).filter(|value| value.is_finite());
-        samples.push(value.ok_or_else(|| Fault::new(number, "one finite number", excerpt(line), DAMAGED))?);
+        parsed.push(real(line), number, line, "one finite number")?;
     }
-    check_count(samples.len(), count, &format!("NDATA on line {count_line}"), last_line)?;
-    let notes = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM"];
-    let notes =
-        notes.iter().filter_map(|key| header.optional(key)).map(|(_, value)| value.to_owned()).collect();
-    let mut parsed = Parsed::new(step, samples, unit, last_line, notes);
+    parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
+    let described = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM"];
+    parsed.keep_header(described.iter().filter_map(|key| Some(header.optional(key)?.1)));
     if header.optional("PGA_CM/S^2").is_some() {
         let (line, peak) = header.number("PGA_CM/S^2", |_| true)?;
-        parsed.stated_peak = Some(Unit::CentimetrePerSecondSquared.to_si(peak.abs()));
-        check_peak(&parsed, line)?;
+        let stated = Unit::CentimetrePerSecondSquared.to_si(peak.abs());
+        parsed.stated_peak = Some(stated);
+        check_peak(&parsed.samples, stated, line)?;
     }
     Ok(parsed)
 }
 
 /// The samples must have the peak the header states: a wrong unit or a missing part shows here.
-fn check_peak(parsed: &Parsed, line: usize) -> Result<(), Fault> {
+fn check_peak(samples: &[f64], stated: f64, line: usize) -> Result<(), Fault> {
     // Half a unit of the last of the six decimals the files have, in m/s².
     const ROUNDING: f64 = 0.5e-8;
-    let peak = parsed.samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
-    match parsed.stated_peak {
-        Some(stated) if (peak - stated).abs() > PEAK_TOLERANCE * stated + ROUNDING => {
-            let expected = format!("the peak of the samples, {:.6} cm/s2", peak * 100.0);
-            let remedy = "the samples or their unit do not belong to this header: fetch the file again";
-            Err(Fault::new(line, expected, format!("{:.6}", stated * 100.0), remedy))
-        }
-        _ => Ok(()),
+    let peak = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    if (peak - stated).abs() <= PEAK_TOLERANCE * stated + ROUNDING {
+        return Ok(());
     }
+    let expected = format!("the peak of the samples, {:.6} cm/s2", peak * 100.0);
+    let remedy = "the samples or their unit do not belong to this header: fetch the file again";
+    Err(Fault::new(line, expected, format!("{:.6}", stated * 100.0), remedy))
 }

@@ -1,0 +1,145 @@
+//! Ground motions: accelerations at a uniform step.
+
+use std::sync::Arc;
+
+use crate::error::GroundMotionError;
+
+/// An acceleration history with a uniform step; sample i is at the time i · step, the first at zero.
+///
+/// The acceleration is linear between samples and zero before the first and after the last one. Clones share the
+/// samples.
+///
+/// ```
+/// use ground_motion::GroundMotion;
+///
+/// let motion = GroundMotion::new(0.01, vec![0.0, 1.5, -2.0, 0.5])?;
+/// assert_eq!((motion.duration(), motion.peak()), (0.03, 2.0));
+/// assert_eq!(motion.at(0.005), 0.75);
+/// assert_eq!(motion.scaled_to_peak(1.0)?.samples(), [0.0, 0.75, -1.0, 0.25]);
+/// # Ok::<(), ground_motion::GroundMotionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroundMotion {
+    step: f64,
+    samples: Arc<[f64]>,
+}
+
+impl GroundMotion {
+    /// Makes a motion of its step (s) and its samples (m/s²).
+    ///
+    /// # Errors
+    /// If the step is not positive or the duration not finite, if there are fewer than two samples, if a sample is not
+    /// finite.
+    pub fn new(step: f64, samples: Vec<f64>) -> Result<Self, GroundMotionError> {
+        if samples.len() < 2 {
+            return Err(GroundMotionError::TooFewSamples { found: samples.len() });
+        }
+        if !(step > 0.0 && ((samples.len() - 1) as f64 * step).is_finite()) {
+            return Err(GroundMotionError::Step { step });
+        }
+        if let Some(index) = samples.iter().position(|a| !a.is_finite()) {
+            return Err(GroundMotionError::NotFinite { index, value: samples[index] });
+        }
+        Ok(Self { step, samples: samples.into() })
+    }
+
+    /// Time between samples (s).
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The samples (m/s²).
+    #[must_use]
+    pub fn samples(&self) -> &[f64] {
+        &self.samples
+    }
+
+    /// Time of the last sample (s).
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        (self.samples.len() - 1) as f64 * self.step
+    }
+
+    /// Acceleration (m/s²) at a time (s). At the very end it is the last sample; at a time that is NaN it is zero.
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        if !(0.0..=self.duration()).contains(&time) {
+            return 0.0;
+        }
+        let last_interval = self.samples.len() - 2;
+        let position = time / self.step;
+        let interval = floor_index(position).min(last_interval);
+        // At the end the quotient may miss the whole number by its rounding.
+        let fraction = (position - interval as f64).clamp(0.0, 1.0);
+        let (left, right) = (self.samples[interval], self.samples[interval + 1]);
+        (1.0 - fraction) * left + fraction * right
+    }
+
+    /// Peak ground acceleration: the largest absolute sample (m/s²).
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        self.samples.iter().fold(0.0, |peak, a| a.abs().max(peak))
+    }
+
+    /// The motion with every sample multiplied by `factor`.
+    ///
+    /// # Panics
+    /// If the factor or a scaled sample is not finite; [`checked_scaled`](Self::checked_scaled) is for factors from
+    /// outside.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        self.checked_scaled(factor).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// The motion with every sample multiplied by `factor`.
+    ///
+    /// # Errors
+    /// If the factor or a scaled sample is not finite.
+    pub fn checked_scaled(&self, factor: f64) -> Result<Self, GroundMotionError> {
+        let peak = self.peak();
+        if !factor.is_finite() || !(factor * peak).is_finite() {
+            return Err(GroundMotionError::Factor { factor, peak });
+        }
+        Ok(Self { step: self.step, samples: self.samples.iter().map(|a| factor * a).collect() })
+    }
+
+    /// The motion scaled to the peak ground acceleration `pga` (m/s²).
+    ///
+    /// # Errors
+    /// If `pga` is negative or not finite, or if every sample is zero.
+    pub fn scaled_to_peak(&self, pga: f64) -> Result<Self, GroundMotionError> {
+        if !(pga >= 0.0 && pga.is_finite()) {
+            return Err(GroundMotionError::Peak { peak: pga });
+        }
+        let peak = self.peak();
+        if peak == 0.0 {
+            return Err(GroundMotionError::NoPeak { peak: pga });
+        }
+        self.checked_scaled(pga / peak)
+    }
+
+    /// The part from the sample nearest to `from` to the one nearest to `to` (s), starting again at time zero.
+    ///
+    /// # Errors
+    /// If the interval does not lie within the record or holds fewer than two samples.
+    pub fn trimmed(&self, from: f64, to: f64) -> Result<Self, GroundMotionError> {
+        let (first, end) = ((from / self.step).round(), (to / self.step).round());
+        // Written so that NaN is refused.
+        if !(first >= 0.0 && first < end && end < self.samples.len() as f64) {
+            return Err(GroundMotionError::Trim { from, to, duration: self.duration() });
+        }
+        let samples = &self.samples[floor_index(first)..=floor_index(end)];
+        Ok(Self { step: self.step, samples: samples.into() })
+    }
+}
+
+/// The whole part of a position that is known not to be negative.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the cast saturates, callers bound it"
+)]
+pub(crate) fn floor_index(position: f64) -> usize {
+    position as usize
+}

@@ -1,0 +1,55 @@
+//! What the user states about a record file.
+
+use serde::Deserialize;
+
+use crate::error::Fault;
+use crate::format::Format;
+use crate::unit::Unit;
+
+/// How to read a record file. Most formats need none of this.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct RecordOptions {
+    /// Unit of the samples. Needed where the file does not state it; must not contradict a file that does.
+    pub unit: Option<Unit>,
+    /// Time between samples (s). Needed where the file does not state it; must not contradict a file that does.
+    pub step: Option<f64>,
+    /// Name of the column to read, for tables with several.
+    pub column: Option<String>,
+    /// Channel to read, by its number or its whole name; needed where a file has several.
+    pub channel: Option<String>,
+    /// Format of the file; found from its content if none is given.
+    pub format: Option<Format>,
+}
+
+impl RecordOptions {
+    /// The unit of a file that writes `word` on `line`. The stated unit decides where the word says nothing, and must
+    /// not contradict one that does.
+    pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
+        match (word.parse::<Unit>(), self.unit) {
+            (Ok(unit), Some(stated)) if unit != stated => {
+                let expected = format!("the stated unit {stated}");
+                Err(Fault::new(line, expected, unit.name(), "state no unit: the file has its own"))
+            }
+            (Ok(unit), _) => Ok(unit),
+            (Err(_), Some(stated)) => Ok(stated),
+            (Err(_), None) => Err(Fault::excerpt(line, "a unit of acceleration", word, STATE_THE_UNIT)),
+        }
+    }
+
+    /// Refuses a stated step that is not the file's own.
+    pub(crate) fn check_step(&self, step: f64, line: usize) -> Result<(), Fault> {
+        // Either may be rounded in the fourth digit: 0.0029 for 1/350.
+        const TOLERANCE: f64 = 1e-3;
+        match self.step {
+            Some(stated) if (stated - step).abs() > TOLERANCE * step => {
+                let expected = format!("the stated step of {stated} s");
+                Err(Fault::new(line, expected, format!("{step} s"), "state no step: the file has its own"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The remedy for a record whose unit is not known.
+pub(crate) const STATE_THE_UNIT: &str = "state the unit of the record (m/s2, cm/s2, mm/s2 or g)";

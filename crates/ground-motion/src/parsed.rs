@@ -1,0 +1,73 @@
+//! What the reader of a format returns.
+
+use std::iter::Peekable;
+
+use crate::error::{DAMAGED, Fault};
+use crate::fields::{Layout, Line, check_count};
+use crate::unit::Unit;
+
+/// How many lines of a header are kept, and how many characters of each.
+const HEADER_LINES: usize = 4;
+const HEADER_CHARACTERS: usize = 200;
+
+/// One channel of a record file, not yet a motion.
+pub(crate) struct Parsed {
+    /// Time between samples (s).
+    pub(crate) step: f64,
+    pub(crate) unit: Unit,
+    /// Samples (m/s²).
+    pub(crate) samples: Vec<f64>,
+    /// Line of the last sample.
+    pub(crate) last_line: usize,
+    pub(crate) first_time: f64,
+    pub(crate) channel: Option<String>,
+    pub(crate) stated_peak: Option<f64>,
+    pub(crate) header: Vec<String>,
+}
+
+impl Parsed {
+    /// A channel without a name that starts at time zero; its samples follow after line `last_line`.
+    pub(crate) fn new(step: f64, unit: Unit, last_line: usize) -> Self {
+        let (samples, header) = (Vec::new(), Vec::new());
+        Self { step, unit, samples, last_line, first_time: 0.0, channel: None, stated_peak: None, header }
+    }
+
+    /// Takes the next sample: the number that a field on a line holds.
+    pub(crate) fn push(
+        &mut self,
+        value: Option<f64>,
+        line: usize,
+        field: &str,
+        expected: &str,
+    ) -> Result<(), Fault> {
+        let sample = value.map(|value| self.unit.to_si(value)).filter(|sample| sample.is_finite());
+        self.samples.push(sample.ok_or_else(|| Fault::excerpt(line, expected, field, DAMAGED))?);
+        self.last_line = line;
+        Ok(())
+    }
+
+    /// Takes `count` samples in a Fortran format, and refuses more; line `stated` says how many.
+    pub(crate) fn read<'a>(
+        &mut self,
+        layout: Layout,
+        lines: &mut Peekable<impl Iterator<Item = Line<'a>>>,
+        count: usize,
+        stated: usize,
+    ) -> Result<(), Fault> {
+        layout.read(lines, count, stated, |value, line, field| {
+            self.push(Some(value), line, field, "a finite number")
+        })?;
+        layout.check_ended(lines.peek().copied(), count, stated)
+    }
+
+    /// Refuses another number of samples than the one that `stated_by` says.
+    pub(crate) fn check_count(&self, stated: usize, stated_by: &str) -> Result<(), Fault> {
+        check_count(self.samples.len(), stated, stated_by, self.last_line)
+    }
+
+    /// Keeps the first lines of a header, shortened.
+    pub(crate) fn keep_header<'a>(&mut self, header: impl Iterator<Item = &'a str>) {
+        let shortened = |line: &str| line.chars().take(HEADER_CHARACTERS).collect();
+        self.header = header.take(HEADER_LINES).map(shortened).collect();
+    }
+}
