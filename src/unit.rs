@@ -7,5 +7,4 @@ mod model;
 mod model_exchange;
 mod state;
 
-use inputs::{Input, Inputs};
 pub use instance::Unit;

@@ -1,28 +1,24 @@
 //! The scene file as it is written: tables, keys, values, and where they stand.
 
-use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use fmi2_export::VariableId;
 use serde::Deserialize;
-use toml::{Spanned, Value};
+use toml::Spanned;
 
 use crate::variables::RealVariable;
 
-use super::error::Place;
+use super::error::{Place, SceneError};
 use super::motion::MotionTable;
-use super::{SceneError, input_names};
+use super::parameter::{Group, input_names};
 
 /// Largest scene file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
 
 /// How much of a faulty line a message repeats.
 const SHOWN_CHARACTERS: usize = 60;
-
-/// A table of parameters: names and values with their places.
-pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
 
 /// A scene file.
 #[derive(Debug, Default, Deserialize)]

@@ -8,56 +8,27 @@ mod document;
 mod error;
 mod motion;
 mod parameter;
+mod used;
 
+use std::fmt::Write;
 use std::path::Path;
 
-use fmi2_export::{Causality, Kind, VariableId};
+use fmi2_export::VariableId;
 
 use crate::simulation::Excitation;
-use crate::variables::{ForceLaw, IntegerVariable, Mechanism, RealVariable};
+use crate::variables::{Mechanism, RealVariable};
 use crate::wall::{Kinematics, Parameters};
 
-pub use document::{Document, Group};
+pub use crate::variables::GROUPS;
+pub use document::Document;
 pub use error::SceneError;
-pub use motion::fingerprint;
+pub use motion::{DEFAULT_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
+pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 
 pub use document::parse_toml;
 pub use error::Place;
 pub use parameter::apply_group;
-
-/// Free vibration after a scene's motion when it states no tail \[s\].
-pub const DEFAULT_TAIL: f64 = 10.0;
-
-/// Tables of a scene and the parameters each may hold: every parameter of the model description is in one of them.
-pub const GROUPS: [(&str, &[&str]); 6] = [
-    (
-        "geometry",
-        &[
-            "mechanism",
-            "height",
-            "thickness",
-            "width",
-            "density",
-            "gravity",
-            "hinge_ratio",
-            "overburden",
-            "overburden_eccentricity",
-            "eccentricity_mode",
-        ],
-    ),
-    ("force_law", &["force_law", "a1", "a3", "d1", "softening"]),
-    ("damping", &["damping_model", "damping_source", "xi", "c_bar"]),
-    ("impact", &["impact", "restitution_source", "restitution"]),
-    ("start", &["u_start", "u_dot_start"]),
-    ("solver", &["solver", "tolerance", "newmark_step"]),
-];
-
-/// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
-pub const POINTS: &str = "points";
-
-/// The key in `[geometry]` that chooses small or full rotations.
-pub const KINEMATICS: &str = "kinematics";
 
 /// A wall, its motion, and how long it is watched.
 #[derive(Clone, Debug)]
@@ -236,12 +207,6 @@ impl Scene {
             Err(SceneError::TooLong { stop: self.stop_time, step: self.output_step, limit: MOST_POINTS })
         }
     }
-
-    /// Names of the variables this scene's FMU needs, by the rule that what a scene does not use is not there.
-    #[must_use]
-    pub fn uses(&self, name: &str) -> bool {
-        parameter::is_used(self, name)
-    }
 }
 
 /// What is wrong where full rotations meet supports that move differently.
@@ -261,22 +226,9 @@ fn name_of(file: &str) -> String {
         .map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
 }
 
-/// The value of a parameter as text that a scene or an XML start attribute can hold; `None` for other variables.
-#[must_use]
-pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
-    if let Some(variable) = RealVariable::from_name(name) {
-        return parameters.clone().real_mut(variable).map(|value| format!("{value:?}"));
-    }
-    let variable = IntegerVariable::from_name(name)?;
-    let Kind::Enumeration { items, .. } = variable.variable().kind else { return None };
-    let value = parameters.choice(variable);
-    items.iter().find(|item| item.value == value).map(|item| format!("{:?}", item.name))
-}
-
 /// A scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
 #[must_use]
 pub fn to_toml(scene: &Scene, motion: &str) -> String {
-    use std::fmt::Write;
     let mut text = String::new();
     // writing to a String cannot fail
     let _ = writeln!(text, "title = {}", quoted(&scene.title));
@@ -325,15 +277,4 @@ fn quoted(text: &str) -> String {
     }
     quoted.push('"');
     quoted
-}
-
-/// Names of the inputs of the model description.
-pub fn input_names() -> impl Iterator<Item = &'static str> {
-    let inputs = RealVariable::ALL.iter().map(|variable| variable.variable());
-    inputs.filter(|variable| variable.causality == Causality::Input).map(|variable| variable.name)
-}
-
-/// Whether the law is one of the enumeration, not the multilinear one of scenes.
-fn is_named_law(parameters: &Parameters, law: ForceLaw) -> bool {
-    parameters.multilinear.is_none() && parameters.force_law == law
 }

@@ -10,8 +10,10 @@ use ground_motion::{
     Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion, Unit, read,
 };
 
-use super::error::Place;
-use super::{DEFAULT_TAIL, SceneError};
+use super::error::{Place, SceneError};
+
+/// Free vibration after a scene's motion when it states no tail \[s\].
+pub const DEFAULT_TAIL: f64 = 10.0;
 
 /// `[motion]`: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
 #[derive(Debug, Default, Deserialize)]

@@ -1,22 +1,46 @@
-//! Parameters of a scene: names, kinds and limits come from the model description.
+//! Parameters of a scene: names, groups, kinds and limits come from the model description.
 
-use fmi2_export::{Kind, Variable, VariableId};
-use toml::Value;
+use std::collections::BTreeMap;
 
-use crate::variables::{
-    DampingModel, DampingSource, ForceLaw, Impact, IntegerVariable, Mechanism, RealVariable,
-    RestitutionSource, Solver,
-};
+use fmi2_export::{Causality, Kind, Variable, VariableId};
+use toml::{Spanned, Value};
+
+use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Kinematics, Parameters};
 
-use super::document::Group;
-use super::error::Place;
-use super::{GROUPS, KINEMATICS, POINTS, Scene, SceneError, input_names, is_named_law};
+use super::error::{Place, SceneError};
+
+/// A table of parameters: names and values with their places.
+pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
+
+/// The key of a multilinear law's points, in `[force_law]` beside `force_law = "multilinear"`.
+pub const POINTS: &str = "points";
+/// The key in `[geometry]` that chooses small or full rotations.
+pub const KINEMATICS: &str = "kinematics";
 
 /// The name in `force_law` that stands for a law of points.
 const MULTILINEAR: &str = "multilinear";
 /// The table that holds the kinematics.
 const KINEMATICS_GROUP: &str = "geometry";
+
+/// Returns the names of the inputs of the model description.
+pub fn input_names() -> impl Iterator<Item = &'static str> {
+    let inputs = RealVariable::ALL.iter().map(|variable| variable.variable());
+    inputs.filter(|variable| variable.causality == Causality::Input).map(|variable| variable.name)
+}
+
+/// Returns the value of a parameter as text that a scene or an XML start attribute can hold; `None` for other
+/// variables.
+#[must_use]
+pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
+    if let Some(variable) = RealVariable::from_name(name) {
+        return parameters.real(variable).map(|value| format!("{value:?}"));
+    }
+    let variable = IntegerVariable::from_name(name)?;
+    let Kind::Enumeration { items, .. } = variable.variable().kind else { return None };
+    let value = parameters.integer(variable)?;
+    items.iter().find(|item| item.value == value).map(|item| format!("{:?}", item.name))
+}
 
 /// Applies one table.
 ///
@@ -98,8 +122,7 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
     if let Some(variable) = RealVariable::from_name(name) {
         let number = number(value).ok_or_else(|| format!("{name} = {} is not a number", shown(value)))?;
         check_limits(variable.variable(), number)?;
-        if let Some(field) = parameters.real_mut(variable) {
-            *field = number;
+        if parameters.set_real(variable, number) {
             return Ok(());
         }
     }
@@ -107,7 +130,7 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
         && let Kind::Enumeration { items, .. } = variable.variable().kind
     {
         let item = value.as_str().and_then(|text| items.iter().find(|item| item.name == text));
-        if item.is_some_and(|item| parameters.set_choice(variable, item.value)) {
+        if item.is_some_and(|item| parameters.set_integer(variable, item.value)) {
             return Ok(());
         }
         let names: Vec<_> = items.iter().map(|item| item.name).collect();
@@ -178,49 +201,4 @@ fn unknown(name: &str, group: &str, names: &[&str]) -> String {
         || format!("unknown key {name:?} in [{group}]; it holds {}", names.join(", ")),
         |(other, _)| format!("{name:?} belongs in [{other}], not in [{group}]"),
     )
-}
-
-/// Whether the FMU of a scene lists a variable.
-///
-/// Choices are frozen and disappear; a number stays where it plays a part in the scene's choices.
-pub(super) fn is_used(scene: &Scene, name: &str) -> bool {
-    let p = &scene.parameters;
-    let vertical = p.mechanism == Mechanism::VerticalSpanning;
-    let loaded = p.overburden > 0.0;
-    let law = |law| is_named_law(p, law);
-    let multilinear = p.multilinear.is_some();
-    let damped = p.damping_model != DampingModel::None;
-    let given = p.damping_source == DampingSource::Given;
-    let free_standing = p.damping_model == DampingModel::FreeStandingBlock;
-    let impact = p.impact == Impact::Restitution;
-    let needs_e = impact || (damped && !given);
-    if IntegerVariable::from_name(name).is_some() {
-        return false;
-    }
-    if input_names().any(|input| input == name) {
-        return scene.inputs.iter().any(|input| input.variable().name == name);
-    }
-    match name {
-        "hinge_ratio" | "reaction_top" | "impulse_top" => vertical,
-        "overburden" | "overburden_eccentricity" => loaded,
-        "F0_negative" | "u_ins_negative" => loaded && p.overburden_eccentricity != 0.0,
-        "a1" => !multilinear && !law(ForceLaw::RigidLinear),
-        "omega1" => !law(ForceLaw::RigidLinear),
-        "a3" => !multilinear,
-        "d1" => law(ForceLaw::Trilinear),
-        "xi" => damped && given && !free_standing,
-        "c_bar" => damped && given && free_standing,
-        "damping_force" | "xi_used" => damped,
-        "restitution" => needs_e && p.restitution_source == RestitutionSource::Given,
-        "restitution_used" => needs_e,
-        "newmark_step" => p.solver == Solver::Newmark,
-        "tolerance" => match p.solver {
-            Solver::Exact | Solver::Newmark => false,
-            Solver::Adaptive => true,
-            Solver::Automatic => {
-                matches!(p.damping_model, DampingModel::ConstantRatio | DampingModel::StiffnessProportional)
-            }
-        },
-        _ => true,
-    }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::choices::Mechanism;
 use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, State, Work};
-use crate::variables::Mechanism;
 use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
 
 /// A wall in time.

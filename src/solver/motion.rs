@@ -2,7 +2,7 @@
 
 use oscillator::Oscillator;
 
-use crate::variables::Solver;
+use crate::choices::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
 
 use super::adaptive::Tolerances;

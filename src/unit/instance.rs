@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use fmi2_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, VariableId};
 
+use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Simulation, segment_of};
 use crate::solver::Segment;
-use crate::variables::{Mechanism, RealVariable};
+use crate::variables::RealVariable;
 use crate::wall::{Ends, Parameters, Support, Wall};
 
 use super::exchange::Exchange;

@@ -4,20 +4,20 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fmi2_export::{
-    Environment, Experiment, Failure, Interface, Log, Model, StateReader, StateWriter,
-    Step as CommunicationStep, VariableId,
+    Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step as CommunicationStep,
+    VariableId,
 };
 
 use crate::scene::Scene;
 use crate::simulation::Outputs;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
+    integer_parameter, real_parameter,
 };
 use crate::wall::{Kinematics, Parameters, Support};
 
 use super::exchange::Exchange;
 use super::instance::Unit;
-use super::state;
 
 impl Model for Unit {
     type Real = RealVariable;
@@ -74,12 +74,14 @@ impl Model for Unit {
             V::Omega1 => wall.omega1(),
             V::XiUsed => wall.damping_ratio(),
             V::RestitutionUsed => wall.restitution(),
-            parameter => self.parameters.real(parameter).unwrap_or(f64::NAN),
+            real_parameter!() => self.parameters.real(variable).unwrap_or(f64::NAN),
         }
     }
 
     fn integer(&self, variable: IntegerVariable) -> i32 {
-        self.parameters.choice(variable)
+        match variable {
+            integer_parameter!() => self.parameters.integer(variable).unwrap_or_default(),
+        }
     }
 
     fn boolean(&self, variable: BooleanVariable) -> bool {
@@ -99,14 +101,14 @@ impl Model for Unit {
             self.place(variable, value);
         } else if let Some(input) = self.input(variable) {
             input.set(value);
-        } else if let Some(parameter) = self.parameters.real_mut(variable) {
-            *parameter = value;
+        } else {
+            self.parameters.set_real(variable, value);
         }
         self.refresh();
     }
 
     fn set_integer(&mut self, variable: IntegerVariable, value: i32) {
-        let known = self.parameters.set_choice(variable, value);
+        let known = self.parameters.set_integer(variable, value);
         assert!(known, "the layer has checked that {value} is an item of {}", variable.variable().name);
     }
 
@@ -196,12 +198,7 @@ impl Model for Unit {
         self.advance(step, log)
     }
 
-    fn write_state(&self, writer: &mut StateWriter) {
-        state::write(self, writer);
-    }
-
-    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
-        *self = state::read(self, reader)?;
-        Ok(())
+    fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+        self.transfer(codec)
     }
 }

@@ -1,6 +1,6 @@
 //! Viscous damping: the coefficient C(u) of Eq. (12), per unit effective mass.
 
-use crate::variables::{DampingModel, DampingSource};
+use crate::choices::{DampingModel, DampingSource};
 
 use super::equivalence;
 use super::error::ParameterError;

@@ -1,6 +1,6 @@
 //! The validated equation of motion of a wall, Eq. (12).
 
-use crate::variables::Impact;
+use crate::choices::Impact;
 
 use super::branch::{Branch, Corner};
 use super::damping::Damping;
@@ -8,10 +8,10 @@ use super::error::ParameterError;
 use super::force_law::RestoringForce;
 use super::layout::{self, RATIO_CUTOFF};
 use super::mechanism::Body;
-use super::parameters::Parameters;
+use super::parameters::{Kinematics, Parameters};
 use super::restitution;
 use super::sides::Sides;
-use super::trigonometric::{FullRotations, Kinematics};
+use super::trigonometric::FullRotations;
 use super::warning::Warning;
 
 /// A validated wall.

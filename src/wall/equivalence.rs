@@ -2,7 +2,7 @@
 //!
 //! Eqs. (20)–(22) were fitted over 0.005 < a₁ < 0.1.
 
-use crate::variables::DampingModel;
+use crate::choices::DampingModel;
 
 /// Range of a₁ over which Eqs. (20)–(22) were fitted \[-\].
 pub const FITTED_A1: std::ops::RangeInclusive<f64> = 0.005..=0.1;

@@ -1,6 +1,6 @@
 //! Restoring forces: multilinear laws built on the rigid-linear one.
 
-use crate::variables::{ForceLaw, Softening};
+use crate::choices::{ForceLaw, Softening};
 
 use super::error::ParameterError;
 use super::mechanism::Body;

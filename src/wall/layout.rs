@@ -1,6 +1,6 @@
 //! Lays out the branches and corners of a wall.
 
-use crate::variables::DampingModel;
+use crate::choices::DampingModel;
 
 use super::branch::{Branch, Corner};
 use super::damping::{BranchDamping, Damping};

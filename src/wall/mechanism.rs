@@ -1,6 +1,6 @@
 //! The two mechanisms: Eq. (1) from geometry and loads.
 
-use crate::variables::{EccentricityMode, Mechanism};
+use crate::choices::{EccentricityMode, Mechanism};
 
 use super::error::ParameterError;
 use super::parameters::Parameters;

@@ -1,6 +1,6 @@
 //! The coefficient of restitution, Eqs. (2)–(4).
 
-use crate::variables::{Mechanism, RestitutionSource};
+use crate::choices::{Mechanism, RestitutionSource};
 
 use super::error::ParameterError;
 use super::mechanism::Body;

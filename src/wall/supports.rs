@@ -1,6 +1,6 @@
 //! Moving supports: the forces they exert on the wall, and the impulses of a step.
 
-use crate::variables::Mechanism;
+use crate::choices::Mechanism;
 
 use super::mechanism::Body;
 

@@ -43,36 +43,12 @@
 //! of the small rotations. Supports that move differently, and drift, enter with their weights for small
 //! rotations.
 
-use crate::variables::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
+use crate::choices::{DampingModel, EccentricityMode, ForceLaw, Mechanism, Solver};
 
 use super::error::ParameterError;
 use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::sides::Sides;
-
-/// Small or full rotations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kinematics {
-    /// Small rotations, Eq. (12).
-    #[default]
-    Linear,
-    /// Full rotations.
-    Trigonometric,
-}
-
-impl Kinematics {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Linear, Self::Trigonometric];
-
-    /// The name in scene files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Trigonometric => "trigonometric",
-        }
-    }
-}
 
 /// A wall in full rotations; the equation and its letters are those of its module.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! What a user should know about valid parameters.
 
-use crate::variables::{DampingModel, DampingSource, Mechanism};
+use crate::choices::{DampingModel, DampingSource, Mechanism};
 
 use super::equivalence;
 use super::force_law::RestoringForce;

@@ -1,10 +1,18 @@
 //! Parameters of a floor, and the validated floor they make.
+//!
+//! ```
+//! use rocking_floor::floor::{Floor, Parameters};
+//!
+//! let floor = Floor::new(&Parameters { mass: 1e4, stiffness: 1e6, ..Parameters::default() })?;
+//! assert_eq!(floor.omega(), 10.0);
+//! # Ok::<(), rocking_floor::floor::ParameterError>(())
+//! ```
 
 use oscillator::Oscillator;
 
-use crate::variables::{Coupling, Hysteresis};
+use crate::choices::{Coupling, Hysteresis, start_values};
 
-/// What a floor is made of, in SI units.
+/// What a floor is made of, in SI units: one field per parameter of the model description, of the same name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Mass without the walls' \[kg\].
@@ -27,6 +35,13 @@ pub struct Parameters {
     pub displacement_start: f64,
     /// Velocity at the start \[m/s\].
     pub velocity_start: f64,
+}
+
+impl Default for Parameters {
+    /// The start values of the model description.
+    fn default() -> Self {
+        start_values!(Self {})
+    }
 }
 
 /// Parameters that contradict each other.

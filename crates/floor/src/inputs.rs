@@ -1,9 +1,32 @@
 //! What pushes the floor: the base's motion and the walls.
 
+use crate::choices::Coupling;
 use crate::floor::Floor;
 use crate::motion::Load;
-use crate::variables::Coupling;
-use crate::wiring::WALLS;
+use crate::variables::RealVariable as V;
+
+/// Walls that can push one floor.
+const WALLS: usize = 8;
+const REACTIONS: [V; WALLS] = [
+    V::Reaction1,
+    V::Reaction2,
+    V::Reaction3,
+    V::Reaction4,
+    V::Reaction5,
+    V::Reaction6,
+    V::Reaction7,
+    V::Reaction8,
+];
+const IMPULSES: [V; WALLS] =
+    [V::Impulse1, V::Impulse2, V::Impulse3, V::Impulse4, V::Impulse5, V::Impulse6, V::Impulse7, V::Impulse8];
+
+/// Returns which wall an input is of, counted from 0, and the coupling that it takes part in.
+pub(crate) fn wall_of(variable: V) -> Option<(Coupling, usize)> {
+    let lists = [(Coupling::Reactions, REACTIONS), (Coupling::Impulses, IMPULSES)];
+    lists
+        .into_iter()
+        .find_map(|(coupling, list)| Some((coupling, list.iter().position(|&own| own == variable)?)))
+}
 
 /// A continuous input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,6 +63,24 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
+    /// Returns the value of an input; 0 for other variables.
+    pub(crate) fn get(&self, variable: V) -> f64 {
+        match wall_of(variable) {
+            Some((Coupling::Reactions, wall)) => self.reactions[wall].value,
+            Some((Coupling::Impulses, wall)) => self.impulses[wall],
+            None => self.ground.value,
+        }
+    }
+
+    /// Returns a continuous input; `None` for other variables.
+    pub(crate) fn continuous(&mut self, variable: V) -> Option<&mut Input> {
+        match wall_of(variable) {
+            Some((Coupling::Reactions, wall)) => Some(&mut self.reactions[wall]),
+            None if variable == V::AG => Some(&mut self.ground),
+            _ => None,
+        }
+    }
+
     /// Force of the floor on all walls now, and its rate \[N, N/s\]. An impulse counts as its mean force over a step: before
     /// the coming step is known, over the last one.
     fn walls(&self, coupling: Coupling, duration: f64, rate: fn(&Input) -> f64) -> Load {

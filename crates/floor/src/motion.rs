@@ -1,4 +1,17 @@
 //! A floor in time: from corner to corner in closed form.
+//!
+//! ```
+//! use rocking_floor::floor::{Floor, Parameters};
+//! use rocking_floor::motion::{Load, State};
+//!
+//! let undamped = Parameters { mass: 1e4, stiffness: 1e6, damping_ratio: 0.0, ..Parameters::default() };
+//! let floor = Floor::new(&undamped)?;
+//! let mut state = State::new(&floor, 0.01, 0.0, Load::default());
+//! // half a period later it is on the other side
+//! state.advance(&floor, Load::default(), std::f64::consts::PI / floor.omega())?;
+//! assert!((state.displacement + 0.01).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::floor::{Branch, Floor, Yielding};
 use crate::piece::Piece;

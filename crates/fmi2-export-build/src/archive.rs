@@ -1,4 +1,15 @@
-//! The FMU as an archive: files in memory, written the same bytes for the same content.
+//! The FMU as an archive: files in memory. The same content gives the same bytes.
+//!
+//! ```
+//! use fmi2_export_build::archive::Archive;
+//!
+//! let mut archive = Archive::default();
+//! archive.insert("documentation/index.html", "<!DOCTYPE html>");
+//! archive.insert("binaries/linux64/clock.so", vec![0_u8; 4]);
+//! assert_eq!(archive.names().next(), Some("binaries/linux64/clock.so"));
+//! assert_eq!(archive.to_bytes()?, archive.clone().to_bytes()?);
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -7,7 +18,7 @@ use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-/// More content than this is no FMU of ours: a small archive can unpack to anything \[bytes\].
+/// Largest content of an FMU \[bytes\]: a small archive can unpack to anything.
 const MAX_CONTENT: u64 = 1 << 30;
 
 /// The files of an FMU by their path inside it, in the order of the paths.
@@ -28,7 +39,7 @@ pub enum ArchiveError {
         /// What the operating system says.
         source: std::io::Error,
     },
-    /// The file is no archive, or a damaged one.
+    /// The file is not an archive, or is damaged.
     #[error("{}: is not a readable zip archive: {source}", path.display())]
     Damaged {
         /// The archive's file.
@@ -65,7 +76,7 @@ impl Archive {
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, is no zip archive, fails its checksum, unpacks to more than 1 GiB, or contains
+    /// A file that cannot be read, is not a zip archive, fails its checksum, unpacks to more than 1 GiB, or contains
     /// paths that lead out of it.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let read = |source| ArchiveError::Read { path: path.to_path_buf(), source };

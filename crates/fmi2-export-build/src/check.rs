@@ -1,33 +1,39 @@
-//! What the FMI 2.0 schema cannot say about a description: its variables. The structure has a file of its own.
+//! Checks what the FMI 2.0 schema cannot: units, variables, enumerations and interfaces.
 
-use crate::code::{BaseType, camel_case};
-use crate::description::{
-    Causality, Description, EnumerationType, Initial, Kind, Variability, Variable, required_child,
-    simple_type,
-};
 use crate::element::Element;
 use crate::error::{Fault, Problem};
 use crate::structure;
+use crate::variable::{
+    BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, camel_case, simple_type,
+};
 use std::collections::HashMap;
 use std::fmt::Display;
 
-/// Every check. The first problem in this order is reported.
-pub(crate) fn all(description: &Description) -> Result<(), Fault> {
-    units_of_types(&description.root)?;
-    description.enumerations.iter().try_for_each(items)?;
-    rust_names(description.enumerations.iter().map(|kind| (kind.line, kind.name.as_str())))?;
-    names(&description.variables)?;
-    references(&description.variables)?;
-    for variable in &description.variables {
+/// Makes every check and reports the first problem in this order.
+pub(crate) fn all(
+    root: &Element,
+    variables: &[Variable],
+    enumerations: &[EnumerationType],
+) -> Result<(), Fault> {
+    units_of_types(root)?;
+    enumerations.iter().try_for_each(items)?;
+    rust_names(enumerations.iter().map(|kind| (kind.line, kind.name.as_str())))?;
+    names(variables)?;
+    references(variables)?;
+    let grouped = variables.iter().any(|variable| variable.group.is_some());
+    for variable in variables {
         combination(variable)?;
         start_presence(variable)?;
-        units(&description.root, variable)?;
+        units(root, variable)?;
         limits(variable)?;
-        enumeration_start(variable, &description.enumerations)?;
-        derivative(variable, &description.variables)?;
+        enumeration_start(variable, enumerations)?;
+        derivative(variable, variables)?;
+        if grouped && variable.causality == Causality::Parameter && variable.group.is_none() {
+            return Err(variable.fault(Problem::NoGroup { name: variable.name.clone() }));
+        }
     }
-    structure::check(&description.variables, required_child(&description.root, "ModelStructure")?)?;
-    interfaces(&description.root, &description.variables)
+    structure::check(variables, root.required_child("ModelStructure")?)?;
+    interfaces(root, variables)
 }
 
 /// At least one of co-simulation and Model Exchange, by one library; Model Exchange tells its derivatives and the
@@ -64,33 +70,6 @@ fn interfaces(root: &Element, variables: &[Variable]) -> Result<(), Fault> {
     }
 }
 
-impl Variable {
-    fn fault(&self, problem: Problem) -> Fault {
-        Fault { line: self.line, problem }
-    }
-
-    /// How it starts, which follows from causality and variability where it is not said.
-    pub(crate) fn initial_or_default(&self) -> Option<Initial> {
-        self.initial.or(match (self.causality, self.variability) {
-            (Causality::Input | Causality::Independent, _) => None,
-            (Causality::Parameter, _) | (_, Variability::Constant) => Some(Initial::Exact),
-            _ => Some(Initial::Calculated),
-        })
-    }
-}
-
-/// Start and limits of a Real are finite: importers write them as text, and infinity has several spellings.
-pub(crate) fn finite(typed: &Element, kind: &Kind) -> Result<(), Fault> {
-    let Kind::Real { start, min, max } = kind else { return Ok(()) };
-    for (attribute, value) in [("start", start), ("min", min), ("max", max)] {
-        if let Some(value) = value.filter(|value| !value.is_finite()) {
-            let (attribute, value) = (attribute.to_owned(), value.to_string());
-            return Err(typed.fault(Problem::BadValue { attribute, value, expected: "a finite number" }));
-        }
-    }
-    Ok(())
-}
-
 fn names(variables: &[Variable]) -> Result<(), Fault> {
     let mut seen = HashMap::new();
     for variable in variables {
@@ -98,8 +77,8 @@ fn names(variables: &[Variable]) -> Result<(), Fault> {
             return Err(variable.fault(Problem::RepeatedName { name: variable.name.clone(), first }));
         }
     }
-    for base in [BaseType::Real, BaseType::Integer, BaseType::Boolean, BaseType::String] {
-        let of_base = variables.iter().filter(|variable| BaseType::of(&variable.kind) == base);
+    for base in BaseType::ALL {
+        let of_base = variables.iter().filter(|variable| variable.base() == base);
         rust_names(of_base.map(|variable| (variable.line, variable.name.as_str())))?;
     }
     Ok(())
@@ -188,7 +167,7 @@ fn start_presence(variable: &Variable) -> Result<(), Fault> {
 }
 
 fn units_of_types(root: &Element) -> Result<(), Fault> {
-    for declared in root.child("TypeDefinitions").map_or(&[][..], |element| &element.children) {
+    for declared in root.children_of("TypeDefinitions") {
         let Some(real) = declared.child("Real") else { continue };
         let name = declared.attribute("name").unwrap_or_default();
         unit_is_declared(root, name, real.attribute("unit"), real.attribute("displayUnit"))
@@ -198,7 +177,7 @@ fn units_of_types(root: &Element) -> Result<(), Fault> {
 }
 
 fn units(root: &Element, variable: &Variable) -> Result<(), Fault> {
-    let declared = variable.declared_type.as_deref().and_then(|name| simple_type(root, name)?.child("Real"));
+    let declared = variable.declared_type.as_deref().and_then(|name| simple_type(root, name, "Real"));
     match (declared.and_then(|real| real.attribute("unit")), &variable.unit) {
         (Some(type_unit), Some(unit)) if type_unit != unit => Err(variable.fault(Problem::UnitMismatch {
             name: variable.name.clone(),
@@ -221,9 +200,9 @@ fn unit_is_declared(
 ) -> Result<(), Problem> {
     let Some(unit) = unit else { return Ok(()) };
     let named = |element: &&Element, name: &str| element.attribute("name") == Some(name);
-    let declared = root
-        .child("UnitDefinitions")
-        .and_then(|units| units.children.iter().find(|element| named(element, unit)))
+    let mut units = root.children_of("UnitDefinitions").iter();
+    let declared = units
+        .find(|element| named(element, unit))
         .ok_or_else(|| Problem::UndeclaredUnit { name: name.to_owned(), unit: unit.to_owned() })?;
     match display_unit {
         Some(shown) if shown != unit && !declared.children.iter().any(|element| named(&element, shown)) => {

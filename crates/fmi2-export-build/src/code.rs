@@ -1,14 +1,58 @@
-//! The generated Rust module.
+//! Writes the generated Rust modules.
 //!
-//! What a variable is stands in one table per base type; the enums index into it. Functions stay short that way
-//! and adding a variable changes three lines.
+//! `choices.rs` holds plain enumerations and the start values of the parameters, and knows no FMI. `variables.rs` holds
+//! what FMI calls need: one enum per FMI base type, a table of what the description says about each variable, and
+//! the access to the parameters by variable.
 
-use crate::description::{Causality, Description, EnumerationType, Kind, Variability, Variable};
+use crate::description::Description;
+use crate::variable::{BaseType, Causality, EnumerationType, Item, Kind, Variable, camel_case};
 use std::fmt::Write as _;
 
-/// The module's text: constants, one enum per FMI base type, one per enumeration type.
-pub(crate) fn module(description: &Description) -> String {
-    let mut code = String::from("// Generated from the model description: change that instead.\n");
+const HEAD: &str = "// Generated from the model description: change that instead.\n";
+
+/// The text of `choices.rs`: one enum per enumeration type, and the macro `start_values`.
+pub(crate) fn choices(description: &Description) -> String {
+    let mut code = String::from(HEAD);
+    for enumeration in &description.enumerations {
+        enumeration_type(&mut code, enumeration);
+    }
+    let start = |variable: &&Variable| {
+        let value = match &variable.kind {
+            Kind::Real { start, .. } => format!("{:?}", start.unwrap_or_default()),
+            Kind::Integer { start, .. } => start.unwrap_or_default().to_string(),
+            Kind::Boolean { start } => start.unwrap_or_default().to_string(),
+            Kind::String { start } => format!("{:?}.to_owned()", start.as_deref().unwrap_or_default()),
+            Kind::Enumeration { start } => {
+                let items = items(variable, &description.enumerations);
+                let item = items.iter().find(|item| Some(item.value) == *start);
+                format!("{}::{}", type_name(variable), camel(item.map_or("", |item| &item.name)))
+            }
+        };
+        format!("            {}: {value},\n", field(variable))
+    };
+    let fields: String = parameters(description).iter().map(start).collect();
+    code + &START_VALUES.replace("@fields@", &fields)
+}
+
+const START_VALUES: &str = "
+/// Makes a struct of the parameters: each has a field of its name, set to its start value. Other fields follow in
+/// the braces: `start_values!(Self { other: 0.0 })`.
+#[allow(unused_macros)]
+macro_rules! start_values {
+    ($name:ident { $($others:tt)* }) => {
+        $name {
+@fields@            $($others)*
+        }
+    };
+}
+#[allow(unused_imports)]
+pub(crate) use start_values;
+";
+
+/// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to its
+/// parameters.
+pub(crate) fn variables(description: &Description) -> String {
+    let mut code = String::from(HEAD);
     for (name, value, what) in [
         ("MODEL_NAME", description.model_name(), "Name of the model."),
         ("MODEL_IDENTIFIER", description.model_identifier(), "Name of the library inside the FMU."),
@@ -16,108 +60,108 @@ pub(crate) fn module(description: &Description) -> String {
     ] {
         add(&mut code, format_args!("\n/// {what}\npub const {name}: &str = {value:?};\n"));
     }
-    for base in [BaseType::Real, BaseType::Integer, BaseType::Boolean, BaseType::String] {
-        let variables: Vec<_> =
-            description.variables.iter().filter(|variable| BaseType::of(&variable.kind) == base).collect();
-        base_type(&mut code, base, &variables, &description.enumerations);
-    }
+    groups(&mut code, &parameters(description));
     exchange(&mut code, description);
-    for enumeration in &description.enumerations {
-        enumeration_type(&mut code, enumeration);
+    for base in BaseType::ALL {
+        let of_base = |variable: &&Variable| variable.base() == base;
+        let variables: Vec<_> = description.variables.iter().filter(of_base).collect();
+        base_type(&mut code, base, &variables, &description.enumerations);
+        let parameters: Vec<_> = parameters(description).into_iter().filter(of_base).collect();
+        if !parameters.is_empty() {
+            access(&mut code, base, &parameters);
+        }
     }
+    transfer(&mut code, &parameters(description));
     code
+}
+
+/// Saving and reading the parameters as part of a state.
+fn transfer(code: &mut String, parameters: &[&Variable]) {
+    if parameters.is_empty() {
+        return;
+    }
+    let line = |parameter: &&Variable| {
+        let field = field(parameter);
+        let (method, items) = match parameter.kind {
+            Kind::Real { .. } => ("f64", String::new()),
+            Kind::Integer { .. } => ("i32", String::new()),
+            Kind::Enumeration { .. } => ("item", format!(", {}::ALL", type_name(parameter))),
+            Kind::Boolean { .. } => ("bool", String::new()),
+            Kind::String { .. } => ("text", String::new()),
+        };
+        format!("        codec.{method}(&mut self.{field}{items})?;\n")
+    };
+    let lines: String = parameters.iter().map(line).collect();
+    code.push_str(&TRANSFER.replace("@lines@", &lines));
+}
+
+const TRANSFER: &str = "
+impl Parameters {
+    /// Passes every parameter of the description to `codec`, which writes or reads it.
+    ///
+    /// # Errors
+    /// When the bytes to read end before, or are not a value of the parameter's type.
+    pub fn transfer(&mut self, codec: &mut ::fmi2_export::StateCodec<'_>) -> Result<(), ::fmi2_export::Failure> {
+@lines@        Ok(())
+    }
+}
+";
+
+fn parameters(description: &Description) -> Vec<&Variable> {
+    let variables = description.variables.iter();
+    variables.filter(|variable| variable.causality == Causality::Parameter).collect()
+}
+
+/// The groups of parameters, in the order of their first parameters.
+fn groups(code: &mut String, parameters: &[&Variable]) {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for parameter in parameters {
+        let Some(name) = parameter.group.as_deref() else { continue };
+        match groups.iter_mut().find(|(group, _)| *group == name) {
+            Some((_, members)) => members.push(&parameter.name),
+            None => groups.push((name, vec![&parameter.name])),
+        }
+    }
+    if groups.is_empty() {
+        return;
+    }
+    code.push_str("\n/// The groups of parameters: name, and names of the parameters in it.\n");
+    add(code, format_args!("pub const GROUPS: [(&str, &[&str]); {}] = [\n", groups.len()));
+    for (name, members) in groups {
+        add(code, format_args!("    ({name:?}, &{members:?}),\n"));
+    }
+    code.push_str("];\n");
 }
 
 /// What Model Exchange needs to know: states, derivatives, event indicators.
 fn exchange(code: &mut String, description: &Description) {
     let pairs = description.derivatives();
-    if pairs.is_empty() && description.event_indicators() == 0 {
+    let count = description.event_indicators();
+    if pairs.is_empty() && count == 0 {
         return;
     }
     let list = |of: &dyn Fn(&(&Variable, &Variable)) -> String| {
         let names: Vec<_> = pairs.iter().map(|pair| format!("RealVariable::{}", of(pair))).collect();
         names.join(", ")
     };
-    let states = list(&|(_, state)| variant(state));
-    let derivatives = list(&|(derivative, _)| variant(derivative));
-    let count = description.event_indicators();
+    let states = list(&|(_, state)| camel(&state.name));
+    let derivatives = list(&|(derivative, _)| camel(&derivative.name));
     add(
         code,
         format_args!(
             "\n/// The continuous states.\npub const CONTINUOUS_STATES: &[RealVariable] = &[{states}];\n\
-             \n/// Their derivatives, in the same order.\npub const DERIVATIVES: &[RealVariable] = &[{derivatives}];\n\
-             \n/// The number of event indicators of Model Exchange.\npub const EVENT_INDICATORS: usize = {count};\n"
+             \n/// Their derivatives, in the same order.\n\
+             pub const DERIVATIVES: &[RealVariable] = &[{derivatives}];\n\
+             \n/// The number of event indicators of Model Exchange.\n\
+             pub const EVENT_INDICATORS: usize = {count};\n"
         ),
     );
 }
 
-/// `name` as a Rust type or variant: `u_dot_start` becomes `UDotStart`. None if that is no Rust name.
-pub(crate) fn camel_case(name: &str) -> Option<String> {
-    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
-    let camel: String = words
-        .flat_map(|word| {
-            let mut letters = word.chars();
-            letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters)
-        })
-        .collect();
-    let starts_well = camel.starts_with(|c: char| c.is_ascii_alphabetic());
-    (starts_well && camel != "Self").then_some(camel)
-}
-
-/// The four types that FMI 2.0 has get and set functions for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum BaseType {
-    Real,
-    Integer,
-    Boolean,
-    String,
-}
-
-impl BaseType {
-    /// Enumerations are read and set as Integers.
-    pub(crate) fn of(kind: &Kind) -> Self {
-        match kind {
-            Kind::Real { .. } => Self::Real,
-            Kind::Integer { .. } | Kind::Enumeration { .. } => Self::Integer,
-            Kind::Boolean { .. } => Self::Boolean,
-            Kind::String { .. } => Self::String,
-        }
-    }
-
-    fn rust_name(self) -> &'static str {
-        match self {
-            Self::Real => "RealVariable",
-            Self::Integer => "IntegerVariable",
-            Self::Boolean => "BooleanVariable",
-            Self::String => "StringVariable",
-        }
-    }
-
-    /// The table of its variables.
-    fn table(self) -> &'static str {
-        match self {
-            Self::Real => "REALS",
-            Self::Integer => "INTEGERS",
-            Self::Boolean => "BOOLEANS",
-            Self::String => "STRINGS",
-        }
-    }
-
-    fn documentation(self) -> &'static str {
-        match self {
-            Self::Real => "Variables of type Real.",
-            Self::Integer => "Variables of type Integer or Enumeration.",
-            Self::Boolean => "Variables of type Boolean.",
-            Self::String => "Variables of type String.",
-        }
-    }
-}
-
 /// The enum of the variables of one base type, its `VariableId` and its table.
 fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumerations: &[EnumerationType]) {
-    let (name, documentation) = (base.rust_name(), base.documentation());
-    add(code, format_args!("\n/// {documentation}\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n"));
-    add(code, format_args!("pub enum {name} {{\n"));
+    let of = if base == BaseType::Integer { "Integer or Enumeration" } else { &format!("{base:?}") };
+    add(code, format_args!("\n/// Variables of type {of}.\n{DERIVE}pub enum {base:?}Variable {{\n"));
     for variable in variables {
         let text = markdown(&variable.description);
         // Plain brackets would be a link to rustdoc.
@@ -125,32 +169,32 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
             None | Some("1") => String::new(),
             Some(unit) => format!(" \\[{unit}\\]"),
         };
-        add(code, format_args!("    /// `{}`: {text}{unit}.\n    {},\n", variable.name, variant(variable)));
+        let (name, variant) = (&variable.name, camel(&variable.name));
+        add(code, format_args!("    /// `{name}`: {text}{unit}.\n    {variant},\n"));
     }
     code.push_str("}\n");
+    let name = format!("{base:?}Variable");
     if variables.is_empty() {
-        code.push_str(&EMPTY.replace("@name@", name));
+        code.push_str(&EMPTY.replace("@name@", &name));
         return;
     }
-    let list = variables.iter().map(|variable| format!("\n        Self::{},", variant(variable)));
+    let list = variables.iter().map(|variable| format!("\n        Self::{},", camel(&variable.name)));
     let arms = variables.iter().map(|variable| {
-        format!("            {} => Some(Self::{}),\n", variable.reference, variant(variable))
+        format!("            {} => Some(Self::{}),\n", variable.reference, camel(&variable.name))
     });
+    let rows = variables.iter().map(|variable| table_row(variable, enumerations));
     code.push_str(
         &FILLED
-            .replace("@name@", name)
-            .replace("@table@", base.table())
+            .replace("@name@", &name)
+            .replace("@table@", &format!("{base:?}").to_uppercase())
+            .replace("@count@", &variables.len().to_string())
             .replace("@list@", &list.collect::<String>())
-            .replace("@arms@", &arms.collect::<String>()),
+            .replace("@arms@", &arms.collect::<String>())
+            .replace("@rows@", &rows.collect::<String>()),
     );
-    code.push_str(LITERALS);
-    let count = variables.len();
-    add(code, format_args!("static {}: [::fmi2_export::Variable; {count}] = [\n", base.table()));
-    for variable in variables {
-        table_row(code, variable, enumerations);
-    }
-    code.push_str("];\n");
 }
+
+const DERIVE: &str = "#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n";
 
 const EMPTY: &str = "
 impl ::fmi2_export::VariableId for @name@ {
@@ -182,145 +226,186 @@ impl ::fmi2_export::VariableId for @name@ {
         }
     }
 }
+
+#[allow(clippy::unreadable_literal, reason = \"numbers as Rust prints them read back to the same bits\")]
+static @table@: [::fmi2_export::Variable; @count@] = [
+@rows@];
 ";
 
-const LITERALS: &str = "\n#[allow(clippy::unreadable_literal, reason = \"numbers as Rust prints them read back to the same bits\")]\n";
-
-fn variant(variable: &Variable) -> String {
-    camel_case(&variable.name).unwrap_or_default()
+fn table_row(variable: &Variable, enumerations: &[EnumerationType]) -> String {
+    let Variable { name, reference, description, causality, variability, unit, .. } = variable;
+    let kind = match &variable.kind {
+        Kind::Enumeration { start } => {
+            let items =
+                items(variable, enumerations).iter().map(|Item { name, value, description, .. }| {
+                    format!(
+                        "\n            ::fmi2_export::Item {{ name: {name:?}, value: {value}, description: \
+                     {description:?} }},"
+                    )
+                });
+            let items: String = items.collect();
+            format!("Enumeration {{ start: {start:?}, items: &[{items}\n        ] }}")
+        }
+        kind => format!("{kind:?}"),
+    };
+    format!(
+        "    ::fmi2_export::Variable {{\n        name: {name:?},\n        reference: {reference},\n        \
+         description: {description:?},\n        causality: ::fmi2_export::Causality::{causality:?},\n        \
+         variability: ::fmi2_export::Variability::{variability:?},\n        unit: {unit:?},\n        kind: \
+         ::fmi2_export::Kind::{kind},\n    }},\n"
+    )
 }
 
-fn table_row(code: &mut String, variable: &Variable, enumerations: &[EnumerationType]) {
-    let causality = match variable.causality {
-        Causality::Parameter => "Parameter",
-        Causality::CalculatedParameter => "CalculatedParameter",
-        Causality::Input => "Input",
-        Causality::Output => "Output",
-        Causality::Local => "Local",
-        Causality::Independent => "Independent",
+/// The items of an enumeration variable's type.
+fn items<'a>(variable: &Variable, enumerations: &'a [EnumerationType]) -> &'a [Item] {
+    let of_type = |candidate: &&EnumerationType| Some(&candidate.name) == variable.declared_type.as_ref();
+    enumerations.iter().find(of_type).map_or(&[], |enumeration| &enumeration.items)
+}
+
+/// Getter and setter of the parameters of one base type, and the pattern that matches them.
+fn access(code: &mut String, base: BaseType, parameters: &[&Variable]) {
+    let (method, value) = match base {
+        BaseType::Real => ("real", "f64"),
+        BaseType::Integer => ("integer", "i32"),
+        BaseType::Boolean => ("boolean", "bool"),
+        BaseType::String => ("text", "&str"),
     };
-    let variability = match variable.variability {
-        Variability::Constant => "Constant",
-        Variability::Fixed => "Fixed",
-        Variability::Tunable => "Tunable",
-        Variability::Discrete => "Discrete",
-        Variability::Continuous => "Continuous",
-    };
-    let kind = match &variable.kind {
-        Kind::Real { start, min, max } => {
-            format!("Real {{ start: {start:?}, min: {min:?}, max: {max:?} }}")
-        }
-        Kind::Integer { start, min, max } => {
-            format!("Integer {{ start: {start:?}, min: {min:?}, max: {max:?} }}")
-        }
-        Kind::Enumeration { start } => {
-            let items = items(variable, enumerations);
-            format!("Enumeration {{ start: {start:?}, items: {items} }}")
-        }
-        Kind::Boolean { start } => format!("Boolean {{ start: {start:?} }}"),
-        Kind::String { start } => format!("String {{ start: {start:?} }}"),
-    };
-    add(
-        code,
-        format_args!(
-            "    ::fmi2_export::Variable {{\n        name: {:?},\n        reference: {},\n        description: {:?},\n        \
-             causality: ::fmi2_export::Causality::{causality},\n        variability: \
-             ::fmi2_export::Variability::{variability},\n        unit: {:?},\n        kind: \
-             ::fmi2_export::Kind::{kind},\n    }},\n",
-            variable.name, variable.reference, variable.description, variable.unit,
-        ),
+    let (mut get, mut set, mut pattern) = (String::new(), String::new(), Vec::new());
+    for parameter in parameters {
+        let (variant, field) = (camel(&parameter.name), field(parameter));
+        let (read, write) = match &parameter.kind {
+            Kind::Enumeration { .. } => {
+                let found = format!("{}::from_value(value)", type_name(parameter));
+                let write = format!("return {found}.map(|item| self.{field} = item).is_some()");
+                (format!("self.{field}.value()"), write)
+            }
+            Kind::String { .. } => (format!("&self.{field}"), format!("self.{field} = value.to_owned()")),
+            _ => (format!("self.{field}"), format!("self.{field} = value")),
+        };
+        add(&mut get, format_args!("            {base:?}Variable::{variant} => Some({read}),\n"));
+        add(&mut set, format_args!("            {base:?}Variable::{variant} => {write},\n"));
+        pattern.push(format!("{base:?}Variable::{variant}"));
+    }
+    code.push_str(
+        &ACCESS
+            .replace("@base@", &format!("{base:?}"))
+            .replace("@method@", method)
+            .replace("@value@", value)
+            .replace("@get@", &get)
+            .replace("@set@", &set)
+            .replace("@pattern@", &pattern.join("\n            | ")),
     );
 }
 
-/// The items of an enumeration variable's type, as an expression.
-fn items(variable: &Variable, enumerations: &[EnumerationType]) -> String {
-    let declared =
-        enumerations.iter().find(|candidate| Some(&candidate.name) == variable.declared_type.as_ref());
-    let mut text = String::from("&[");
-    for item in declared.map_or(&[][..], |enumeration| &enumeration.items) {
-        let (name, value, description) = (&item.name, item.value, &item.description);
-        add(
-            &mut text,
-            format_args!(
-                "\n            ::fmi2_export::Item {{ name: {name:?}, value: {value}, description: {description:?} }},"
-            ),
-        );
+const ACCESS: &str = "
+#[allow(unreachable_patterns, unreachable_code, reason = \"every variable may be a parameter or a choice\")]
+impl Parameters {
+    /// The value of a parameter of type @base@; `None` for other variables.
+    #[must_use]
+    pub fn @method@(&self, variable: @base@Variable) -> Option<@value@> {
+        match variable {
+@get@            _ => None,
+        }
     }
-    text.push_str("\n        ]");
-    text
+
+    /// Sets a parameter of type @base@; `false` for other variables and for an item that does not exist.
+    pub fn set_@method@(&mut self, variable: @base@Variable, value: @value@) -> bool {
+        match variable {
+@set@            _ => return false,
+        }
+        true
+    }
 }
+
+/// The pattern of the parameters of type @base@, for a `match` that is to name all other variables.
+#[allow(unused_macros)]
+macro_rules! @method@_parameter {
+    () => {
+        @pattern@
+    };
+}
+#[allow(unused_imports)]
+pub(crate) use @method@_parameter;
+";
 
 /// The enum of an enumeration type, convertible to and from its numbers and names.
 fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
-    let name = camel_case(&enumeration.name).unwrap_or_default();
-    let variants: Vec<_> =
-        enumeration.items.iter().map(|item| (camel_case(&item.name).unwrap_or_default(), item)).collect();
+    let name = camel(&enumeration.name);
     let documentation = markdown(&enumeration.description);
-    add(code, format_args!("\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n"));
-    add(code, format_args!("pub enum {name} {{\n"));
-    for (variant, item) in &variants {
-        add(
-            code,
-            format_args!("    /// `{}`: {}.\n    {variant},\n", item.name, markdown(&item.description)),
-        );
+    add(code, format_args!("\n/// {documentation}.\n{DERIVE}pub enum {name} {{\n"));
+    for item in &enumeration.items {
+        let (variant, text) = (camel(&item.name), markdown(&item.description));
+        add(code, format_args!("    /// `{}`: {text}.\n    {variant},\n", item.name));
     }
-    add(code, format_args!("}}\n\nimpl {name} {{\n    /// Every item, in the order of the description.\n"));
-    code.push_str("    pub const ALL: &'static [Self] = &[");
-    let list: Vec<_> = variants.iter().map(|(variant, _)| format!("Self::{variant}")).collect();
-    add(code, format_args!("{}];\n", list.join(", ")));
-
-    let arms = |text: &dyn Fn(&str, &crate::description::Item) -> String, last: &str| {
-        variants
-            .iter()
-            .fold(String::new(), |all, (variant, item)| all + "            " + &text(variant, item) + ",\n")
-            + last
-    };
-    let method = |code: &mut String, documentation: &str, signature: &str, on: &str, arms: String| {
-        add(
-            code,
-            format_args!(
-                "\n    /// {documentation}\n    #[must_use]\n    pub fn {signature} {{\n        match {on} {{\n{arms}        \
-                 }}\n    }}\n"
-            ),
-        );
-    };
-    let none = "            _ => None,\n";
-    method(
-        code,
-        "The number that stands for it in FMI.",
-        "value(self) -> i32",
-        "self",
-        arms(&|variant, item| format!("Self::{variant} => {}", item.value), ""),
-    );
-    method(
-        code,
-        "The item with this number.",
-        "from_value(value: i32) -> Option<Self>",
-        "value",
-        arms(&|variant, item| format!("{} => Some(Self::{variant})", item.value), none),
-    );
-    method(
-        code,
-        "Its name in the description and in scenes.",
-        "name(self) -> &'static str",
-        "self",
-        arms(&|variant, item| format!("Self::{variant} => {:?}", item.name), ""),
-    );
-    method(
-        code,
-        "The item with this name.",
-        "from_name(name: &str) -> Option<Self>",
-        "name",
-        arms(&|variant, item| format!("{:?} => Some(Self::{variant})", item.name), none),
-    );
-    method(
-        code,
-        "One line on what it means.",
-        "description(self) -> &'static str",
-        "self",
-        arms(&|variant, item| format!("Self::{variant} => {:?}", item.description), ""),
-    );
     code.push_str("}\n");
+    let each = |text: &dyn Fn(&Item) -> String| -> String {
+        let lines = enumeration.items.iter().map(|item| format!("Self::{}{}", camel(&item.name), text(item)));
+        lines.fold(String::new(), |all, line| all + "\n            " + &line + ",")
+    };
+    code.push_str(
+        &ENUMERATION
+            .replace("@name@", &name)
+            .replace("@list@", &each(&|_| String::new()))
+            .replace("@values@", &each(&|item| format!(" => {}", item.value)))
+            .replace("@names@", &each(&|item| format!(" => {:?}", item.name)))
+            .replace("@descriptions@", &each(&|item| format!(" => {:?}", item.description))),
+    );
+}
+
+const ENUMERATION: &str = "
+impl @name@ {
+    /// Every item, in the order of the description.
+    pub const ALL: &'static [Self] = &[@list@
+    ];
+
+    /// The number that stands for it in FMI.
+    #[must_use]
+    pub fn value(self) -> i32 {
+        match self {@values@
+        }
+    }
+
+    /// The item with this number.
+    #[must_use]
+    pub fn from_value(value: i32) -> Option<Self> {
+        Self::ALL.iter().copied().find(|item| item.value() == value)
+    }
+
+    /// Its name in the description and in scenes.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {@names@
+        }
+    }
+
+    /// The item with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|item| item.name() == name)
+    }
+
+    /// One line on what it means.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {@descriptions@
+        }
+    }
+}
+";
+
+/// `name` as a Rust type or variant: the checks have refused what cannot be one.
+fn camel(name: &str) -> String {
+    camel_case(name).unwrap_or_default()
+}
+
+/// The enum of an enumeration variable.
+fn type_name(variable: &Variable) -> String {
+    camel(variable.declared_type.as_deref().unwrap_or_default())
+}
+
+/// The field of a parameter: its name, with `_` for what Rust names cannot contain.
+fn field(parameter: &Variable) -> String {
+    parameter.name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
 }
 
 /// `text` as rustdoc's Markdown: identifiers in backticks, brackets as they are.

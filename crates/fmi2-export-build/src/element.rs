@@ -136,6 +136,16 @@ impl Element {
         self.children.iter().find(|child| child.name == name)
     }
 
+    /// The first child element called `name`, which must be there.
+    pub(crate) fn required_child(&self, name: &'static str) -> Result<&Element, Fault> {
+        self.child(name).ok_or_else(|| self.fault(Problem::MissingElement { element: name }))
+    }
+
+    /// The children of the first child element called `name`; none if there is no such element.
+    pub(crate) fn children_of(&self, name: &str) -> &[Element] {
+        self.child(name).map_or(&[], |child| &child.children)
+    }
+
     /// The first child element called `name`, to be changed.
     pub(crate) fn child_mut(&mut self, name: &str) -> Option<&mut Element> {
         self.children.iter_mut().find(|child| child.name == name)

@@ -98,7 +98,7 @@ pub enum Problem {
     CrossedLimits { name: String, min: String, max: String },
     #[error("the start value {start} of `{name}` is outside its limits {min} to {max}")]
     StartOutsideLimits { name: String, start: String, min: String, max: String },
-    #[error("the start value {start} of `{name}` is no item of its type `{declared_type}`")]
+    #[error("the start value {start} of `{name}` is not an item of its type `{declared_type}`")]
     StartNotAnItem { name: String, start: i32, declared_type: String },
     #[error("the item `{name}` has the value {value}, which the item on line {first} has already")]
     RepeatedItemValue { name: String, value: i32, first: usize },
@@ -108,6 +108,8 @@ pub enum Problem {
     NoSuchIndex { name: String, attribute: &'static str, index: usize, count: usize },
     #[error("`{name}` is the derivative of `{of}`, and both must be continuous Reals and not the same")]
     BadDerivative { name: String, of: String },
+    #[error("the parameter `{name}` has no annotation <Group name=\"…\"/>, but others have one")]
+    NoGroup { name: String },
     #[error("{list} lists `{name}`, which {why}")]
     NotInList { list: &'static str, name: String, why: &'static str },
     #[error("{list} leaves out `{name}`, which {why}")]
@@ -120,15 +122,4 @@ pub enum Problem {
     BadDependencyKind { name: String, kind: String, list: &'static str, allowed: String },
     #[error("`{name}` has {dependencies} dependencies, but dependenciesKind has {kinds} entries")]
     UnequalDependencies { name: String, dependencies: usize, kinds: usize },
-}
-
-/// The FMI base type called `name` in the XML, for messages.
-pub(crate) fn base_type(name: &str) -> &'static str {
-    match name {
-        "Real" => "a Real",
-        "Integer" => "an Integer",
-        "Enumeration" => "an Enumeration",
-        "Boolean" => "a Boolean",
-        _ => "a String",
-    }
 }

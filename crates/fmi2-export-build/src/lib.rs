@@ -1,17 +1,42 @@
 //! Turns a modelDescription.xml into Rust variables, and files into an FMU.
 //!
-//! The description is the one source of an FMU's variables. [`generate`], called by the `build.rs` of a model,
-//! refuses a description that contradicts itself, with the line, and writes one enum per FMI base type, so
+//! The description is the one source of an FMU's variables. [`build_script`], the `build.rs` of a model,
+//! refuses a description that contradicts itself and names the line. It writes one enum per FMI base type, so
 //! that a variable which is declared but not wired does not compile. [`Description::reduced`] makes the
 //! description of an FMU with fewer variables, and the feature `archive` reads and writes the FMU itself.
 //!
+//! ```
+//! use fmi2_export_build::Description;
+//!
+//! let description = Description::parse(r#"
+//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="">
+//!       <CoSimulation modelIdentifier="clock"/>
+//!       <ModelVariables>
+//!         <ScalarVariable name="rate" valueReference="1" causality="parameter" variability="fixed">
+//!           <Real start="1"/>
+//!         </ScalarVariable>
+//!       </ModelVariables>
+//!       <ModelStructure/>
+//!     </fmiModelDescription>"#)?;
+//! assert_eq!(description.variable_names().collect::<Vec<_>>(), ["rate"]);
+//! assert_eq!(description.guid().len(), "{}".len() + 32);
+//!
+//! let fault = Description::parse("<fmiModelDescription/>").unwrap_err();
+//! assert_eq!(fault.to_string(), "line 1: <fmiModelDescription> needs the attribute `fmiVersion`");
+//! # Ok::<(), fmi2_export_build::Fault>(())
+//! ```
+//!
+//! Each module uses those above it:
+//!
 //! ```text
 //! element      XML with line numbers ─► Element ─► XML in canonical form
-//! description  Element ─► Description: the variables, types and structure
-//! check        what the FMI 2.0 schema cannot say about variables; structure: about the ModelStructure
-//! code         Description ─► variables.rs
+//! variable     Element ─► variables and enumerations
+//! check        what the FMI 2.0 schema cannot check of these; structure: of the ModelStructure
+//! description  Description: what has passed every check
+//! code         Description ─► choices.rs, variables.rs
 //! reduced      Description ─► Description of a subset
-//! archive      FMU ◄─► files in memory, the same bytes for the same content; pack: files of a build ─► FMU
+//! archive      FMU ◄─► files in memory, the same bytes for the same content
+//! pack         files of a build ─► FMU
 //! ```
 
 #[cfg(feature = "archive")]
@@ -26,6 +51,7 @@ mod fingerprint;
 pub mod pack;
 mod reduced;
 mod structure;
+mod variable;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
@@ -33,10 +59,36 @@ pub use fingerprint::{fingerprint, fnv1a_128};
 pub use reduced::{DefaultExperiment, Reduction, ReductionError};
 
 use std::path::Path;
+use std::process::ExitCode;
 
-/// Reads the description `xml`, checks it, and writes `variables.rs` into the folder `out_dir`.
+/// Is the `build.rs` of a model: generates the variables of the description `xml` where cargo wants them.
 ///
-/// The generated module refers to the crate `fmi2_export`.
+/// ```no_run
+/// fn main() -> std::process::ExitCode {
+///     fmi2_export_build::build_script("modelDescription/modelDescription.xml")
+/// }
+/// ```
+#[must_use]
+#[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
+pub fn build_script(xml: &str) -> ExitCode {
+    println!("cargo::rerun-if-changed={xml}");
+    let Some(out_dir) = std::env::var_os("OUT_DIR") else {
+        println!("cargo::error=OUT_DIR is not set: this program is run by cargo");
+        return ExitCode::FAILURE;
+    };
+    match generate(xml.as_ref(), out_dir.as_ref()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            println!("cargo::error={error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Reads the description `xml`, checks it, and writes `choices.rs` and `variables.rs` into the folder `out_dir`.
+///
+/// `choices.rs` stands alone: enumerations, and `start_values!` for a struct `Parameters` with one field per
+/// parameter. `variables.rs` refers to the crate `fmi2_export`, and needs `Parameters` and the enumerations in scope.
 ///
 /// # Errors
 ///
@@ -46,7 +98,11 @@ pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
         .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;
     let description = Description::parse(&text)
         .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
-    let path = out_dir.join("variables.rs");
-    std::fs::write(&path, code::module(&description))
-        .map_err(|source| DescriptionError::Write { path, source })
+    for (name, code) in
+        [("choices.rs", code::choices(&description)), ("variables.rs", code::variables(&description))]
+    {
+        let path = out_dir.join(name);
+        std::fs::write(&path, code).map_err(|source| DescriptionError::Write { path, source })?;
+    }
+    Ok(())
 }

@@ -1,4 +1,17 @@
 //! From the files of a build to an FMU.
+//!
+//! ```
+//! use fmi2_export_build::pack::Package;
+//!
+//! let package = Package {
+//!     description: "modelDescription/modelDescription.xml".into(),
+//!     binaries: vec![("linux64".to_owned(), "target/release/libclock.so".into())],
+//!     documentation: "modelDescription/documentation".into(),
+//!     resources: None,
+//! };
+//! // there are no such files beside this example
+//! assert!(package.archive().unwrap_err().to_string().contains("cannot be read"));
+//! ```
 
 use crate::archive::Archive;
 use crate::{Description, DescriptionError};

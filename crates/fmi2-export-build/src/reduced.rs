@@ -1,8 +1,9 @@
 //! The description of an FMU with some of the variables, and with its own start values.
 
-use crate::description::{Causality, Description, Variable};
+use crate::description::Description;
 use crate::element::Element;
 use crate::error::Fault;
+use crate::variable::{Causality, Variable};
 use std::collections::{HashMap, HashSet};
 
 /// What the description of the smaller FMU is to say.

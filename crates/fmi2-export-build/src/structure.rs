@@ -1,8 +1,8 @@
 //! The `ModelStructure`: which unknowns there are and what they depend on.
 
-use crate::description::{Causality, Initial, Variable};
 use crate::element::Element;
 use crate::error::{Fault, Problem};
+use crate::variable::{Causality, Initial, Variable};
 use std::collections::HashSet;
 
 const KINDS: [&str; 5] = ["dependent", "constant", "fixed", "tunable", "discrete"];
@@ -35,7 +35,7 @@ pub(crate) fn check(variables: &[Variable], structure: &Element) -> Result<(), F
             name: "Outputs",
             belongs: &|_, variable| variable.causality == Causality::Output,
             belongs_if: "is an output",
-            belongs_not: "is no output",
+            belongs_not: "is not an output",
             known: &known_in_steps,
             known_not: "is neither an input nor a state",
             kinds: &KINDS,

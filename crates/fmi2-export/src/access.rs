@@ -1,7 +1,7 @@
 //! Which variable may be set when, and to what.
 
 use crate::call::Phase;
-use crate::model::Failure;
+use crate::failure::Failure;
 use crate::variable::{Causality, Item, Kind, Variability, Variable, VariableId};
 
 /// The variable with this value reference among those of one type.
@@ -99,7 +99,7 @@ fn beyond<T: std::fmt::Debug>(variable: &Variable, value: T, beyond: &str, limit
 #[cold]
 fn no_item(variable: &Variable, value: i32, items: &[Item]) -> Failure {
     let items: Vec<_> = items.iter().map(|item| format!("{} = {}", item.name, item.value)).collect();
-    Failure(format!("{} = {value} is none of its items: {}", variable.name, items.join(", ")))
+    Failure(format!("{} = {value} is not one of its items: {}", variable.name, items.join(", ")))
 }
 
 /// Whether `variable` is one whose derivative can be set.
@@ -108,7 +108,7 @@ pub(crate) fn check_derivable_input(variable: &Variable) -> Result<(), Failure> 
     match (variable.causality, variable.variability) {
         (Causality::Input, Variability::Continuous) => Ok(()),
         (Causality::Input, _) => Err(Failure(format!("{name} is not continuous and takes no derivative"))),
-        _ => Err(Failure(format!("{name} is no input and takes no derivative"))),
+        _ => Err(Failure(format!("{name} is not an input and takes no derivative"))),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Whether description, library and payload belong together.
 
+use crate::failure::Failure;
 use crate::hash::fnv1a_128;
-use crate::model::{Failure, Model};
+use crate::model::Model;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -52,7 +53,7 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let read = File::open(path).and_then(|file| {
         // A pipe or a device in its place would be waited for.
         if !file.metadata()?.is_file() {
-            return Err(std::io::Error::other("it is no file"));
+            return Err(std::io::Error::other("it is not a regular file"));
         }
         file.take(MAX_PAYLOAD + 1).read_to_end(&mut bytes)
     });

@@ -62,10 +62,8 @@
 //!         self.count += step.duration;
 //!         Ok(())
 //!     }
-//!     fn write_state(&self, writer: &mut StateWriter) { writer.f64(self.count); }
-//!     fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
-//!         self.count = reader.f64()?;
-//!         Ok(())
+//!     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+//!         codec.f64(&mut self.count)
 //!     }
 //! }
 //!
@@ -96,21 +94,21 @@
 
 mod access;
 mod call;
+mod failure;
 pub mod ffi;
 mod guid;
 mod hash;
 mod instance;
 mod log;
 mod model;
-mod start;
 mod state;
 mod uri;
 mod variable;
 
+pub use failure::Failure;
 pub use hash::fnv1a_128;
 pub use log::{Category, Filter, Log, Sink, Status};
-pub use model::{Environment, Experiment, Failure, Interface, Model, ModelExchange, Step, Update};
-pub use start::set_start_values;
-pub use state::{StateReader, StateWriter};
+pub use model::{Environment, Experiment, Interface, Model, ModelExchange, Step, Update};
+pub use state::StateCodec;
 pub use uri::path_from_location;
 pub use variable::{Causality, Item, Kind, Variability, Variable, VariableId};

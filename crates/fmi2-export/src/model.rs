@@ -1,7 +1,8 @@
 //! What a model does to become an FMU.
 
+use crate::failure::Failure;
 use crate::log::Log;
-use crate::state::{StateReader, StateWriter};
+use crate::state::StateCodec;
 use crate::variable::VariableId;
 use std::fmt;
 use std::path::Path;
@@ -59,7 +60,7 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The first time derivative of an output, in its unit per second. None if it has none.
     fn output_derivative(&self, variable: Self::Real) -> Option<f64>;
 
-    /// The partial derivative ∂unknown/∂known, in the quotient of their units. None if they are no such pair.
+    /// The partial derivative ∂unknown/∂known, in the quotient of their units. `None` if there is no such derivative.
     fn directional_derivative(&self, unknown: Self::Real, known: Self::Real) -> Option<f64>;
 
     /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before
@@ -86,15 +87,12 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// When it cannot be computed. The model is then as it was before the step.
     fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure>;
 
-    /// Writes all that is not derived: parameters, inputs and their derivatives, experiment, state.
-    fn write_state(&self, writer: &mut StateWriter);
-
-    /// Reads what [`write_state`](Self::write_state) wrote, into a model as instantiated, and computes what
-    /// is derived.
+    /// Passes all that is not derived to `codec`: parameters, inputs and their derivatives, experiment, state.
+    /// Reading starts from a model as instantiated, and ends with computing what is derived.
     ///
     /// # Errors
-    /// When the values are not those of a valid model.
-    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure>;
+    /// When the values read are not those of a valid model.
+    fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure>;
 }
 
 /// A model whose equations an importer's solver integrates: Model Exchange.
@@ -210,28 +208,4 @@ pub struct Step {
     pub from: f64,
     /// Its length \[s\], above 0. It may be too small to change the time.
     pub duration: f64,
-}
-
-/// Why a call failed: logged as an error, and returned as `fmi2Error`.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Failure(pub String);
-
-impl fmt::Display for Failure {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Failure {}
-
-impl From<String> for Failure {
-    fn from(message: String) -> Self {
-        Self(message)
-    }
-}
-
-impl From<&str> for Failure {
-    fn from(message: &str) -> Self {
-        Self(message.to_owned())
-    }
 }

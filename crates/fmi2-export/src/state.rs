@@ -10,110 +10,127 @@
 //!
 //! Numbers are little-endian and f64 go bit by bit, so that the same state gives the same bytes everywhere.
 
+use crate::failure::Failure;
 use crate::hash::fnv1a_64;
-use crate::model::Failure;
 
 const MAGIC: &[u8; 8] = b"FMI2stat";
 /// Changes with the format of the envelope and of what the layer writes into the payload.
 const VERSION: u64 = 2;
-const CHECKSUM_LENGTH: usize = 8;
 
-/// Takes the values of a state.
-#[derive(Default, Debug)]
-pub struct StateWriter {
-    bytes: Vec<u8>,
-}
-
-impl StateWriter {
-    /// Writes a number bit by bit, NaN and infinity included.
-    pub fn f64(&mut self, value: f64) {
-        self.u64(value.to_bits());
-    }
-
-    /// Writes a natural number.
-    pub fn u64(&mut self, value: u64) {
-        self.bytes.extend_from_slice(&value.to_le_bytes());
-    }
-
-    /// Writes an integer.
-    pub fn i32(&mut self, value: i32) {
-        self.bytes.extend_from_slice(&value.to_le_bytes());
-    }
-
-    /// Writes a truth value.
-    pub fn bool(&mut self, value: bool) {
-        self.bytes.push(u8::from(value));
-    }
-
-    /// Writes bytes with their count.
-    pub fn bytes(&mut self, value: &[u8]) {
-        self.u64(value.len() as u64);
-        self.bytes.extend_from_slice(value);
-    }
-}
-
-/// Gives back the values of a state in the order they were written.
+/// Passes over the values of a state: writes each, or replaces it by what was written.
+///
+/// One list of the values serves both directions, so that writer and reader cannot get out of step.
 #[derive(Debug)]
-pub struct StateReader<'a> {
-    rest: &'a [u8],
+pub struct StateCodec<'a> {
+    bytes: Bytes<'a>,
 }
 
-impl<'a> StateReader<'a> {
-    /// The next number, bit by bit: it may be NaN or infinite.
-    ///
-    /// # Errors
-    /// When the bytes end before.
-    pub fn f64(&mut self) -> Result<f64, Failure> {
-        self.u64().map(f64::from_bits)
+#[derive(Debug)]
+enum Bytes<'a> {
+    Write(&'a mut Vec<u8>),
+    /// What has not been read yet.
+    Read(&'a [u8]),
+}
+
+/// Each method passes over one value, or several of a kind.
+///
+/// # Errors
+/// When the bytes to read end before, or are not a value of the type.
+#[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
+impl StateCodec<'_> {
+    /// Whether values are being read, so that what follows from them has to be computed.
+    #[must_use]
+    pub fn is_reading(&self) -> bool {
+        matches!(self.bytes, Bytes::Read(_))
     }
 
-    /// The next natural number.
-    ///
-    /// # Errors
-    /// When the bytes end before.
-    pub fn u64(&mut self) -> Result<u64, Failure> {
-        self.array().map(u64::from_le_bytes)
+    /// A number bit by bit, NaN and infinity included.
+    pub fn f64(&mut self, value: &mut f64) -> Result<(), Failure> {
+        let mut bits = value.to_bits();
+        self.u64(&mut bits)?;
+        *value = f64::from_bits(bits);
+        Ok(())
     }
 
-    /// The next integer.
-    ///
-    /// # Errors
-    /// When the bytes end before.
-    pub fn i32(&mut self) -> Result<i32, Failure> {
-        self.array().map(i32::from_le_bytes)
+    /// Several numbers.
+    pub fn f64s<'v>(&mut self, values: impl IntoIterator<Item = &'v mut f64>) -> Result<(), Failure> {
+        values.into_iter().try_for_each(|value| self.f64(value))
     }
 
-    /// The next truth value.
-    ///
-    /// # Errors
-    /// When the bytes end before, or are no truth value.
-    pub fn bool(&mut self) -> Result<bool, Failure> {
-        match self.array()? {
-            [0] => Ok(false),
-            [1] => Ok(true),
-            [other] => Err(Failure(format!("the state has {other} where a truth value, 0 or 1, belongs"))),
+    /// A number that may be missing.
+    pub fn option(&mut self, value: &mut Option<f64>) -> Result<(), Failure> {
+        let (mut is_some, mut number) = (value.is_some(), value.unwrap_or(0.0));
+        self.bool(&mut is_some)?;
+        self.f64(&mut number)?;
+        *value = is_some.then_some(number);
+        Ok(())
+    }
+
+    /// A natural number.
+    pub fn u64(&mut self, value: &mut u64) -> Result<(), Failure> {
+        *value = u64::from_le_bytes(self.array(value.to_le_bytes())?);
+        Ok(())
+    }
+
+    /// A count or an index.
+    pub fn usize(&mut self, value: &mut usize) -> Result<(), Failure> {
+        let mut number = *value as u64;
+        self.u64(&mut number)?;
+        *value =
+            usize::try_from(number).map_err(|_| Failure(format!("the state has a count of {number}")))?;
+        Ok(())
+    }
+
+    /// An integer.
+    pub fn i32(&mut self, value: &mut i32) -> Result<(), Failure> {
+        *value = i32::from_le_bytes(self.array(value.to_le_bytes())?);
+        Ok(())
+    }
+
+    /// A truth value.
+    pub fn bool(&mut self, value: &mut bool) -> Result<(), Failure> {
+        *value = match self.array([u8::from(*value)])? {
+            [0] => false,
+            [1] => true,
+            [other] => {
+                return Err(Failure(format!("the state has {other} where a truth value, 0 or 1, belongs")));
+            }
+        };
+        Ok(())
+    }
+
+    /// One of the items of `all`, as its position there.
+    pub fn item<T: Copy + PartialEq>(&mut self, value: &mut T, all: &[T]) -> Result<(), Failure> {
+        let mut index = all.iter().position(|item| item == value).unwrap_or(all.len());
+        self.usize(&mut index)?;
+        let item = all.get(index);
+        *value = *item.ok_or_else(|| Failure(format!("the state has item {index} of {}", all.len())))?;
+        Ok(())
+    }
+
+    /// A text with its length.
+    pub fn text(&mut self, value: &mut String) -> Result<(), Failure> {
+        let mut bytes = value.as_bytes().to_vec();
+        self.bytes(&mut bytes)?;
+        *value = String::from_utf8(bytes).map_err(|_| "the state has a text that is not UTF-8")?;
+        Ok(())
+    }
+
+    /// Bytes with their count.
+    pub fn bytes(&mut self, value: &mut Vec<u8>) -> Result<(), Failure> {
+        match &mut self.bytes {
+            Bytes::Write(bytes) => add_counted(bytes, value),
+            Bytes::Read(rest) => *value = take_counted(rest)?.to_vec(),
         }
+        Ok(())
     }
 
-    /// The next bytes that were written together.
-    ///
-    /// # Errors
-    /// When the bytes end before.
-    pub fn bytes(&mut self) -> Result<&'a [u8], Failure> {
-        let length = self.u64()?;
-        usize::try_from(length).map_err(|_| too_short()).and_then(|length| self.take(length))
-    }
-
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], Failure> {
-        let (array, rest) = self.rest.split_first_chunk().ok_or_else(too_short)?;
-        self.rest = rest;
-        Ok(*array)
-    }
-
-    fn take(&mut self, length: usize) -> Result<&'a [u8], Failure> {
-        let (taken, rest) = self.rest.split_at_checked(length).ok_or_else(too_short)?;
-        self.rest = rest;
-        Ok(taken)
+    fn array<const N: usize>(&mut self, value: [u8; N]) -> Result<[u8; N], Failure> {
+        match &mut self.bytes {
+            Bytes::Write(bytes) => bytes.extend(value),
+            Bytes::Read(rest) => return take_array(rest),
+        }
+        Ok(value)
     }
 
     /// Ends the reading.
@@ -121,54 +138,77 @@ impl<'a> StateReader<'a> {
     /// # Errors
     /// When something was left over.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        if self.rest.is_empty() {
-            Ok(())
-        } else {
-            Err(Failure(format!("the state has {} bytes more than this model reads", self.rest.len())))
+        match self.bytes {
+            Bytes::Read(rest) if !rest.is_empty() => {
+                Err(Failure(format!("the state has {} bytes more than this model reads", rest.len())))
+            }
+            _ => Ok(()),
         }
     }
+}
+
+fn add_counted(bytes: &mut Vec<u8>, value: &[u8]) {
+    bytes.extend((value.len() as u64).to_le_bytes());
+    bytes.extend(value);
+}
+
+fn take_array<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], Failure> {
+    let (array, behind) = rest.split_first_chunk().ok_or_else(too_short)?;
+    *rest = behind;
+    Ok(*array)
+}
+
+fn take_counted<'a>(rest: &mut &'a [u8]) -> Result<&'a [u8], Failure> {
+    let count = u64::from_le_bytes(take_array(rest)?);
+    let taken = usize::try_from(count).ok().and_then(|count| rest.split_at_checked(count));
+    let (taken, behind) = taken.ok_or_else(too_short)?;
+    *rest = behind;
+    Ok(taken)
 }
 
 fn too_short() -> Failure {
     Failure::from("the state is too short: bytes are missing")
 }
 
-/// What `write` writes, in its envelope.
-pub(crate) fn seal(guid: &str, write: impl FnOnce(&mut StateWriter)) -> Vec<u8> {
-    let mut payload = StateWriter::default();
-    write(&mut payload);
-    let mut writer = StateWriter { bytes: Vec::with_capacity(payload.bytes.len() + guid.len() + 40) };
-    writer.bytes.extend_from_slice(MAGIC);
-    writer.u64(VERSION);
-    writer.bytes(guid.as_bytes());
-    writer.bytes(&payload.bytes);
-    writer.u64(fnv1a_64(&writer.bytes));
-    writer.bytes
+/// Returns what `write` writes, in its envelope.
+pub(crate) fn seal(
+    guid: &str,
+    write: impl FnOnce(&mut StateCodec<'_>) -> Result<(), Failure>,
+) -> Result<Vec<u8>, Failure> {
+    let mut payload = Vec::new();
+    let mut codec = StateCodec { bytes: Bytes::Write(&mut payload) };
+    write(&mut codec)?;
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend(VERSION.to_le_bytes());
+    add_counted(&mut bytes, guid.as_bytes());
+    add_counted(&mut bytes, &payload);
+    bytes.extend(fnv1a_64(&bytes).to_le_bytes());
+    Ok(bytes)
 }
 
-/// A reader of the payload in `bytes`, after the envelope has been checked against `guid`.
-pub(crate) fn open<'a>(guid: &str, bytes: &'a [u8]) -> Result<StateReader<'a>, Failure> {
-    let mut reader = StateReader { rest: bytes };
-    if &reader.array()? != MAGIC {
-        return Err("the bytes are no state of an instance of this library".into());
+/// Returns a reader of the payload in `bytes`, after the envelope has been checked against `guid`.
+pub(crate) fn open<'a>(guid: &str, bytes: &'a [u8]) -> Result<StateCodec<'a>, Failure> {
+    let mut rest = bytes;
+    if &take_array(&mut rest)? != MAGIC {
+        return Err("the bytes are not a state of an instance of this library".into());
     }
-    let version = reader.u64()?;
+    let version = u64::from_le_bytes(take_array(&mut rest)?);
     if version != VERSION {
         return Err(Failure(format!("the state has format {version}, this library reads format {VERSION}")));
     }
-    let state_guid = reader.bytes()?;
+    let state_guid = take_counted(&mut rest)?;
     if state_guid != guid.as_bytes() {
         let state_guid = String::from_utf8_lossy(state_guid);
         return Err(Failure(format!("the state is of guid {state_guid:?}, this instance has {guid:?}")));
     }
-    let payload = reader.bytes()?;
-    let checksum = reader.u64()?;
-    reader.finish()?;
-    let checked = &bytes[..bytes.len() - CHECKSUM_LENGTH];
+    let payload = take_counted(&mut rest)?;
+    let checked = &bytes[..bytes.len() - rest.len()];
+    let checksum = u64::from_le_bytes(take_array(&mut rest)?);
+    StateCodec { bytes: Bytes::Read(rest) }.finish()?;
     if checksum != fnv1a_64(checked) {
         return Err("the state is damaged: its checksum does not agree with its bytes".into());
     }
-    Ok(StateReader { rest: payload })
+    Ok(StateCodec { bytes: Bytes::Read(payload) })
 }
 
 #[cfg(test)]
@@ -177,25 +217,30 @@ mod tests {
 
     const GUID: &str = "{0123}";
 
+    #[derive(Clone, PartialEq, Debug, Default)]
+    struct Sample(f64, u64, i32, bool, Vec<u8>);
+
+    impl Sample {
+        fn transfer(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+            codec.f64(&mut self.0)?;
+            codec.u64(&mut self.1)?;
+            codec.i32(&mut self.2)?;
+            codec.bool(&mut self.3)?;
+            codec.bytes(&mut self.4)
+        }
+    }
+
     fn sample() -> Vec<u8> {
-        seal(GUID, |writer| {
-            writer.f64(-0.0);
-            writer.u64(u64::MAX);
-            writer.i32(-7);
-            writer.bool(true);
-            writer.bytes(b"abc");
-        })
+        seal(GUID, |codec| Sample(-0.0, u64::MAX, -7, true, b"abc".to_vec()).transfer(codec)).unwrap()
     }
 
     #[test]
     fn what_was_written_is_read() {
         let bytes = sample();
-        let mut reader = open(GUID, &bytes).unwrap();
-        assert_eq!(reader.f64().unwrap().to_bits(), (-0.0_f64).to_bits());
-        assert_eq!(reader.u64().unwrap(), u64::MAX);
-        assert_eq!(reader.i32().unwrap(), -7);
-        assert!(reader.bool().unwrap());
-        assert_eq!(reader.bytes().unwrap(), b"abc");
+        let (mut reader, mut read) = (open(GUID, &bytes).unwrap(), Sample::default());
+        read.transfer(&mut reader).unwrap();
+        assert_eq!(read.0.to_bits(), (-0.0_f64).to_bits());
+        assert_eq!(read, Sample(-0.0, u64::MAX, -7, true, b"abc".to_vec()));
         assert!(reader.finish().is_ok());
     }
 
@@ -216,8 +261,8 @@ mod tests {
 
     #[test]
     fn a_length_beyond_the_end_is_refused() {
-        let bytes = seal(GUID, |writer| writer.u64(u64::MAX));
-        assert!(open(GUID, &bytes).unwrap().bytes().is_err());
+        let bytes = seal(GUID, |codec| codec.u64(&mut u64::MAX.clone())).unwrap();
+        assert!(open(GUID, &bytes).unwrap().bytes(&mut Vec::new()).is_err());
     }
 
     #[test]
@@ -228,7 +273,7 @@ mod tests {
 
     #[test]
     fn a_truth_value_is_0_or_1() {
-        let bytes = seal(GUID, |writer| writer.bytes.push(2));
-        assert!(open(GUID, &bytes).unwrap().bool().is_err());
+        let bytes = seal(GUID, |codec| codec.array([2]).map(drop)).unwrap();
+        assert!(open(GUID, &bytes).unwrap().bool(&mut false).is_err());
     }
 }

@@ -106,8 +106,8 @@ fn follow_avx2<F: Forcing>(lanes: &mut Lanes<'_, F>) {
 mod tests {
     use super::super::Samples;
     use super::*;
+    use crate::choices::DampingModel;
     use crate::solver::{Method, Motion};
-    use crate::variables::DampingModel;
     use crate::wall::{Parameters, Support, Wall};
 
     /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.

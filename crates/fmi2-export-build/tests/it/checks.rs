@@ -164,7 +164,11 @@ fn limits_are_in_order_and_hold_for_the_start_value() {
 
 #[test]
 fn enumerations() {
-    refused("start=\"2\"", "start=\"3\"", "the start value 3 of `surface` is no item of its type `Surface`");
+    refused(
+        "start=\"2\"",
+        "start=\"3\"",
+        "the start value 3 of `surface` is not an item of its type `Surface`",
+    );
     refused(
         "name=\"sand\" value=\"2\"",
         "name=\"sand\" value=\"1\"",
@@ -203,7 +207,7 @@ fn the_structure_lists_exactly_what_it_must() {
     refused(
         "index=\"4\" dependencies",
         "index=\"8\" dependencies",
-        "Outputs lists `weight`, which is no output",
+        "Outputs lists `weight`, which is not an output",
     );
     refused("index=\"4\" dependencies", "index=\"2\" dependencies", "Outputs lists `x` twice");
     refused(

@@ -1,18 +1,18 @@
-//! The generated module, as text; the crates that include it compile it.
+//! The generated modules, as text; the crates that include them compile them.
 
 use crate::{BLOCK, block_with};
 use fmi2_export_build::{Description, generate};
 
-/// The module generated from the description `xml`; `test` names a folder of its own.
+/// The modules generated from the description `xml`; `test` names a folder of its own.
 fn module(test: &str, xml: &str) -> String {
     let folder = std::env::temp_dir().join(format!("fmi2-export-build-{test}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let description = folder.join("modelDescription.xml");
     std::fs::write(&description, xml).unwrap();
     generate(&description, &folder).unwrap();
-    let code = std::fs::read_to_string(folder.join("variables.rs")).unwrap();
+    let code = ["variables.rs", "choices.rs"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
     std::fs::remove_dir_all(&folder).unwrap();
-    code
+    code.concat()
 }
 
 /// The text between the braces of the first item that starts with `head`.

@@ -1,7 +1,7 @@
 //! What C passes, as Rust sees it.
 
-use super::types::Text;
-use crate::model::Failure;
+use super::types::{Text, ValueReference};
+use crate::failure::Failure;
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::{slice, str};
@@ -34,6 +34,32 @@ pub(super) unsafe fn array_mut<'a, T>(
     check_array(name, start, count)?;
     // SAFETY: neither NULL nor misaligned nor larger than an object can be; the rest as the caller promises.
     Ok(unsafe { slice::from_raw_parts_mut(start.cast(), count) })
+}
+
+/// References, and room for their values.
+///
+/// # Safety
+/// As for [`array`] and [`array_mut`].
+pub(super) unsafe fn to_get<'a, T>(
+    references: *const ValueReference,
+    values: *mut T,
+    count: usize,
+) -> Result<(&'a [ValueReference], &'a mut [MaybeUninit<T>]), Failure> {
+    // SAFETY: as the caller promises.
+    unsafe { Ok((array("vr", references, count)?, array_mut("value", values, count)?)) }
+}
+
+/// References and their values.
+///
+/// # Safety
+/// As for [`array`].
+pub(super) unsafe fn to_set<'a, T>(
+    references: *const ValueReference,
+    values: *const T,
+    count: usize,
+) -> Result<(&'a [ValueReference], &'a [T]), Failure> {
+    // SAFETY: as the caller promises.
+    unsafe { Ok((array("vr", references, count)?, array("value", values, count)?)) }
 }
 
 /// The array of `count` numbers at `start` to be written, set to 0.

@@ -1,92 +1,47 @@
 //! The functions of co-simulation alone (FMI 2.0.5, section 4.2).
 
-use super::arguments::{array, array_mut, place};
+use super::arguments::{array, place, to_get, to_set};
+use super::guard::{self, functions};
 use super::types::{
     Boolean, Component, DISCARD, DO_STEP_STATUS, Integer, LAST_SUCCESSFUL_TIME, OK, Real, Status, StatusKind,
     TERMINATED, Text, ValueReference, status,
 };
-use super::with;
 use crate::call::Call;
 use crate::instance::Instance;
-use crate::model::{Failure, Model};
+use crate::model::Model;
 
-/// `fmi2SetRealInputDerivatives`
-///
-/// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves
-/// all as they were.
-///
-/// # Safety
-/// `component` is NULL or an instance; the arrays have `count` elements.
-pub unsafe fn set_real_input_derivatives<M: Model>(
-    component: Component,
-    references: *const ValueReference,
-    count: usize,
-    orders: *const Integer,
-    values: *const Real,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+functions! {
+    /// `fmi2SetRealInputDerivatives`
+    ///
+    /// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves
+    /// all as they were.
+    set_real_input_derivatives<Model>(
+        references: *const ValueReference, count: usize, orders: *const Integer, values: *const Real
+    ): SetRealInputDerivatives, |instance| {
         // SAFETY: as the caller promises.
-        let (references, orders, values) = unsafe {
-            (array("vr", references, count)?, array("order", orders, count)?, array("value", values, count)?)
-        };
+        let (orders, (references, values)) =
+            unsafe { (array("order", orders, count)?, to_set(references, values, count)?) };
         instance.set_input_derivatives(references, orders, values)
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::SetRealInputDerivatives, body) }
-}
-
-/// `fmi2GetRealOutputDerivatives`
-///
-/// # Safety
-/// `component` is NULL or an instance; the arrays have `count` elements.
-pub unsafe fn get_real_output_derivatives<M: Model>(
-    component: Component,
-    references: *const ValueReference,
-    count: usize,
-    orders: *const Integer,
-    values: *mut Real,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+    /// `fmi2GetRealOutputDerivatives`
+    get_real_output_derivatives<Model>(
+        references: *const ValueReference, count: usize, orders: *const Integer, values: *mut Real
+    ): GetRealOutputDerivatives, |instance| {
         // SAFETY: as the caller promises.
-        let (references, orders, values) = unsafe {
-            (
-                array("vr", references, count)?,
-                array("order", orders, count)?,
-                array_mut("value", values, count)?,
-            )
-        };
+        let (orders, (references, values)) =
+            unsafe { (array("order", orders, count)?, to_get(references, values, count)?) };
         instance.output_derivatives(references, orders, values)
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::GetRealOutputDerivatives, body) }
-}
-
-/// `fmi2DoStep`
-///
-/// Never returns `fmi2Discard`: some importers would try again for ever.
-///
-/// # Safety
-/// `component` is NULL or an instance.
-pub unsafe fn do_step<M: Model>(
-    component: Component,
-    communication_point: Real,
-    step_size: Real,
-    _no_set_fmu_state_prior_to_current_point: Boolean,
-) -> Status {
-    let body = |instance: &mut Instance<M>| instance.do_step(communication_point, step_size);
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::DoStep, body) }
-}
-
-/// `fmi2CancelStep`
-///
-/// An error always: no step is asynchronous.
-///
-/// # Safety
-/// `component` is NULL or an instance.
-pub unsafe fn cancel_step<M: Model>(component: Component) -> Status {
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::CancelStep, |_: &mut Instance<M>| Ok(())) }
+    /// `fmi2DoStep`
+    ///
+    /// Never returns `fmi2Discard`: some importers would try again for ever.
+    do_step<Model>(
+        communication_point: Real, step_size: Real, _no_set_fmu_state_prior_to_current_point: Boolean
+    ): DoStep, |instance| instance.do_step(communication_point, step_size);
+    /// `fmi2CancelStep`
+    ///
+    /// Always an error: no step is asynchronous.
+    cancel_step<Model>(): CancelStep, |_| Ok(());
 }
 
 macro_rules! status_functions {
@@ -100,7 +55,9 @@ macro_rules! status_functions {
         /// `component` is NULL or an instance; `value` is NULL or points to room for one value.
         pub unsafe fn $name<M: Model>(component: Component, kind: StatusKind, value: *mut $type) -> Status {
             let mut discarded = false;
-            let body = |instance: &mut Instance<M>| {
+            // SAFETY: as the caller promises.
+            let instance = unsafe { guard::instance::<M>(component) };
+            let status = guard::run(instance, Call::$call, |instance| {
                 // SAFETY: as the caller promises.
                 let value = unsafe { place("value", value) }?;
                 let found: fn(&Instance<M>, StatusKind) -> Option<$type> = $found;
@@ -110,10 +67,8 @@ macro_rules! status_functions {
                     discarded = true;
                     instance.no_status(Call::$call, kind);
                 }
-                Ok::<_, Failure>(())
-            };
-            // SAFETY: as the caller promises.
-            let status = unsafe { with(component, Call::$call, body) };
+                Ok(())
+            });
             if discarded && status == OK { DISCARD } else { status }
         }
     )* };

@@ -1,14 +1,16 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
-use super::arguments::{array, array_mut, text};
+use super::arguments::{array, array_mut, text, to_get, to_set};
+use super::guard::{self, functions};
+use super::kinds::Kinds;
 use super::types::{
     Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
 };
-use super::{Kinds, guard, with};
 use crate::call::Call;
+use crate::failure::Failure;
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
-use crate::model::{Experiment, Failure, Model};
+use crate::model::{Experiment, Model};
 use std::ffi::{CStr, CString};
 use std::ptr;
 
@@ -126,19 +128,11 @@ pub unsafe fn free_instance<M: Model>(component: Component) {
     let _ = guard::catch(|| drop(unsafe { Box::from_raw(instance) }));
 }
 
-/// `fmi2SetDebugLogging`
-///
-/// Without categories all are meant. An unknown one is refused, and nothing changes then.
-///
-/// # Safety
-/// `component` is NULL or an instance; `categories` points to `count` texts.
-pub unsafe fn set_debug_logging<M: Model>(
-    component: Component,
-    logging_on: Boolean,
-    count: usize,
-    categories: *const Text,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+functions! {
+    /// `fmi2SetDebugLogging`
+    ///
+    /// Without categories all are meant. An unknown one is refused, and nothing changes then.
+    set_debug_logging<Model>(logging_on: Boolean, count: usize, categories: *const Text): SetDebugLogging, |instance| {
         // SAFETY: as the caller promises.
         let categories = unsafe { array("categories", categories, count) }?;
         let names = categories.iter().map(|&category| {
@@ -147,180 +141,61 @@ pub unsafe fn set_debug_logging<M: Model>(
         });
         instance.set_debug_logging(logging_on != 0, names)
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::SetDebugLogging, body) }
-}
-
-/// `fmi2SetupExperiment`
-///
-/// # Safety
-/// `component` is NULL or an instance.
-pub unsafe fn setup_experiment<M: Model>(
-    component: Component,
-    tolerance_defined: Boolean,
-    tolerance: Real,
-    start: Real,
-    stop_defined: Boolean,
-    stop: Real,
-) -> Status {
-    let experiment = Experiment {
-        tolerance: (tolerance_defined != 0).then_some(tolerance),
-        start,
-        stop: (stop_defined != 0).then_some(stop),
-    };
-    // SAFETY: as the caller promises.
-    unsafe {
-        with(component, Call::SetupExperiment, |instance: &mut Instance<M>| {
-            instance.setup_experiment(experiment)
+    /// `fmi2SetupExperiment`
+    setup_experiment<Model>(
+        tolerance_defined: Boolean, tolerance: Real, start: Real, stop_defined: Boolean, stop: Real
+    ): SetupExperiment, |instance| {
+        instance.setup_experiment(Experiment {
+            tolerance: (tolerance_defined != 0).then_some(tolerance),
+            start,
+            stop: (stop_defined != 0).then_some(stop),
         })
-    }
-}
-
-macro_rules! mode_functions {
-    ($($c_name:literal $name:ident $call:ident $body:expr;)*) => { $(
-        #[doc = concat!("`", $c_name, "`")]
-        ///
-        /// # Safety
-        /// `component` is NULL or an instance.
-        pub unsafe fn $name<M: Model>(component: Component) -> Status {
-            let body: fn(&mut Instance<M>) -> Result<(), Failure> = $body;
-            // SAFETY: as the caller promises.
-            unsafe { with(component, Call::$call, body) }
-        }
-    )* };
-}
-
-mode_functions! {
-    "fmi2EnterInitializationMode" enter_initialization_mode EnterInitializationMode |instance| {
+    };
+    /// `fmi2EnterInitializationMode`
+    enter_initialization_mode<Model>(): EnterInitializationMode, |instance| {
         instance.enter_initialization_mode();
         Ok(())
     };
-    "fmi2ExitInitializationMode" exit_initialization_mode ExitInitializationMode Instance::exit_initialization_mode;
-    "fmi2Terminate" terminate Terminate |instance| {
+    /// `fmi2ExitInitializationMode`
+    exit_initialization_mode<Model>(): ExitInitializationMode, Instance::exit_initialization_mode;
+    /// `fmi2Terminate`
+    terminate<Model>(): Terminate, |instance| {
         instance.terminate();
         Ok(())
     };
-    "fmi2Reset" reset Reset |instance| {
+    /// `fmi2Reset`
+    reset<Model>(): Reset, |instance| {
         instance.reset();
         Ok(())
     };
-}
-
-macro_rules! value_functions {
-    ($($type:ty: $get_c:literal $get:ident $get_call:ident, $set_c:literal $set:ident $set_call:ident;)*) => { $(
-        #[doc = concat!("`", $get_c, "`")]
-        ///
-        /// # Safety
-        /// `component` is NULL or an instance; the arrays have `count` elements.
-        pub unsafe fn $get<M: Model>(
-            component: Component,
-            references: *const ValueReference,
-            count: usize,
-            values: *mut $type,
-        ) -> Status {
-            let body = |instance: &mut Instance<M>| {
-                // SAFETY: as the caller promises.
-                let (references, values) = unsafe { (array("vr", references, count)?, array_mut("value", values, count)?) };
-                instance.$get(references, values)
-            };
-            // SAFETY: as the caller promises.
-            unsafe { with(component, Call::$get_call, body) }
-        }
-
-        #[doc = concat!("`", $set_c, "`")]
-        ///
-        /// One value that is refused leaves all as they were.
-        ///
-        /// # Safety
-        /// `component` is NULL or an instance; the arrays have `count` elements.
-        pub unsafe fn $set<M: Model>(
-            component: Component,
-            references: *const ValueReference,
-            count: usize,
-            values: *const $type,
-        ) -> Status {
-            let body = |instance: &mut Instance<M>| {
-                // SAFETY: as the caller promises.
-                let (references, values) = unsafe { (array("vr", references, count)?, array("value", values, count)?) };
-                instance.$set(references, values)
-            };
-            // SAFETY: as the caller promises.
-            unsafe { with(component, Call::$set_call, body) }
-        }
-    )* };
-}
-
-value_functions! {
-    Real: "fmi2GetReal" get_real GetReal, "fmi2SetReal" set_real SetReal;
-    Integer: "fmi2GetInteger" get_integer GetInteger, "fmi2SetInteger" set_integer SetInteger;
-    Boolean: "fmi2GetBoolean" get_boolean GetBoolean, "fmi2SetBoolean" set_boolean SetBoolean;
-}
-
-/// `fmi2GetString`
-///
-/// The texts live until the next call of this for the instance.
-///
-/// # Safety
-/// `component` is NULL or an instance; the arrays have `count` elements.
-pub unsafe fn get_string<M: Model>(
-    component: Component,
-    references: *const ValueReference,
-    count: usize,
-    values: *mut Text,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+    /// `fmi2GetString`
+    ///
+    /// The texts live until the next call of this for the instance.
+    get_string<Model>(references: *const ValueReference, count: usize, values: *mut Text): GetString, |instance| {
         // SAFETY: as the caller promises.
-        let (references, values) =
-            unsafe { (array("vr", references, count)?, array_mut("value", values, count)?) };
+        let (references, values) = unsafe { to_get(references, values, count) }?;
         for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
             slot.write(text.as_ptr());
         }
         Ok(())
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::GetString, body) }
-}
-
-/// `fmi2SetString`
-///
-/// One value that is refused leaves all as they were.
-///
-/// # Safety
-/// `component` is NULL or an instance; the arrays have `count` elements, the texts end with a NUL.
-pub unsafe fn set_string<M: Model>(
-    component: Component,
-    references: *const ValueReference,
-    count: usize,
-    values: *const Text,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+    /// `fmi2SetString`
+    ///
+    /// One value that is refused leaves all as they were.
+    set_string<Model>(references: *const ValueReference, count: usize, values: *const Text): SetString, |instance| {
         // SAFETY: as the caller promises.
-        let (references, values) =
-            unsafe { (array("vr", references, count)?, array("value", values, count)?) };
+        let (references, values) = unsafe { to_set(references, values, count) }?;
         let texts = values.iter().map(|&value| {
             // SAFETY: as the caller promises.
             unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
         });
         instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::SetString, body) }
-}
-
-/// `fmi2GetDirectionalDerivative`
-///
-/// # Safety
-/// `component` is NULL or an instance; the arrays have as many elements as stated.
-pub unsafe fn get_directional_derivative<M: Model>(
-    component: Component,
-    unknowns: *const ValueReference,
-    unknown_count: usize,
-    knowns: *const ValueReference,
-    known_count: usize,
-    seeds: *const Real,
-    values: *mut Real,
-) -> Status {
-    let body = |instance: &mut Instance<M>| {
+    /// `fmi2GetDirectionalDerivative`
+    get_directional_derivative<Model>(
+        unknowns: *const ValueReference, unknown_count: usize, knowns: *const ValueReference, known_count: usize,
+        seeds: *const Real, values: *mut Real
+    ): GetDirectionalDerivative, |instance| {
         // SAFETY: as the caller promises.
         let (unknowns, values) = unsafe {
             (array("vUnknown_ref", unknowns, unknown_count)?, array_mut("dvUnknown", values, unknown_count)?)
@@ -330,6 +205,46 @@ pub unsafe fn get_directional_derivative<M: Model>(
             unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         instance.directional_derivative(unknowns, knowns, seeds, values)
     };
-    // SAFETY: as the caller promises.
-    unsafe { with(component, Call::GetDirectionalDerivative, body) }
+    /// `fmi2GetReal`
+    get_real<Model>(references: *const ValueReference, count: usize, values: *mut Real): GetReal, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        instance.get_real(references, values)
+    };
+    /// `fmi2SetReal`
+    ///
+    /// One value that is refused leaves all as they were.
+    set_real<Model>(references: *const ValueReference, count: usize, values: *const Real): SetReal, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_set(references, values, count) }?;
+        instance.set_real(references, values)
+    };
+    /// `fmi2GetInteger`
+    get_integer<Model>(references: *const ValueReference, count: usize, values: *mut Integer): GetInteger, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        instance.get_integer(references, values)
+    };
+    /// `fmi2SetInteger`
+    ///
+    /// One value that is refused leaves all as they were.
+    set_integer<Model>(references: *const ValueReference, count: usize, values: *const Integer): SetInteger, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_set(references, values, count) }?;
+        instance.set_integer(references, values)
+    };
+    /// `fmi2GetBoolean`
+    get_boolean<Model>(references: *const ValueReference, count: usize, values: *mut Boolean): GetBoolean, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        instance.get_boolean(references, values)
+    };
+    /// `fmi2SetBoolean`
+    ///
+    /// One value that is refused leaves all as they were.
+    set_boolean<Model>(references: *const ValueReference, count: usize, values: *const Boolean): SetBoolean, |instance| {
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_set(references, values, count) }?;
+        instance.set_boolean(references, values)
+    };
 }

@@ -1,5 +1,10 @@
-//! No panic leaves the library, and none is printed.
+//! Calls of an instance: no panic leaves the library, and none is printed.
 
+use super::types::{self, Component, ERROR, Status};
+use crate::call::Call;
+use crate::failure::Failure;
+use crate::instance::Instance;
+use crate::model::Model;
 use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe};
@@ -31,7 +36,48 @@ pub fn install_panic_hook() {
     });
 }
 
-/// What `body` returns, or the message of its panic.
+/// Returns the instance behind `component`; `None` for NULL.
+///
+/// # Safety
+/// `component` is NULL or what `instantiate` of the same model returned and `free_instance` has not taken,
+/// and no other thread uses it.
+pub(super) unsafe fn instance<'a, M: Model>(component: Component) -> Option<&'a mut Instance<M>> {
+    // SAFETY: as the caller promises.
+    unsafe { component.cast::<Instance<M>>().as_mut() }
+}
+
+/// Lets the instance do `body`, if it is the turn of `call`.
+pub(super) fn run<M: Model>(
+    instance: Option<&mut Instance<M>>,
+    call: Call,
+    body: impl FnOnce(&mut Instance<M>) -> Result<(), Failure>,
+) -> Status {
+    let Some(instance) = instance else { return ERROR };
+    let status = match catch(|| instance.call(call, body)) {
+        Ok(status) => status,
+        Err(panic) => instance.panicked(call, &panic),
+    };
+    types::status(status)
+}
+
+/// Defines functions of an instance of a model: `name<kind of model>(arguments): call, what the instance does`.
+macro_rules! functions {
+    ($($(#[$doc:meta])* $name:ident<$kind:ident>($($argument:ident: $type:ty),*): $call:ident, $body:expr;)*) => {$(
+        $(#[$doc])*
+        ///
+        /// # Safety
+        /// `component` is NULL or an instance; pointers are NULL or point to what the standard says, arrays to
+        /// as many elements as stated; texts end with a NUL.
+        pub unsafe fn $name<M: $kind>(component: Component, $($argument: $type),*) -> Status {
+            // SAFETY: as the caller promises.
+            let instance = unsafe { $crate::ffi::guard::instance::<M>(component) };
+            $crate::ffi::guard::run(instance, Call::$call, $body)
+        }
+    )*};
+}
+pub(super) use functions;
+
+/// Returns what `body` returns, or the message of its panic.
 pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     let outer = INSIDE.replace(true);
     // What the body may have left half done is dealt with by who asked: the instance counts as failed.

@@ -1,8 +1,9 @@
 //! What instances an FMU can be asked for.
 
 use super::types::{CO_SIMULATION, MODEL_EXCHANGE, Type};
+use crate::failure::Failure;
 use crate::instance::Purpose;
-use crate::model::{Failure, Interface, Model, ModelExchange};
+use crate::model::{Interface, Model, ModelExchange};
 
 /// The kinds of instances that a library exports the functions for.
 #[derive(Debug)]

@@ -2,7 +2,8 @@
 
 use super::Instance;
 use crate::call::Phase;
-use crate::model::{Failure, ModelExchange, Update};
+use crate::failure::Failure;
+use crate::model::{ModelExchange, Update};
 use crate::variable::VariableId;
 
 impl<M: ModelExchange> Instance<M> {

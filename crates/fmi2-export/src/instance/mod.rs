@@ -6,9 +6,10 @@ mod step;
 mod values;
 
 use crate::call::{Call, Phase};
+use crate::failure::Failure;
 use crate::guid;
 use crate::log::{Category, Filter, Logger, Status};
-use crate::model::{Environment, Experiment, Failure, Interface, Model};
+use crate::model::{Environment, Experiment, Interface, Model};
 use crate::uri::path_from_location;
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -61,7 +62,7 @@ impl<M: Model> Instance<M> {
         let resources = location.and_then(path_from_location);
         if let (Some(location), None) = (location, &resources) {
             logger.log().warning(format_args!(
-                "the resource location {location:?} is no local folder: it is ignored"
+                "the resource location {location:?} is not a local folder: it is ignored"
             ));
         }
         let instantiated = guid::check::<M>(guid, resources.as_deref()).and_then(|payload| {

@@ -2,9 +2,10 @@
 
 use super::{Instance, Snapshot};
 use crate::call::Phase;
+use crate::failure::Failure;
 use crate::log::Status;
-use crate::model::{Experiment, Failure, Interface, Model};
-use crate::state::{self, StateReader, StateWriter};
+use crate::model::{Experiment, Interface, Model};
+use crate::state::{self, StateCodec};
 
 /// A handle is the address of a state in `saved`.
 impl<M: Model> Instance<M> {
@@ -19,8 +20,7 @@ impl<M: Model> Instance<M> {
     }
 
     pub(crate) fn restore(&mut self, handle: usize) -> Result<(), Failure> {
-        let snapshot = Snapshot::clone(self.find_saved(handle)?);
-        self.now = snapshot;
+        self.now = Snapshot::clone(self.saved.get(&handle).ok_or_else(unknown_state)?);
         self.last_step = Status::Ok;
         Ok(())
     }
@@ -29,16 +29,16 @@ impl<M: Model> Instance<M> {
         self.saved.remove(&handle).map(drop).ok_or_else(unknown_state)
     }
 
-    pub(crate) fn serialize(&self, handle: usize) -> Result<Vec<u8>, Failure> {
-        let snapshot = self.find_saved(handle)?;
-        Ok(state::seal(&self.guid, |writer| snapshot.write(writer)))
+    pub(crate) fn serialize(&mut self, handle: usize) -> Result<Vec<u8>, Failure> {
+        let snapshot = self.saved.get_mut(&handle).ok_or_else(unknown_state)?;
+        state::seal(&self.guid, |codec| snapshot.transfer(codec))
     }
 
     pub(crate) fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Failure> {
-        let mut reader = state::open(&self.guid, bytes)?;
+        let mut codec = state::open(&self.guid, bytes)?;
         let mut snapshot = self.fresh.clone();
-        snapshot.read(&mut reader)?;
-        reader.finish()?;
+        snapshot.transfer(&mut codec)?;
+        codec.finish()?;
         Ok(self.keep(snapshot))
     }
 
@@ -48,43 +48,27 @@ impl<M: Model> Instance<M> {
         self.saved.insert(handle, snapshot);
         handle
     }
-
-    fn find_saved(&self, handle: usize) -> Result<&Snapshot<M>, Failure> {
-        self.saved.get(&handle).map(Box::as_ref).ok_or_else(unknown_state)
-    }
 }
 
 impl<M: Model> Snapshot<M> {
-    fn write(&self, writer: &mut StateWriter) {
-        writer.u64(self.phase.number());
-        writer.f64(self.time);
-        writer.bool(self.stale);
-        writer.u64(interface_number(self.interface));
-        let Experiment { tolerance, start, stop } = self.experiment;
-        writer.f64(start);
-        for bound in [tolerance, stop] {
-            writer.bool(bound.is_some());
-            writer.f64(bound.unwrap_or(0.0));
-        }
-        self.model.write_state(writer);
-    }
-
-    fn read(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
-        self.phase = Phase::from_number(reader.u64()?).ok_or("the state is of no known phase")?;
-        self.time = reader.f64()?;
-        self.stale = reader.bool()?;
-        if reader.u64()? != interface_number(self.interface) || !self.phase.belongs_to(self.interface) {
+    fn transfer(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+        let (mut phase, mut kind) = (self.phase.number(), interface_number(self.interface));
+        codec.u64(&mut phase)?;
+        codec.f64(&mut self.time)?;
+        codec.bool(&mut self.stale)?;
+        codec.u64(&mut kind)?;
+        self.phase = Phase::from_number(phase).ok_or("the state is of no known phase")?;
+        if kind != interface_number(self.interface) || !self.phase.belongs_to(self.interface) {
             return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
         }
-        let start = reader.f64()?;
-        let mut bound = || Ok::<_, Failure>((reader.bool()?, reader.f64()?));
-        let tolerance = bound().map(|(is_some, value)| is_some.then_some(value))?;
-        let stop = bound().map(|(is_some, value)| is_some.then_some(value))?;
-        self.experiment = Experiment { tolerance, start, stop };
+        let Experiment { tolerance, start, stop } = &mut self.experiment;
+        codec.f64(start)?;
+        codec.option(tolerance)?;
+        codec.option(stop)?;
         if !(self.time.is_finite() && start.is_finite()) {
             return Err("the state has a time that is not finite".into());
         }
-        self.model.read_state(reader)
+        self.model.transfer_state(codec)
     }
 }
 
@@ -96,5 +80,6 @@ fn interface_number(interface: Interface) -> u64 {
 }
 
 fn unknown_state() -> Failure {
-    "the FMUstate is none that this instance made, or was freed; serialize a state to take it to another instance".into()
+    "this instance did not make the FMUstate, or has freed it; serialize a state to take it to another instance"
+        .into()
 }

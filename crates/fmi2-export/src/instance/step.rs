@@ -2,8 +2,9 @@
 
 use super::Instance;
 use crate::call::Call;
+use crate::failure::Failure;
 use crate::log::{Category, Status};
-use crate::model::{Failure, Model, Step};
+use crate::model::{Model, Step};
 
 /// Communication points are sums of rounded steps: they may differ from the own time by this much, relative
 /// to the larger of the time and 1 s.

@@ -2,7 +2,8 @@
 
 use super::Instance;
 use crate::access;
-use crate::model::{Failure, Model};
+use crate::failure::Failure;
+use crate::model::Model;
 use crate::variable::VariableId;
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;

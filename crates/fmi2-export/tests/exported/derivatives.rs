@@ -35,8 +35,8 @@ fn other_input_derivatives_are_refused() {
         (force, 1, f64::NAN, "derivative NaN of force"),
         (force, 1, f64::INFINITY, "derivative inf of force"),
         (Real::Push.reference(), 1, 1.0, "push is not continuous"),
-        (Real::Stiffness.reference(), 1, 1.0, "stiffness is no input"),
-        (Real::X.reference(), 1, 1.0, "x is no input"),
+        (Real::Stiffness.reference(), 1, 1.0, "stiffness is not an input"),
+        (Real::X.reference(), 1, 1.0, "x is not an input"),
         (Real::Bias.reference(), 1, 1.0, "bias takes no derivative"),
         (Integer::Fault.reference(), 1, 1.0, "reference 22"),
     ] {

@@ -1,8 +1,8 @@
 //! The model of these tests: a mass of 1 kg on a damped spring.
 
 use fmi2_export::{
-    Causality, Environment, Experiment, Failure, Item, Kind, Log, Model, ModelExchange, StateReader,
-    StateWriter, Step, Update, Variability, Variable, VariableId, set_start_values,
+    Causality, Environment, Experiment, Failure, Item, Kind, Log, Model, ModelExchange, StateCodec, Step,
+    Update, Variability, Variable, VariableId,
 };
 use std::cell::Cell;
 
@@ -131,10 +131,10 @@ impl Model for Spring {
             return Err("no spring today".into());
         }
         log.info(format_args!("{} is a spring", environment.instance_name));
-        let payload = environment.payload.map(String::from_utf8_lossy);
+        let label = environment.payload.map_or("spring".into(), String::from_utf8_lossy);
         let home = environment.resources.map(|path| path.to_string_lossy()).unwrap_or_default();
-        let mut spring = Self {
-            stiffness: 0.0,
+        Ok(Self {
+            stiffness: 4.0,
             x_start: 0.0,
             period: 0.0,
             force: 0.0,
@@ -144,22 +144,17 @@ impl Model for Spring {
             bias: 0.0,
             x: 0.0,
             v: 0.0,
-            law: 0,
-            substeps: 0,
+            law: 1,
+            substeps: 8,
             fault: 0,
             count: 0,
             clamped: false,
             held: false,
             below: false,
             time: 0.0,
-            label: String::new(),
+            label: label.into_owned(),
             home: home.into_owned(),
-        };
-        set_start_values(&mut spring);
-        if let Some(payload) = payload {
-            spring.label = payload.into_owned();
-        }
-        Ok(spring)
+        })
     }
 
     fn real(&self, variable: Real) -> f64 {
@@ -318,33 +313,8 @@ impl Model for Spring {
         Ok(())
     }
 
-    fn write_state(&self, writer: &mut StateWriter) {
-        for value in [
-            self.stiffness,
-            self.x_start,
-            self.period,
-            self.force,
-            self.force_rate,
-            self.push,
-            self.trim,
-            self.bias,
-            self.x,
-            self.v,
-            self.time,
-        ] {
-            writer.f64(value);
-        }
-        for value in [self.law, self.substeps, self.fault, self.count] {
-            writer.i32(value);
-        }
-        writer.bool(self.clamped);
-        writer.bool(self.held);
-        writer.bool(self.below);
-        writer.bytes(self.label.as_bytes());
-    }
-
-    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
-        for value in [
+    fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+        codec.f64s([
             &mut self.stiffness,
             &mut self.x_start,
             &mut self.period,
@@ -356,16 +326,14 @@ impl Model for Spring {
             &mut self.x,
             &mut self.v,
             &mut self.time,
-        ] {
-            *value = reader.f64()?;
-        }
+        ])?;
         for value in [&mut self.law, &mut self.substeps, &mut self.fault, &mut self.count] {
-            *value = reader.i32()?;
+            codec.i32(value)?;
         }
-        self.clamped = reader.bool()?;
-        self.held = reader.bool()?;
-        self.below = reader.bool()?;
-        self.label = String::from_utf8_lossy(reader.bytes()?).into_owned();
+        for value in [&mut self.clamped, &mut self.held, &mut self.below] {
+            codec.bool(value)?;
+        }
+        codec.text(&mut self.label)?;
         if self.substeps < 1 {
             return Err(Failure(format!("the state has {} substeps", self.substeps)));
         }

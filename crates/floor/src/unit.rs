@@ -1,20 +1,15 @@
 //! The floor as an FMI model.
 
-mod saved;
+use fmi2_export::{Environment, Experiment, Failure, Log, Model, StateCodec, Step, VariableId};
 
-use fmi2_export::{
-    Environment, Experiment, Failure, Log, Model, StateReader, StateWriter, Step, VariableId,
-    set_start_values,
-};
-
+use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Input, Inputs};
+use crate::inputs::{Input, Inputs, wall_of};
 use crate::motion::{Load, State};
 use crate::variables::{
-    BooleanVariable, Coupling, GUID, Hysteresis, IntegerVariable, MODEL_IDENTIFIER, RealVariable,
-    StringVariable,
+    BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
+    integer_parameter, real_parameter,
 };
-use crate::wiring::{Output, Role, role};
 
 /// A floor between the FMI calls.
 #[derive(Clone, Debug)]
@@ -40,29 +35,16 @@ struct Base {
     impulse: f64,
 }
 
-/// The parameters of the description's start values are set over these.
-const UNSET: Parameters = Parameters {
-    mass: 1.0,
-    stiffness: 0.0,
-    damping_ratio: 0.0,
-    damping_coefficient: 0.0,
-    hysteresis: Hysteresis::None,
-    yield_force: 1.0,
-    hardening_ratio: 0.0,
-    coupling: Coupling::Reactions,
-    displacement_start: 0.0,
-    velocity_start: 0.0,
-};
-
 impl Unit {
     /// A floor with the start values of the description.
     ///
     /// # Errors
     /// None for a description whose start values make a floor.
     pub fn new() -> Result<Self, Failure> {
-        let floor = build(&UNSET)?;
+        let parameters = Parameters::default();
+        let floor = build(&parameters)?;
         let mut unit = Self {
-            parameters: UNSET,
+            parameters,
             floor,
             inputs: Inputs::default(),
             state: State::new(&floor, 0.0, 0.0, Load::default()),
@@ -70,14 +52,23 @@ impl Unit {
             running: false,
             ignored_told: false,
         };
-        set_start_values(&mut unit);
         unit.calculate()?;
         Ok(unit)
     }
 
     /// Acceleration relative to the base \[m/s²\].
     fn acceleration(&self) -> f64 {
-        self.state.acceleration(&self.floor, self.inputs.present(&self.floor, self.parameters.coupling).value)
+        self.state.acceleration(&self.floor, self.load().value)
+    }
+
+    /// Acceleration by base and walls now, with its rate over the last step.
+    fn load(&self) -> Load {
+        self.inputs.present(&self.floor, self.parameters.coupling)
+    }
+
+    /// Acceleration by the walls alone.
+    fn by_walls(&self) -> Load {
+        self.inputs.by_walls(&self.floor, self.parameters.coupling)
     }
 
     fn damping_force(&self) -> f64 {
@@ -140,37 +131,6 @@ impl Unit {
             ));
         }
     }
-
-    fn input(&mut self, variable: RealVariable) -> Option<&mut Input> {
-        match role(variable) {
-            Role::Ground => Some(&mut self.inputs.ground),
-            Role::Reaction(wall) => self.inputs.reactions.get_mut(wall),
-            Role::Impulse(_) | Role::Parameter(_) | Role::Output(_) => None,
-        }
-    }
-
-    fn output(&self, output: Output) -> f64 {
-        let state = &self.state;
-        match output {
-            Output::Displacement => state.displacement,
-            Output::Velocity => state.velocity,
-            Output::Acceleration => self.acceleration(),
-            Output::DisplacementAbsolute => state.displacement + self.base.displacement,
-            Output::VelocityAbsolute => state.velocity + self.base.velocity,
-            Output::AccelerationAbsolute => state
-                .acceleration(&self.floor, self.inputs.by_walls(&self.floor, self.parameters.coupling).value),
-            Output::SpringForce => state.spring_force(&self.floor),
-            Output::DampingForce => self.damping_force(),
-            Output::ReactionBottom => self.reaction(),
-            Output::ImpulseBottom => self.base.impulse,
-            Output::DisplacementPlastic => state.plastic,
-            Output::EnergyDamping => state.damping_energy,
-            Output::EnergyHysteretic => state.hysteretic_energy,
-            Output::Omega => self.floor.omega(),
-            Output::DampingCoefficientUsed => self.floor.damping,
-            Output::YieldDisplacement => self.floor.yielding.map_or(0.0, |yielding| yielding.displacement),
-        }
-    }
 }
 
 fn build(parameters: &Parameters) -> Result<Floor, Failure> {
@@ -194,20 +154,39 @@ impl Model for Unit {
         Self::new()
     }
 
+    #[allow(clippy::match_same_arms, reason = "four walls to a line")]
     fn real(&self, variable: RealVariable) -> f64 {
-        match role(variable) {
-            Role::Ground => self.inputs.ground.value,
-            Role::Reaction(wall) => self.inputs.reactions[wall].value,
-            Role::Impulse(wall) => self.inputs.impulses[wall],
-            Role::Parameter(parameter) => self.parameters.get(parameter),
-            Role::Output(output) => self.output(output),
+        use RealVariable as V;
+        let (state, base) = (&self.state, &self.base);
+        match variable {
+            V::AG => self.inputs.ground.value,
+            V::Reaction1 | V::Reaction2 | V::Reaction3 | V::Reaction4 => self.inputs.get(variable),
+            V::Reaction5 | V::Reaction6 | V::Reaction7 | V::Reaction8 => self.inputs.get(variable),
+            V::Impulse1 | V::Impulse2 | V::Impulse3 | V::Impulse4 => self.inputs.get(variable),
+            V::Impulse5 | V::Impulse6 | V::Impulse7 | V::Impulse8 => self.inputs.get(variable),
+            V::Displacement => state.displacement,
+            V::Velocity => state.velocity,
+            V::Acceleration => self.acceleration(),
+            V::DisplacementAbsolute => state.displacement + base.displacement,
+            V::VelocityAbsolute => state.velocity + base.velocity,
+            V::AccelerationAbsolute => state.acceleration(&self.floor, self.by_walls().value),
+            V::SpringForce => state.spring_force(&self.floor),
+            V::DampingForce => self.damping_force(),
+            V::ReactionBottom => self.reaction(),
+            V::ImpulseBottom => base.impulse,
+            V::DisplacementPlastic => state.plastic,
+            V::EnergyDamping => state.damping_energy,
+            V::EnergyHysteretic => state.hysteretic_energy,
+            V::Omega => self.floor.omega(),
+            V::DampingCoefficientUsed => self.floor.damping,
+            V::YieldDisplacement => self.floor.yielding.map_or(0.0, |yielding| yielding.displacement),
+            real_parameter!() => self.parameters.real(variable).unwrap_or(f64::NAN),
         }
     }
 
     fn integer(&self, variable: IntegerVariable) -> i32 {
         match variable {
-            IntegerVariable::Hysteresis => self.parameters.hysteresis.value(),
-            IntegerVariable::Coupling => self.parameters.coupling.value(),
+            integer_parameter!() => self.parameters.integer(variable).unwrap_or_default(),
         }
     }
 
@@ -222,30 +201,19 @@ impl Model for Unit {
     }
 
     fn set_real(&mut self, variable: RealVariable, value: f64) {
-        match role(variable) {
-            Role::Ground => self.inputs.ground.set(value),
-            Role::Reaction(wall) => self.inputs.reactions[wall].set(value),
-            Role::Impulse(wall) => self.inputs.impulses[wall] = value,
-            Role::Parameter(parameter) => *self.parameters.slot(parameter) = value,
+        if let Some(input) = self.inputs.continuous(variable) {
+            input.set(value);
+        } else if let Some((_, wall)) = wall_of(variable) {
+            self.inputs.impulses[wall] = value;
+        } else {
             // the layer sets no outputs
-            Role::Output(_) => {}
+            self.parameters.set_real(variable, value);
         }
     }
 
     fn set_integer(&mut self, variable: IntegerVariable, value: i32) {
-        let known = match variable {
-            IntegerVariable::Hysteresis => {
-                Hysteresis::from_value(value).map(|choice| self.parameters.hysteresis = choice)
-            }
-            IntegerVariable::Coupling => {
-                Coupling::from_value(value).map(|choice| self.parameters.coupling = choice)
-            }
-        };
-        assert!(
-            known.is_some(),
-            "the layer has checked that {value} is an item of {}",
-            variable.variable().name
-        );
+        let known = self.parameters.set_integer(variable, value);
+        assert!(known, "the layer has checked that {value} is an item of {}", variable.variable().name);
     }
 
     fn set_boolean(&mut self, _variable: BooleanVariable, _value: bool) {}
@@ -255,71 +223,58 @@ impl Model for Unit {
     }
 
     fn set_input_derivative(&mut self, variable: RealVariable, value: f64) -> bool {
-        self.input(variable).map(|input| input.rate = value).is_some()
+        self.inputs.continuous(variable).map(|input| input.rate = value).is_some()
     }
 
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
-        let Role::Output(output) = role(variable) else { return None };
+        use RealVariable as V;
         let [spring, damping] = self.force_rates();
-        let by_walls = || self.inputs.by_walls(&self.floor, self.parameters.coupling);
-        match output {
-            Output::Displacement => Some(self.state.velocity),
-            Output::Velocity => Some(self.acceleration()),
-            Output::Acceleration => {
-                Some(self.state.jerk(&self.floor, self.inputs.present(&self.floor, self.parameters.coupling)))
-            }
-            Output::DisplacementAbsolute => Some(self.output(Output::VelocityAbsolute)),
-            Output::VelocityAbsolute => Some(self.output(Output::AccelerationAbsolute)),
-            Output::AccelerationAbsolute => Some(by_walls().rate - (spring + damping) / self.floor.mass),
-            Output::SpringForce => Some(spring),
-            Output::DampingForce => Some(damping),
-            Output::ReactionBottom => Some(-(spring + damping)),
-            Output::ImpulseBottom
-            | Output::DisplacementPlastic
-            | Output::EnergyDamping
-            | Output::EnergyHysteretic
-            | Output::Omega
-            | Output::DampingCoefficientUsed
-            | Output::YieldDisplacement => None,
+        match variable {
+            V::Displacement => Some(self.state.velocity),
+            V::Velocity => Some(self.acceleration()),
+            V::Acceleration => Some(self.state.jerk(&self.floor, self.load())),
+            V::DisplacementAbsolute => Some(self.real(V::VelocityAbsolute)),
+            V::VelocityAbsolute => Some(self.real(V::AccelerationAbsolute)),
+            V::AccelerationAbsolute => Some(self.by_walls().rate - (spring + damping) / self.floor.mass),
+            V::SpringForce => Some(spring),
+            V::DampingForce => Some(damping),
+            V::ReactionBottom => Some(-(spring + damping)),
+            _ => None,
         }
     }
 
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
-        let Role::Output(unknown) = role(unknown) else { return None };
+        use RealVariable as V;
         let Floor { mass, damping, .. } = self.floor;
-        let along = match role(known) {
-            Role::Output(Output::Displacement) => {
+        let along = match known {
+            V::Displacement => {
                 Along { displacement: 1.0, spring: self.floor.tangent(self.state.branch), ..Along::default() }
             }
-            Role::Output(Output::Velocity) => Along { velocity: 1.0, damping, ..Along::default() },
-            Role::Ground => Along { ground: 1.0, ..Along::default() },
-            Role::Reaction(_) => match self.parameters.coupling {
-                Coupling::Reactions => Along { walls: 1.0, ..Along::default() },
-                Coupling::Impulses => Along::default(),
-            },
-            Role::Impulse(_) => match self.parameters.coupling {
-                Coupling::Impulses if self.inputs.last_duration > 0.0 => {
-                    Along { walls: 1.0 / self.inputs.last_duration, ..Along::default() }
-                }
-                Coupling::Impulses | Coupling::Reactions => Along::default(),
-            },
-            Role::Parameter(_) | Role::Output(_) => return None,
+            V::Velocity => Along { velocity: 1.0, damping, ..Along::default() },
+            V::AG => Along { ground: 1.0, ..Along::default() },
+            _ => {
+                let (coupling, _) = wall_of(known)?;
+                let walls = match coupling {
+                    _ if coupling != self.parameters.coupling => 0.0,
+                    Coupling::Reactions => 1.0,
+                    Coupling::Impulses if self.inputs.last_duration > 0.0 => 1.0 / self.inputs.last_duration,
+                    Coupling::Impulses => 0.0,
+                };
+                Along { walls, ..Along::default() }
+            }
         };
         let absolute = -(along.spring + along.damping + along.walls) / mass;
         match unknown {
-            Output::Displacement | Output::DisplacementAbsolute => Some(along.displacement),
-            Output::Velocity | Output::VelocityAbsolute => Some(along.velocity),
-            Output::Acceleration => Some(absolute - along.ground),
-            Output::AccelerationAbsolute => Some(absolute),
-            Output::SpringForce => Some(along.spring),
-            Output::DampingForce => Some(along.damping),
-            Output::ReactionBottom => Some(-(along.spring + along.damping)),
+            V::Displacement | V::DisplacementAbsolute => Some(along.displacement),
+            V::Velocity | V::VelocityAbsolute => Some(along.velocity),
+            V::Acceleration => Some(absolute - along.ground),
+            V::AccelerationAbsolute => Some(absolute),
+            V::SpringForce => Some(along.spring),
+            V::DampingForce => Some(along.damping),
+            V::ReactionBottom => Some(-(along.spring + along.damping)),
             // memories of the past: not functions of the present state and inputs
-            Output::ImpulseBottom
-            | Output::DisplacementPlastic
-            | Output::EnergyDamping
-            | Output::EnergyHysteretic => Some(0.0),
-            Output::Omega | Output::DampingCoefficientUsed | Output::YieldDisplacement => None,
+            V::ImpulseBottom | V::DisplacementPlastic | V::EnergyDamping | V::EnergyHysteretic => Some(0.0),
+            _ => None,
         }
     }
 
@@ -328,9 +283,8 @@ impl Model for Unit {
             return Ok(());
         }
         self.floor = build(&self.parameters)?;
-        let Parameters { displacement_start, velocity_start, coupling, .. } = self.parameters;
-        let load = self.inputs.present(&self.floor, coupling);
-        self.state = State::new(&self.floor, displacement_start, velocity_start, load);
+        let Parameters { displacement_start, velocity_start, .. } = self.parameters;
+        self.state = State::new(&self.floor, displacement_start, velocity_start, self.load());
         Ok(())
     }
 
@@ -360,13 +314,26 @@ impl Model for Unit {
         self.advance(step, log).inspect_err(|_| self.state = before)
     }
 
-    fn write_state(&self, writer: &mut StateWriter) {
-        self.write(writer);
-    }
-
-    fn read_state(&mut self, reader: &mut StateReader<'_>) -> Result<(), Failure> {
-        *self = self.clone().read(reader)?;
-        Ok(())
+    fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
+        self.parameters.transfer(codec)?;
+        let Inputs { ground, reactions, impulses, last_duration } = &mut self.inputs;
+        for Input { value, rate, last_rate } in reactions.iter_mut().chain([ground]) {
+            codec.f64s([value, rate, last_rate])?;
+        }
+        codec.f64s(impulses)?;
+        codec.f64(last_duration)?;
+        if codec.is_reading() {
+            // what follows from the parameters, before the state itself
+            self.calculate()?;
+        }
+        let State { displacement, velocity, plastic, branch, damping_energy, hysteretic_energy } =
+            &mut self.state;
+        codec.f64s([displacement, velocity, plastic, damping_energy, hysteretic_energy])?;
+        codec.item(branch, &[Branch::Elastic, Branch::YieldingUp, Branch::YieldingDown])?;
+        let Base { displacement, velocity, impulse } = &mut self.base;
+        codec.f64s([displacement, velocity, impulse])?;
+        codec.bool(&mut self.running)?;
+        codec.bool(&mut self.ignored_told)
     }
 }
 

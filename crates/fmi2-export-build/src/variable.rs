@@ -1,0 +1,316 @@
+//! Variables and enumerations, as a description declares them.
+
+use crate::element::Element;
+use crate::error::{Fault, Problem};
+
+/// One `<ScalarVariable>`.
+#[derive(Clone, Debug)]
+pub(crate) struct Variable {
+    pub(crate) line: usize,
+    pub(crate) name: String,
+    pub(crate) reference: u32,
+    pub(crate) description: String,
+    pub(crate) causality: Causality,
+    pub(crate) variability: Variability,
+    pub(crate) initial: Option<Initial>,
+    pub(crate) declared_type: Option<String>,
+    /// The unit of the variable or else of its type.
+    pub(crate) unit: Option<String>,
+    pub(crate) display_unit: Option<String>,
+    /// 1-based index of the variable this is the derivative of.
+    pub(crate) derivative: Option<usize>,
+    /// The name in an annotation `<Group name="…"/>`.
+    pub(crate) group: Option<String>,
+    pub(crate) kind: Kind,
+}
+
+/// FMI base type with start value and limits; limits that the variable does not have are those of its type.
+#[derive(Clone, Debug)]
+pub(crate) enum Kind {
+    Real { start: Option<f64>, min: Option<f64>, max: Option<f64> },
+    Integer { start: Option<i32>, min: Option<i32>, max: Option<i32> },
+    Enumeration { start: Option<i32> },
+    Boolean { start: Option<bool> },
+    String { start: Option<String> },
+}
+
+/// The four types that FMI 2.0 has get and set functions for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BaseType {
+    Real,
+    Integer,
+    Boolean,
+    String,
+}
+
+impl BaseType {
+    pub(crate) const ALL: [Self; 4] = [Self::Real, Self::Integer, Self::Boolean, Self::String];
+}
+
+/// One `<SimpleType>` with an `<Enumeration>`.
+#[derive(Clone, Debug)]
+pub(crate) struct EnumerationType {
+    pub(crate) line: usize,
+    pub(crate) name: String,
+    pub(crate) description: String,
+    pub(crate) items: Vec<Item>,
+}
+
+/// One `<Item>` of an enumeration.
+#[derive(Clone, Debug)]
+pub(crate) struct Item {
+    pub(crate) line: usize,
+    pub(crate) name: String,
+    pub(crate) value: i32,
+    pub(crate) description: String,
+}
+
+/// Declares an enum whose variants have a name in the XML.
+macro_rules! named {
+    ($(#[$doc:meta])* $type:ident: $expected:literal { $($variant:ident = $name:literal),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum $type { $($variant),+ }
+
+        impl $type {
+            /// What is expected where one of these stands.
+            const EXPECTED: &'static str = $expected;
+
+            /// The name in the XML.
+            pub(crate) fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name),+ }
+            }
+        }
+
+        impl std::str::FromStr for $type {
+            type Err = ();
+
+            fn from_str(text: &str) -> Result<Self, ()> {
+                match text { $($name => Ok(Self::$variant),)+ _ => Err(()) }
+            }
+        }
+    };
+}
+
+named! {
+    /// Who determines a variable.
+    Causality: "a causality" {
+        Parameter = "parameter", CalculatedParameter = "calculatedParameter", Input = "input",
+        Output = "output", Local = "local", Independent = "independent",
+    }
+}
+named! {
+    /// When a variable may change.
+    Variability: "a variability" {
+        Constant = "constant", Fixed = "fixed", Tunable = "tunable", Discrete = "discrete",
+        Continuous = "continuous",
+    }
+}
+named! {
+    /// Where the start value comes from.
+    Initial: "exact, approx or calculated" { Exact = "exact", Approx = "approx", Calculated = "calculated" }
+}
+
+impl Variable {
+    /// Reads one element of the `<ModelVariables>` of `root`.
+    pub(crate) fn read(root: &Element, element: &Element) -> Result<Self, Fault> {
+        if element.name != "ScalarVariable" {
+            let found = element.name.clone();
+            return Err(element.fault(Problem::UnexpectedElement { expected: "ScalarVariable", found }));
+        }
+        let name = element.required("name")?.to_owned();
+        element.required("valueReference")?;
+        let typed = element
+            .children
+            .iter()
+            .find(|child| child.name != "Annotations")
+            .ok_or_else(|| element.fault(Problem::MissingElement { element: "Real" }))?;
+        let declared_type = typed.attribute("declaredType").map(str::to_owned);
+        // Attributes the variable does not have itself come from its type.
+        let inherited = match &declared_type {
+            None => None,
+            Some(declared_type) => Some(type_of(root, &name, declared_type, typed)?),
+        };
+        let text = |attribute: &str| {
+            let own = typed.attribute(attribute);
+            own.or_else(|| inherited?.attribute(attribute)).map(str::to_owned)
+        };
+        let mut tools = element.children_of("Annotations").iter();
+        let group = tools.find_map(|tool| tool.child("Group")?.attribute("name"));
+        Ok(Self {
+            line: element.line,
+            reference: element.parsed("valueReference", "a value reference")?.unwrap_or_default(),
+            description: element.attribute("description").unwrap_or_default().to_owned(),
+            causality: element.parsed("causality", Causality::EXPECTED)?.unwrap_or(Causality::Local),
+            variability: element
+                .parsed("variability", Variability::EXPECTED)?
+                .unwrap_or(Variability::Continuous),
+            initial: element.parsed("initial", Initial::EXPECTED)?,
+            unit: text("unit"),
+            display_unit: text("displayUnit"),
+            derivative: typed.parsed("derivative", "an index")?,
+            group: group.map(str::to_owned),
+            kind: Kind::read(typed, inherited)?,
+            name,
+            declared_type,
+        })
+    }
+
+    /// The type of the functions that get and set it: enumerations are got and set as Integers.
+    pub(crate) fn base(&self) -> BaseType {
+        match self.kind {
+            Kind::Real { .. } => BaseType::Real,
+            Kind::Integer { .. } | Kind::Enumeration { .. } => BaseType::Integer,
+            Kind::Boolean { .. } => BaseType::Boolean,
+            Kind::String { .. } => BaseType::String,
+        }
+    }
+
+    /// Its `initial`, which follows from causality and variability where the description leaves it out.
+    pub(crate) fn initial_or_default(&self) -> Option<Initial> {
+        self.initial.or(match (self.causality, self.variability) {
+            (Causality::Input | Causality::Independent, _) => None,
+            (Causality::Parameter, _) | (_, Variability::Constant) => Some(Initial::Exact),
+            _ => Some(Initial::Calculated),
+        })
+    }
+
+    /// A problem on its line.
+    pub(crate) fn fault(&self, problem: Problem) -> Fault {
+        Fault { line: self.line, problem }
+    }
+}
+
+/// The element inside the `<SimpleType>` called `name`.
+pub(crate) fn simple_type<'a>(root: &'a Element, name: &str, base: &str) -> Option<&'a Element> {
+    let mut types = root.children_of("TypeDefinitions").iter();
+    types.find(|element| element.attribute("name") == Some(name))?.child(base)
+}
+
+/// The type that the variable `name` declares, which must be of the same FMI base type as the variable.
+fn type_of<'a>(
+    root: &'a Element,
+    name: &str,
+    declared_type: &str,
+    typed: &Element,
+) -> Result<&'a Element, Fault> {
+    simple_type(root, declared_type, &typed.name).ok_or_else(|| {
+        typed.fault(Problem::UndeclaredType {
+            name: name.to_owned(),
+            declared_type: declared_type.to_owned(),
+            kind: match typed.name.as_str() {
+                "Real" => "a Real",
+                "Integer" => "an Integer",
+                "Enumeration" => "an Enumeration",
+                "Boolean" => "a Boolean",
+                _ => "a String",
+            },
+        })
+    })
+}
+
+impl Kind {
+    fn read(typed: &Element, inherited: Option<&Element>) -> Result<Self, Fault> {
+        const WHOLE: &str = "a whole number of 32 bits";
+        let real = |name: &str, inherited| {
+            let value: Option<f64> = own_or_inherited(typed, inherited, name, "a number")?;
+            // Importers write these as text, and infinity has several spellings.
+            match value.filter(|value| !value.is_finite()) {
+                Some(value) => Err(typed.fault(Problem::BadValue {
+                    attribute: name.to_owned(),
+                    value: value.to_string(),
+                    expected: "a finite number",
+                })),
+                None => Ok(value),
+            }
+        };
+        match typed.name.as_str() {
+            "Real" => Ok(Self::Real {
+                start: real("start", None)?,
+                min: real("min", inherited)?,
+                max: real("max", inherited)?,
+            }),
+            "Integer" => Ok(Self::Integer {
+                start: typed.parsed("start", WHOLE)?,
+                min: own_or_inherited(typed, inherited, "min", WHOLE)?,
+                max: own_or_inherited(typed, inherited, "max", WHOLE)?,
+            }),
+            "Enumeration" => {
+                typed.required("declaredType")?;
+                Ok(Self::Enumeration { start: typed.parsed("start", WHOLE)? })
+            }
+            "Boolean" => Ok(Self::Boolean { start: boolean(typed)? }),
+            "String" => Ok(Self::String { start: typed.attribute("start").map(str::to_owned) }),
+            found => {
+                Err(typed.fault(Problem::UnexpectedElement { expected: "Real", found: found.to_owned() }))
+            }
+        }
+    }
+}
+
+/// The value of the attribute `name` of a variable, or else of its type.
+fn own_or_inherited<T: std::str::FromStr>(
+    typed: &Element,
+    inherited: Option<&Element>,
+    name: &str,
+    expected: &'static str,
+) -> Result<Option<T>, Fault> {
+    match typed.parsed(name, expected)? {
+        None => inherited.map_or(Ok(None), |element| element.parsed(name, expected)),
+        own => Ok(own),
+    }
+}
+
+/// The start value of a Boolean: XML Schema writes it as true, false, 1 or 0.
+fn boolean(typed: &Element) -> Result<Option<bool>, Fault> {
+    match typed.attribute("start") {
+        None => Ok(None),
+        Some("true" | "1") => Ok(Some(true)),
+        Some("false" | "0") => Ok(Some(false)),
+        Some(value) => Err(typed.fault(Problem::BadValue {
+            attribute: "start".to_owned(),
+            value: value.to_owned(),
+            expected: "true or false",
+        })),
+    }
+}
+
+impl EnumerationType {
+    /// The enumerations among the `<TypeDefinitions>` of `root`.
+    pub(crate) fn read_all(root: &Element) -> Result<Vec<Self>, Fault> {
+        let mut enumerations = Vec::new();
+        for element in root.children_of("TypeDefinitions") {
+            let name = element.required("name")?.to_owned();
+            let Some(enumeration) = element.child("Enumeration") else { continue };
+            let items = enumeration.children.iter().map(Item::read).collect::<Result<_, _>>()?;
+            let description = element.attribute("description").unwrap_or_default().to_owned();
+            enumerations.push(Self { line: element.line, name, description, items });
+        }
+        Ok(enumerations)
+    }
+}
+
+impl Item {
+    fn read(element: &Element) -> Result<Self, Fault> {
+        element.required("value")?;
+        Ok(Self {
+            line: element.line,
+            name: element.required("name")?.to_owned(),
+            value: element.parsed("value", "a whole number of 32 bits")?.unwrap_or_default(),
+            description: element.attribute("description").unwrap_or_default().to_owned(),
+        })
+    }
+}
+
+/// `name` as a Rust type or variant: `u_dot_start` becomes `UDotStart`. `None` if that is not a Rust name.
+pub(crate) fn camel_case(name: &str) -> Option<String> {
+    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
+    let camel: String = words
+        .flat_map(|word| {
+            let mut letters = word.chars();
+            letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters)
+        })
+        .collect();
+    let starts_well = camel.starts_with(|c: char| c.is_ascii_alphabetic());
+    (starts_well && camel != "Self").then_some(camel)
+}
