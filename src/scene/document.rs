@@ -26,7 +26,8 @@ const SHOWN_CHARACTERS: usize = 60;
 pub struct Document {
     /// Title, for people; else the file's name.
     pub title: Option<String>,
-    /// Inputs that stay variables of the scene's FMU: by default `a_g`, and none for a scene with its own motion.
+    /// Inputs that stay variables of the scene's FMU: by default `a_g`, and none for a scene with its own
+    /// motion.
     pub inputs: Option<Vec<Spanned<String>>>,
     /// End of the run \[s\]; by default the motion's duration and tail, or 30 s.
     pub stop_time: Option<Spanned<f64>>,

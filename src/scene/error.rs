@@ -33,8 +33,8 @@ pub enum SceneError {
     Run(#[from] RunError),
     /// Too many output points.
     #[error(
-        "stop_time = {stop} s with output_step = {step} s makes more than {limit} output points; raise output_step or \
-         shorten the run"
+        "stop_time = {stop} s with output_step = {step} s makes more than {limit} output points; raise \
+         output_step or shorten the run"
     )]
     TooLong { stop: f64, step: f64, limit: f64 },
 }

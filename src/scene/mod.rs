@@ -1,8 +1,8 @@
 //! A scene: a wall, its motion and what a run shows, as a TOML file.
 //!
-//! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[start]` and `[solver]` hold the parameters of the
-//! model description under the same names; `[motion]` says what moves the supports. An FMU made from a scene carries it
-//! as `resources/scene.toml`, read by the same code.
+//! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[start]` and `[solver]` hold the
+//! parameters of the model description under the same names; `[motion]` says what moves the supports. An FMU
+//! made from a scene carries it as `resources/scene.toml`, read by the same code.
 
 mod document;
 mod error;
@@ -79,7 +79,7 @@ pub const MOST_THRESHOLDS: usize = 100;
 pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
     let message = match fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
         Some(fraction) => {
-            format!("thresholds: {fraction} is no fraction of u_ins; give numbers above 0 and at most 1")
+            format!("thresholds: {fraction} is not a fraction of u_ins; give numbers above 0 and at most 1")
         }
         None if fractions.len() > MOST_THRESHOLDS => {
             format!("thresholds: {} fractions of u_ins; give at most {MOST_THRESHOLDS}", fractions.len())
@@ -106,7 +106,8 @@ impl Scene {
         Self::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))
     }
 
-    /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in `folder`.
+    /// Reads a scene from its text; `name` stands for the file in messages, records are looked up in
+    /// `folder`.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -215,7 +216,8 @@ fn moved_apart(parameters: &Parameters, excitation: Option<&Excitation>) -> Opti
     let full = parameters.kinematics == Kinematics::Trigonometric;
     let apart = excitation.is_some_and(|motion| motion.top().is_some());
     (strip && full && apart).then_some(
-        "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set kinematics = linear",
+        "kinematics = trigonometric knows one motion for both supports; leave [motion.top] out, or set \
+         kinematics = linear",
     )
 }
 

@@ -1,4 +1,5 @@
-//! The motion of a scene: a record, a pulse, a harmonic or the synthetic one, for both supports or one for each.
+//! The motion of a scene: a record, a pulse, a harmonic or the synthetic one, for both supports or one for
+//! each.
 
 use std::path::{Path, PathBuf};
 

@@ -9,11 +9,12 @@ use crate::choices::{
 
 /// The parameters of a wall and of its solution, in SI units, named as in `modelDescription.xml`.
 ///
-/// This is where the scene file and the FMI variables meet. The limits of one parameter come from the description
-/// and are checked where it is set; relations between parameters are checked by [`Wall::new`](super::Wall::new) and
-/// [`Method::new`](crate::solver::Method::new).
+/// This is where the scene file and the FMI variables meet. The limits of one parameter come from the
+/// description and are checked where it is set; relations between parameters are checked by
+/// [`Wall::new`](super::Wall::new) and [`Method::new`](crate::solver::Method::new).
 ///
-/// A new parameter is an entry in the description and a field here; start value, getter and setter are generated.
+/// A new parameter is an entry in the description and a field here; start value, getter and setter are
+/// generated.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "each field is documented by the variable of the same name")]
 pub struct Parameters {
@@ -46,8 +47,8 @@ pub struct Parameters {
     pub newmark_step: f64,
     /// Small or full rotations. Only scenes carry it.
     pub kinematics: Kinematics,
-    /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides; replaces
-    /// `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
+    /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;
+    /// replaces `force_law`, `a1`, `a3`, `d1` and `softening`. Only scenes carry it.
     pub multilinear: Option<Arc<[[f64; 2]]>>,
 }
 

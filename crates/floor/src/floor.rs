@@ -49,7 +49,8 @@ impl Default for Parameters {
 pub enum ParameterError {
     /// Nothing can yield.
     #[error(
-        "hysteresis = bilinear needs a stiffness above 0, but stiffness = {stiffness} N/m; raise it or choose hysteresis = none"
+        "hysteresis = bilinear needs a stiffness above 0, but stiffness = {stiffness} N/m; raise it or \
+         choose hysteresis = none"
     )]
     NothingYields {
         /// \[N/m\]
@@ -57,7 +58,8 @@ pub enum ParameterError {
     },
     /// A number that is not finite.
     #[error(
-        "mass = {mass} kg, stiffness = {stiffness} N/m and damping give frequencies that are not finite; choose usual magnitudes"
+        "mass = {mass} kg, stiffness = {stiffness} N/m and damping give frequencies that are not finite; \
+         choose usual magnitudes"
     )]
     NotFinite {
         /// \[kg\]

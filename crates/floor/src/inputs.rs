@@ -81,8 +81,8 @@ impl Inputs {
         }
     }
 
-    /// Force of the floor on all walls now, and its rate \[N, N/s\]. An impulse counts as its mean force over a step: before
-    /// the coming step is known, over the last one.
+    /// Force of the floor on all walls now, and its rate \[N, N/s\]. An impulse counts as its mean force over
+    /// a step: before the coming step is known, over the last one.
     fn walls(&self, coupling: Coupling, duration: f64, rate: fn(&Input) -> f64) -> Load {
         match coupling {
             Coupling::Reactions => Load {

@@ -4,9 +4,9 @@
 //! M ẍ + c ẋ + R(x) = −M a_g − Σ rᵢ
 //! ```
 //!
-//! M is the mass without the walls', c the viscous damping, R a linear spring or a bilinear one with kinematic hardening,
-//! `a_g` the base's acceleration and rᵢ the force of the floor on wall i (the floor feels the opposite). The base is the ground or
-//! another floor.
+//! M is the mass without the walls', c the viscous damping, R a linear spring or a bilinear one with
+//! kinematic hardening, `a_g` the base's acceleration and rᵢ the force of the floor on wall i (the floor
+//! feels the opposite). The base is the ground or another floor.
 //!
 //! ```text
 //! modelDescription.xml ─ build.rs ─► variables ─► Unit   (FMI calls)
@@ -16,8 +16,9 @@
 //!                                  Piece   (closed form on one branch)
 //! ```
 //!
-//! Between yielding and unloading the equation is linear, and loads are linear over a step: each piece is solved in closed
-//! form, and the corners between pieces are located to rounding. The communication step adds no error of its own.
+//! Between yielding and unloading the equation is linear, and loads are linear over a step: each piece is
+//! solved in closed form, and the corners between pieces are located to rounding. The communication step adds
+//! no error of its own.
 //!
 //! ```
 //! use fmi2_export::{Log, Model, Step};

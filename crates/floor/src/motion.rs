@@ -55,7 +55,8 @@ pub enum MotionError {
     },
     /// The floor has left all bounds.
     #[error(
-        "the motion is no longer finite; the inputs are too large for mass = {mass} kg: reduce them or the step"
+        "the motion is no longer finite; the inputs are too large for mass = {mass} kg: reduce them or the \
+         step"
     )]
     NotFinite {
         /// \[kg\]
@@ -67,7 +68,8 @@ pub enum MotionError {
 const MOST_CORNERS: usize = 1_000_000;
 
 impl State {
-    /// A floor at a displacement \[m\] that it has reached by monotonic loading, with a velocity \[m/s\], under a load.
+    /// A floor at a displacement \[m\] that it has reached by monotonic loading, with a velocity \[m/s\],
+    /// under a load.
     #[must_use]
     pub fn new(floor: &Floor, displacement: f64, velocity: f64, load: Load) -> Self {
         let plastic = floor.yielding.map_or(0.0, |yielding| {
@@ -159,7 +161,8 @@ impl State {
             Branch::Elastic => return Branch::Elastic,
             yielding => yielding.sign(),
         };
-        // the first of velocity, acceleration, jerk that is not zero; the branches agree on them where the velocity is zero
+        // the first of velocity, acceleration, jerk that is not zero; the branches agree on them where the
+        // velocity is zero
         let heading = [self.velocity, self.acceleration(floor, load.value), self.jerk(floor, load)];
         match heading.into_iter().map(|rate| sign * rate).find(|rate| *rate != 0.0) {
             Some(outward) if outward > 0.0 && sign > 0.0 => Branch::YieldingUp,

@@ -1,6 +1,7 @@
 //! A piece of motion: one branch of the spring, with what is looked for along it.
 //!
-//! The acceleration obeys the free equation, so its zeros are known in closed form; between them the velocity is monotonic.
+//! The acceleration obeys the free equation, so its zeros are known in closed form; between them the velocity
+//! is monotonic.
 
 use std::f64::consts::PI;
 
@@ -66,14 +67,16 @@ impl Piece {
         (point, (work - kinetic - 0.5 * stiffness * y * y).max(0.0))
     }
 
-    /// Ends of the spans, up to `until`, within which the velocity is monotonic: zeros of the acceleration, then `until`.
+    /// Ends of the spans, up to `until`, within which the velocity is monotonic: zeros of the acceleration,
+    /// then `until`.
     pub(crate) fn monotonic_until(&self, until: f64) -> impl Iterator<Item = f64> {
         let (first, every) = self.first_flat();
         let flats = (0_u32..).map(move |n| if n == 0 { first } else { first + f64::from(n) * every });
         flats.take_while(move |&time| time < until).chain(std::iter::once(until))
     }
 
-    /// First zero of the acceleration after the start, and the distance between zeros; infinite where there is none.
+    /// First zero of the acceleration after the start, and the distance between zeros; infinite where there
+    /// is none.
     fn first_flat(&self) -> (f64, f64) {
         let (c, k, a) = (self.oscillator.damping(), self.oscillator.stiffness(), self.acceleration);
         // ȧ at the start
@@ -101,7 +104,8 @@ impl Piece {
         (if time > 0.0 { time } else { f64::INFINITY }, f64::INFINITY)
     }
 
-    /// The time in a bracket at which `height` takes the sign that it has at `high`; at `low` it has the other, or is zero.
+    /// The time in a bracket at which `height` takes the sign that it has at `high`; at `low` it has the
+    /// other, or is zero.
     pub(crate) fn crossing(&self, low: f64, high: f64, height: impl Fn(Point) -> f64) -> f64 {
         let (mut low, mut high) = (low, high);
         let (mut at_low, mut at_high) = (height(self.at(low)), height(self.at(high)));

@@ -127,7 +127,8 @@ impl Unit {
         if ignored && !self.ignored_told {
             self.ignored_told = true;
             log.warning(format_args!(
-                "{other} are connected but coupling = {name} ignores them; set coupling to {other} or leave them at 0"
+                "{other} are connected but coupling = {name} ignores them; set coupling to {other} or leave \
+                 them at 0"
             ));
         }
     }

@@ -76,8 +76,8 @@ impl Archive {
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, is not a zip archive, fails its checksum, unpacks to more than 1 GiB, or contains
-    /// paths that lead out of it.
+    /// A file that cannot be read, is not a zip archive, fails its checksum, unpacks to more than 1 GiB, or
+    /// contains paths that lead out of it.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let read = |source| ArchiveError::Read { path: path.to_path_buf(), source };
         let damaged = |source| ArchiveError::Damaged { path: path.to_path_buf(), source };

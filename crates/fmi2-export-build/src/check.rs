@@ -2,9 +2,10 @@
 
 use crate::element::Element;
 use crate::error::{Fault, Problem};
+use crate::names::camel_case;
 use crate::structure;
 use crate::variable::{
-    BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, camel_case, simple_type,
+    BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, simple_type,
 };
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -36,8 +37,8 @@ pub(crate) fn all(
     interfaces(root, variables)
 }
 
-/// At least one of co-simulation and Model Exchange, by one library; Model Exchange tells its derivatives and the
-/// number of its event indicators.
+/// At least one of co-simulation and Model Exchange, by one library; Model Exchange tells its derivatives and
+/// the number of its event indicators.
 fn interfaces(root: &Element, variables: &[Variable]) -> Result<(), Fault> {
     let (exchange, steps) = (root.child("ModelExchange"), root.child("CoSimulation"));
     let mut identifier = None;
@@ -260,11 +261,10 @@ fn items(enumeration: &EnumerationType) -> Result<(), Fault> {
 
 fn enumeration_start(variable: &Variable, enumerations: &[EnumerationType]) -> Result<(), Fault> {
     let Kind::Enumeration { start: Some(start) } = variable.kind else { return Ok(()) };
-    let declared_type = variable.declared_type.clone().unwrap_or_default();
-    let declared = enumerations.iter().find(|candidate| candidate.name == declared_type);
-    if declared.is_some_and(|declared| declared.items.iter().any(|item| item.value == start)) {
+    if variable.items(enumerations).iter().any(|item| item.value == start) {
         return Ok(());
     }
+    let declared_type = variable.declared_type.clone().unwrap_or_default();
     Err(variable.fault(Problem::StartNotAnItem { name: variable.name.clone(), start, declared_type }))
 }
 

@@ -1,57 +1,15 @@
-//! Writes the generated Rust modules.
+//! Writes `variables.rs`: what FMI calls need.
 //!
-//! `choices.rs` holds plain enumerations and the start values of the parameters, and knows no FMI. `variables.rs` holds
-//! what FMI calls need: one enum per FMI base type, a table of what the description says about each variable, and
-//! the access to the parameters by variable.
+//! One enum per FMI base type, a table of what the description says about each variable, and the access to
+//! the parameters by variable.
 
 use crate::description::Description;
-use crate::variable::{BaseType, Causality, EnumerationType, Item, Kind, Variable, camel_case};
-use std::fmt::Write as _;
+use crate::names::{HEAD, add, camel, field, markdown, type_name};
+use crate::variable::{BaseType, EnumerationType, Item, Kind, Variable};
 
-const HEAD: &str = "// Generated from the model description: change that instead.\n";
-
-/// The text of `choices.rs`: one enum per enumeration type, and the macro `start_values`.
-pub(crate) fn choices(description: &Description) -> String {
-    let mut code = String::from(HEAD);
-    for enumeration in &description.enumerations {
-        enumeration_type(&mut code, enumeration);
-    }
-    let start = |variable: &&Variable| {
-        let value = match &variable.kind {
-            Kind::Real { start, .. } => format!("{:?}", start.unwrap_or_default()),
-            Kind::Integer { start, .. } => start.unwrap_or_default().to_string(),
-            Kind::Boolean { start } => start.unwrap_or_default().to_string(),
-            Kind::String { start } => format!("{:?}.to_owned()", start.as_deref().unwrap_or_default()),
-            Kind::Enumeration { start } => {
-                let items = items(variable, &description.enumerations);
-                let item = items.iter().find(|item| Some(item.value) == *start);
-                format!("{}::{}", type_name(variable), camel(item.map_or("", |item| &item.name)))
-            }
-        };
-        format!("            {}: {value},\n", field(variable))
-    };
-    let fields: String = parameters(description).iter().map(start).collect();
-    code + &START_VALUES.replace("@fields@", &fields)
-}
-
-const START_VALUES: &str = "
-/// Makes a struct of the parameters: each has a field of its name, set to its start value. Other fields follow in
-/// the braces: `start_values!(Self { other: 0.0 })`.
-#[allow(unused_macros)]
-macro_rules! start_values {
-    ($name:ident { $($others:tt)* }) => {
-        $name {
-@fields@            $($others)*
-        }
-    };
-}
-#[allow(unused_imports)]
-pub(crate) use start_values;
-";
-
-/// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to its
-/// parameters.
-pub(crate) fn variables(description: &Description) -> String {
+/// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to
+/// its parameters.
+pub(crate) fn module(description: &Description) -> String {
     let mut code = String::from(HEAD);
     for (name, value, what) in [
         ("MODEL_NAME", description.model_name(), "Name of the model."),
@@ -60,18 +18,19 @@ pub(crate) fn variables(description: &Description) -> String {
     ] {
         add(&mut code, format_args!("\n/// {what}\npub const {name}: &str = {value:?};\n"));
     }
-    groups(&mut code, &parameters(description));
+    let parameters: Vec<_> = description.parameters().collect();
+    groups(&mut code, &parameters);
     exchange(&mut code, description);
     for base in BaseType::ALL {
         let of_base = |variable: &&Variable| variable.base() == base;
         let variables: Vec<_> = description.variables.iter().filter(of_base).collect();
         base_type(&mut code, base, &variables, &description.enumerations);
-        let parameters: Vec<_> = parameters(description).into_iter().filter(of_base).collect();
-        if !parameters.is_empty() {
-            access(&mut code, base, &parameters);
+        let of_base: Vec<_> = parameters.iter().copied().filter(of_base).collect();
+        if !of_base.is_empty() {
+            access(&mut code, base, &of_base);
         }
     }
-    transfer(&mut code, &parameters(description));
+    transfer(&mut code, &parameters);
     code
 }
 
@@ -101,16 +60,14 @@ impl Parameters {
     ///
     /// # Errors
     /// When the bytes to read end before, or are not a value of the parameter's type.
-    pub fn transfer(&mut self, codec: &mut ::fmi2_export::StateCodec<'_>) -> Result<(), ::fmi2_export::Failure> {
+    pub fn transfer(
+        &mut self,
+        codec: &mut ::fmi2_export::StateCodec<'_>,
+    ) -> Result<(), ::fmi2_export::Failure> {
 @lines@        Ok(())
     }
 }
 ";
-
-fn parameters(description: &Description) -> Vec<&Variable> {
-    let variables = description.variables.iter();
-    variables.filter(|variable| variable.causality == Causality::Parameter).collect()
-}
 
 /// The groups of parameters, in the order of their first parameters.
 fn groups(code: &mut String, parameters: &[&Variable]) {
@@ -237,7 +194,7 @@ fn table_row(variable: &Variable, enumerations: &[EnumerationType]) -> String {
     let kind = match &variable.kind {
         Kind::Enumeration { start } => {
             let items =
-                items(variable, enumerations).iter().map(|Item { name, value, description, .. }| {
+                variable.items(enumerations).iter().map(|Item { name, value, description, .. }| {
                     format!(
                         "\n            ::fmi2_export::Item {{ name: {name:?}, value: {value}, description: \
                      {description:?} }},"
@@ -254,12 +211,6 @@ fn table_row(variable: &Variable, enumerations: &[EnumerationType]) -> String {
          variability: ::fmi2_export::Variability::{variability:?},\n        unit: {unit:?},\n        kind: \
          ::fmi2_export::Kind::{kind},\n    }},\n"
     )
-}
-
-/// The items of an enumeration variable's type.
-fn items<'a>(variable: &Variable, enumerations: &'a [EnumerationType]) -> &'a [Item] {
-    let of_type = |candidate: &&EnumerationType| Some(&candidate.name) == variable.declared_type.as_ref();
-    enumerations.iter().find(of_type).map_or(&[], |enumeration| &enumeration.items)
 }
 
 /// Getter and setter of the parameters of one base type, and the pattern that matches them.
@@ -327,108 +278,3 @@ macro_rules! @method@_parameter {
 #[allow(unused_imports)]
 pub(crate) use @method@_parameter;
 ";
-
-/// The enum of an enumeration type, convertible to and from its numbers and names.
-fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
-    let name = camel(&enumeration.name);
-    let documentation = markdown(&enumeration.description);
-    add(code, format_args!("\n/// {documentation}.\n{DERIVE}pub enum {name} {{\n"));
-    for item in &enumeration.items {
-        let (variant, text) = (camel(&item.name), markdown(&item.description));
-        add(code, format_args!("    /// `{}`: {text}.\n    {variant},\n", item.name));
-    }
-    code.push_str("}\n");
-    let each = |text: &dyn Fn(&Item) -> String| -> String {
-        let lines = enumeration.items.iter().map(|item| format!("Self::{}{}", camel(&item.name), text(item)));
-        lines.fold(String::new(), |all, line| all + "\n            " + &line + ",")
-    };
-    code.push_str(
-        &ENUMERATION
-            .replace("@name@", &name)
-            .replace("@list@", &each(&|_| String::new()))
-            .replace("@values@", &each(&|item| format!(" => {}", item.value)))
-            .replace("@names@", &each(&|item| format!(" => {:?}", item.name)))
-            .replace("@descriptions@", &each(&|item| format!(" => {:?}", item.description))),
-    );
-}
-
-const ENUMERATION: &str = "
-impl @name@ {
-    /// Every item, in the order of the description.
-    pub const ALL: &'static [Self] = &[@list@
-    ];
-
-    /// The number that stands for it in FMI.
-    #[must_use]
-    pub fn value(self) -> i32 {
-        match self {@values@
-        }
-    }
-
-    /// The item with this number.
-    #[must_use]
-    pub fn from_value(value: i32) -> Option<Self> {
-        Self::ALL.iter().copied().find(|item| item.value() == value)
-    }
-
-    /// Its name in the description and in scenes.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {@names@
-        }
-    }
-
-    /// The item with this name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|item| item.name() == name)
-    }
-
-    /// One line on what it means.
-    #[must_use]
-    pub fn description(self) -> &'static str {
-        match self {@descriptions@
-        }
-    }
-}
-";
-
-/// `name` as a Rust type or variant: the checks have refused what cannot be one.
-fn camel(name: &str) -> String {
-    camel_case(name).unwrap_or_default()
-}
-
-/// The enum of an enumeration variable.
-fn type_name(variable: &Variable) -> String {
-    camel(variable.declared_type.as_deref().unwrap_or_default())
-}
-
-/// The field of a parameter: its name, with `_` for what Rust names cannot contain.
-fn field(parameter: &Variable) -> String {
-    parameter.name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
-}
-
-/// `text` as rustdoc's Markdown: identifiers in backticks, brackets as they are.
-fn markdown(text: &str) -> String {
-    let words = text.split(' ').map(|word| {
-        let core = word.trim_matches(|c: char| !c.is_alphanumeric() && c != '_');
-        let letters: Vec<char> = core.chars().collect();
-        let camel = letters.windows(2).any(|pair| pair[0].is_lowercase() && pair[1].is_uppercase());
-        let numbered = core.contains(|c: char| c.is_ascii_digit()) && core.contains(char::is_alphabetic);
-        let escaped = |text: &str| text.replace('[', "\\[").replace(']', "\\]").replace('<', "\\<");
-        match word.find(core) {
-            Some(at) if !core.is_empty() && (core.contains('_') || camel || numbered) => {
-                let (before, after) = (escaped(&word[..at]), escaped(&word[at + core.len()..]));
-                format!("{before}`{core}`{after}")
-            }
-            _ => escaped(word),
-        }
-    });
-    words.collect::<Vec<_>>().join(" ")
-}
-
-/// Appends to a string, which cannot fail.
-fn add(code: &mut String, text: std::fmt::Arguments<'_>) {
-    let written = code.write_fmt(text);
-    debug_assert!(written.is_ok(), "a string takes everything");
-}

@@ -4,7 +4,7 @@ use crate::check;
 use crate::element::Element;
 use crate::error::{Fault, Problem};
 use crate::fingerprint::{fingerprint, with_guid};
-use crate::variable::{EnumerationType, Variable};
+use crate::variable::{Causality, EnumerationType, Variable};
 
 /// A description that has passed every check.
 #[derive(Clone, Debug)]
@@ -76,6 +76,11 @@ impl Description {
     pub fn event_indicators(&self) -> usize {
         let count = self.root.attribute("numberOfEventIndicators");
         count.and_then(|count| count.trim().parse().ok()).unwrap_or_default()
+    }
+
+    /// The parameters, in the order of the description.
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(|variable| variable.causality == Causality::Parameter)
     }
 
     /// The derivatives in the order of the model structure, each with its state.

@@ -7,8 +7,8 @@ use quick_xml::{Reader, Writer, XmlVersion};
 /// Deeper nesting than any description needs is refused.
 const MAX_DEPTH: usize = 32;
 
-/// An element: attributes in their order, child elements in theirs. Comments and texts are not kept; an FMI 2.0
-/// description has no texts outside vendor annotations.
+/// An element: attributes in their order, child elements in theirs. Comments and texts are not kept; an FMI
+/// 2.0 description has no texts outside vendor annotations.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Element {
     pub(crate) name: String,

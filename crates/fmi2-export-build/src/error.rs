@@ -68,8 +68,8 @@ pub enum Problem {
     #[error("the name `{name}` was used on line {first} already")]
     RepeatedName { name: String, first: usize },
     #[error(
-        "`{name}` has value reference {reference}, which `{other}` on line {first} has already; take a free one, \
-         {free} for example"
+        "`{name}` has value reference {reference}, which `{other}` on line {first} has already; take a free \
+         one, {free} for example"
     )]
     RepeatedReference { name: String, reference: u32, other: String, first: usize, free: u32 },
     #[error("`{name}` and `{other}` on line {first} both become the Rust name {rust}")]

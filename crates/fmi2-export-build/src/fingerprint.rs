@@ -59,7 +59,8 @@ mod tests {
 
     #[test]
     fn the_fingerprint_ignores_the_guid_and_the_line_ends_alone() {
-        let source = "<?xml version=\"1.0\"?>\n<!-- guid=\"x\" -->\n<fmiModelDescription description='guid' guid=\"{fingerprint}\">\n</fmiModelDescription>\n";
+        let source = "<?xml version=\"1.0\"?>\n<!-- guid=\"x\" -->\n\
+            <fmiModelDescription description='guid' guid=\"{fingerprint}\">\n</fmiModelDescription>\n";
         let guid = fingerprint(source);
         assert_eq!(guid.len(), 34);
         let packaged = with_guid(source, &guid);

@@ -33,7 +33,7 @@
 //! variable     Element ─► variables and enumerations
 //! check        what the FMI 2.0 schema cannot check of these; structure: of the ModelStructure
 //! description  Description: what has passed every check
-//! code         Description ─► choices.rs, variables.rs
+//! choices      Description ─► choices.rs; code: ─► variables.rs
 //! reduced      Description ─► Description of a subset
 //! archive      FMU ◄─► files in memory, the same bytes for the same content
 //! pack         files of a build ─► FMU
@@ -42,11 +42,13 @@
 #[cfg(feature = "archive")]
 pub mod archive;
 mod check;
+mod choices;
 mod code;
 mod description;
 mod element;
 mod error;
 mod fingerprint;
+mod names;
 #[cfg(feature = "archive")]
 pub mod pack;
 mod reduced;
@@ -85,10 +87,12 @@ pub fn build_script(xml: &str) -> ExitCode {
     }
 }
 
-/// Reads the description `xml`, checks it, and writes `choices.rs` and `variables.rs` into the folder `out_dir`.
+/// Reads the description `xml`, checks it, and writes `choices.rs` and `variables.rs` into the folder
+/// `out_dir`.
 ///
 /// `choices.rs` stands alone: enumerations, and `start_values!` for a struct `Parameters` with one field per
-/// parameter. `variables.rs` refers to the crate `fmi2_export`, and needs `Parameters` and the enumerations in scope.
+/// parameter. `variables.rs` refers to the crate `fmi2_export`, and needs `Parameters` and the enumerations
+/// in scope.
 ///
 /// # Errors
 ///
@@ -99,7 +103,7 @@ pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let description = Description::parse(&text)
         .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
     for (name, code) in
-        [("choices.rs", code::choices(&description)), ("variables.rs", code::variables(&description))]
+        [("choices.rs", choices::module(&description)), ("variables.rs", code::module(&description))]
     {
         let path = out_dir.join(name);
         std::fs::write(&path, code).map_err(|source| DescriptionError::Write { path, source })?;

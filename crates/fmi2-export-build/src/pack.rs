@@ -74,7 +74,8 @@ pub enum PackError {
     },
     /// The platform is not one of FMI 2.0.
     #[error(
-        "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32"
+        "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
+         darwin32"
     )]
     UnknownPlatform {
         /// What was given.
@@ -93,7 +94,8 @@ impl Package {
     ///
     /// # Errors
     ///
-    /// A description that contradicts itself, files that cannot be read, an unknown platform, no `index.html`.
+    /// A description that contradicts itself, files that cannot be read, an unknown platform, no
+    /// `index.html`.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = String::from_utf8(read(&self.description)?).map_err(|error| PackError::Read {
             path: self.description.clone(),

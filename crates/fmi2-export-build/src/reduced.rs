@@ -53,7 +53,8 @@ pub enum ReductionError {
 impl Description {
     /// The description with the variables, start values, guid, names and experiment of `reduction`.
     ///
-    /// Value references stay; indices count anew. Model Exchange goes if a state or derivative does. Units, types and dependencies that nothing uses any more are gone.
+    /// Value references stay; indices count anew. Model Exchange goes if a state or derivative does. Units,
+    /// types and dependencies that nothing uses any more are gone.
     ///
     /// # Errors
     ///

@@ -166,6 +166,12 @@ impl Variable {
         }
     }
 
+    /// The items of its type, if that is an enumeration.
+    pub(crate) fn items<'a>(&self, enumerations: &'a [EnumerationType]) -> &'a [Item] {
+        let declared = enumerations.iter().find(|of_type| Some(&of_type.name) == self.declared_type.as_ref());
+        declared.map_or(&[], |enumeration| &enumeration.items)
+    }
+
     /// Its `initial`, which follows from causality and variability where the description leaves it out.
     pub(crate) fn initial_or_default(&self) -> Option<Initial> {
         self.initial.or(match (self.causality, self.variability) {
@@ -300,17 +306,4 @@ impl Item {
             description: element.attribute("description").unwrap_or_default().to_owned(),
         })
     }
-}
-
-/// `name` as a Rust type or variant: `u_dot_start` becomes `UDotStart`. `None` if that is not a Rust name.
-pub(crate) fn camel_case(name: &str) -> Option<String> {
-    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
-    let camel: String = words
-        .flat_map(|word| {
-            let mut letters = word.chars();
-            letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters)
-        })
-        .collect();
-    let starts_well = camel.starts_with(|c: char| c.is_ascii_alphabetic());
-    (starts_well && camel != "Self").then_some(camel)
 }

@@ -42,7 +42,8 @@ fn not_settable(variable: &Variable, phase: Phase) -> Failure {
         }
         Causality::Parameter => {
             return Failure(format!(
-                "{name} is a fixed parameter and cannot be set {phase}: set it before fmi2ExitInitializationMode"
+                "{name} is a fixed parameter and cannot be set {phase}: set it before \
+                 fmi2ExitInitializationMode"
             ));
         }
         Causality::CalculatedParameter => "a calculated parameter",

@@ -1,4 +1,5 @@
-//! The call order of FMI 2.0 as a table: Model Exchange (FMI 2.0.5, section 3.2.3) and co-simulation (section 4.2.4).
+//! The call order of FMI 2.0 as a table: Model Exchange (FMI 2.0.5, section 3.2.3) and co-simulation (section
+//! 4.2.4).
 
 use crate::model::Interface;
 use std::fmt;
@@ -74,7 +75,8 @@ impl fmt::Display for Phase {
     }
 }
 
-/// The functions that the call order is about: first those of both kinds, then of co-simulation, then of Model Exchange.
+/// The functions that the call order is about: first those of both kinds, then of co-simulation, then of
+/// Model Exchange.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Call {
     SetDebugLogging,
@@ -133,54 +135,56 @@ const TERM: u8 = Phase::Terminated.bit();
 const ERR: u8 = Phase::Error.bit();
 const EVENT: u8 = Phase::EventMode.bit();
 const TIME: u8 = Phase::ContinuousTimeMode.bit();
+/// After the end, or an error: values can still be read.
+const END: u8 = TERM | ERR;
 /// Between initialisation and end, in either kind.
 const RUN: u8 = STEP | EVENT | TIME;
 /// All but a lost instance.
-const ALIVE: u8 = INST | INIT | RUN | TERM | ERR;
+const ALIVE: u8 = INST | INIT | RUN | END;
 
 #[rustfmt::skip]
 const TABLE: [Row; 40] = [
-    row(Call::SetDebugLogging,                "fmi2SetDebugLogging",              ALIVE),
-    row(Call::SetupExperiment,                "fmi2SetupExperiment",              INST),
-    row(Call::EnterInitializationMode,        "fmi2EnterInitializationMode",      INST),
-    row(Call::ExitInitializationMode,         "fmi2ExitInitializationMode",       INIT),
-    row(Call::Terminate,                      "fmi2Terminate",                    RUN),
-    row(Call::Reset,                          "fmi2Reset",                        ALIVE),
-    row(Call::GetReal,                        "fmi2GetReal",                      INIT | RUN | TERM | ERR),
-    row(Call::GetInteger,                     "fmi2GetInteger",                   INIT | RUN | TERM | ERR),
-    row(Call::GetBoolean,                     "fmi2GetBoolean",                   INIT | RUN | TERM | ERR),
-    row(Call::GetString,                      "fmi2GetString",                    INIT | RUN | TERM | ERR),
-    row(Call::SetReal,                        "fmi2SetReal",                      INST | INIT | RUN),
-    row(Call::SetInteger,                     "fmi2SetInteger",                   INST | INIT | STEP | EVENT),
-    row(Call::SetBoolean,                     "fmi2SetBoolean",                   INST | INIT | STEP | EVENT),
-    row(Call::SetString,                      "fmi2SetString",                    INST | INIT | STEP | EVENT),
-    row(Call::GetFmuState,                    "fmi2GetFMUstate",                  ALIVE),
-    row(Call::SetFmuState,                    "fmi2SetFMUstate",                  ALIVE),
-    row(Call::FreeFmuState,                   "fmi2FreeFMUstate",                 ALIVE),
-    row(Call::SerializedFmuStateSize,         "fmi2SerializedFMUstateSize",       ALIVE),
-    row(Call::SerializeFmuState,              "fmi2SerializeFMUstate",            ALIVE),
-    row(Call::DeSerializeFmuState,            "fmi2DeSerializeFMUstate",          ALIVE),
-    row(Call::GetDirectionalDerivative,       "fmi2GetDirectionalDerivative",     INIT | RUN | TERM | ERR),
-    row(Call::SetRealInputDerivatives,        "fmi2SetRealInputDerivatives",      INIT | STEP),
-    row(Call::GetRealOutputDerivatives,       "fmi2GetRealOutputDerivatives",     STEP | TERM | ERR),
-    row(Call::DoStep,                         "fmi2DoStep",                       STEP),
+    row(Call::SetDebugLogging,               "fmi2SetDebugLogging",               ALIVE),
+    row(Call::SetupExperiment,               "fmi2SetupExperiment",               INST),
+    row(Call::EnterInitializationMode,       "fmi2EnterInitializationMode",       INST),
+    row(Call::ExitInitializationMode,        "fmi2ExitInitializationMode",        INIT),
+    row(Call::Terminate,                     "fmi2Terminate",                     RUN),
+    row(Call::Reset,                         "fmi2Reset",                         ALIVE),
+    row(Call::GetReal,                       "fmi2GetReal",                       INIT | RUN | END),
+    row(Call::GetInteger,                    "fmi2GetInteger",                    INIT | RUN | END),
+    row(Call::GetBoolean,                    "fmi2GetBoolean",                    INIT | RUN | END),
+    row(Call::GetString,                     "fmi2GetString",                     INIT | RUN | END),
+    row(Call::SetReal,                       "fmi2SetReal",                       INST | INIT | RUN),
+    row(Call::SetInteger,                    "fmi2SetInteger",                    INST | INIT | STEP | EVENT),
+    row(Call::SetBoolean,                    "fmi2SetBoolean",                    INST | INIT | STEP | EVENT),
+    row(Call::SetString,                     "fmi2SetString",                     INST | INIT | STEP | EVENT),
+    row(Call::GetFmuState,                   "fmi2GetFMUstate",                   ALIVE),
+    row(Call::SetFmuState,                   "fmi2SetFMUstate",                   ALIVE),
+    row(Call::FreeFmuState,                  "fmi2FreeFMUstate",                  ALIVE),
+    row(Call::SerializedFmuStateSize,        "fmi2SerializedFMUstateSize",        ALIVE),
+    row(Call::SerializeFmuState,             "fmi2SerializeFMUstate",             ALIVE),
+    row(Call::DeSerializeFmuState,           "fmi2DeSerializeFMUstate",           ALIVE),
+    row(Call::GetDirectionalDerivative,      "fmi2GetDirectionalDerivative",      INIT | RUN | END),
+    row(Call::SetRealInputDerivatives,       "fmi2SetRealInputDerivatives",       INIT | STEP),
+    row(Call::GetRealOutputDerivatives,      "fmi2GetRealOutputDerivatives",      STEP | END),
+    row(Call::DoStep,                        "fmi2DoStep",                        STEP),
     // Steps are computed while the importer waits: there is never one to cancel.
-    row(Call::CancelStep,                     "fmi2CancelStep",                   NEVER),
-    row(Call::GetStatus,                      "fmi2GetStatus",                    STEP | TERM | ERR),
-    row(Call::GetRealStatus,                  "fmi2GetRealStatus",                STEP | TERM | ERR),
-    row(Call::GetIntegerStatus,               "fmi2GetIntegerStatus",             STEP | TERM | ERR),
-    row(Call::GetBooleanStatus,               "fmi2GetBooleanStatus",             STEP | TERM | ERR),
-    row(Call::GetStringStatus,                "fmi2GetStringStatus",              STEP | TERM | ERR),
-    row(Call::EnterEventMode,                 "fmi2EnterEventMode",               EVENT | TIME),
-    row(Call::NewDiscreteStates,              "fmi2NewDiscreteStates",            EVENT),
-    row(Call::EnterContinuousTimeMode,        "fmi2EnterContinuousTimeMode",      EVENT),
-    row(Call::CompletedIntegratorStep,        "fmi2CompletedIntegratorStep",      TIME),
-    row(Call::SetTime,                        "fmi2SetTime",                      EVENT | TIME),
-    row(Call::SetContinuousStates,            "fmi2SetContinuousStates",          TIME),
-    row(Call::GetDerivatives,                 "fmi2GetDerivatives",               EVENT | TIME | TERM | ERR),
-    row(Call::GetEventIndicators,             "fmi2GetEventIndicators",           INIT | EVENT | TIME | TERM | ERR),
-    row(Call::GetContinuousStates,            "fmi2GetContinuousStates",          INIT | EVENT | TIME | TERM | ERR),
-    row(Call::GetNominalsOfContinuousStates,  "fmi2GetNominalsOfContinuousStates", INST | EVENT | TIME | TERM | ERR),
+    row(Call::CancelStep,                    "fmi2CancelStep",                    NEVER),
+    row(Call::GetStatus,                     "fmi2GetStatus",                     STEP | END),
+    row(Call::GetRealStatus,                 "fmi2GetRealStatus",                 STEP | END),
+    row(Call::GetIntegerStatus,              "fmi2GetIntegerStatus",              STEP | END),
+    row(Call::GetBooleanStatus,              "fmi2GetBooleanStatus",              STEP | END),
+    row(Call::GetStringStatus,               "fmi2GetStringStatus",               STEP | END),
+    row(Call::EnterEventMode,                "fmi2EnterEventMode",                EVENT | TIME),
+    row(Call::NewDiscreteStates,             "fmi2NewDiscreteStates",             EVENT),
+    row(Call::EnterContinuousTimeMode,       "fmi2EnterContinuousTimeMode",       EVENT),
+    row(Call::CompletedIntegratorStep,       "fmi2CompletedIntegratorStep",       TIME),
+    row(Call::SetTime,                       "fmi2SetTime",                       EVENT | TIME),
+    row(Call::SetContinuousStates,           "fmi2SetContinuousStates",           TIME),
+    row(Call::GetDerivatives,                "fmi2GetDerivatives",                EVENT | TIME | END),
+    row(Call::GetEventIndicators,            "fmi2GetEventIndicators",            INIT | EVENT | TIME | END),
+    row(Call::GetContinuousStates,           "fmi2GetContinuousStates",           INIT | EVENT | TIME | END),
+    row(Call::GetNominalsOfContinuousStates, "fmi2GetNominalsOfContinuousStates", INST | EVENT | TIME | END),
 ];
 
 const fn row(call: Call, name: &'static str, allowed: u8) -> Row {

@@ -26,7 +26,8 @@ pub(crate) fn check<M: Model>(guid: &str, resources: Option<&Path>) -> Result<Op
         .and_then(|digits| u128::from_str_radix(digits, 16).ok());
     let Some(payload_hash) = payload_hash else {
         return Err(Failure(format!(
-            "the guid {guid:?} is not that of this library, {:?}: take modelDescription.xml and library from the same FMU",
+            "the guid {guid:?} is not that of this library, {:?}: take modelDescription.xml and library from \
+             the same FMU",
             M::GUID
         )));
     };
@@ -40,8 +41,8 @@ pub(crate) fn check<M: Model>(guid: &str, resources: Option<&Path>) -> Result<Op
     let found = fnv1a_128(payload.iter().copied());
     if found != payload_hash {
         return Err(Failure(format!(
-            "resources/{} has the fingerprint {found:032x}, but the guid {guid:?} states {payload_hash:032x}: package the \
-             FMU again instead of changing its files",
+            "resources/{} has the fingerprint {found:032x}, but the guid {guid:?} states \
+             {payload_hash:032x}: package the FMU again instead of changing its files",
             M::PAYLOAD
         )));
     }

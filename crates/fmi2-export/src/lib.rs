@@ -2,12 +2,13 @@
 //!
 //! # How a model becomes an FMU
 //!
-//! 1. Describe its variables in a `modelDescription.xml`; `fmi2-export-build` turns that into enums that implement
-//!    [`VariableId`], and a guid.
-//! 2. Implement [`Model`]: get and set by exhaustive `match` over the enums, so that a variable described but not wired does
-//!    not compile; compute a step; write and read the state.
+//! 1. Describe its variables in a `modelDescription.xml`; `fmi2-export-build` turns that into enums that
+//!    implement [`VariableId`], and a guid.
+//! 2. Implement [`Model`]: get and set by exhaustive `match` over the enums, so that a variable described but
+//!    not wired does not compile; compute a step; write and read the state.
 //! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
-//! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be `"unwind"`.
+//! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be
+//!    `"unwind"`.
 //!
 //! ```
 //! use fmi2_export::*;
@@ -43,7 +44,9 @@
 //!     const IDENTIFIER: &'static str = "clock";
 //!     const PAYLOAD: &'static str = "clock.toml";
 //!
-//!     fn instantiate(_: Environment<'_>, _: &mut Log<'_>) -> Result<Self, Failure> { Ok(Self { count: 0.0 }) }
+//!     fn instantiate(_: Environment<'_>, _: &mut Log<'_>) -> Result<Self, Failure> {
+//!         Ok(Self { count: 0.0 })
+//!     }
 //!     fn real(&self, variable: Real) -> f64 { match variable { Real::Count => self.count } }
 //!     fn integer(&self, variable: None) -> i32 { match variable {} }
 //!     fn boolean(&self, variable: None) -> bool { match variable {} }
@@ -53,7 +56,7 @@
 //!     fn set_boolean(&mut self, variable: None, _: bool) { match variable {} }
 //!     fn set_text(&mut self, variable: None, _: &str) { match variable {} }
 //!     fn set_input_derivative(&mut self, _: Real, _: f64) -> bool { false }
-//!     fn output_derivative(&self, variable: Real) -> Option<f64> { match variable { Real::Count => Some(1.0) } }
+//!     fn output_derivative(&self, _: Real) -> Option<f64> { Some(1.0) }
 //!     fn directional_derivative(&self, _: Real, _: Real) -> Option<f64> { Option::None }
 //!     fn calculate(&mut self) -> Result<(), Failure> { Ok(()) }
 //!     fn setup_experiment(&mut self, _: Experiment) {}
@@ -73,15 +76,17 @@
 //!
 //! # What the layer sees to
 //!
-//! - Call order, from one table. A call that returns `fmi2Error` ends the simulation: then only getters, reset,
-//!   saved states and free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes) leave an instance
-//!   as it was.
-//! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets nothing.
-//! - Time: communication points are compared with a tolerance, and the step goes from the model's own time, so that
-//!   rounding is never lost or counted twice. A step too small to reach it changes nothing.
-//! - Saved states, in memory and as bytes with guid and checksum; reset. A state in memory belongs to its instance;
-//!   as bytes it goes to any other of the same guid.
-//! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even formatted.
+//! - Call order, from one table. A call that returns `fmi2Error` ends the simulation: then only getters,
+//!   reset, saved states and free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes)
+//!   leave an instance as it was.
+//! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets
+//!   nothing.
+//! - Time: communication points are compared with a tolerance, and the step goes from the model's own time,
+//!   so that rounding is never lost or counted twice. A step too small to reach it changes nothing.
+//! - Saved states, in memory and as bytes with guid and checksum; reset. A state in memory belongs to its
+//!   instance; as bytes it goes to any other of the same guid.
+//! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even
+//!   formatted.
 //! - Panics: caught, logged with their place, returned as `fmi2Error`, not printed.
 //! - Guids: description and library belong together, and a payload in `resources/` to its description.
 //!
@@ -89,8 +94,8 @@
 //!
 //! # Map
 //!
-//! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's; between
-//! them one instance with its table of allowed calls.
+//! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's;
+//! between them one instance with its table of allowed calls.
 
 mod access;
 mod call;

@@ -60,7 +60,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The first time derivative of an output, in its unit per second. None if it has none.
     fn output_derivative(&self, variable: Self::Real) -> Option<f64>;
 
-    /// The partial derivative ∂unknown/∂known, in the quotient of their units. `None` if there is no such derivative.
+    /// The partial derivative ∂unknown/∂known, in the quotient of their units. `None` if there is no such
+    /// derivative.
     fn directional_derivative(&self, unknown: Self::Real, known: Self::Real) -> Option<f64>;
 
     /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before
@@ -87,8 +88,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// When it cannot be computed. The model is then as it was before the step.
     fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure>;
 
-    /// Passes all that is not derived to `codec`: parameters, inputs and their derivatives, experiment, state.
-    /// Reading starts from a model as instantiated, and ends with computing what is derived.
+    /// Passes all that is not derived to `codec`: parameters, inputs and their derivatives, experiment,
+    /// state. Reading starts from a model as instantiated, and ends with computing what is derived.
     ///
     /// # Errors
     /// When the values read are not those of a valid model.
@@ -102,8 +103,9 @@ pub trait Model: Clone + Send + Sized + 'static {
 /// where an event indicator has changed sign already, until [`update`](Self::update).
 ///
 /// A state may also be set with [`Model::set_real`], in Event Mode and in Continuous-Time Mode, as some
-/// importers do who only evaluate the equations: the discrete state is then chosen anew. A discrete input may be set in
-/// Continuous-Time Mode, which FMI 2.0 forbids and some importers do all the same: it takes effect at the next event.
+/// importers do who only evaluate the equations: the discrete state is then chosen anew. A discrete input may
+/// be set in Continuous-Time Mode, which FMI 2.0 forbids and some importers do all the same: it takes effect
+/// at the next event.
 pub trait ModelExchange: Model {
     /// The continuous states.
     const STATES: &'static [Self::Real];

@@ -104,7 +104,8 @@ fn inputs_of_the_other_coupling_are_warned_of_once() {
     assert!(texts[0].contains("coupling = reactions"), "{texts:?}");
 }
 
-/// Directional derivatives against central differences; the floor is piecewise linear, so differences are exact to rounding.
+/// Directional derivatives against central differences; the floor is piecewise linear, so differences are
+/// exact to rounding.
 #[test]
 fn derivatives_are_those_of_the_outputs() {
     let yielding = [("displacement_start", 0.02), ("velocity_start", 0.5), ("damping_ratio", 0.1)];

@@ -5,7 +5,8 @@ use super::{Driven, assert_close};
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 2.0e7;
 
-/// A hundred steps add their rounding; each is a few ε of the amplitude, and the phase ω t is rounded to ε as well.
+/// A hundred steps add their rounding; each is a few ε of the amplitude, and the phase ω t is rounded to ε as
+/// well.
 const HUNDRED_STEPS: f64 = 1e-12;
 
 fn floor(damping_ratio: f64, more: &[(&str, f64)]) -> Driven {

@@ -13,8 +13,8 @@ use crate::model::Model;
 functions! {
     /// `fmi2SetRealInputDerivatives`
     ///
-    /// Order 1 of continuous inputs, for the next step. One that is refused for what the description says leaves
-    /// all as they were.
+    /// Order 1 of continuous inputs, for the next step. One that is refused for what the description says
+    /// leaves all as they were.
     set_real_input_derivatives<Model>(
         references: *const ValueReference, count: usize, orders: *const Integer, values: *const Real
     ): SetRealInputDerivatives, |instance| {
@@ -83,6 +83,8 @@ status_functions! {
     };
     Integer: "fmi2GetIntegerStatus" get_integer_status GetIntegerStatus, |_, _| None;
     // The model never ends the simulation by itself.
-    Boolean: "fmi2GetBooleanStatus" get_boolean_status GetBooleanStatus, |_, kind| (kind == TERMINATED).then_some(0);
+    Boolean: "fmi2GetBooleanStatus" get_boolean_status GetBooleanStatus, |_, kind| {
+        (kind == TERMINATED).then_some(0)
+    };
     Text: "fmi2GetStringStatus" get_string_status GetStringStatus, |_, _| None;
 }

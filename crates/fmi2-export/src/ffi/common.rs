@@ -132,7 +132,9 @@ functions! {
     /// `fmi2SetDebugLogging`
     ///
     /// Without categories all are meant. An unknown one is refused, and nothing changes then.
-    set_debug_logging<Model>(logging_on: Boolean, count: usize, categories: *const Text): SetDebugLogging, |instance| {
+    set_debug_logging<Model>(
+        logging_on: Boolean, count: usize, categories: *const Text
+    ): SetDebugLogging, |instance| {
         // SAFETY: as the caller promises.
         let categories = unsafe { array("categories", categories, count) }?;
         let names = categories.iter().map(|&category| {
@@ -171,7 +173,9 @@ functions! {
     /// `fmi2GetString`
     ///
     /// The texts live until the next call of this for the instance.
-    get_string<Model>(references: *const ValueReference, count: usize, values: *mut Text): GetString, |instance| {
+    get_string<Model>(
+        references: *const ValueReference, count: usize, values: *mut Text
+    ): GetString, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_get(references, values, count) }?;
         for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
@@ -182,7 +186,9 @@ functions! {
     /// `fmi2SetString`
     ///
     /// One value that is refused leaves all as they were.
-    set_string<Model>(references: *const ValueReference, count: usize, values: *const Text): SetString, |instance| {
+    set_string<Model>(
+        references: *const ValueReference, count: usize, values: *const Text
+    ): SetString, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_set(references, values, count) }?;
         let texts = values.iter().map(|&value| {
@@ -193,7 +199,8 @@ functions! {
     };
     /// `fmi2GetDirectionalDerivative`
     get_directional_derivative<Model>(
-        unknowns: *const ValueReference, unknown_count: usize, knowns: *const ValueReference, known_count: usize,
+        unknowns: *const ValueReference, unknown_count: usize,
+        knowns: *const ValueReference, known_count: usize,
         seeds: *const Real, values: *mut Real
     ): GetDirectionalDerivative, |instance| {
         // SAFETY: as the caller promises.
@@ -214,13 +221,17 @@ functions! {
     /// `fmi2SetReal`
     ///
     /// One value that is refused leaves all as they were.
-    set_real<Model>(references: *const ValueReference, count: usize, values: *const Real): SetReal, |instance| {
+    set_real<Model>(
+        references: *const ValueReference, count: usize, values: *const Real
+    ): SetReal, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_set(references, values, count) }?;
         instance.set_real(references, values)
     };
     /// `fmi2GetInteger`
-    get_integer<Model>(references: *const ValueReference, count: usize, values: *mut Integer): GetInteger, |instance| {
+    get_integer<Model>(
+        references: *const ValueReference, count: usize, values: *mut Integer
+    ): GetInteger, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_get(references, values, count) }?;
         instance.get_integer(references, values)
@@ -228,13 +239,17 @@ functions! {
     /// `fmi2SetInteger`
     ///
     /// One value that is refused leaves all as they were.
-    set_integer<Model>(references: *const ValueReference, count: usize, values: *const Integer): SetInteger, |instance| {
+    set_integer<Model>(
+        references: *const ValueReference, count: usize, values: *const Integer
+    ): SetInteger, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_set(references, values, count) }?;
         instance.set_integer(references, values)
     };
     /// `fmi2GetBoolean`
-    get_boolean<Model>(references: *const ValueReference, count: usize, values: *mut Boolean): GetBoolean, |instance| {
+    get_boolean<Model>(
+        references: *const ValueReference, count: usize, values: *mut Boolean
+    ): GetBoolean, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_get(references, values, count) }?;
         instance.get_boolean(references, values)
@@ -242,7 +257,9 @@ functions! {
     /// `fmi2SetBoolean`
     ///
     /// One value that is refused leaves all as they were.
-    set_boolean<Model>(references: *const ValueReference, count: usize, values: *const Boolean): SetBoolean, |instance| {
+    set_boolean<Model>(
+        references: *const ValueReference, count: usize, values: *const Boolean
+    ): SetBoolean, |instance| {
         // SAFETY: as the caller promises.
         let (references, values) = unsafe { to_set(references, values, count) }?;
         instance.set_boolean(references, values)

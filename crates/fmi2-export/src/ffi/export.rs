@@ -1,7 +1,8 @@
 //! The C functions of an FMU, by name.
 
-/// Makes the model `$model` an FMU: defines the C functions of FMI 2.0 in a module `fmi2`. For co-simulation these
-/// are 34, for Model Exchange, which asks for a [`ModelExchange`](crate::ModelExchange), 35, for both 44.
+/// Makes the model `$model` an FMU: defines the C functions of FMI 2.0 in a module `fmi2`. For co-simulation
+/// these are 34, for Model Exchange, which asks for a [`ModelExchange`](crate::ModelExchange), 35, for both
+/// 44.
 ///
 /// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these
 /// names.
@@ -184,7 +185,8 @@ macro_rules! __fmi2_functions {
         $(fn $name:ident = $generic:ident($($argument:ident: $type:ty),*) -> $result:ty;)*
     ) => { $(
         #[doc = concat!("`", stringify!($name), "` of FMI 2.0: see [`", stringify!($generic), "`].")]
-        #[doc = concat!("\n[`", stringify!($generic), "`]: fmi2_export::ffi::", stringify!($module), "::", stringify!($generic))]
+        #[doc = concat!("\n[`", stringify!($generic), "`]: fmi2_export::ffi::", stringify!($module), "::",
+            stringify!($generic))]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
             // SAFETY: C promises what the standard asks for.

@@ -60,14 +60,18 @@ pub(super) fn run<M: Model>(
     types::status(status)
 }
 
-/// Defines functions of an instance of a model: `name<kind of model>(arguments): call, what the instance does`.
+/// Defines functions of an instance of a model: `name<kind of model>(arguments): call, what the instance
+/// does`.
 macro_rules! functions {
-    ($($(#[$doc:meta])* $name:ident<$kind:ident>($($argument:ident: $type:ty),*): $call:ident, $body:expr;)*) => {$(
+    ($(
+        $(#[$doc:meta])*
+        $name:ident<$kind:ident>($($argument:ident: $type:ty),*): $call:ident, $body:expr;
+    )*) => {$(
         $(#[$doc])*
         ///
         /// # Safety
-        /// `component` is NULL or an instance; pointers are NULL or point to what the standard says, arrays to
-        /// as many elements as stated; texts end with a NUL.
+        /// `component` is NULL or an instance; pointers are NULL or point to what the standard says, arrays
+        /// to as many elements as stated; texts end with a NUL.
         pub unsafe fn $name<M: $kind>(component: Component, $($argument: $type),*) -> Status {
             // SAFETY: as the caller promises.
             let instance = unsafe { $crate::ffi::guard::instance::<M>(component) };

@@ -46,7 +46,9 @@ functions! {
         Ok(())
     };
     /// `fmi2SerializeFMUstate`
-    serialize_fmu_state<Model>(state: FmuState, bytes: *mut Byte, size: usize): SerializeFmuState, |instance| {
+    serialize_fmu_state<Model>(
+        state: FmuState, bytes: *mut Byte, size: usize
+    ): SerializeFmuState, |instance| {
         // SAFETY: as the caller promises.
         let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size) }?;
         let source = instance.serialize(state.addr())?;

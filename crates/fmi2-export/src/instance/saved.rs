@@ -80,6 +80,7 @@ fn interface_number(interface: Interface) -> u64 {
 }
 
 fn unknown_state() -> Failure {
-    "this instance did not make the FMUstate, or has freed it; serialize a state to take it to another instance"
+    "this instance did not make the FMUstate, or has freed it; serialize a state to take it to another \
+     instance"
         .into()
 }

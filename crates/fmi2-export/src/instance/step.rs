@@ -38,7 +38,8 @@ impl<M: Model> Instance<M> {
         let end = point + size;
         if let Some(stop) = self.now.experiment.stop.filter(|&stop| end > stop + tolerance_at(stop)) {
             return Err(Failure(format!(
-                "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s given to fmi2SetupExperiment"
+                "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s given to \
+                 fmi2SetupExperiment"
             )));
         }
         if !end.is_finite() {

@@ -1,0 +1,115 @@
+//! Writes `choices.rs`: plain enumerations and the start values of the parameters. It knows no FMI.
+
+use crate::description::Description;
+use crate::names::{HEAD, add, camel, field, markdown, type_name};
+use crate::variable::{EnumerationType, Item, Kind, Variable};
+
+/// The text of `choices.rs`: one enum per enumeration type, and the macro `start_values`.
+pub(crate) fn module(description: &Description) -> String {
+    let mut code = String::from(HEAD);
+    for enumeration in &description.enumerations {
+        enumeration_type(&mut code, enumeration);
+    }
+    let start = |variable: &Variable| {
+        let value = match &variable.kind {
+            Kind::Real { start, .. } => format!("{:?}", start.unwrap_or_default()),
+            Kind::Integer { start, .. } => start.unwrap_or_default().to_string(),
+            Kind::Boolean { start } => start.unwrap_or_default().to_string(),
+            Kind::String { start } => format!("{:?}.to_owned()", start.as_deref().unwrap_or_default()),
+            Kind::Enumeration { start } => {
+                let items = variable.items(&description.enumerations);
+                let item = items.iter().find(|item| Some(item.value) == *start);
+                format!("{}::{}", type_name(variable), camel(item.map_or("", |item| &item.name)))
+            }
+        };
+        format!("            {}: {value},\n", field(variable))
+    };
+    let fields: String = description.parameters().map(start).collect();
+    code + &START_VALUES.replace("@fields@", &fields)
+}
+
+const START_VALUES: &str = "
+/// Makes a struct of the parameters: each has a field of its name, set to its start value. Other fields
+/// follow in the braces: `start_values!(Self { other: 0.0 })`.
+#[allow(unused_macros)]
+macro_rules! start_values {
+    ($name:ident { $($others:tt)* }) => {
+        $name {
+@fields@            $($others)*
+        }
+    };
+}
+#[allow(unused_imports)]
+pub(crate) use start_values;
+";
+
+/// The enum of an enumeration type, convertible to and from its numbers and names.
+fn enumeration_type(code: &mut String, enumeration: &EnumerationType) {
+    let name = camel(&enumeration.name);
+    let documentation = markdown(&enumeration.description);
+    add(
+        code,
+        format_args!(
+            "\n/// {documentation}.\n#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]\n\
+         pub enum {name} {{\n"
+        ),
+    );
+    for item in &enumeration.items {
+        let (variant, text) = (camel(&item.name), markdown(&item.description));
+        add(code, format_args!("    /// `{}`: {text}.\n    {variant},\n", item.name));
+    }
+    code.push_str("}\n");
+    let each = |text: &dyn Fn(&Item) -> String| -> String {
+        let lines = enumeration.items.iter().map(|item| format!("Self::{}{}", camel(&item.name), text(item)));
+        lines.fold(String::new(), |all, line| all + "\n            " + &line + ",")
+    };
+    code.push_str(
+        &ENUMERATION
+            .replace("@name@", &name)
+            .replace("@list@", &each(&|_| String::new()))
+            .replace("@values@", &each(&|item| format!(" => {}", item.value)))
+            .replace("@names@", &each(&|item| format!(" => {:?}", item.name)))
+            .replace("@descriptions@", &each(&|item| format!(" => {:?}", item.description))),
+    );
+}
+
+const ENUMERATION: &str = "
+impl @name@ {
+    /// Every item, in the order of the description.
+    pub const ALL: &'static [Self] = &[@list@
+    ];
+
+    /// The number that stands for it in FMI.
+    #[must_use]
+    pub fn value(self) -> i32 {
+        match self {@values@
+        }
+    }
+
+    /// The item with this number.
+    #[must_use]
+    pub fn from_value(value: i32) -> Option<Self> {
+        Self::ALL.iter().copied().find(|item| item.value() == value)
+    }
+
+    /// Its name in the description and in scenes.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {@names@
+        }
+    }
+
+    /// The item with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|item| item.name() == name)
+    }
+
+    /// One line on what it means.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {@descriptions@
+        }
+    }
+}
+";
