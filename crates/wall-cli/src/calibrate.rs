@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
+use figures::{chart, escaped};
 use fmi2_export::Kind;
 use rocking_wall::variables::{DampingModel, ForceLaw, IntegerVariable};
 use rocking_wall::wall::Parameters;
@@ -16,9 +17,8 @@ use study::reproduce::facts::{FREE_STANDING, REGRESSIONS};
 use study::reproduce::tables::abbreviation;
 
 use crate::args::SceneArguments;
-use crate::figure::escaped;
+use crate::output;
 use crate::template::filled;
-use crate::{chart, output};
 
 #[derive(Debug, Args)]
 pub(crate) struct CalibrateArguments {

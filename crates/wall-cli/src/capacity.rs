@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
-use kuva::plot::{LegendPosition, LinePlot};
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{Scene, render_multiple};
+use figures::capacity::{Curve, plot};
+use figures::plot::Picture;
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
@@ -112,44 +110,17 @@ impl Capacity {
     }
 
     /// The curve of each side, and the secants of the first one.
-    pub(crate) fn drawing(&self) -> Scene {
-        let place = |point: &CapacityPoint| (1000.0 * point.displacement, point.force / 1000.0);
-        let mut lines = Vec::new();
-        for (side, color) in self.sides.iter().zip([CURVE, OTHER_CURVE]) {
-            let points: Vec<_> = side.corners.iter().map(place).collect();
-            let line = LinePlot::new().with_data(points).with_color(color).with_stroke_width(2.0);
-            lines.push(Plot::Line(line.with_legend(format!("capacity curve, {}", side.name))));
-        }
-        let secants = self.sides[0].limits.iter().filter_map(|point| Some((point, point.secant_period?)));
-        for ((point, period), color) in secants.zip(SECANTS.iter().cycle()) {
-            let line = LinePlot::new().with_data(vec![(0.0, 0.0), place(point)]).with_color(*color);
-            let legend = format!("{} u_ins, T = {period:.3} s", point.displacement_ratio);
-            lines.push(Plot::Line(line.with_stroke_width(1.3).with_dashed().with_legend(legend)));
-        }
-        let points = || self.sides.iter().flat_map(|side| &side.corners).map(place);
-        let right = points().map(|point| point.0).fold(0.0, f64::max);
-        let top = points().map(|point| point.1).fold(0.0, f64::max);
-        let low = points().map(|point| point.1).fold(0.0, f64::min);
-        let layout = Layout::auto_from_plots(&lines)
-            .with_width(820.0)
-            .with_height(460.0)
-            .with_x_axis_min(0.0)
-            .with_x_axis_max(1.02 * right)
-            .with_y_axis_min(1.05 * low)
-            .with_y_axis_max(1.08 * top)
-            .with_x_label("displacement |u| (mm)")
-            .with_y_label("restoring force |F| (kN)")
-            .with_label_size(14)
-            .with_tick_size(12)
-            .with_legend_position(LegendPosition::InsideTopRight)
-            .with_font_family("system-ui, sans-serif");
-        render_multiple(lines, layout)
+    pub(crate) fn picture(&self) -> Picture {
+        let place = |point: &CapacityPoint| (point.displacement, point.force);
+        let curve = |side: &Side| Curve { name: side.name, points: side.corners.iter().map(place).collect() };
+        let secant = |point: &CapacityPoint| {
+            let name = format!("{} u_ins, T = {:.3} s", point.displacement_ratio, point.secant_period?);
+            Some((name, place(point)))
+        };
+        let curves: Vec<_> = self.sides.iter().map(curve).collect();
+        plot(&curves, self.sides[0].limits.iter().filter_map(secant).collect()).picture()
     }
 }
-
-const CURVE: &str = "#1f5fa8";
-const OTHER_CURVE: &str = "#4d4d4d";
-const SECANTS: [&str; 4] = ["#2e7d32", "#c98a00", "#b3371e", "#8e5bb5"];
 
 fn columns(point: &CapacityPoint) -> String {
     let values = [

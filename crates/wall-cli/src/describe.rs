@@ -9,7 +9,7 @@ use rocking_wall::wall::{Wall, equivalence};
 
 use crate::args::DescribeArguments;
 use crate::capacity::Capacity;
-use crate::{figure, output};
+use crate::output;
 
 /// One derived number: name, symbol, value, unit.
 struct Fact(&'static str, &'static str, f64, &'static str);
@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let capacity = Capacity::new(&wall, &fractions);
     // the plot first, which may be refused
     if let Some(path) = &arguments.plot {
-        output::to_file(path, &figure::file(path, || Ok(capacity.drawing()))?)?;
+        output::picture(path, || Ok(capacity.picture()))?;
     }
     if let Some(path) = &arguments.csv {
         output::to_file(path, capacity.csv().as_bytes())?;

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use kuva::plot::LineStyle;
+use figures::palette::{BLUE, GREY, RED};
+use figures::plot::Plot;
+use figures::response::{both_rotations, period_ratios};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, Solver};
@@ -12,13 +14,6 @@ use study::accuracy::linearisation::{
     Comparison, Period, SLENDERNESS, STARTS, figure_2, figure_2_wall, figure_3, period,
 };
 
-use crate::figure::{Curve, Figure};
-
-/// Colours of small rotations, of full ones, and of Eq. (5).
-const LINEAR: &str = "#b3371e";
-const FULL: &str = "#1f5fa8";
-const HOUSNER: &str = "#777777";
-const STYLES: [LineStyle; 3] = [LineStyle::Dotted, LineStyle::Dashed, LineStyle::Solid];
 /// The figures' output step \[s\].
 const STEP: f64 = 0.01;
 /// Names of the two mechanisms, and how long Figure 2 watches them \[s\].
@@ -116,9 +111,9 @@ impl Linearisation {
              0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio of the two periods against slenderness, \
              hinge of the strip at mid-height.</p>\n<p class=\"key\">{}</p>\n<main class=\"wide\">\n",
             key(&[
-                ("full rotations", FULL),
-                ("small rotations", LINEAR),
-                ("Eq. (1) over Eq. (5), √cos α", HOUSNER)
+                ("full rotations", BLUE),
+                ("small rotations", RED),
+                ("Eq. (1) over Eq. (5), √cos α", GREY)
             ])
         );
         for Measured { name, duration, restitution, history, .. } in &self.0 {
@@ -159,16 +154,7 @@ fn histories(comparison: &Comparison, duration: f64) -> String {
         history.iter().enumerate().map(|(index, &u)| (index as f64 * comparison.step, u)).collect()
     };
     let (linear, full) = (timed(&comparison.linear.history), timed(&comparison.trigonometric.history));
-    both(&full, &linear, duration, 290.0).svg
-}
-
-/// Two histories of u/`u_ins`.
-fn both(full: &[(f64, f64)], linear: &[(f64, f64)], end: f64, height: f64) -> Figure {
-    let curves = [
-        Curve { points: linear, color: LINEAR, style: LineStyle::Dashed },
-        Curve { points: full, color: FULL, style: LineStyle::Solid },
-    ];
-    Figure::curves(&curves, [0.0, end], None, ["time (s)", "u / u_ins"], height)
+    both_rotations(&full, &linear, duration, 290.0).svg()
 }
 
 /// Ratios of periods of one mechanism.
@@ -177,34 +163,16 @@ fn ratios(periods: &[Vec<Period>]) -> String {
         let upright = std::iter::once((0.0, 1.0));
         upright.chain(periods.iter().filter_map(|period| Some((period.slenderness, of(period)?)))).collect()
     };
-    let lines: Vec<_> =
-        periods.iter().map(|periods| points(&|period| Some(period.ratio()), periods)).collect();
-    let housner = points(&Period::over_housner, &periods[0]);
-    let mut curves = Vec::new();
-    if housner.len() > 1 {
-        curves.push(Curve { points: &housner, color: HOUSNER, style: LineStyle::Solid });
-    }
-    let styled = lines.iter().zip(STYLES);
-    curves.extend(styled.map(|(points, style)| Curve { points, color: FULL, style }));
-    ratio_figure(&curves, 290.0).svg
-}
-
-/// Ratios of periods against slenderness.
-fn ratio_figure(curves: &[Curve<'_>], height: f64) -> Figure {
-    let points = || curves.iter().flat_map(|curve| curve.points);
-    let lowest = points().map(|point| point.1).fold(1.0, f64::min);
-    let widest = points().map(|point| point.0).fold(0.0, f64::max);
-    let room = 0.08 * (1.0 - lowest).max(1e-6);
-    let labels = ["slenderness α (rad)", "period, small / full rotations"];
-    Figure::curves(curves, [0.0, widest], Some([lowest - room, 1.0 + room]), labels, height)
+    let curves = periods.iter().map(|periods| points(&|period| Some(period.ratio()), periods)).collect();
+    period_ratios(curves, points(&Period::over_housner, &periods[0]), 290.0).svg()
 }
 
 /// The same run with the other kinematics, for a rigid wall that allows it.
 pub(crate) struct Counterpart {
     /// Histories of u/`u_ins` side by side.
-    pub(crate) histories: Figure,
+    pub(crate) histories: Plot,
     /// Period ratios of this wall with other thicknesses, and where it stands itself: percent from left and top.
-    pub(crate) ratios: Figure,
+    pub(crate) ratios: Plot,
     pub(crate) place: [f64; 2],
     /// Largest distance of the histories while both stand \[-\].
     pub(crate) apart: f64,
@@ -245,13 +213,13 @@ impl Counterpart {
                 Some((*alpha, period.ratio()))
             }))
             .collect();
-        let ratios = ratio_figure(&[Curve { points: &curve, color: FULL, style: LineStyle::Solid }], 250.0);
+        let ratios = period_ratios(vec![curve], Vec::new(), 250.0);
         let ([left, right, top, bottom], [x0, x1, y0, y1]) = (ratios.area(), ratios.ranges());
         let place = [
             left + (right - left) * (wall.slenderness - x0) / (x1 - x0),
             top + (bottom - top) * (y1 - wall.ratio()) / (y1 - y0),
         ];
-        let histories = both(full, linear, end, 250.0);
+        let histories = both_rotations(full, linear, end, 250.0);
         Some(Self { histories, ratios, place, apart, ratio: wall.ratio(), start })
     }
 }

@@ -6,7 +6,8 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow, bail};
+use figures::plot::Picture;
 
 /// Writes a file whole or not at all: beside its place first, then renamed.
 pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
@@ -25,6 +26,17 @@ pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
         let _ = std::fs::remove_file(&part);
     }
     written.with_context(context)
+}
+
+/// Writes a picture, as SVG or PNG by the file's ending; draws it only if the ending is one of them.
+pub(crate) fn picture(path: &Path, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let bytes = match ending.as_str() {
+        "svg" => draw()?.svg().into_bytes(),
+        "png" => draw()?.png().map_err(|reason| anyhow!("{}: {reason}", path.display()))?,
+        _ => bail!("{}: a plot ends in .svg or .png", path.display()),
+    };
+    to_file(path, &bytes)
 }
 
 /// Prints to stdout; a reader that has closed the pipe has had enough.

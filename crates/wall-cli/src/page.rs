@@ -3,13 +3,14 @@
 use std::fmt::Write;
 
 use anyhow::{Result, bail};
+use figures::plot::Plot;
+use figures::{escaped, response as plots};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, DampingSource, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 
 use crate::demands;
-use crate::figure::{Color, Figure, escaped};
 use crate::linearisation::Counterpart;
 use crate::template::filled;
 
@@ -226,22 +227,12 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     let backbone: Vec<_> =
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
     [
-        plot(
-            "history",
-            "Displacement; dashed: static instability",
-            &Figure::history(&ratio, end, "u / u_ins", &[-1.0, 1.0], Color::Response),
-            overturned,
-        ),
-        plot(
-            "motion",
-            "Acceleration of the bottom support",
-            &Figure::history(&motion, end, "a_g (m/s²)", &[], Color::Motion),
-            None,
-        ),
+        plot("history", "Displacement; dashed: static instability", &plots::history(&ratio, end), overturned),
+        plot("motion", "Acceleration of the bottom support", &plots::motion(&motion, end), None),
         plot(
             "force",
             "Restoring force on its backbone (dashed)",
-            &Figure::path_on_backbone(&backbone, range),
+            &plots::path_on_backbone(&backbone, range),
             None,
         ),
     ]
@@ -274,12 +265,12 @@ fn rotations(scene: &Scene, response: &Response) -> String {
              style=\"left:{x:.3}%;top:{y:.3}%\"></div></div></figure>",
             twin.start,
             100.0 * (1.0 - twin.ratio),
-            twin.ratios.svg
+            twin.ratios.svg()
         )
 }
 
 /// A plot with what moves over it: a cursor on histories, a dot on the force.
-fn plot(id: &str, caption: &str, figure: &Figure, overturned: Option<f64>) -> String {
+fn plot(id: &str, caption: &str, figure: &Plot, overturned: Option<f64>) -> String {
     let [left, right, top, bottom] = figure.area();
     let [from, to, _, _] = figure.ranges();
     let span = format!("top:{:.4}%;height:{:.4}%", 100.0 * top, 100.0 * (bottom - top));
@@ -302,7 +293,7 @@ fn plot(id: &str, caption: &str, figure: &Figure, overturned: Option<f64>) -> St
          data-ranges=\"{}\">{}{over}</div></figure>",
         json(&figure.area()),
         json(&figure.ranges()),
-        figure.svg
+        figure.svg()
     )
 }
 

@@ -4,11 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use figures::plot::Picture;
+use figures::records;
 use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum, read_channels};
 use serde_json::{Value, json};
 
 use crate::args::RecordFilesArguments;
-use crate::{figure, output, record_plot};
+use crate::output;
 
 /// One channel of a file and what is told of it.
 struct Row {
@@ -75,11 +77,7 @@ fn read(
 fn show(rows: &[Row], arguments: &RecordFilesArguments, spectrum: Spectrum) -> Result<()> {
     let mut written = Vec::new();
     if let Some(path) = &arguments.plot {
-        let named: Vec<_> = rows.iter().map(|row| (row.name(), &row.record.motion)).collect();
-        output::to_file(
-            path,
-            &figure::file(path, || record_plot::drawing(&named, spectrum, arguments.damping))?,
-        )?;
+        output::picture(path, || picture(rows, spectrum, arguments.damping))?;
         written.push(path);
     }
     if let Some(path) = &arguments.csv {
@@ -175,6 +173,30 @@ fn table(rows: &[Row], arguments: &RecordFilesArguments) -> String {
         }
     }
     text
+}
+
+/// Periods of the spectra drawn: up to 4 s, denser where they are short.
+const PERIODS: u32 = 200;
+const SHORTEST: f64 = 0.01;
+const LONGEST: f64 = 4.0;
+
+/// The histories and the spectra.
+fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
+    let drawn = |row: &Row| -> Result<records::Record> {
+        let motion = &row.record.motion;
+        let samples = motion.samples().iter().enumerate();
+        let history =
+            samples.map(|(index, a)| (index as f64 * motion.step(), a / STANDARD_GRAVITY)).collect();
+        // the peak ground acceleration at 0
+        let mut points = vec![(0.0, row.peak())];
+        for index in 0..=PERIODS {
+            let part = f64::from(index) / f64::from(PERIODS);
+            let period = SHORTEST + (LONGEST - SHORTEST) * part * part;
+            points.push((period, spectrum.acceleration(motion, period)? / STANDARD_GRAVITY));
+        }
+        Ok(records::Record { name: row.name(), history, spectrum: points })
+    };
+    Ok(records::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
 }
 
 /// A step to six digits, without trailing zeros.

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use figures::{chart, escaped};
 use ground_motion::{RecordOptions, read};
 use study::ida::NamedRecord;
 use study::parallel::threads;
 use study::reproduce::collapse::{Collapses, figure_15};
 use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
-use crate::figure::escaped;
+use crate::output;
 use crate::template::filled;
-use crate::{chart, output};
 
 #[derive(Debug, Args)]
 pub(crate) struct ReproduceArguments {

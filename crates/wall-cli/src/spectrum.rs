@@ -5,6 +5,9 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
+use figures::escaped;
+use figures::heat_map::{Axis, Cell, HeatMap, scale};
+use figures::palette::mixed;
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, Impact};
@@ -13,8 +16,6 @@ use study::parallel;
 use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls};
 
 use crate::args::{RecordArguments, SceneArguments};
-use crate::figure::escaped;
-use crate::heat_map::{Axis, HeatMap, Paint, mixed, scale};
 use crate::output;
 use crate::template::filled;
 
@@ -327,15 +328,15 @@ fn page(shown: &Shown) -> String {
         };
         let title =
             format!("{} = {}, {} = {}: {what}", shown.labels[0], columns[column], shown.labels[1], rows[row]);
-        Paint { fill, title, crossed: false }
+        Cell { fill, title, crossed: false }
     };
     let side = |area: f64, count: usize| (area / count as f64).floor().max(2.0);
     let map = HeatMap {
         label: "u_max/u_ins of rocking walls".into(),
         columns: Axis::even(shown.labels[0], columns),
         rows: Axis::even(shown.labels[1], rows),
-        cell: [side(AREA[0], columns.len()), side(AREA[1], rows.len())],
-        paint: &paint,
+        size: [side(AREA[0], columns.len()), side(AREA[1], rows.len())],
+        cells: &paint,
     };
     let swatches: Vec<_> = (0..=10_u32)
         .map(|step| {
@@ -352,7 +353,7 @@ fn page(shown: &Shown) -> String {
             ("still", STILL),
             ("fallen", FALLEN),
             ("scale", &scale("colours of u_max/u_ins", &swatches)),
-            ("map", &map.draw()),
+            ("map", &map.svg()),
         ],
     )
 }

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use figures::escaped;
+use figures::heat_map::{self, HeatMap, scale};
+use figures::palette::mixed;
 use study::stability::{Axis, Cell, Extreme, Map};
 
-use crate::figure::escaped;
-use crate::heat_map::{Axis as CellAxis, HeatMap, Paint, mixed, scale};
 use crate::stability::axis_words;
 use crate::template::filled;
 
@@ -55,7 +56,7 @@ fn drawing(map: &Map) -> String {
     let axis = axis_words(map.axis);
     let paint = |row: usize, column: usize| {
         let (cell, a1, value) = (&map.cells[row][column], map.columns[column], map.rows[row]);
-        Paint {
+        heat_map::Cell {
             fill: colour(cell.error),
             title: format!("a1 = {a1:.1e}, {axis} = {value:.1e}: {}", words(cell)),
             crossed: !cell.stable,
@@ -74,12 +75,12 @@ fn drawing(map: &Map) -> String {
     };
     HeatMap {
         label: format!("error over a1 and {axis}"),
-        columns: CellAxis { label: "a₁".into(), count: map.columns.len(), ticks: columns },
-        rows: CellAxis { label: label.into(), count: map.rows.len(), ticks: middles(&map.rows) },
-        cell: CELL,
-        paint: &paint,
+        columns: heat_map::Axis { label: "a₁".into(), count: map.columns.len(), ticks: columns },
+        rows: heat_map::Axis { label: label.into(), count: map.rows.len(), ticks: middles(&map.rows) },
+        size: CELL,
+        cells: &paint,
     }
-    .draw()
+    .svg()
 }
 
 fn words(cell: &Cell) -> String {

@@ -2,41 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::sync::Arc;
 
-use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, ScatterPlot};
-use kuva::render::annotations::ReferenceLine;
-use kuva::render::layout::TickFormat;
-use kuva::render::plots::Plot;
+use figures::escaped;
+use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
 use study::accuracy::{Measurement, Study};
 
-use crate::figure;
 use crate::template::filled;
-
-/// Colours and marks of the solvers.
-const SOLVERS: [(&str, &str, MarkerShape); 3] = [
-    ("exact", "#1f5fa8", MarkerShape::Circle),
-    ("adaptive", "#2e7d32", MarkerShape::Square),
-    ("newmark", "#b3371e", MarkerShape::Triangle),
-];
-/// Colours and marks of the tools a comparison may name.
-const TOOLS: [(&str, &str, MarkerShape); 6] = [
-    ("rocking-wall", "#1f5fa8", MarkerShape::Circle),
-    ("ode_solvers", "#2e7d32", MarkerShape::Square),
-    ("diffsol", "#7b1fa2", MarkerShape::Diamond),
-    ("numba", "#e08a00", MarkerShape::Cross),
-    ("OpenSeesPy", "#b3371e", MarkerShape::Triangle),
-    ("SciPy", "#616161", MarkerShape::Plus),
-];
-const WIDTH: f64 = 440.0;
-const HEIGHT: f64 = 290.0;
-/// Below this no error is told from rounding; also keeps logarithms finite.
-const FLOOR: f64 = 1e-17;
-/// Errors are drawn by their exponents: kuva's own logarithmic axis ends at 1e-10.
-fn exponent(error: f64) -> f64 {
-    error.max(FLOOR).log10()
-}
 
 /// The page; `rotations` is its section on small rotations, `peers_csv` what `cargo xtask bench --peers` wrote.
 pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) -> String {
@@ -50,8 +21,8 @@ pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) 
         let _ = writeln!(
             figures,
             "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
-            figure::escaped(&study.name),
-            plot(study)
+            escaped(&study.name),
+            solver_plot(study)
         );
     }
     filled(
@@ -64,40 +35,30 @@ pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) 
     )
 }
 
-/// Points of one solver or tool: run time \[ms\], error, and words for each.
-struct Series {
-    color: &'static str,
-    marker: MarkerShape,
-    points: Vec<(f64, f64)>,
-    words: Vec<String>,
-    /// Points that follow from one another, joined by a line.
-    joined: bool,
-}
-
-fn plot(study: &Study) -> String {
-    let series = SOLVERS.map(|(name, color, marker)| {
+fn solver_plot(study: &Study) -> String {
+    let tools = SOLVERS.map(|(name, color, mark)| {
         let rows: Vec<&Measurement> =
             study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
         let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
-        let words = rows.iter().map(|row| hover(study, row)).collect();
-        Series { color, marker, points, words, joined: true }
+        let titles = rows.iter().map(|row| hover(study, row)).collect();
+        Tool { color, mark, points, titles, joined: true }
     });
-    drawing(&series, Some(study.rounding()))
+    plot(&tools, Some(study.rounding())).svg()
 }
 
 /// The plot of a scene of the peers.
 fn peer_plot(rows: &[&PeerRow<'_>]) -> String {
-    let series = TOOLS.map(|(name, color, marker)| {
+    let tools = TOOLS.map(|(name, color, mark)| {
         let rows = rows.iter().filter(|row| row.tool == name);
         let points = rows.clone().map(|row| (row.seconds * 1e3, row.error)).collect();
-        let words = rows
+        let titles = rows
             .map(|row| {
                 format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
             })
             .collect();
-        Series { color, marker, points, words, joined: false }
+        Tool { color, mark, points, titles, joined: false }
     });
-    drawing(&series, None)
+    plot(&tools, None).svg()
 }
 
 /// A line of the CSV that `cargo xtask bench --peers` writes.
@@ -132,46 +93,11 @@ fn peers(csv: &str) -> String {
         let _ = writeln!(
             section,
             "<figure><figcaption><b>Table 5, {}</b></figcaption>{}</figure>",
-            figure::escaped(scene),
+            escaped(scene),
             peer_plot(&rows)
         );
     }
     section + "</main>\n"
-}
-
-fn drawing(series: &[Series], limit: Option<f64>) -> String {
-    let mut plots: Vec<Plot> = Vec::new();
-    for Series { color, marker, points, words, joined } in
-        series.iter().filter(|series| !series.points.is_empty())
-    {
-        let drawn: Vec<(f64, f64)> = points.iter().map(|&(time, error)| (time, exponent(error))).collect();
-        if *joined {
-            plots.push(Plot::Line(
-                LinePlot::new().with_data(drawn.clone()).with_color(*color).with_stroke_width(1.2),
-            ));
-        }
-        plots.push(Plot::Scatter(
-            ScatterPlot::new()
-                .with_data(drawn)
-                .with_color(*color)
-                .with_marker(*marker)
-                .with_size(4.5)
-                .with_tooltips()
-                .with_tooltip_labels(words.clone()),
-        ));
-    }
-    let times = series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
-    let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
-    let size = [WIDTH, HEIGHT];
-    let ranges = [[decade(low, f64::floor), decade(high, f64::ceil)], [exponent(FLOOR), 1.0]];
-    let mut layout = figure::layout(&plots, size, ranges, ["run time (ms)", "max error / u_ins"])
-        .with_log_x()
-        .with_y_tick_step(3.0)
-        .with_y_tick_format(TickFormat::Custom(Arc::new(|exponent| format!("1e{exponent:.0}"))));
-    if let Some(limit) = limit {
-        layout = layout.with_reference_line(ReferenceLine::horizontal(exponent(limit)).with_color("#777"));
-    }
-    figure::inline(plots, layout, size)
 }
 
 fn hover(study: &Study, row: &Measurement) -> String {
@@ -187,9 +113,4 @@ fn hover(study: &Study, row: &Measurement) -> String {
         work.corners,
         work.impacts
     )
-}
-
-/// The power of ten below or above a value.
-fn decade(value: f64, round: fn(f64) -> f64) -> f64 {
-    10.0_f64.powf(round(value.log10()))
 }

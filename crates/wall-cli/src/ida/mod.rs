@@ -5,7 +5,6 @@ mod columns;
 mod folder;
 mod load;
 mod page;
-mod plot;
 mod progress;
 mod results;
 

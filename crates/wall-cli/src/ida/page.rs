@@ -2,25 +2,20 @@
 
 use std::fmt::Write;
 
+use figures::escaped;
+use figures::many_lines::ManyLines;
+use figures::palette::{AMBER, BLACK, BLUE, BROWN, GREEN, GREY, PURPLE, RED, TEAL};
 use study::fragility::{Interval, fractile, steps};
 use study::ida::{Curve, Occurrence};
 
-use crate::figure::escaped;
 use crate::template::filled;
 
-use super::plot::Plot;
 use super::results::{Results, in_g};
 
 /// Colours of the models by their names, then of the others in turn.
-const KNOWN: [(&str, &str); 6] = [
-    ("CR", "#222222"),
-    ("CDC", "#1f5fa8"),
-    ("CDR", "#2e7d32"),
-    ("SDR", "#e08a00"),
-    ("CDR Eq. 14", "#b3371e"),
-    ("none", "#8a8a8a"),
-];
-const OTHERS: [&str; 5] = ["#7b1fa2", "#00838f", "#6d4c41", "#c2185b", "#5c6bc0"];
+const KNOWN: [(&str, &str); 6] =
+    [("CR", BLACK), ("CDC", BLUE), ("CDR", GREEN), ("SDR", AMBER), ("CDR Eq. 14", RED), ("none", GREY)];
+const OTHERS: [&str; 5] = [PURPLE, TEAL, BROWN, "#c2185b", "#5c6bc0"];
 /// Sizes of the plots \[px\].
 const LARGE: [f64; 2] = [520.0, 330.0];
 const SMALL: [f64; 2] = [300.0, 250.0];
@@ -210,7 +205,7 @@ fn top_at(results: &Results, wall: usize, fraction: f64) -> f64 {
 fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: f64) -> String {
     let contents = results.contents();
     let fraction = results.manifest.report.fractions[place];
-    let mut plot = Plot::new(size, [0.0, top], [0.0, 1.0]);
+    let mut plot = ManyLines::new(size, [0.0, top], [0.0, 1.0]);
     for (model, summary) in results.summaries(wall, place).iter().enumerate() {
         let color = color(results, model);
         let mut points = vec![[0.0, 0.0]];
@@ -228,7 +223,7 @@ fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: 
             plot.line(&curve, "fit", color);
         }
     }
-    plot.finish(&format!("f{wall}-{place}"), [&format!("{} (g)", contents.measure), "probability"])
+    plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", contents.measure), "probability"])
 }
 
 /// Curves of one model: intensity up, demand across.
@@ -236,7 +231,7 @@ fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
     let contents = results.contents();
     let all = results.curves(wall, model);
     let color = color(results, model);
-    let mut plot = Plot::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
+    let mut plot = ManyLines::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
     let every = results.runs().div_ceil(MOST_POINTS).max(1);
     for curve in all.iter().step_by(every) {
         plot.line(&path(curve), "record", color);
@@ -244,7 +239,7 @@ fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
     for (part, class) in [(0.16, "fractile outer"), (0.84, "fractile outer"), (0.5, "fractile")] {
         plot.line(&fractile_path(all, part, top), class, color);
     }
-    plot.finish(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", contents.measure)])
+    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", contents.measure)])
 }
 
 /// A curve up to its collapse, where it goes flat.

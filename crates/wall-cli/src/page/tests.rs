@@ -5,7 +5,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::wall::Wall;
 
 use super::render;
-use crate::figure::{Color, Figure, WIDTH};
+use figures::response::{WIDTH, history};
 
 fn page(change: impl Fn(&mut Scene)) -> String {
     let mut scene = Scene::default();
@@ -69,8 +69,9 @@ fn an_empty_response_is_refused() {
 #[test]
 fn the_cursor_lines_up_with_the_time_axis() {
     let points: Vec<_> = (0..=10).map(|index| (f64::from(index), 0.1 * f64::from(index))).collect();
-    let figure = Figure::history(&points, 10.0, "u", &[-1.0, 1.0], Color::Response);
-    let path = figure.svg.split("<path").find(|part| part.contains("#1f5fa8")).expect("the line");
+    let figure = history(&points, 10.0);
+    let svg = figure.svg();
+    let path = svg.split("<path").find(|part| part.contains("#1f5fa8")).expect("the line");
     let data = path.split(" d=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("its path");
     let numbers: Vec<f64> = data
         .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))

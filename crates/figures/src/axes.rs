@@ -1,0 +1,34 @@
+//! Round numbers and texts for the axes of drawings by hand.
+
+use std::fmt::Write;
+
+/// Adds a text at a place \[px\]: its start, middle or end, as `anchor` says.
+pub(crate) fn write_text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, text: &str) {
+    let _ = write!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>");
+}
+
+/// Adds a text at a place \[px\], turned to read upwards.
+pub(crate) fn write_upwards(svg: &mut String, [x, y]: [f64; 2], text: &str) {
+    let place = format!("translate({x:.1} {y:.1}) rotate(-90)");
+    let _ = write!(svg, "<text transform=\"{place}\" text-anchor=\"middle\">{text}</text>");
+}
+
+/// Round numbers within a range, about `count` of them, with their text.
+pub(crate) fn ticks([low, high]: [f64; 2], count: f64) -> Vec<(f64, String)> {
+    let step = round_step((high - low) / count);
+    let first = (low / step - 1e-9).ceil();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12 decimals")]
+    let decimals = (-(step.log10() + 1e-9).floor()).clamp(0.0, 12.0) as usize;
+    (0..20)
+        .map(|k| (first + f64::from(k)) * step)
+        .take_while(|tick| *tick <= high + 1e-9 * step)
+        .map(|tick| (tick, format!("{tick:.decimals$}")))
+        .collect()
+}
+
+/// 1, 2 or 5 times a power of ten, at least `least`.
+fn round_step(least: f64) -> f64 {
+    let power = 10.0_f64.powf(least.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
+    steps.into_iter().find(|step| *step >= least).unwrap_or(least)
+}

@@ -1,0 +1,154 @@
+//! Heat maps as inline SVG: cells in colours with a title each, two axes, and the scale of the colours.
+//!
+//! ```
+//! use figures::heat_map::{Axis, Cell, HeatMap, scale};
+//!
+//! let values = [1.0, 2.0, 3.0];
+//! let svg = HeatMap {
+//!     label: "sums".into(),
+//!     columns: Axis::even("a", &values),
+//!     rows: Axis::even("b", &values),
+//!     size: [26.0, 20.0],
+//!     cells: &|row, column| Cell { fill: "#fff".into(), title: (row + column).to_string(), crossed: false },
+//! }
+//! .svg();
+//! assert_eq!(svg.matches("<title>").count(), 9);
+//! assert!(scale("colours", &[("#fff".into(), Some("0".into()))]).contains(">0</text>"));
+//! ```
+
+use std::fmt::Write;
+
+use crate::axes::{ticks as round, write_text, write_upwards};
+
+/// Margins around the cells \[px\].
+const LEFT: f64 = 62.0;
+const RIGHT: f64 = 8.0;
+const BOTTOM: f64 = 44.0;
+const TOP: f64 = 6.0;
+
+/// A map of cells, the first row at the bottom.
+pub struct HeatMap<'a> {
+    /// What it shows, for those who cannot see it.
+    pub label: String,
+    /// The horizontal axis.
+    pub columns: Axis,
+    /// The vertical axis.
+    pub rows: Axis,
+    /// Width and height of a cell \[px\].
+    pub size: [f64; 2],
+    /// The cell of a row and a column.
+    pub cells: &'a dyn Fn(usize, usize) -> Cell,
+}
+
+/// An axis: its label, the number of cells along it, and marks at places counted in cells from its start.
+pub struct Axis {
+    /// Quantity, and its unit in brackets.
+    pub label: String,
+    /// Number of cells.
+    pub count: usize,
+    /// Places and texts of the marks.
+    pub ticks: Vec<(f64, String)>,
+}
+
+/// How a cell looks and what it says when pointed at.
+pub struct Cell {
+    /// Colour.
+    pub fill: String,
+    /// What it says, as markup.
+    pub title: String,
+    /// Whether it is crossed out.
+    pub crossed: bool,
+}
+
+impl Axis {
+    /// An axis of evenly spaced values at the middles of its cells, marked at round numbers.
+    #[must_use]
+    pub fn even(label: &str, values: &[f64]) -> Self {
+        let count = values.len();
+        let mut ticks = Vec::new();
+        if let [first, .., last] = *values {
+            let place = |tick: f64| (tick - first) / (last - first) * (count as f64 - 1.0) + 0.5;
+            ticks = round([first, last], 7.0).into_iter().map(|(tick, text)| (place(tick), text)).collect();
+        }
+        Self { label: label.to_owned(), count, ticks }
+    }
+}
+
+impl HeatMap<'_> {
+    /// Draws the map.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let [width, height] = self.size;
+        let bottom = TOP + height * self.rows.count as f64;
+        let right = LEFT + width * self.columns.count as f64;
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"{}\">",
+            right + RIGHT,
+            bottom + BOTTOM,
+            self.label
+        );
+        for row in 0..self.rows.count {
+            let y = bottom - height * (row + 1) as f64;
+            for column in 0..self.columns.count {
+                self.draw_cell(&mut svg, [LEFT + width * column as f64, y], (self.cells)(row, column));
+            }
+        }
+        let _ = write!(
+            svg,
+            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\"/>",
+            right - LEFT,
+            bottom - TOP
+        );
+        for (place, text) in &self.rows.ticks {
+            write_text(&mut svg, [LEFT - 5.0, bottom - height * place + 4.0], "end", text);
+        }
+        for (place, text) in &self.columns.ticks {
+            write_text(&mut svg, [LEFT + width * place, bottom + 15.0], "middle", text);
+        }
+        write_text(&mut svg, [0.5 * (LEFT + right), bottom + 34.0], "middle", &self.columns.label);
+        write_upwards(&mut svg, [12.0, 0.5 * (TOP + bottom)], &self.rows.label);
+        svg + "</svg>"
+    }
+
+    fn draw_cell(&self, svg: &mut String, [x, y]: [f64; 2], cell: Cell) {
+        let [width, height] = self.size;
+        let Cell { fill, title, crossed } = cell;
+        let _ = write!(
+            svg,
+            "<rect x=\"{x:.0}\" y=\"{y:.0}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\">\
+             <title>{title}</title></rect>"
+        );
+        if crossed {
+            let _ = write!(
+                svg,
+                "<path d=\"M{:.0} {:.0}l{:.0} {:.0}m0 {:.0}l{:.0} {:.0}\" class=\"cross\"/>",
+                x + 8.0,
+                y + 5.0,
+                width - 16.0,
+                height - 10.0,
+                10.0 - height,
+                16.0 - width,
+                height - 10.0
+            );
+        }
+    }
+}
+
+/// Draws the scale of colours: swatches side by side, some with a text below.
+#[must_use]
+pub fn scale(label: &str, swatches: &[(String, Option<String>)]) -> String {
+    let width = 26.0;
+    let mut svg = format!(
+        "<svg viewBox=\"0 0 {:.0} 44\" class=\"scale\" role=\"img\" aria-label=\"{label}\">",
+        width * swatches.len() as f64 + 30.0
+    );
+    for (index, (fill, text)) in swatches.iter().enumerate() {
+        let x = 10.0 + width * index as f64;
+        let _ =
+            write!(svg, "<rect x=\"{x:.0}\" y=\"2\" width=\"{width:.0}\" height=\"18\" fill=\"{fill}\"/>");
+        if let Some(text) = text {
+            write_text(&mut svg, [x + 0.5 * width, 38.0], "middle", text);
+        }
+    }
+    svg + "</svg>"
+}

@@ -1,0 +1,41 @@
+//! Charts of rocking walls as SVG, drawn from plain values.
+//!
+//! The crate reads no file, writes none and computes no response: numbers go in, text comes out.
+//!
+//! ```text
+//! values ─► Plot ─► inline SVG for a page · picture (SVG or PNG) for a file
+//! ```
+//!
+//! | module | draws |
+//! |---|---|
+//! | [`mod@plot`] | lines and marks over two axes, by kuva: what the next five are made of |
+//! | [`chart`] | the charts of a study, with title and legend |
+//! | [`response`] | histories, the force path on its backbone, small beside full rotations |
+//! | [`capacity`] | capacity curves with their secants |
+//! | [`records`] | accelerograms above their response spectra |
+//! | [`work_precision`] | error against run time |
+//! | [`heat_map`] | cells in colours, and the scale of these colours |
+//! | [`many_lines`] | thousands of lines in few bytes, styled by the page |
+//! | [`palette`] | the colours and marks of all of them |
+
+mod axes;
+pub mod capacity;
+pub mod chart;
+pub mod heat_map;
+pub mod many_lines;
+pub mod palette;
+pub mod plot;
+mod points;
+pub mod records;
+pub mod response;
+pub mod work_precision;
+
+/// Escapes text for markup.
+///
+/// ```
+/// assert_eq!(figures::escaped("a < b"), "a &lt; b");
+/// ```
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,55 @@
+//! Colours and marks, told apart by people who see fewer colours too.
+//!
+//! ```
+//! use figures::palette::{BLUE, SERIES, mixed};
+//!
+//! assert_eq!(SERIES[0].0, BLUE);
+//! assert_eq!(mixed(&[[0.0, 0.0, 0.0], [200.0, 100.0, 0.0]], 0.5), "rgb(100,50,0)");
+//! ```
+
+pub use kuva::plot::scatter::MarkerShape as Mark;
+
+/// The response, and whatever comes first.
+pub const BLUE: &str = "#1f5fa8";
+/// Limits, and what is compared with the response.
+pub const RED: &str = "#b3371e";
+#[allow(missing_docs, reason = "a colour")]
+pub const GREEN: &str = "#2e7d32";
+#[allow(missing_docs, reason = "a colour")]
+pub const PURPLE: &str = "#8e5bb5";
+#[allow(missing_docs, reason = "a colour")]
+pub const AMBER: &str = "#c98a00";
+/// Ground motions.
+pub const DARK_GREY: &str = "#4d4d4d";
+#[allow(missing_docs, reason = "a colour")]
+pub const TEAL: &str = "#00838f";
+#[allow(missing_docs, reason = "a colour")]
+pub const BROWN: &str = "#6d4c41";
+/// References in the background.
+pub const GREY: &str = "#777777";
+/// One of many.
+pub const PALE: &str = "#b5b5b5";
+#[allow(missing_docs, reason = "a colour")]
+pub const BLACK: &str = "#000000";
+
+/// Colour, mark, and the mark as a character, of the series of a chart in turn.
+pub const SERIES: [(&str, Mark, &str); 6] = [
+    (BLUE, Mark::Circle, "●"),
+    (RED, Mark::Square, "■"),
+    (GREEN, Mark::Triangle, "▲"),
+    (PURPLE, Mark::Diamond, "◆"),
+    (AMBER, Mark::Cross, "✕"),
+    (DARK_GREY, Mark::Plus, "✚"),
+];
+
+/// Mixes a colour from `stops` (red, green, blue from 0 to 255), evenly spaced over shares from 0 to 1.
+#[must_use]
+pub fn mixed(stops: &[[f64; 3]], share: f64) -> String {
+    let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the last but one")]
+    let index = (place as usize).min(stops.len() - 2);
+    let part = place - index as f64;
+    let mix =
+        |channel: usize| stops[index][channel] + (stops[index + 1][channel] - stops[index][channel]) * part;
+    format!("rgb({:.0},{:.0},{:.0})", mix(0), mix(1), mix(2))
+}

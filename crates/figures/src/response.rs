@@ -1,0 +1,104 @@
+//! Plots of one run: histories, the force on its backbone, and small rotations beside full ones.
+//!
+//! ```
+//! let points: Vec<_> = (0..=100).map(|i| 0.1 * f64::from(i)).map(|t| (t, t.cos())).collect();
+//! let plot = figures::response::history(&points, 10.0);
+//! assert_eq!(plot.ranges()[..2], [0.0, 10.0]);
+//! assert!(plot.svg().contains("u / u_ins"));
+//! ```
+
+use crate::palette::{BLUE, DARK_GREY, GREY, RED};
+use crate::plot::{Axis, Look, Plot, Series};
+use crate::points::{clipped, decimated};
+
+/// Width of the plots \[px\].
+pub const WIDTH: f64 = 620.0;
+/// Looks of the curves of [`period_ratios`], the first for the smallest start.
+const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
+
+/// Draws u/`u_ins` over the time \[s\], with the limits ±1.
+#[must_use]
+pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
+    let limits = [-1.0, 1.0];
+    let plot = over_time(points, [0.0, end], "u / u_ins", BLUE, &limits);
+    Plot { size: [WIDTH, 250.0], limits: limits.map(|limit| (limit, RED)).to_vec(), ..plot }
+}
+
+/// Draws the acceleration of a support \[m/s²\] over the time \[s\].
+#[must_use]
+pub fn motion(points: &[(f64, f64)], end: f64) -> Plot {
+    over_time(points, [0.0, end], "a_g (m/s²)", DARK_GREY, &[])
+}
+
+fn over_time(
+    points: &[(f64, f64)],
+    times: [f64; 2],
+    label: &str,
+    color: &'static str,
+    shown: &[f64],
+) -> Plot {
+    let y_range = padded(points.iter().map(|point| point.1).chain(shown.iter().copied()));
+    let axes = [Axis::over("time (s)", times), Axis::over(label, y_range)];
+    Plot::new([WIDTH, 190.0], axes, vec![Series::line(color, 1.2, decimated(points, times[1]))])
+}
+
+/// Draws the part of the backbone that a run went through, on the whole of it: F \[kN\] over u/`u_ins`.
+#[must_use]
+pub fn path_on_backbone(backbone: &[(f64, f64)], [lowest, highest]: [f64; 2]) -> Plot {
+    let reach = highest.max(-lowest).clamp(1.0, 1.1);
+    let x_range = [-1.05 * reach, 1.05 * reach];
+    let within = clipped(backbone, x_range);
+    let path = clipped(backbone, [lowest.max(x_range[0]), highest.min(x_range[1])]);
+    let y_range = padded(within.iter().map(|point| point.1));
+    let law = Series { look: Look::Dashed, ..Series::line(RED, 1.0, within) };
+    let axes = [Axis::over("u / u_ins", x_range), Axis::over("restoring force F (kN)", y_range)];
+    Plot::new([WIDTH, 320.0], axes, vec![law, Series::line(BLUE, 1.6, path)])
+}
+
+/// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.
+#[must_use]
+pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, height: f64) -> Plot {
+    let y_range = padded(full.iter().chain(small).map(|point| point.1));
+    let series = vec![
+        Series { look: Look::Dashed, ..Series::line(RED, 1.4, decimated(small, end)) },
+        Series::line(BLUE, 1.4, decimated(full, end)),
+    ];
+    let axes = [Axis::over("time (s)", [0.0, end]), Axis::over("u / u_ins", y_range)];
+    Plot::new([WIDTH, height], axes, series)
+}
+
+/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\].
+///
+/// There is one curve for each start, the largest last. They lie on that of Eq. (5) of the paper, unless it
+/// is empty.
+#[must_use]
+pub fn period_ratios(curves: Vec<Vec<(f64, f64)>>, housner: Vec<(f64, f64)>, height: f64) -> Plot {
+    let points = || curves.iter().flatten().chain(&housner);
+    let lowest = points().map(|point| point.1).fold(1.0, f64::min);
+    let widest = points().map(|point| point.0).fold(0.0, f64::max);
+    let room = 0.08 * (1.0 - lowest).max(1e-6);
+    let axes = [
+        Axis::over("slenderness α (rad)", [0.0, widest]),
+        Axis::over("period, small / full rotations", [lowest - room, 1.0 + room]),
+    ];
+    let mut series = Vec::new();
+    if housner.len() > 1 {
+        series.push(Series::line(GREY, 1.4, housner));
+    }
+    let looks = LOOKS.into_iter().skip(LOOKS.len().saturating_sub(curves.len()));
+    series.extend(
+        curves
+            .into_iter()
+            .zip(looks)
+            .map(|(points, look)| Series { look, ..Series::line(BLUE, 1.4, points) }),
+    );
+    Plot::new([WIDTH, height], axes, series)
+}
+
+/// The range of some values with room around it.
+fn padded(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    // nothing but zeros: an axis of ones
+    let room = if high > low { 0.06 * (high - low) } else { 1.0 };
+    [low - room, high + room]
+}
