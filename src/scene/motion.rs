@@ -230,7 +230,8 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
     let listed = if names.is_empty() { "none".to_owned() } else { names.join(" and ") };
     let (Some((_, motion)), true) = (found.pop(), names.len() == 1) else {
         let message = format!(
-            "[motion] needs exactly one of record, ricker, harmonic, sine_cycle, half_sine and synthetic; found {listed}"
+            "[motion] needs exactly one of record, ricker, harmonic, sine_cycle, half_sine and synthetic; \
+             found {listed}"
         );
         return Err(Problem::Table(message));
     };
@@ -251,7 +252,8 @@ fn read_record(
         if found != *expected {
             let file = path.display();
             return Err(Problem::Table(format!(
-                "{file} has the fingerprint {found}, not {expected}: it is not the record this scene was made with"
+                "{file} has the fingerprint {found}, not {expected}: \
+                 it is not the record this scene was made with"
             )));
         }
     }

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use nalgebra::{Matrix3, Vector3};
-use oscillator::{Green, Oscillator, Polynomial, Regime};
+use oscillator::{Oscillator, Polynomial, Regime};
 
 use super::event::{Kinematics, Piece};
 use super::state::Peaks;
@@ -163,12 +163,6 @@ impl Piece for ClosedForm {
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
-        let Green { h, j, k, .. } = self.oscillator.green(time);
-        let Kinematics { displacement, velocity, acceleration } = self.start;
-        // ∫u dt = u₀ t + (H + cJ) u̇₀ + J ü₀ + K p₁
-        displacement * time
-            + (h + self.oscillator.damping() * j) * velocity
-            + j * acceleration
-            + k * self.forcing_rate
+        self.oscillator.displacement_integral(self.start, self.forcing_rate, time)
     }
 }

@@ -47,7 +47,7 @@ impl Default for Parameters {
 /// Parameters that contradict each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ParameterError {
-    /// Nothing can yield.
+    /// A bilinear spring without stiffness.
     #[error(
         "hysteresis = bilinear needs a stiffness above 0, but stiffness = {stiffness} N/m; raise it or \
          choose hysteresis = none"
@@ -81,7 +81,7 @@ pub enum Branch {
 }
 
 impl Branch {
-    /// +1 or −1 while yielding, 0 otherwise.
+    /// Returns +1 or −1 while yielding, 0 otherwise.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -119,7 +119,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The floor of these parameters.
+    /// Makes the floor of these parameters.
     ///
     /// # Errors
     /// When they contradict each other.
@@ -153,13 +153,13 @@ impl Floor {
         })
     }
 
-    /// √(k/M) before yielding \[rad/s\].
+    /// Returns √(k/M) before yielding \[rad/s\].
     #[must_use]
     pub fn omega(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
 
-    /// The spring's force \[N\], positive towards −x.
+    /// Computes the spring's force \[N\], positive towards −x.
     #[must_use]
     pub fn spring_force(&self, displacement: f64, plastic: f64, branch: Branch) -> f64 {
         match self.yielding {
@@ -175,7 +175,7 @@ impl Floor {
         }
     }
 
-    /// Slope of the spring's force \[N/m\].
+    /// Returns the slope of the spring's force \[N/m\].
     #[must_use]
     pub fn tangent(&self, branch: Branch) -> f64 {
         match branch {

@@ -13,6 +13,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use oscillator::KinematicState;
+
 use crate::floor::{Branch, Floor, Yielding};
 use crate::piece::Piece;
 
@@ -45,7 +47,7 @@ pub struct Load {
 /// A step that cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MotionError {
-    /// Too much happens in one step.
+    /// More corners in one step than are followed.
     #[error(
         "more than {MOST_CORNERS} corners of the hysteresis in one step of {duration} s; use smaller steps"
     )]
@@ -53,10 +55,10 @@ pub enum MotionError {
         /// \[s\]
         duration: f64,
     },
-    /// The floor has left all bounds.
+    /// The displacement or velocity has overflowed.
     #[error(
-        "the motion is no longer finite; the inputs are too large for mass = {mass} kg: reduce them or the \
-         step"
+        "the motion is no longer finite; the inputs are too large for mass = {mass} kg: \
+         reduce them or the step"
     )]
     NotFinite {
         /// \[kg\]
@@ -68,8 +70,8 @@ pub enum MotionError {
 const MOST_CORNERS: usize = 1_000_000;
 
 impl State {
-    /// A floor at a displacement \[m\] that it has reached by monotonic loading, with a velocity \[m/s\],
-    /// under a load.
+    /// Makes the state of a floor that has reached a displacement \[m\] by monotonic loading and has a
+    /// velocity \[m/s\], under a load.
     #[must_use]
     pub fn new(floor: &Floor, displacement: f64, velocity: f64, load: Load) -> Self {
         let plastic = floor.yielding.map_or(0.0, |yielding| {
@@ -82,20 +84,20 @@ impl State {
         state
     }
 
-    /// Acceleration relative to the base \[m/s²\].
+    /// Computes the acceleration relative to the base \[m/s²\].
     #[must_use]
     pub fn acceleration(&self, floor: &Floor, load: f64) -> f64 {
         load - (self.spring_force(floor) + floor.damping * self.velocity) / floor.mass
     }
 
-    /// Rate of the acceleration \[m/s³\] under a load of this rate.
+    /// Computes the rate of the acceleration \[m/s³\] under a load of this rate.
     #[must_use]
     pub fn jerk(&self, floor: &Floor, load: Load) -> f64 {
         let acceleration = self.acceleration(floor, load.value);
         load.rate - (floor.tangent(self.branch) * self.velocity + floor.damping * acceleration) / floor.mass
     }
 
-    /// Force of the spring \[N\], positive towards −x.
+    /// Computes the force of the spring \[N\], positive towards −x.
     #[must_use]
     pub fn spring_force(&self, floor: &Floor) -> f64 {
         floor.spring_force(self.displacement, self.plastic, self.branch)
@@ -131,12 +133,9 @@ impl State {
     }
 
     fn piece(&self, floor: &Floor, load: Load) -> Piece {
-        Piece {
-            oscillator: floor.oscillator(self.branch),
-            velocity: self.velocity,
-            acceleration: self.acceleration(floor, load.value),
-            forcing_rate: load.rate,
-        }
+        let (velocity, acceleration) = (self.velocity, self.acceleration(floor, load.value));
+        let start = KinematicState { displacement: 0.0, velocity, acceleration };
+        Piece { oscillator: floor.oscillator(self.branch), start, rate: load.rate }
     }
 
     /// Moves along one branch.
@@ -151,13 +150,13 @@ impl State {
         }
     }
 
-    /// The branch on which the motion goes on: at the yield force it depends on where it is heading.
+    /// Finds the branch on which the motion continues: at the yield force that depends on its direction.
     fn branch_ahead(&self, floor: &Floor, load: Load) -> Branch {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Branch::Elastic };
-        let stretch = self.displacement - self.plastic;
+        let deformation = self.displacement - self.plastic;
         let sign = match self.branch {
-            Branch::Elastic if stretch >= limit => 1.0,
-            Branch::Elastic if stretch <= -limit => -1.0,
+            Branch::Elastic if deformation >= limit => 1.0,
+            Branch::Elastic if deformation <= -limit => -1.0,
             Branch::Elastic => return Branch::Elastic,
             yielding => yielding.sign(),
         };
@@ -171,13 +170,13 @@ impl State {
         }
     }
 
-    /// The first corner within `remaining`, if there is one.
+    /// Finds the first corner within `remaining`, if there is one.
     fn corner(&self, floor: &Floor, piece: &Piece, remaining: f64) -> Result<Option<Corner>, MotionError> {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Ok(None) };
         // A start within rounding beyond the limit that moves inwards has not crossed it.
         let upper = (self.plastic + limit - self.displacement).max(0.0);
         let lower = (self.plastic - limit - self.displacement).min(0.0);
-        let (mut from, mut velocity) = (0.0, piece.velocity);
+        let (mut from, mut velocity) = (0.0, piece.start.velocity);
         for (count, to) in piece.monotonic_until(remaining).enumerate() {
             if count >= MOST_CORNERS {
                 return Err(MotionError::Corners { duration: remaining });
@@ -210,7 +209,7 @@ struct Corner {
     branch: Branch,
 }
 
-/// The corner at which a monotonic stretch of an elastic motion leaves the elastic range.
+/// Finds the corner at which an elastic motion leaves the elastic range, in a span of monotonic motion.
 fn yield_point(piece: &Piece, start: f64, end: f64, lower: f64, upper: f64) -> Option<Corner> {
     let reached = piece.at(end).displacement;
     if reached > upper {

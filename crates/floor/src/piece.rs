@@ -1,86 +1,66 @@
-//! A piece of motion: one branch of the spring, with what is looked for along it.
+//! A piece of motion: one branch of the spring, and where the motion along it turns or crosses a level.
 //!
-//! The acceleration obeys the free equation, so its zeros are known in closed form; between them the velocity
+//! The acceleration obeys the free equation, so its zeros are known in closed form. Between them the velocity
 //! is monotonic.
 
 use std::f64::consts::PI;
 
-use oscillator::{Green, Oscillator, Regime};
+use oscillator::{KinematicState, Oscillator, Regime};
 
-/// Illinois takes about ten; bisection of a whole f64 bracket would take 64.
+/// Most steps towards a crossing: Illinois takes about ten, bisection of a whole f64 bracket 64.
 const MOST_ITERATIONS: usize = 100;
 
-/// Displacement and velocity after some time, relative to the start of a piece.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Point {
-    /// \[m\]
-    pub(crate) displacement: f64,
-    /// \[m/s\]
-    pub(crate) velocity: f64,
-}
-
-/// Motion on one branch, ÿ + c ẏ + k y = q₀ + q₁ t from y = 0.
+/// Motion on one branch; displacements count from its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     pub(crate) oscillator: Oscillator,
-    /// Velocity at the start \[m/s\].
-    pub(crate) velocity: f64,
-    /// Acceleration at the start \[m/s²\].
-    pub(crate) acceleration: f64,
-    /// Rate of the forcing q₁ \[m/s³\].
-    pub(crate) forcing_rate: f64,
+    pub(crate) start: KinematicState,
+    /// Rate of the load \[m/s³\].
+    pub(crate) rate: f64,
 }
 
 impl Piece {
-    /// The point after `time` \[s\].
-    pub(crate) fn at(&self, time: f64) -> Point {
-        let Green { g, h, j, .. } = self.oscillator.green(time);
-        self.point(g, h, j)
+    /// Computes the motion after `time` \[s\].
+    pub(crate) fn at(&self, time: f64) -> KinematicState {
+        self.oscillator.propagate(self.start, self.rate, time)
     }
 
-    fn point(&self, g: f64, h: f64, j: f64) -> Point {
-        let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
-        let Self { velocity, acceleration, forcing_rate, .. } = *self;
-        Point {
-            displacement: (g + c * h) * velocity + h * acceleration + j * forcing_rate,
-            velocity: (1.0 - k * h) * velocity + g * acceleration + h * forcing_rate,
-        }
-    }
-
-    /// The point after `time` \[s\], and the energy c ∫v² dt lost until then, per unit mass \[m²/s²\].
+    /// Computes the motion after `time` \[s\], and the energy c ∫v² dt lost until then, per unit mass
+    /// \[m²/s²\].
     ///
-    /// It is the work of q₀ + q₁ t less what the motion has gained: ∫(q₀ + q₁ t) v dt − Δv²/2 − k y²/2.
-    pub(crate) fn with_loss(&self, time: f64) -> (Point, f64) {
-        let (c, stiffness) = (self.oscillator.damping(), self.oscillator.stiffness());
-        let Self { velocity, acceleration, forcing_rate, .. } = *self;
-        let Green { g, h, j, k } = self.oscillator.green(time);
-        let point = self.point(g, h, j);
+    /// It is the work of the load q₀ + q₁ t, less what the motion has gained:
+    /// ```text
+    /// ∫(q₀ + q₁ t) v dt − Δv²/2 − k y²/2
+    /// ```
+    pub(crate) fn with_loss(&self, time: f64) -> (KinematicState, f64) {
+        let Self { oscillator, start, rate } = *self;
+        let (c, k) = (oscillator.damping(), oscillator.stiffness());
+        let end = self.at(time);
         if c == 0.0 {
-            return (point, 0.0);
+            return (end, 0.0);
         }
-        let y = point.displacement;
-        let y_integral = (h + c * j) * velocity + j * acceleration + k * forcing_rate;
-        let push = acceleration + c * velocity + forcing_rate * time;
-        let work = push * y - forcing_rate * y_integral;
-        let kinetic = 0.5 * (point.velocity - velocity) * (point.velocity + velocity);
+        let y = end.displacement;
+        // q₀ = ÿ₀ + c v₀
+        let load = start.acceleration + c * start.velocity + rate * time;
+        let work = load * y - rate * oscillator.displacement_integral(start, rate, time);
+        let kinetic = 0.5 * (end.velocity - start.velocity) * (end.velocity + start.velocity);
         // below 0 by rounding at most
-        (point, (work - kinetic - 0.5 * stiffness * y * y).max(0.0))
+        (end, (work - kinetic - 0.5 * k * y * y).max(0.0))
     }
 
-    /// Ends of the spans, up to `until`, within which the velocity is monotonic: zeros of the acceleration,
-    /// then `until`.
+    /// Lists the ends of the spans up to `until` \[s\] in which the velocity is monotonic: zeros of the
+    /// acceleration, then `until`.
     pub(crate) fn monotonic_until(&self, until: f64) -> impl Iterator<Item = f64> {
         let (first, every) = self.first_flat();
         let flats = (0_u32..).map(move |n| if n == 0 { first } else { first + f64::from(n) * every });
         flats.take_while(move |&time| time < until).chain(std::iter::once(until))
     }
 
-    /// First zero of the acceleration after the start, and the distance between zeros; infinite where there
-    /// is none.
+    /// Finds the first zero of the acceleration after the start, and the distance between zeros; infinite
+    /// where there is none.
     fn first_flat(&self) -> (f64, f64) {
-        let (c, k, a) = (self.oscillator.damping(), self.oscillator.stiffness(), self.acceleration);
-        // ȧ at the start
-        let jerk = self.forcing_rate - c * a - k * self.velocity;
+        let (c, a) = (self.oscillator.damping(), self.start.acceleration);
+        let jerk = self.oscillator.jerk(self.start, self.rate);
         let time = match self.oscillator.regime() {
             // a e^{ct/2} = a₀ cos ωt + (ȧ₀ + c a₀/2)/ω sin ωt
             Regime::Oscillating(omega) if omega > 0.0 => {
@@ -104,9 +84,9 @@ impl Piece {
         (if time > 0.0 { time } else { f64::INFINITY }, f64::INFINITY)
     }
 
-    /// The time in a bracket at which `height` takes the sign that it has at `high`; at `low` it has the
-    /// other, or is zero.
-    pub(crate) fn crossing(&self, low: f64, high: f64, height: impl Fn(Point) -> f64) -> f64 {
+    /// Finds the time in a bracket from which `height` has the sign that it has at `high`; at `low` it has
+    /// the other sign or is zero.
+    pub(crate) fn crossing(&self, low: f64, high: f64, height: impl Fn(KinematicState) -> f64) -> f64 {
         let (mut low, mut high) = (low, high);
         let (mut at_low, mut at_high) = (height(self.at(low)), height(self.at(high)));
         let sign = at_high.signum();
@@ -161,20 +141,24 @@ mod tests {
         (found - wanted).abs() <= ROUNDING * scale.max(wanted.abs())
     }
 
+    fn piece(oscillator: Oscillator, [velocity, acceleration]: [f64; 2], rate: f64) -> Piece {
+        Piece { oscillator, start: KinematicState { displacement: 0.0, velocity, acceleration }, rate }
+    }
+
     /// Two steps make one: this ties the regimes, the series and the integrals together.
     #[test]
     fn two_steps_make_one() {
         for (c, k) in CASES {
             let oscillator = Oscillator::new(c, k);
             for whole in [1e-5, 1e-2, 0.2, 0.34, 1.0, 3.0] {
-                let motion = Piece { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 11.0 };
+                let motion = piece(oscillator, [0.7, -2.0], 11.0);
                 let (end, loss) = motion.with_loss(whole);
                 let first = 0.37 * whole;
                 let (middle, first_loss) = motion.with_loss(first);
                 // ÿ = q₀ + q₁ t − c v − k y with q₀ = a₀ + c v₀
                 let acceleration =
                     -2.0 + c * 0.7 + 11.0 * first - c * middle.velocity - k * middle.displacement;
-                let rest = Piece { velocity: middle.velocity, acceleration, ..motion };
+                let rest = piece(oscillator, [middle.velocity, acceleration], 11.0);
                 let (second, second_loss) = rest.with_loss(whole - first);
                 let context = format!("c = {c}, k = {k}, t = {whole}");
                 let way = middle.displacement + second.displacement;
@@ -198,7 +182,7 @@ mod tests {
     fn the_loss_is_that_of_the_damper() {
         for (c, k) in CASES.into_iter().filter(|(c, k)| *c < 100.0 && *k < 100.0) {
             let oscillator = Oscillator::new(c, k);
-            let motion = Piece { oscillator, velocity: 0.7, acceleration: -2.0, forcing_rate: 1.5 };
+            let motion = piece(oscillator, [0.7, -2.0], 1.5);
             let intervals = 2000;
             let step = 1.4 / f64::from(intervals);
             let squares: f64 = (0..=intervals)
@@ -217,10 +201,10 @@ mod tests {
     fn the_velocity_turns_only_where_it_is_said_to() {
         for (c, k) in CASES {
             let oscillator = Oscillator::new(c, k);
-            for (velocity, acceleration, forcing_rate) in
+            for (velocity, acceleration, rate) in
                 [(0.7, -2.0, 11.0), (0.0, 1.0, -1.0), (-1.0, 0.0, 2.0), (0.0, 0.0, 1.0), (0.3, 0.4, 0.0)]
             {
-                let motion = Piece { oscillator, velocity, acceleration, forcing_rate };
+                let motion = piece(oscillator, [velocity, acceleration], rate);
                 let until = 2.0_f64.min(40.0 / k.sqrt());
                 let mut from = 0.0;
                 for to in motion.monotonic_until(until) {

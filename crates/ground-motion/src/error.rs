@@ -1,4 +1,4 @@
-//! What can be wrong with a ground motion.
+//! Errors of reading and making ground motions.
 
 use std::io;
 
@@ -12,7 +12,7 @@ pub enum GroundMotionError {
         /// The step given (s).
         step: f64,
     },
-    /// Nothing to interpolate between.
+    /// Fewer than two samples.
     #[error("a ground motion needs at least two samples, found {found}")]
     TooFewSamples {
         /// Number of samples.
@@ -74,10 +74,10 @@ pub enum GroundMotionError {
         /// What is allowed.
         limit: &'static str,
     },
-    /// A harmonic motion that never ends.
+    /// A harmonic motion without an end.
     #[error("a harmonic motion without an end needs a duration; state one of the two")]
     Endless,
-    /// So many samples that memory or patience would run out.
+    /// More samples than a motion may have.
     #[error("the motion would take {found:.0} samples, more than {limit}; shorten it or lower its frequency")]
     TooManySamples {
         /// Number of samples needed.
@@ -115,7 +115,8 @@ pub enum GroundMotionError {
     },
     /// Several channels, and none was asked for.
     #[error(
-        "{file}: expected one channel, found {found}; state the number of the one to read as `channel` (on the command line --channel)"
+        "{file}: expected one channel, found {found}; \
+         state the number of the one to read as `channel` (on the command line --channel)"
     )]
     Channels {
         /// Name of the file.
@@ -125,7 +126,8 @@ pub enum GroundMotionError {
     },
     /// A channel that the file does not have, or more than once.
     #[error(
-        "{file}: expected one channel {wanted}, found {found}; state one of these, or none if there is only one"
+        "{file}: expected one channel {wanted}, found {found}; \
+         state one of these, or none if there is only one"
     )]
     Channel {
         /// Name of the file.
@@ -135,7 +137,7 @@ pub enum GroundMotionError {
         /// The channels there are.
         found: String,
     },
-    /// More bytes than any record has.
+    /// A file larger than any record.
     #[error(
         "{file}: expected a record of at most {limit} bytes, found {found}; \
          check that this is a record, and trim or resample it"
@@ -143,12 +145,12 @@ pub enum GroundMotionError {
     TooLarge {
         /// Name of the file.
         file: String,
-        /// Its size, or how much of it was seen.
+        /// Its size, or `more` if it grew while it was read.
         found: String,
         /// Number of bytes allowed.
         limit: u64,
     },
-    /// The content of a file is not what its format asks for.
+    /// Content that is not what the format requires.
     #[error("{file}, line {line}: expected {expected}, found {found}; {remedy}")]
     Content {
         /// Name of the file.
@@ -183,7 +185,7 @@ impl Fault {
         Self { line, expected: expected.into(), found: found.into(), remedy: remedy.into() }
     }
 
-    /// A fault whose `found` quotes a piece of the file.
+    /// Makes a fault that quotes what was found in the file.
     pub(crate) fn excerpt(
         line: usize,
         expected: impl Into<String>,
@@ -199,7 +201,7 @@ impl Fault {
     }
 }
 
-/// The start of a piece of a file, quoted and made printable for a message.
+/// Quotes the start of a piece of a file, made printable for a message.
 pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 40;
     let shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();

@@ -5,33 +5,34 @@ use crate::error::{CUT_SHORT, DAMAGED, Fault};
 /// A line and its number, from 1.
 pub(crate) type Line<'a> = (usize, &'a str);
 
-/// The lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or `\r\r\n`.
+/// Returns the lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or
+/// `\r\r\n`.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
-/// The lines that are not blank, with their numbers from 1 and the blanks they start with.
+/// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
 pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
     let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
 }
 
-/// Position of an ASCII word, in any case.
+/// Finds the position of an ASCII word, in any case.
 pub(crate) fn find(line: &str, word: &str) -> Option<usize> {
     line.as_bytes().windows(word.len()).position(|window| window.eq_ignore_ascii_case(word.as_bytes()))
 }
 
-/// What follows an ASCII word, in any case.
+/// Returns what follows an ASCII word, in any case.
 pub(crate) fn after<'a>(line: &'a str, word: &str) -> Option<&'a str> {
     find(line, word).map(|at| &line[at + word.len()..])
 }
 
-/// A number as Fortran writes it: the exponent's letter may be D. Not necessarily finite.
+/// Reads a number as Fortran writes it: the exponent's letter may be D. It may be infinite or NaN.
 pub(crate) fn real(word: &str) -> Option<f64> {
     word.parse().ok().or_else(|| word.replace(['D', 'd'], "E").parse().ok())
 }
 
-/// The number a text starts with, after blanks, commas and an equals sign or colon, and what follows it.
+/// Splits off the number that a text starts with, after blanks, commas, equals signs and colons.
 pub(crate) fn leading_number(text: &str) -> (&str, &str) {
     let text = text.trim_start_matches(|c: char| c.is_ascii_whitespace() || matches!(c, '=' | ':' | ','));
     let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'E' | 'e' | 'D' | 'd');
@@ -42,17 +43,17 @@ pub(crate) fn leading_number(text: &str) -> (&str, &str) {
     text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
 }
 
-/// A number that is finite and above 0.
+/// Reads a number that is finite and above 0.
 pub(crate) fn positive(word: &str) -> Option<f64> {
     real(word).filter(|value| value.is_finite() && *value > 0.0)
 }
 
-/// The leading number of a text, if it is finite.
+/// Reads the leading number of a text, if it is finite.
 pub(crate) fn leading_real(text: &str) -> Option<f64> {
     real(leading_number(text).0).filter(|value| value.is_finite())
 }
 
-/// The word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
+/// Finds the word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
 pub(crate) fn unit_word(line: &str) -> Option<&str> {
     let text = after(line, "UNITS")?;
     let is_edge = |c: char| matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
@@ -84,7 +85,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The last format of one kind of numbers that a line states in parentheses.
+    /// Finds the last format of one kind of numbers that a line states in parentheses.
     pub(crate) fn stated_in(line: &str) -> Option<Self> {
         let candidates = line.rsplit('(').filter_map(|text| text.split_once(')')).map(|(format, _)| format);
         candidates.into_iter().find_map(Self::of)
@@ -106,7 +107,8 @@ impl Layout {
         is_sound.then_some(Self { per_line, width })
     }
 
-    /// The fields of a line without its trailing blanks, trimmed. A line that is too long ends in one long field.
+    /// Returns the fields of a line, trimmed, without trailing blanks. A line that is too long ends in one
+    /// long field.
     fn fields(self, line: &str) -> impl Iterator<Item = &str> {
         let line = line.trim_end();
         let fields = line.len().div_ceil(self.width).min(self.per_line);
@@ -119,59 +121,39 @@ impl Layout {
         })
     }
 
-    /// Reads `count` numbers from the lines that follow and returns the last line's number; `stated` is the line that
-    /// says how many.
-    pub(crate) fn read<'a>(
-        self,
-        lines: &mut impl Iterator<Item = Line<'a>>,
-        count: usize,
-        stated: usize,
-        mut take: impl FnMut(f64, usize, &'a str) -> Result<(), Fault>,
-    ) -> Result<usize, Fault> {
-        let (mut taken, mut last_line) = (0, stated);
-        while taken < count {
-            let Some((number, line)) = lines.next() else {
-                check_count(taken, count, &format!("line {stated}"), last_line)?;
-                break;
-            };
-            last_line = number;
-            for field in self.fields(line) {
-                if taken == count {
-                    let expected = format!("an end after {count} numbers, as line {stated} says");
-                    return Err(Fault::excerpt(number, expected, field, DAMAGED));
-                }
-                let Some(value) = real(field).filter(|value| value.is_finite()) else {
-                    return Err(self.no_number(number, field, [taken, count, stated]));
-                };
-                take(value, number, field)?;
-                taken += 1;
-            }
-        }
-        Ok(last_line)
-    }
-
-    fn no_number(self, line: usize, field: &str, [taken, count, stated]: [usize; 3]) -> Fault {
-        let Self { per_line, width } = self;
-        let expected = format!(
-            "a finite number ({} of {count}, as line {stated} says; {per_line} a line, {width} characters each)",
-            taken + 1
-        );
-        Fault::excerpt(line, expected, field, DAMAGED)
-    }
-
-    /// Reads `count` numbers, as [`Self::read`].
+    /// Reads `count` finite numbers from the lines that follow, and returns the line of the last; `stated` is
+    /// the line that says how many.
     pub(crate) fn numbers<'a>(
         self,
         lines: &mut impl Iterator<Item = Line<'a>>,
         count: usize,
         stated: usize,
-    ) -> Result<Vec<f64>, Fault> {
-        let mut numbers = Vec::new();
-        self.read(lines, count, stated, |value, _, _| {
-            numbers.push(value);
-            Ok(())
-        })?;
-        Ok(numbers)
+    ) -> Result<(Vec<f64>, usize), Fault> {
+        let Self { per_line, width } = self;
+        let (mut numbers, mut last_line) = (Vec::new(), stated);
+        while numbers.len() < count {
+            let Some((number, line)) = lines.next() else {
+                check_count(numbers.len(), count, &format!("line {stated}"), last_line)?;
+                break;
+            };
+            last_line = number;
+            for field in self.fields(line) {
+                if numbers.len() == count {
+                    let expected = format!("an end after {count} numbers, as line {stated} says");
+                    return Err(Fault::excerpt(number, expected, field, DAMAGED));
+                }
+                let value = real(field).filter(|value| value.is_finite());
+                numbers.push(value.ok_or_else(|| {
+                    let expected = format!(
+                        "a finite number ({} of {count}, as line {stated} says; \
+                         {per_line} a line, {width} characters each)",
+                        numbers.len() + 1
+                    );
+                    Fault::excerpt(number, expected, field, DAMAGED)
+                })?);
+            }
+        }
+        Ok((numbers, last_line))
     }
 
     /// Refuses more numbers where a block should have ended.

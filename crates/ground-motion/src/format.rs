@@ -32,7 +32,7 @@ impl Format {
     pub const ALL: [Self; 7] =
         [Self::At2, Self::Esm, Self::Knet, Self::Cosmos, Self::Csmip, Self::Smc, Self::Csv];
 
-    /// The format's short name.
+    /// Returns the format's short name, such as `at2`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Format {
         }
     }
 
-    /// What the format is, in words.
+    /// Returns what people call the format.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
@@ -60,7 +60,7 @@ impl Format {
         }
     }
 
-    /// The format that the ending of a file's name tells.
+    /// Finds the format by the ending of a file's name.
     pub(crate) fn by_ending(name: &str) -> Option<Self> {
         let ending = Path::new(name).extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {

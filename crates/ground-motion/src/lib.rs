@@ -1,5 +1,5 @@
-//! Earthquake records: acceleration histories from files in the usual formats, their units, a quick check, response
-//! spectra; and motions made from a formula or a seed.
+//! Earthquake records: acceleration histories from files in the usual formats, their units, a quick check,
+//! response spectra; and motions made from a formula or a seed.
 //!
 //! ```
 //! use ground_motion::{RecordOptions, STANDARD_GRAVITY, Spectrum, Unit, parse};
@@ -23,16 +23,16 @@
 //!
 //! | item | gives |
 //! |---|---|
-//! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV |
+//! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
 //! | [`Spectrum`] | Sa at any period and damping, AvgSA |
-//! | [`Pulse`], [`SyntheticMotion`] | Ricker pulses, sines; filtered noise from a seed, the same bits on every platform |
+//! | [`Pulse`], [`SyntheticMotion`] | Ricker pulses, sines; filtered noise from a seed |
 //!
-//! The format is found from a file's content. A file whose unit or step is not known, whose numbers are damaged or which
-//! is cut short is refused; the message names file, line, what was expected, what was found and what to do. A
-//! [`GroundMotion`] that exists is valid: a positive step, at least two samples, all finite. Units are converted where a
-//! file is read and nowhere else.
+//! The format is found from a file's content. A file whose unit or step is not known, whose numbers are
+//! damaged or which is cut short is refused; the message names file, line, what was expected, what was found
+//! and what to do. A [`GroundMotion`] that exists is valid: a positive step, at least two samples, all
+//! finite. Units are converted where a file is read and nowhere else.
 
 mod check;
 mod error;

@@ -6,8 +6,8 @@ use crate::error::GroundMotionError;
 
 /// An acceleration history with a uniform step; sample i is at the time i · step, the first at zero.
 ///
-/// The acceleration is linear between samples and zero before the first and after the last one. Clones share the
-/// samples.
+/// The acceleration is linear between samples and zero before the first and after the last one. Clones share
+/// the samples.
 ///
 /// ```
 /// use ground_motion::GroundMotion;
@@ -28,8 +28,8 @@ impl GroundMotion {
     /// Makes a motion of its step (s) and its samples (m/s²).
     ///
     /// # Errors
-    /// If the step is not positive or the duration not finite, if there are fewer than two samples, if a sample is not
-    /// finite.
+    /// If the step is not positive or the duration not finite, if there are fewer than two samples, if a
+    /// sample is not finite.
     pub fn new(step: f64, samples: Vec<f64>) -> Result<Self, GroundMotionError> {
         if samples.len() < 2 {
             return Err(GroundMotionError::TooFewSamples { found: samples.len() });
@@ -43,25 +43,26 @@ impl GroundMotion {
         Ok(Self { step, samples: samples.into() })
     }
 
-    /// Time between samples (s).
+    /// Returns the time between samples (s).
     #[must_use]
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// The samples (m/s²).
+    /// Returns the samples (m/s²).
     #[must_use]
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }
 
-    /// Time of the last sample (s).
+    /// Returns the time of the last sample (s).
     #[must_use]
     pub fn duration(&self) -> f64 {
         (self.samples.len() - 1) as f64 * self.step
     }
 
-    /// Acceleration (m/s²) at a time (s). At the very end it is the last sample; at a time that is NaN it is zero.
+    /// Interpolates the acceleration (m/s²) at a time (s). At the very end it is the last sample; at a time
+    /// that is NaN it is zero.
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {
         if !(0.0..=self.duration()).contains(&time) {
@@ -76,23 +77,23 @@ impl GroundMotion {
         (1.0 - fraction) * left + fraction * right
     }
 
-    /// Peak ground acceleration: the largest absolute sample (m/s²).
+    /// Computes the peak ground acceleration, the largest absolute sample (m/s²).
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.samples.iter().fold(0.0, |peak, a| a.abs().max(peak))
     }
 
-    /// The motion with every sample multiplied by `factor`.
+    /// Multiplies every sample by `factor`.
     ///
     /// # Panics
-    /// If the factor or a scaled sample is not finite; [`checked_scaled`](Self::checked_scaled) is for factors from
-    /// outside.
+    /// If the factor or a scaled sample is not finite; [`checked_scaled`](Self::checked_scaled) is for
+    /// factors from outside.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         self.checked_scaled(factor).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// The motion with every sample multiplied by `factor`.
+    /// Multiplies every sample by `factor`.
     ///
     /// # Errors
     /// If the factor or a scaled sample is not finite.
@@ -104,7 +105,7 @@ impl GroundMotion {
         Ok(Self { step: self.step, samples: self.samples.iter().map(|a| factor * a).collect() })
     }
 
-    /// The motion scaled to the peak ground acceleration `pga` (m/s²).
+    /// Scales the motion to the peak ground acceleration `pga` (m/s²).
     ///
     /// # Errors
     /// If `pga` is negative or not finite, or if every sample is zero.
@@ -119,7 +120,8 @@ impl GroundMotion {
         self.checked_scaled(pga / peak)
     }
 
-    /// The part from the sample nearest to `from` to the one nearest to `to` (s), starting again at time zero.
+    /// Cuts out the part from the sample nearest to `from` to the one nearest to `to` (s); it starts again at
+    /// time zero.
     ///
     /// # Errors
     /// If the interval does not lie within the record or holds fewer than two samples.
@@ -134,7 +136,7 @@ impl GroundMotion {
     }
 }
 
-/// The whole part of a position that is known not to be negative.
+/// Returns the whole part of a position that is not negative.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -12,7 +12,8 @@ use crate::unit::Unit;
 pub struct RecordOptions {
     /// Unit of the samples. Needed where the file does not state it; must not contradict a file that does.
     pub unit: Option<Unit>,
-    /// Time between samples (s). Needed where the file does not state it; must not contradict a file that does.
+    /// Time between samples (s). Needed where the file does not state it; must not contradict a file that
+    /// does.
     pub step: Option<f64>,
     /// Name of the column to read, for tables with several.
     pub column: Option<String>,
@@ -23,8 +24,8 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// The unit of a file that writes `word` on `line`. The stated unit decides where the word says nothing, and must
-    /// not contradict one that does.
+    /// Finds the unit of a file that writes `word` on `line`. The stated unit decides where the word says
+    /// nothing, and must not contradict one that does.
     pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
         match (word.parse::<Unit>(), self.unit) {
             (Ok(unit), Some(stated)) if unit != stated => {

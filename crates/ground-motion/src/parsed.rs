@@ -26,13 +26,13 @@ pub(crate) struct Parsed {
 }
 
 impl Parsed {
-    /// A channel without a name that starts at time zero; its samples follow after line `last_line`.
+    /// Makes a channel without a name that starts at time zero; its samples follow after line `last_line`.
     pub(crate) fn new(step: f64, unit: Unit, last_line: usize) -> Self {
         let (samples, header) = (Vec::new(), Vec::new());
         Self { step, unit, samples, last_line, first_time: 0.0, channel: None, stated_peak: None, header }
     }
 
-    /// Takes the next sample: the number that a field on a line holds.
+    /// Takes the next sample, the value of a field on a line; refuses one that is not finite.
     pub(crate) fn push(
         &mut self,
         value: Option<f64>,
@@ -54,9 +54,9 @@ impl Parsed {
         count: usize,
         stated: usize,
     ) -> Result<(), Fault> {
-        layout.read(lines, count, stated, |value, line, field| {
-            self.push(Some(value), line, field, "a finite number")
-        })?;
+        let (numbers, last_line) = layout.numbers(lines, count, stated)?;
+        self.samples = numbers.into_iter().map(|value| self.unit.to_si(value)).collect();
+        self.last_line = self.last_line.max(last_line);
         layout.check_ended(lines.peek().copied(), count, stated)
     }
 

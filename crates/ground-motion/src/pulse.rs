@@ -1,18 +1,20 @@
-//! Motions given by a formula: pulses and harmonics, sampled so that a piecewise-linear record reproduces them.
+//! Motions given by a formula: pulses and harmonics, sampled so that a piecewise-linear record reproduces
+//! them.
 //!
 //! # Sampling
-//! Between plain samples a straight line differs from the curve by ½ s(Δt − s) a″ at the distance s from a sample,
-//! by Δt²/12 a″ in the mean. The nodes are therefore
+//! Between samples of the formula itself, a straight line differs from the curve by ½ s(Δt − s) a″ at the
+//! distance s from a sample, by Δt²/12 a″ in the mean. The nodes are therefore
 //!
 //! ```text
 //! aᵢ = a(tᵢ) − (Δt²/12) a″(tᵢ)
 //! ```
 //!
-//! which takes the mean and, by symmetry, the first moment of the error out of each interval by itself. So the
-//! correction is the same at the ends of a motion, with the derivative taken from inside, and nothing is smeared across
-//! a jump. For a = sin ωt the transfer of the linear interpolation, sinc²(ωΔt/2) = 1 − (ωΔt)²/12 + (ωΔt)⁴/360 − …,
-//! times 1 + (ωΔt)²/12 leaves the relative error −(ωΔt)⁴/240: 4e-13 at the 2000 steps a period taken here, 3e-11 at
-//! three times the frequency, where the spectrum of a Ricker pulse has died out.
+//! which removes the mean and, by symmetry, the first moment of the error from each interval by itself. So
+//! the correction is the same at the ends of a motion, with the derivative taken from inside, and nothing is
+//! smeared across a jump. For a = sin ωt the transfer of the linear interpolation, sinc²(ωΔt/2) = 1 −
+//! (ωΔt)²/12 + (ωΔt)⁴/360 − …, times 1 + (ωΔt)²/12 leaves the relative error −(ωΔt)⁴/240: 4e-13 at the 2000
+//! steps a period taken here, 3e-11 at three times the frequency, where the spectrum of a Ricker pulse has
+//! died out.
 
 use std::f64::consts::PI;
 
@@ -71,16 +73,17 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Samples the pulse from time zero to its own end, or to `duration` (s) if that comes first. No zeros follow.
+    /// Samples the pulse from time zero to its own end, or to `duration` (s) if that comes first. No zeros
+    /// follow.
     ///
     /// # Errors
-    /// If a parameter is outside its limits, if nothing ends the motion, if it would take too many samples.
+    /// If a parameter is outside its limits, if the motion has no end, or if it would take too many samples.
     pub fn motion(&self, duration: Option<f64>) -> Result<GroundMotion, GroundMotionError> {
         self.sampled(duration, (1.0 / (STEPS_PER_PERIOD * self.frequency)).min(LONGEST_STEP))
     }
 
-    /// Samples the pulse as [`motion`](Self::motion) does, with steps of at most `longest_step` (s); the step taken
-    /// divides the duration.
+    /// Samples the pulse as [`motion`](Self::motion) does, with steps of at most `longest_step` (s); the step
+    /// taken divides the duration.
     ///
     /// # Errors
     /// As [`motion`](Self::motion), and if the step is not positive and finite.
@@ -115,7 +118,7 @@ impl Pulse {
         GroundMotion::new(step, (0..=floor_index(intervals)).map(node).collect())
     }
 
-    /// Time after which the motion is zero (s); a harmonic may have none.
+    /// Returns the time after which the motion is zero (s); a harmonic may have none.
     #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self.shape {
@@ -126,7 +129,7 @@ impl Pulse {
         }
     }
 
-    /// Acceleration of the formula at a time within the motion (s), in m/s².
+    /// Computes the acceleration of the formula at a time within the motion (s), in m/s².
     fn acceleration(&self, time: f64) -> f64 {
         match self.shape {
             Shape::Ricker { centre } => {
@@ -140,7 +143,7 @@ impl Pulse {
         }
     }
 
-    /// a″ of the formula at a time within the motion (s), in m/s⁴.
+    /// Computes a″ of the formula at a time within the motion (s), in m/s⁴.
     fn second_derivative(&self, time: f64) -> f64 {
         match self.shape {
             // (1 − 2z²) exp(−z²) = −½ d²/dz² exp(−z²), so its second derivative is −½ H₄(z) exp(−z²).
@@ -157,7 +160,7 @@ impl Pulse {
         }
     }
 
-    /// ω = 2π f (rad/s).
+    /// Returns ω = 2π f (rad/s).
     fn angular_frequency(&self) -> f64 {
         2.0 * PI * self.frequency
     }

@@ -1,4 +1,4 @@
-//! Record files: reading them within bounds, and choosing among their channels.
+//! Record files: reads them within bounds and picks channels.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -23,7 +23,7 @@ pub struct Record {
     pub format: Format,
     /// Unit of the file.
     pub unit: Unit,
-    /// Time the file gives its first sample (s); the motion itself starts at zero.
+    /// Time of the first sample in the file (s); the motion itself starts at zero.
     pub first_time: f64,
     /// Number and name of the channel, in formats that have several in a file.
     pub channel: Option<String>,
@@ -34,16 +34,15 @@ pub struct Record {
 }
 
 impl Parsed {
-    fn into_record(self, name: &str, format: Format) -> Result<Record, GroundMotionError> {
+    fn into_record(self, format: Format) -> Result<Record, Fault> {
         let Self { step, samples, unit, first_time, channel, stated_peak, header, last_line } = self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
-            let fault =
-                Fault::new(last_line, "at least two samples", found, "check that the file is complete");
-            return Err(fault.in_file(name));
+            let remedy = "check that the file is complete";
+            return Err(Fault::new(last_line, "at least two samples", found, remedy));
         }
         let motion = GroundMotion::new(step, samples).map_err(|error| {
-            Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file").in_file(name)
+            Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
         })?;
         Ok(Record { motion, format, unit, first_time, channel, stated_peak, header })
     }
@@ -51,12 +50,11 @@ impl Parsed {
 
 /// Reads a record file: its only channel, or the one that is asked for.
 ///
-/// Only regular files of at most [`MAX_FILE_BYTES`] are read; reading stops at the first byte that no text has, and
-/// memory stays within a small multiple of the file.
+/// Only regular files of at most [`MAX_FILE_BYTES`] are read; memory stays within a small multiple of the file.
 ///
 /// # Errors
-/// If the file cannot be read or is not a record, or if it has several channels and none of them is asked for; the
-/// message names the file, the line, what was expected, what was found and the remedy.
+/// If the file cannot be read or is not a record, or if it has several channels and none of them is asked
+/// for; the message names the file, the line, what was expected, what was found and the remedy.
 pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -66,7 +64,7 @@ pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, G
 /// Reads every channel of a record file, or the one that is asked for.
 ///
 /// # Errors
-/// As [`read`], but for several channels.
+/// As [`read`], except that several channels are no error.
 pub fn read_channels(
     path: impl AsRef<Path>,
     options: &RecordOptions,
@@ -89,7 +87,8 @@ pub fn parse(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<Reco
     }
 }
 
-/// Reads every channel from the bytes of a file, or the one that is asked for; `name` stands for the file in messages.
+/// Reads every channel from the bytes of a file, or the one that is asked for; `name` stands for the file in
+/// messages.
 ///
 /// # Errors
 /// As [`read_channels`].
@@ -101,18 +100,24 @@ pub fn parse_channels(
     if let Some(step) = options.step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(GroundMotionError::Step { step });
     }
-    check_is_text(&bytes, 1).map_err(|fault| fault.in_file(name))?;
-    let decoded = decode(bytes);
-    let text = sound_part(&decoded).map_err(|fault| fault.in_file(name))?;
-    let format = options.format.unwrap_or_else(|| Format::of(name, text));
-    let mut parsed = format.parse(text, options).map_err(|fault| fault.in_file(name))?;
+    let (format, mut parsed) = parsed(name, bytes, options).map_err(|fault| fault.in_file(name))?;
     if let Some(wanted) = &options.channel {
         parsed = vec![chosen(parsed, wanted, name)?];
     }
-    parsed.into_iter().map(|parsed| parsed.into_record(name, format)).collect()
+    let records = parsed.into_iter().map(|parsed| parsed.into_record(format));
+    records.map(|record| record.map_err(|fault| fault.in_file(name))).collect()
 }
 
-/// The channel with a number or name.
+/// Finds the format of a text and reads its channels.
+fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format, Vec<Parsed>), Fault> {
+    check_is_text(&bytes)?;
+    let decoded = decode(bytes);
+    let text = sound_part(&decoded)?;
+    let format = options.format.unwrap_or_else(|| Format::of(name, text));
+    Ok((format, format.parse(text, options)?))
+}
+
+/// Picks the channel with a number or name.
 fn chosen(parsed: Vec<Parsed>, wanted: &str, name: &str) -> Result<Parsed, GroundMotionError> {
     let wanted = wanted.trim();
     let is_wanted = |label: &str| {
@@ -131,7 +136,7 @@ fn chosen(parsed: Vec<Parsed>, wanted: &str, name: &str) -> Result<Parsed, Groun
     }
 }
 
-/// The channels of a file for a message.
+/// Lists the channels of a file for a message.
 fn listed(channels: &[String]) -> String {
     const LONGEST: usize = 12;
     let mut names: Vec<_> = channels.iter().take(LONGEST).map(|label| excerpt(label)).collect();
@@ -158,30 +163,19 @@ fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
         return Err(too_large(metadata.len().to_string()));
     }
     // The limit holds while reading too: a file may grow, or state no length.
-    let mut file = File::open(path).map_err(failed)?.take(MAX_FILE_BYTES + 1);
     let mut bytes = Vec::new();
-    let mut chunk = vec![0; 1 << 16];
-    let mut line = 1;
-    loop {
-        let count = match file.read(&mut chunk) {
-            Ok(0) => break,
-            Ok(count) => count,
-            Err(reason) if reason.kind() == io::ErrorKind::Interrupted => continue,
-            Err(reason) => return Err(failed(reason)),
-        };
-        line = check_is_text(&chunk[..count], line).map_err(|fault| fault.in_file(name))?;
-        bytes.extend_from_slice(&chunk[..count]);
-    }
+    let file = File::open(path).map_err(failed)?;
+    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(too_large("more".to_owned()));
     }
     Ok(bytes)
 }
 
-/// What DOS put at the end of texts.
+/// The mark that DOS put at the end of texts.
 const END_OF_FILE: u8 = 0x1a;
 
-/// A text without its byte order mark and without what DOS put at its end.
+/// Strips the byte order mark and the end mark of DOS from a text.
 fn sound_part(text: &str) -> Result<&str, Fault> {
     let mark = char::from(END_OF_FILE);
     let text = text.trim_start_matches('\u{feff}');
@@ -195,23 +189,16 @@ fn sound_part(text: &str) -> Result<&str, Fault> {
     }
 }
 
-/// Refuses bytes that no text file has; counts lines on from `line`.
-fn check_is_text(bytes: &[u8], mut line: usize) -> Result<usize, Fault> {
-    for &byte in bytes {
-        match byte {
-            b'\n' => line += 1,
-            b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80.. => {}
-            _ => {
-                let found = format!("the byte 0x{byte:02x}");
-                let remedy = "binary and UTF-16 files are not read: save the record as plain text (UTF-8)";
-                return Err(Fault::new(line, "text", found, remedy));
-            }
-        }
-    }
-    Ok(line)
+/// Refuses bytes that are not text.
+fn check_is_text(bytes: &[u8]) -> Result<(), Fault> {
+    let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80..);
+    let Some(at) = bytes.iter().position(|&byte| !is_text(byte)) else { return Ok(()) };
+    let line = bytes[..at].split(|&byte| byte == b'\n').count();
+    let remedy = "binary and UTF-16 files are not read: save the record as plain text (UTF-8)";
+    Err(Fault::new(line, "text", format!("the byte 0x{:02x}", bytes[at]), remedy))
 }
 
-/// UTF-8, or else Latin-1: old headers name stations in it.
+/// Decodes UTF-8, or else Latin-1, in which old headers name stations.
 fn decode(bytes: Vec<u8>) -> String {
     String::from_utf8(bytes)
         .unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| char::from(byte)).collect())

@@ -6,10 +6,11 @@
 //! ü + 2 ξ ω u̇ + ω² u = −a(t),      ω = 2π / T,      Sa(T) = ω² max |u|
 //! ```
 //!
-//! The acceleration is linear between samples, so the recursion from step to step is exact (N. C. Nigam, P. C. Jennings:
-//! Calculation of response spectra from strong-motion earthquake records. Bulletin of the Seismological Society of America
-//! 59(2), 1969, 909–922). Pieces are at most a twentieth of the period; over those [`Oscillator`] sums power series, because
-//! the printed closed forms lose digits to cancellation where ω · step is small.
+//! The acceleration is linear between samples, so the recursion from step to step is exact (N. C. Nigam, P.
+//! C. Jennings: Calculation of response spectra from strong-motion earthquake records. Bulletin of the
+//! Seismological Society of America 59(2), 1969, 909–922). Pieces are at most a twentieth of the period; over
+//! those [`Oscillator`] sums power series, because the printed closed forms lose digits to cancellation where
+//! ω · step is small.
 
 use std::f64::consts::TAU;
 
@@ -18,22 +19,23 @@ use oscillator::{Green, KinematicState, Oscillator};
 use crate::error::GroundMotionError;
 use crate::motion::{GroundMotion, floor_index};
 
-/// Damping ratio of the spectra of seismic engineering.
+/// Usual damping ratio of response spectra (-).
 pub const DAMPING: f64 = 0.05;
 
-/// Periods whose geometric mean of Sa is AvgSA unless others are stated (s).
+/// Usual periods of AvgSA (s).
 pub const AVERAGE_PERIODS: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4];
 
-/// Shortest and longest period of an oscillator (s); 0 stands for the ground itself.
+/// Shortest and longest period of an oscillator (s). Besides, 0 stands for the ground itself.
 pub const PERIOD_LIMITS: [f64; 2] = [1e-3, 100.0];
 
 /// Pieces of a period, in each of which one turning point is searched.
 const PIECES_PER_PERIOD: f64 = 20.0;
 
-/// Most pieces of a step.
+/// Largest number of pieces in a step.
 const PIECES_PER_STEP: f64 = 1e4;
 
-/// Largest velocity at a turning point, as part of those around it; the displacement's error is of the square of it.
+/// Largest velocity at a turning point, relative to the velocities around it. The relative error of the
+/// displacement is of the order of its square.
 const STILL: f64 = 1e-9;
 
 /// Bound on the steps towards a turning point; few are needed where the velocity is nearly a straight line.
@@ -89,14 +91,16 @@ impl Spectrum {
         Ok(Self { damping, maxima })
     }
 
-    /// Pseudo-spectral acceleration Sa (m/s²) at a period (s); at the period 0 the peak ground acceleration.
+    /// Computes the pseudo-spectral acceleration Sa (m/s²) at a period (s); at 0, the peak ground
+    /// acceleration.
     ///
-    /// The largest displacement is searched at the samples and at the turning points between: in each piece of at most
-    /// a twentieth of the period in which the velocity changes its sign. After the motion the acceleration is zero, as
-    /// [`GroundMotion::at`] says, and the free vibration is followed for one period.
+    /// The largest displacement is searched at the samples and at the turning points between: in each piece
+    /// of at most a twentieth of the period in which the velocity changes its sign. After the motion the
+    /// acceleration is zero, as [`GroundMotion::at`] says, and the free vibration is followed for one period.
     ///
     /// # Errors
-    /// If the period is outside [`PERIOD_LIMITS`], or so short that a step of the motion spans more than 500 of it.
+    /// If the period is outside [`PERIOD_LIMITS`], or so short that a step of the motion spans more than 500
+    /// of it.
     pub fn acceleration(&self, motion: &GroundMotion, period: f64) -> Result<f64, GroundMotionError> {
         if period == 0.0 {
             return Ok(motion.peak());
@@ -133,7 +137,7 @@ impl Spectrum {
         Ok(omega * (omega * search.largest))
     }
 
-    /// Sa (m/s²) at each period (s).
+    /// Computes Sa (m/s²) at each period (s).
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
@@ -145,7 +149,7 @@ impl Spectrum {
         periods.iter().map(|&period| self.acceleration(motion, period)).collect()
     }
 
-    /// AvgSA (m/s²): the geometric mean of Sa over the periods (s), commonly [`AVERAGE_PERIODS`].
+    /// Computes AvgSA (m/s²), the geometric mean of Sa over the periods (s), usually [`AVERAGE_PERIODS`].
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration), and if there is no period.
@@ -177,7 +181,8 @@ impl Search {
         if maxima == Maxima::AtSamples || start[1] * end[1] >= 0.0 {
             return;
         }
-        // Twice what a velocity that turns evenly would add: most turning points are lower than the largest by far.
+        // Twice what a velocity that turns evenly would add: most turning points are lower than the largest
+        // by far.
         let reach = piece.duration * (start[1].abs() + end[1].abs());
         if start[0].abs().max(end[0].abs()) + reach > self.largest {
             self.largest = self.largest.max(piece.turning_point(start, end, ground).abs());
@@ -185,12 +190,14 @@ impl Search {
     }
 }
 
-/// The recursion over a short time: a state (u, u̇) and the ground acceleration at both ends give the next state.
+/// The recursion over a short time, from a state (u, u̇) and the ground acceleration at both ends to the next
+/// state.
 struct Piece {
     oscillator: Oscillator,
     /// Duration (s).
     duration: f64,
-    /// For u and u̇ at the end, the factors of u and u̇ at the start and of the ground acceleration at both ends.
+    /// For u and u̇ at the end, the factors of u and u̇ at the start and of the ground acceleration at both
+    /// ends.
     factors: [[f64; 4]; 2],
 }
 
@@ -208,7 +215,7 @@ impl Piece {
         self.factors.map(|[from_u, from_v, from_a, from_b]| from_u * u + from_v * v + from_a * a + from_b * b)
     }
 
-    /// The state after a time within the piece.
+    /// Computes the state after a time (s) within the piece.
     fn after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
         let start = KinematicState { displacement: u, velocity: v, acceleration: -a - c * v - k * u };
@@ -218,7 +225,7 @@ impl Piece {
         [end.displacement, end.velocity]
     }
 
-    /// The displacement where the velocity, of another sign at the end than at the start, passes zero.
+    /// Finds the displacement where the velocity passes zero; its sign differs at start and end.
     fn turning_point(&self, start: [f64; 2], end: [f64; 2], ground: [f64; 2]) -> f64 {
         let ((mut low, mut at_low), (mut high, mut at_high)) = ((0.0, start[1]), (self.duration, end[1]));
         let still = STILL * (at_low.abs() + at_high.abs());

@@ -1,15 +1,16 @@
 //! Synthetic motions: filtered noise with an envelope.
 //!
 //! 1. White noise: independent standard normal numbers, one at each step, by the Box–Muller transform of
-//!    `SplitMix64` (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014) started at
-//!    the seed.
-//! 2. Envelope of Jennings, Housner and Tsai ("Simulated earthquake motions", Caltech, 1968): it rises with the square
-//!    of time to 0.1 of the duration, stays 1 to 0.35 and decays exponentially to 0.01 at 0.8; then it is zero, so
-//!    that the ground comes to rest.
-//! 3. Soil layer of Kanai and Tajimi (Tajimi, 2nd World Conference on Earthquake Engineering, 1960) with the values for
-//!    firm ground, ω = 15.6 rad/s, ζ = 0.6. The noise w drives it, its surface has the acceleration s.
-//! 4. High-pass filter of Clough and Penzien ("Dynamics of structures", 1975), ω = 1.5 rad/s, ζ = 0.6. The surface
-//!    drives it; the ground's acceleration is ÿ, so its displacement is y.
+//!    `SplitMix64` (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014)
+//!    started at the seed.
+//! 2. Envelope of Jennings, Housner and Tsai ("Simulated earthquake motions", Caltech, 1968): it rises with
+//!    the square of time to 0.1 of the duration, stays 1 to 0.35 and decays exponentially to 0.01 at 0.8;
+//!    then it is zero, so that the ground comes to rest.
+//! 3. Soil layer of Kanai and Tajimi (Tajimi, 2nd World Conference on Earthquake Engineering, 1960) with the
+//!    values for firm ground, ω = 15.6 rad/s, ζ = 0.6. The noise w drives it, its surface has the
+//!    acceleration s.
+//! 4. High-pass filter of Clough and Penzien ("Dynamics of structures", 1975), ω = 1.5 rad/s, ζ = 0.6. The
+//!    surface drives it; the ground's acceleration is ÿ, so its displacement is y.
 //! 5. Scaled to the peak.
 //!
 //! ```text
@@ -17,12 +18,12 @@
 //! ÿ + 2 ζ ω ẏ + ω² y = s                                (4)
 //! ```
 //!
-//! The filters advance by the linear acceleration method, which integrates an acceleration that is linear between
-//! samples without error, as a [`GroundMotion`] is. Its displacement is therefore y itself, which the filter draws
-//! back to zero: the motion needs no other baseline correction.
+//! The filters advance by the linear acceleration method, which integrates an acceleration that is linear
+//! between samples without error, as a [`GroundMotion`] is. Its displacement is therefore y itself, which the
+//! filter draws back to zero: the motion needs no other baseline correction.
 //!
-//! Only IEEE basic operations, square roots and the software functions of `libm` are used, in a fixed order: the motion
-//! is the same bit for bit on every platform.
+//! Only IEEE basic operations, square roots and the software functions of `libm` are used, in a fixed order:
+//! the motion is the same bit for bit on every platform.
 
 use std::f64::consts::TAU;
 
@@ -100,7 +101,7 @@ impl SyntheticMotion {
     }
 }
 
-/// Envelope at a part of the duration.
+/// Computes the envelope at a part of the duration.
 fn envelope(part: f64) -> f64 {
     if part < FULL_FROM {
         (part / FULL_FROM) * (part / FULL_FROM)
@@ -143,7 +144,7 @@ impl FilterState {
         self.displacement = displacement + step * step / 6.0 * self.acceleration;
     }
 
-    /// −2 ζ ω ẋ − ω² x
+    /// Returns −2 ζ ω ẋ − ω² x.
     fn spring_and_damper(&self, filter: Filter) -> f64 {
         let Filter { angular_frequency: omega, damping_ratio: zeta } = filter;
         -2.0 * zeta * omega * self.velocity - omega * omega * self.displacement
@@ -172,13 +173,13 @@ impl Noise {
         radius * libm::cos(angle)
     }
 
-    /// Uniform in (0, 1].
+    /// Draws a number uniform in (0, 1].
     fn uniform(&mut self) -> f64 {
         const UNIT: f64 = 1.0 / (1_u64 << 53) as f64;
         ((self.bits() >> 11) + 1) as f64 * UNIT
     }
 
-    /// `SplitMix64`.
+    /// Draws 64 bits by `SplitMix64`.
     fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;

@@ -41,7 +41,7 @@ impl Unit {
         Self::StandardGravity,
     ];
 
-    /// The unit's plain name.
+    /// Returns the unit's plain name, such as `cm/s2`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,10 +52,10 @@ impl Unit {
         }
     }
 
-    /// A value in this unit as m/s².
+    /// Converts a value in this unit to m/s².
     ///
-    /// Divides where the factor is not a binary fraction but its inverse is a whole number: 1 cm/s² is then the
-    /// double nearest to 0.01 m/s².
+    /// Divides where the factor is not a binary fraction but its inverse is a whole number: 1 cm/s² is then
+    /// the double nearest to 0.01 m/s².
     #[must_use]
     pub fn to_si(self, value: f64) -> f64 {
         match self {

@@ -13,7 +13,7 @@ pub struct Green {
     pub k: f64,
 }
 
-/// φ₁(x) = (eˣ − 1)/x.
+/// Computes φ₁(x) = (eˣ − 1)/x.
 pub(crate) fn phi1(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.exp_m1() / x }
 }

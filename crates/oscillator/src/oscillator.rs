@@ -56,7 +56,7 @@ const SHORT: f64 = 1.0;
 const NEGLIGIBLE: f64 = 1e-18;
 
 impl Oscillator {
-    /// The oscillator with damping c \[1/s\] and stiffness k \[1/s²\], per unit mass and of any sign.
+    /// Makes the oscillator with damping c \[1/s\] and stiffness k \[1/s²\], per unit mass and of any sign.
     #[must_use]
     pub fn new(damping: f64, stiffness: f64) -> Self {
         let half = 0.5 * damping;
@@ -73,28 +73,29 @@ impl Oscillator {
         Self { damping, stiffness, regime, root, inverse_root: 1.0 / root }
     }
 
-    /// Damping c \[1/s\].
+    /// Returns damping c \[1/s\].
     #[inline]
     #[must_use]
     pub fn damping(&self) -> f64 {
         self.damping
     }
 
-    /// Stiffness k \[1/s²\].
+    /// Returns stiffness k \[1/s²\].
     #[inline]
     #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// Form of the free motion.
+    /// Returns the form of the free motion.
     #[inline]
     #[must_use]
     pub fn regime(&self) -> Regime {
         self.regime
     }
 
-    /// Time over which the closed form neither overflows nor hides an unbounded number of turning points \[s\].
+    /// Returns the time over which the closed form neither overflows nor hides an unbounded number of turning
+    /// points \[s\].
     #[inline]
     #[must_use]
     pub fn longest_piece(&self) -> f64 {
@@ -107,7 +108,7 @@ impl Oscillator {
         }
     }
 
-    /// Green's functions after `time` \[s\].
+    /// Computes Green's functions after `time` \[s\].
     ///
     /// ```
     /// # use oscillator::Oscillator;
@@ -150,7 +151,8 @@ impl Oscillator {
         }
     }
 
-    /// H, J and K from G″ + cG′ + kG = 0 integrated once, twice and three times; `even` is G′ + (c/2) G.
+    /// Computes H, J and K from G″ + cG′ + kG = 0 integrated once, twice and three times; `even` is G′ +
+    /// (c/2) G.
     fn by_stiffness(&self, time: f64, g: f64, even: f64) -> Green {
         let (c, k) = (self.damping, self.stiffness);
         let h = (1.0 - even - 0.5 * c * g) / k;
@@ -158,9 +160,10 @@ impl Oscillator {
         Green { g, h, j, k: (0.5 * time * time - h - c * j) / k }
     }
 
-    /// Green's functions as power series, for short times: there the closed forms cancel.
+    /// Sums Green's functions as power series, for short times: there the closed forms cancel.
     ///
-    /// G = t Σ γₙ/(n+1)! with γ₀ = 1, γₙ = −(c t γₙ₋₁ + k t² γₙ₋₂); each integral raises the factorial by one.
+    /// G = t Σ γₙ/(n+1)! with γ₀ = 1, γₙ = −(c t γₙ₋₁ + k t² γₙ₋₂); each integral raises the factorial by
+    /// one.
     fn series(&self, time: f64) -> Green {
         let (c, k) = (self.damping * time, self.stiffness * time * time);
         let (mut before, mut term) = (0.0_f64, 1.0_f64);
@@ -184,8 +187,8 @@ impl Oscillator {
         }
     }
 
-    /// Taylor series of the motion from `start` under a load that changes at `rate` \[m/s³\], for times up to `time`
-    /// \[s\]; `None` where c t + |k| t² > 1, so that it converges too slowly.
+    /// Taylor series of the motion from `start` under a load that changes at `rate` \[m/s³\], for times up to
+    /// `time` \[s\]; `None` where c t + |k| t² > 1, so that it converges too slowly.
     ///
     /// From ü and the jerk on each derivative follows from the two before, u⁽ⁿ⁺²⁾ = −c u⁽ⁿ⁺¹⁾ − k u⁽ⁿ⁾.
     #[inline]
@@ -202,7 +205,8 @@ impl Oscillator {
         coefficients[1] = start.velocity;
         coefficients[2] = 0.5 * before;
         coefficients[3] = derivative / 6.0;
-        // terms of ü fall at least like those of e^x with x = c t + √|k| t, from the larger of ü and the jerk on
+        // terms of ü fall at least like those of e^x with x = c t + √|k| t, from the larger of ü and the jerk
+        // on
         let ratio = c * time + self.root * time;
         let (mut order, mut size) = (3, ratio);
         while order < HIGHEST_ORDER && size >= NEGLIGIBLE {
@@ -214,7 +218,7 @@ impl Oscillator {
         Some(Polynomial { coefficients, order })
     }
 
-    /// [`Self::series_from`], summed at `time` \[s\] at once.
+    /// Sums [`Self::series_from`] at `time` \[s\] at once.
     #[inline]
     #[must_use]
     pub fn series_at(&self, start: KinematicState, rate: f64, time: f64) -> Option<KinematicState> {
@@ -246,7 +250,7 @@ impl Oscillator {
         })
     }
 
-    /// The motion `time` \[s\] after `start`, under a load that changes at `rate` \[m/s³\].
+    /// Computes the motion `time` \[s\] after `start`, under a load that changes at `rate` \[m/s³\].
     ///
     /// The load itself enters by the acceleration at the start, ü₀ = p₀ − c u̇₀ − k u₀.
     #[inline]
@@ -278,7 +282,7 @@ impl Oscillator {
         }
     }
 
-    /// The matrix, row by row, that maps (u̇₀, ü₀, p₁) to (u − u₀, u̇, ü) after `time` \[s\].
+    /// Computes the matrix, row by row, that maps (u̇₀, ü₀, p₁) to (u − u₀, u̇, ü) after `time` \[s\].
     ///
     /// Where [the two modes are spread](Self::is_spread), products with it lose digits to cancellation.
     #[inline]
@@ -289,22 +293,35 @@ impl Oscillator {
         [[g + c * h, h, j], [1.0 - k * h, g, h], [-k * g, 1.0 - c * g - k * h, g]]
     }
 
-    /// Whether over `time` \[s\] the two modes part so far that [`Self::propagate`] follows each on its own.
+    /// Integrates u over `time` \[s\] from `start` on \[m s\], under a load that changes at `rate` \[m/s³\].
+    ///
+    /// ```text
+    /// ∫u dt = u₀ t + (H + cJ) u̇₀ + J ü₀ + K p₁
+    /// ```
+    #[must_use]
+    pub fn displacement_integral(&self, start: KinematicState, rate: f64, time: f64) -> f64 {
+        let Green { h, j, k, .. } = self.green(time);
+        let KinematicState { displacement, velocity, acceleration } = start;
+        displacement * time + (h + self.damping * j) * velocity + j * acceleration + k * rate
+    }
+
+    /// Returns whether over `time` \[s\] the two modes part so far that [`Self::propagate`] follows each on
+    /// its own.
     #[inline]
     #[must_use]
     pub fn is_spread(&self, time: f64) -> bool {
         matches!(self.regime, Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE)
     }
 
-    /// Jerk dü/dt = p₁ − c ü − k u̇ \[m/s³\] under a load that changes at `rate` \[m/s³\].
+    /// Computes the jerk dü/dt = p₁ − c ü − k u̇ \[m/s³\] under a load that changes at `rate` \[m/s³\].
     #[inline]
     #[must_use]
     pub fn jerk(&self, at: KinematicState, rate: f64) -> f64 {
         rate - self.damping * at.acceleration - self.stiffness * at.velocity
     }
 
-    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant, under a load that changes
-    /// at `rate` \[m/s³\]. Damping must not be negative.
+    /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] for `length` seconds after an instant, under a load
+    /// that changes at `rate` \[m/s³\]. Damping must not be negative.
     #[inline]
     #[must_use]
     pub fn bounds(&self, from: KinematicState, rate: f64, length: f64) -> (f64, f64) {

@@ -19,7 +19,7 @@ impl Polynomial {
         &self.coefficients[..=self.order]
     }
 
-    /// The motion at time zero.
+    /// Returns the motion at time zero.
     #[inline]
     #[must_use]
     pub fn start(&self) -> KinematicState {
@@ -27,7 +27,7 @@ impl Polynomial {
         KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    /// The motion at a time \[s\].
+    /// Evaluates the motion at a time \[s\].
     #[inline]
     #[must_use]
     pub fn at(&self, time: f64) -> KinematicState {
@@ -40,8 +40,8 @@ impl Polynomial {
         KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
     }
 
-    /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻² and
-    /// Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
+    /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻²
+    /// and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
     #[inline]
     #[must_use]
     pub fn bounds(&self, horizon: f64) -> (f64, f64) {
@@ -56,7 +56,8 @@ impl Polynomial {
         (acceleration, jerk)
     }
 
-    /// Bound on the rate of the jerk \[m/s⁴\] up to the time T = `horizon` \[s\]: Σ n(n−1)(n−2)(n−3) |uₙ| Tⁿ⁻⁴.
+    /// Bounds the rate of the jerk \[m/s⁴\] up to the time T = `horizon` \[s\]: Σ n(n−1)(n−2)(n−3) |uₙ|
+    /// Tⁿ⁻⁴.
     #[inline]
     #[must_use]
     pub fn snap(&self, horizon: f64) -> f64 {
@@ -66,7 +67,7 @@ impl Polynomial {
         })
     }
 
-    /// ∫u dt from time zero to `time` \[m s\].
+    /// Integrates u from time zero to `time` \[m s\].
     #[inline]
     #[must_use]
     pub fn integral(&self, time: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! PEER AT2 records.
 //!
-//! Header lines, the last of which states the number of samples and the step, then the samples, several on a line:
+//! Header lines, the last of which states the number of samples and the step, then the samples, several on a
+//! line:
 //!
 //! ```text
 //! PEER NGA STRONG MOTION DATABASE RECORD
@@ -18,12 +19,12 @@ use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 
-/// The line with NPTS is looked for among this many lines that are not blank.
+/// The line with NPTS is searched among this many lines that are not blank.
 const HEADER_LINES: usize = 50;
 
 const COUNT_AND_STEP: &str = "the number of samples and the step, `NPTS= 7999, DT= .0050 SEC`";
 
-/// Whether the first lines have the one that states NPTS.
+/// Returns whether one of the first lines states NPTS.
 pub(super) fn recognises(head: &[&str]) -> bool {
     head.iter().take(HEADER_LINES).any(|line| find(line, "NPTS").is_some())
 }
@@ -54,7 +55,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// NPTS and DT from their line.
+/// Reads NPTS and DT from their line.
 fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
     let fault = |remedy: &str| Fault::excerpt(number, COUNT_AND_STEP, line, remedy);
     let unreadable = || fault("correct this line of the header");
@@ -77,7 +78,7 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
     Ok((count, positive(step).ok_or_else(unreadable)?))
 }
 
-/// The unit the header states, or the one the user states; never a guess.
+/// Finds the unit that the header states, or the one that the user states; never guesses.
 fn unit<'a>(
     header: impl Iterator<Item = Line<'a>>,
     count_line: usize,

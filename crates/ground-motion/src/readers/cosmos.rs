@@ -27,7 +27,7 @@ const PEAK: usize = 64;
 /// The value of what is not known.
 const UNKNOWN: f64 = -999.0;
 
-/// Whether the first line is that of such a file.
+/// Returns whether the first lines are those of such a file.
 pub(super) fn recognises(head: &[&str]) -> bool {
     head.first().is_some_and(|line| find(line, "(FORMAT V").is_some())
         || head.iter().any(|line| find(line, REALS).is_some())
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     volume_2::parse(text, options, &dialect)
 }
 
-/// Unit from the heading; interval and peak from the real headers.
+/// Takes the unit from the heading, and interval and peak from the real headers.
 fn scale(
     channel: &Channel<'_>,
     heading: Line<'_>,
@@ -74,7 +74,8 @@ fn scale(
         // The heading rounds to whole seconds, up or down.
         if (duration - approximate).abs() > 1.0 + 0.01 * approximate {
             let expected = format!(
-                "about {duration} s, {count} points at the {interval} ms of real header {INTERVAL} after line {}",
+                "about {duration} s, {count} points at the {interval} ms of real header {INTERVAL} \
+                 after line {}",
                 channel.reals_line
             );
             let remedy = "the headers disagree: fetch the file again";

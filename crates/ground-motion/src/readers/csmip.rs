@@ -1,7 +1,7 @@
 //! CSMIP and CDMG volume 2 records (`.V2`).
 //!
-//! For each channel 25 lines of text, 100 integers, 100 reals, then acceleration, velocity and displacement in columns
-//! of ten characters that may touch, and a closing line:
+//! For each channel 25 lines of text, 100 integers, 100 reals, then acceleration, velocity and displacement
+//! in columns of ten characters that may touch, and a closing line:
 //!
 //! ```text
 //! Corrected accelerogram   …
@@ -13,8 +13,8 @@
 //! /&  ----------  End of data for channel  1  ----------
 //! ```
 //!
-//! The headings tell all that is needed, so the integers and reals are passed over. Velocity and displacement are read
-//! only to see that they are whole.
+//! The headings state all that is needed, so the integers and reals are skipped. Velocity and displacement
+//! are read only to check that they are complete.
 
 use super::volume_2::{self, Channel, Dialect, Scale, in_heading};
 use crate::error::Fault;
@@ -22,7 +22,7 @@ use crate::fields::{Layout, Line, after, find, leading_number, positive, unit_wo
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
-/// Whether the first lines are such a header.
+/// Returns whether the first lines are such a header.
 pub(super) fn recognises(head: &[&str]) -> bool {
     head.first().is_some_and(|line| find(line, "CORRECTED ACCELEROGRAM").is_some())
         || head.iter().any(|line| is_heading(line))
@@ -50,7 +50,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     volume_2::parse(text, options, &dialect)
 }
 
-/// Step and unit from the heading, the peak from the text before it.
+/// Takes step and unit from the heading, and the peak from the text before it.
 fn scale(
     channel: &Channel<'_>,
     heading: Line<'_>,

@@ -1,6 +1,6 @@
 //! Records as comma-separated values, in one of two forms.
 //!
-//! A table with a header line, the form of importers' input files; the times are uniform, there are no comments:
+//! A table with a header line and uniform times, without comments:
 //!
 //! ```text
 //! time,a_g
@@ -8,8 +8,8 @@
 //! 0.005,0.0031
 //! ```
 //!
-//! Or one column of samples, with the step stated beside it; a first line that names the column and lines that start
-//! with `#` are passed over. Neither form has a place for the unit, so the unit has to be stated.
+//! Or one column of samples, with the step stated beside it; a first line that names the column and lines
+//! that start with `#` are skipped. Neither form has a place for the unit, so the unit has to be stated.
 
 use crate::error::{Fault, excerpt};
 use crate::fields::lines;
@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// One column of samples.
+/// Reads one column of samples.
 fn column(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Fault> {
     let mut parsed = Parsed::new(f64::NAN, unit, 1);
     let mut name = None;
@@ -74,7 +74,7 @@ fn column(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Fau
     Ok(parsed)
 }
 
-/// A table: a header line, then rows that start with the time.
+/// Reads a table: a header line, then rows that start with the time.
 fn table(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Fault> {
     let mut rows = lines(text);
     let (header_line, header) = rows.next().unwrap_or((1, ""));
@@ -108,7 +108,7 @@ fn table(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Faul
     Ok(parsed)
 }
 
-/// Index of the column to read; column 0 is the time.
+/// Finds the index of the column to read; column 0 is the time.
 fn chosen_column(names: &[&str], line: usize, wanted: Option<&str>) -> Result<usize, Fault> {
     let refused =
         |expected: String, remedy: &str| Err(Fault::excerpt(line, expected, &names.join(","), remedy));
@@ -137,7 +137,7 @@ fn chosen_column(names: &[&str], line: usize, wanted: Option<&str>) -> Result<us
 struct Times(Vec<(usize, f64)>);
 
 impl Times {
-    /// Takes the next time; it must follow at the first step's distance.
+    /// Takes the next time; its distance from the last must be the first step.
     fn push(&mut self, time: f64, line: usize) -> Result<(), Fault> {
         if let Some(&(_, last)) = self.0.last() {
             if time <= last {
@@ -156,7 +156,8 @@ impl Times {
         Ok(())
     }
 
-    /// The first time and the mean step. Steps that change slowly leave the uniform grid and are refused.
+    /// Computes the first time and the mean step. Refuses steps that change slowly: they leave the uniform
+    /// grid.
     fn uniform(&self) -> Result<Option<(f64, f64)>, Fault> {
         let [(_, first), .., (_, last)] = self.0[..] else { return Ok(None) };
         let step = rounded((last - first) / (self.0.len() - 1) as f64);
@@ -172,7 +173,7 @@ impl Times {
     }
 }
 
-/// The number to twelve digits: steps are decimal fractions, quotients of sums of them are not quite.
+/// Rounds to twelve digits: steps are decimal fractions, and quotients of their sums are so up to rounding.
 fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
@@ -185,7 +186,8 @@ fn refuse_comment(line: &str, number: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Whether a line names its column: it starts with a letter and is no number (`nan` and `inf` are).
+/// Returns whether a line names its column: it starts with a letter and is not a number, as `nan` and `inf`
+/// are.
 fn is_name(line: &str) -> bool {
     unquoted(line).starts_with(char::is_alphabetic) && line.parse::<f64>().is_err()
 }
@@ -200,7 +202,7 @@ fn real(cell: &str, line: usize) -> Result<f64, Fault> {
     value.ok_or_else(|| Fault::excerpt(line, "a finite number", cell, remedy))
 }
 
-/// The sample (m/s²) of a cell.
+/// Reads the sample (m/s²) of a cell.
 fn sample(cell: &str, line: usize, unit: Unit) -> Result<f64, Fault> {
     let sample = Some(unit.to_si(real(cell, line)?)).filter(|sample| sample.is_finite());
     sample.ok_or_else(|| Fault::excerpt(line, "a finite acceleration", cell, "check the value and the unit"))

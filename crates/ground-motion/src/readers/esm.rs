@@ -26,13 +26,13 @@ const HEADER_LINES: usize = 64;
 /// The stated peak may be rounded, or that of samples with more digits.
 const PEAK_TOLERANCE: f64 = 0.01;
 
-/// Whether the first lines are such a header.
+/// Returns whether the first lines are such a header.
 pub(super) fn recognises(head: &[&str]) -> bool {
     head.first().is_some_and(|line| line.starts_with("EVENT_NAME:"))
         || head.iter().any(|line| line.starts_with("SAMPLING_INTERVAL_S:"))
 }
 
-/// The header as keys and values with their lines.
+/// The header: lines, keys and values.
 struct Header<'a>(Vec<(usize, &'a str, &'a str)>);
 
 impl<'a> Header<'a> {
@@ -116,7 +116,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// The samples must have the peak the header states: a wrong unit or a missing part shows here.
+/// Refuses samples without the peak that the header states: a wrong unit or a missing part shows here.
 fn check_peak(samples: &[f64], stated: f64, line: usize) -> Result<(), Fault> {
     // Half a unit of the last of the six decimals the files have, in m/s².
     const ROUNDING: f64 = 0.5e-8;

@@ -26,7 +26,7 @@ use crate::unit::Unit;
 
 const HEADER_LINES: usize = 17;
 
-/// Whether the first lines are such a header.
+/// Returns whether the first lines are such a header.
 pub(super) fn recognises(head: &[&str]) -> bool {
     let starts = |label: &str| head.iter().take(HEADER_LINES).any(|line| line.starts_with(label));
     starts("Origin Time") || (starts("Sampling Freq(Hz)") && starts("Scale Factor"))
@@ -67,7 +67,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// The number of counts must be the stated duration times the frequency.
+/// Refuses a number of counts other than the stated duration times the frequency.
 fn check_duration(
     found: usize,
     [duration, frequency]: [f64; 2],
@@ -83,7 +83,7 @@ fn check_duration(
     check_count(found, floor_index(stated), &stated_by, last_line)
 }
 
-/// The value after a label.
+/// Finds the value after a label.
 fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
     let found = header.iter().find_map(|&(number, line)| Some((number, line.strip_prefix(label)?.trim())));
     found.filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
@@ -94,7 +94,7 @@ fn field<'a>(header: &[Line<'a>], label: &str) -> Result<Line<'a>, Fault> {
     })
 }
 
-/// The positive number after a label; a unit may follow.
+/// Reads the positive number after a label; a unit may follow.
 fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
     let (line, value) = field(header, label)?;
     let number = positive(leading_number(value).0);
@@ -103,7 +103,7 @@ fn number(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
     })
 }
 
-/// Numerator, unit and denominator of `3920(gal)/6182761`.
+/// Reads numerator, unit and denominator of `3920(gal)/6182761`.
 fn scale(text: &str) -> Option<(f64, &str, f64)> {
     let (numerator, rest) = text.split_once('(')?;
     let (unit, denominator) = rest.split_once(')')?;

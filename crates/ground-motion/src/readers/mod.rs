@@ -1,6 +1,7 @@
-//! One reader for each format, and how a file's content gives its format away.
+//! One reader for each format, and the recognition of formats.
 //!
-//! A reader is a module with `parse(text, options)` and, if the content gives the format away, `recognises(head)`.
+//! A reader is a module with `parse(text, options)` and, if its format can be recognised by the content,
+//! `recognises(head)`.
 
 mod at2;
 mod cosmos;
@@ -17,14 +18,14 @@ use crate::format::Format;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
-/// A format is looked for in this many lines that are not blank.
+/// Lines that are not blank by which a format is recognised.
 const HEAD_LINES: usize = 80;
 
-/// Whether the first lines that are not blank are those of a format.
+/// Returns whether the first lines that are not blank are those of a format.
 type Recognises = fn(&[&str]) -> bool;
 
 impl Format {
-    /// The format of a text: by its content, and where that says nothing by the ending of the file's name.
+    /// Finds the format of a text by its content, or else by the ending of the file's name.
     pub(crate) fn of(name: &str, text: &str) -> Self {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by one word

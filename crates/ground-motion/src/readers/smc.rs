@@ -1,7 +1,7 @@
 //! USGS SMC records (`.smc`).
 //!
-//! 11 lines of text, 48 integers (8I10), 50 reals (5E15.7), comment lines that start with `|`, then samples in cm/s²
-//! (8E10.4) without blanks between:
+//! 11 lines of text, 48 integers (8I10), 50 reals (5E15.7), comment lines that start with `|`, then samples
+//! in cm/s² (8E10.4) without blanks between:
 //!
 //! ```text
 //! 2 CORRECTED ACCELEROGRAM
@@ -11,8 +11,8 @@
 //!  1.9103E-1 6.5384E-1-5.4811E-1 9.0551E-3 7.4138E-1 1.0646E+0 7.6002E-1 1.1296E+0
 //! ```
 //!
-//! Integer 16 is the number of comment lines, integer 17 that of samples, real 2 the samples a second, reals 30 and 32
-//! the largest and the smallest sample.
+//! Integer 16 is the number of comment lines, integer 17 that of samples, real 2 the samples a second, reals
+//! 30 and 32 the largest and the smallest sample.
 
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Layout, Line, find, untrimmed_lines};
@@ -25,10 +25,10 @@ const INTEGERS: (usize, Layout) = (48, Layout { per_line: 8, width: 10 });
 const REALS: (usize, Layout) = (50, Layout { per_line: 5, width: 15 });
 const DATA: Layout = Layout { per_line: 8, width: 10 };
 
-/// Reals at least so large stand for what is not known (1.7E38).
+/// Reals of this size and more stand for unknown values (1.7E38).
 const UNKNOWN: f64 = 1e38;
 
-/// Whether the first line is that of such a file: a digit and what the file holds.
+/// Returns whether the first line is that of such a file: a digit and what the file holds.
 pub(super) fn recognises(head: &[&str]) -> bool {
     let kind = head.first().and_then(|line| line.trim_start().strip_prefix(|c: char| c.is_ascii_digit()));
     let kinds = ["CORRECTED ACC", "UNCORRECTED ACC", "VELOCITY", "DISPLACEMENT", "RESPONSE", "FOURIER"];
@@ -56,11 +56,11 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let header: Vec<Line<'_>> = rest.by_ref().take(TEXT_LINES).collect();
     let text_end = header.last().map_or(1, |(number, _)| *number);
     let (count, layout) = INTEGERS;
-    let integers = layout.numbers(&mut rest, count, text_end)?;
+    let (integers, _) = layout.numbers(&mut rest, count, text_end)?;
     let (comments, samples) = (whole(&integers, 16, text_end)?, whole(&integers, 17, text_end)?);
     let reals_line = rest.peek().map_or(text_end, |(number, _)| *number);
     let (count, layout) = REALS;
-    let reals = layout.numbers(&mut rest, count, text_end)?;
+    let (reals, _) = layout.numbers(&mut rest, count, text_end)?;
     let frequency = reals.get(1).copied().filter(|frequency| *frequency > 0.0 && *frequency < UNKNOWN);
     let Some(frequency) = frequency else {
         let expected = "the samples a second as real 2 of the header";
@@ -84,7 +84,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     Ok(parsed)
 }
 
-/// Integer `place` of the header, from 1, where it counts something.
+/// Reads integer `place` of the header, from 1, as a count.
 fn whole(integers: &[f64], place: usize, text_end: usize) -> Result<usize, Fault> {
     let value = integers.get(place - 1).copied().unwrap_or(f64::NAN);
     if value >= 0.0 && value.fract() == 0.0 {

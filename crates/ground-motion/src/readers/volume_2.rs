@@ -1,5 +1,5 @@
-//! What COSMOS and CSMIP volume 2 share: channels of text and headers, each with blocks of data that state their own
-//! count and Fortran format, and a closing line.
+//! What COSMOS and CSMIP volume 2 share: channels of text and headers, each with blocks of data that state
+//! their own count and Fortran format, and a closing line.
 
 use std::iter::Peekable;
 
@@ -15,17 +15,17 @@ const NAME_CHARACTERS: usize = 40;
 /// Lines of text that are kept: no fewer than a record keeps of its header.
 const TEXT_LINES: usize = 8;
 
-/// How a format writes what both have.
+/// How one of the two formats writes a file.
 pub(super) struct Dialect {
-    /// Whether a line is the heading of a block of data.
+    /// Returns whether a line is the heading of a block of data.
     pub(super) is_heading: fn(&str) -> bool,
-    /// The word in the heading of accelerations; other blocks are read only to see that they are whole.
+    /// The word in the heading of accelerations; other blocks are read only to check that they are complete.
     pub(super) acceleration: &'static str,
     /// Format of a block whose heading states none.
     pub(super) layout: Option<Layout>,
-    /// What a heading of so many accelerations says, together with what precedes it.
+    /// Reads the scale of so many accelerations from their heading and what precedes it.
     pub(super) scale: fn(&Channel<'_>, Line<'_>, usize, &RecordOptions) -> Result<Scale, Fault>,
-    /// The name of a channel, if a line of text has it.
+    /// Finds the name of a channel in a line of text.
     pub(super) name: fn(&str) -> Option<&str>,
     /// Start of the line that closes a channel, and that line for messages.
     pub(super) closing: [&'static str; 2],
@@ -122,7 +122,7 @@ impl<'a> Channel<'a> {
             let expected = "`100 Real-header values follow on 20 lines, Format= (5F15.6)`";
             return Err(Fault::excerpt(number, expected, line.trim(), DAMAGED));
         };
-        (self.reals, self.reals_line) = (layout.numbers(rest, count, number)?, number);
+        (self.reals, self.reals_line) = (layout.numbers(rest, count, number)?.0, number);
         Ok(())
     }
 
@@ -151,7 +151,8 @@ impl<'a> Channel<'a> {
         Ok(Some(parsed))
     }
 
-    /// `1: 90 Deg` of `Chan   1:  90 Deg`; without a name or with an unknown number, the position in the file.
+    /// Makes the label `1: 90 Deg` from `Chan   1:  90 Deg`; without a name or with an unknown number, from
+    /// the position in the file.
     fn label(&self, index: usize) -> String {
         let words: Vec<_> = self.name.unwrap_or_default().split_ascii_whitespace().collect();
         let label: String = words.join(" ").chars().take(NAME_CHARACTERS).collect();
@@ -163,12 +164,12 @@ impl<'a> Channel<'a> {
     }
 }
 
-/// A fault in a heading.
+/// Makes a fault in a heading.
 pub(super) fn in_heading((number, line): Line<'_>, expected: &str) -> Fault {
     Fault::excerpt(number, expected, line.trim(), DAMAGED)
 }
 
-/// The number and unit of `-267.957 CM/SEC/SEC AT 10.940 SEC.` in m/s², without its sign.
+/// Reads `-267.957 CM/SEC/SEC AT 10.940 SEC.` in m/s², without its sign.
 fn peak(text: &str) -> Option<f64> {
     let unit: Unit = leading_number(text).1.split_ascii_whitespace().next()?.parse().ok()?;
     leading_real(text).map(|value| unit.to_si(value.abs()))
