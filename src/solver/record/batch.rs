@@ -3,20 +3,19 @@
 //! Where the wall and the step allow it, eight runs go side by side, each number of theirs in one place of a vector: the response
 //! of the branches to the record is taken once for all (module `responses`), plain steps go four at once and corners are passed
 //! several at once (`lanes`, `rounds`, `corners`). Where a step is long beside the wall's shortest period runs go one by one: there four
-//! steps would reach a corner too often.
+//! steps would reach a corner too often. Without AVX2 they go one by one too: there that is measured to be faster.
 //!
 //! What becomes of a run depends on the wall, the record, the step and its start, never on the other runs or on the processor.
 //! It agrees with [`RecordSolver::run`] to rounding.
 
-#[cfg(target_arch = "x86_64")]
-mod avx2;
-#[cfg(target_arch = "x86_64")]
-mod avx512;
 mod corners;
 mod lanes;
 mod responses;
 mod rounds;
+mod table;
 mod vector;
+
+use fearless_simd::{Level, dispatch};
 
 use super::{Forcing, Passage, RecordSolver, SolverError, Start, stretches};
 use lanes::Lanes;
@@ -31,18 +30,19 @@ pub struct Batch<'a, F> {
     solver: &'a RecordSolver<'a>,
     forcing: &'a F,
     largest: Vec<f64>,
-    responses: Option<Responses>,
+    side_by_side: Option<(Level, Responses)>,
 }
 
 impl RecordSolver<'_> {
     /// Prepares a record for many runs.
     pub fn batch<'a, F: Forcing>(&'a self, forcing: &'a F) -> Batch<'a, F> {
-        Batch {
-            solver: self,
-            forcing,
-            largest: stretches::largest_forcing(forcing),
-            responses: Responses::new(self, forcing),
-        }
+        self.batch_on(forcing, wide_level())
+    }
+
+    /// The same on a processor with such vectors, or with none that are worth it.
+    fn batch_on<'a, F: Forcing>(&'a self, forcing: &'a F, level: Option<Level>) -> Batch<'a, F> {
+        let side_by_side = level.and_then(|level| Some((level, Responses::new(self, forcing)?)));
+        Batch { solver: self, forcing, largest: stretches::largest_forcing(forcing), side_by_side }
     }
 }
 
@@ -50,7 +50,7 @@ impl<F: Forcing> Batch<'_, F> {
     /// Whether runs go side by side, not one by one.
     #[must_use]
     pub fn is_side_by_side(&self) -> bool {
-        self.responses.is_some()
+        self.side_by_side.is_some()
     }
 
     /// Moves walls through the record, each as if it were alone; `until_overturning` stops those that overturn.
@@ -58,48 +58,25 @@ impl<F: Forcing> Batch<'_, F> {
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
     pub fn run(&self, starts: &[Start], until_overturning: bool) -> Result<Vec<Passage>, SolverError> {
-        let Some(responses) = &self.responses else {
+        let Some((level, responses)) = &self.side_by_side else {
             let Self { solver, forcing, largest, .. } = self;
             let run =
                 |&start| solver.run_with(start, *forcing, largest, until_overturning, &mut |_, _, _| {});
             return starts.iter().map(run).collect();
         };
         let mut lanes = Lanes::new(self, responses, starts, until_overturning);
-        follow(&mut lanes);
+        dispatch!(*level, simd => lanes.follow(simd));
         lanes.passages()
     }
 }
 
-/// [`Lanes::follow`], with vectors as wide as can be had.
-#[allow(
-    unsafe_code,
-    reason = "the wide versions may run only where the processor has them, which no type can tell"
-)]
-fn follow<F: Forcing>(lanes: &mut Lanes<'_, F>) {
+/// The vectors of this processor, where runs go faster side by side.
+fn wide_level() -> Option<Level> {
     #[cfg(target_arch = "x86_64")]
-    {
-        if avx512::is_there() {
-            // SAFETY: the processor has AVX-512, as was just found.
-            return unsafe { follow_avx512(lanes) };
-        }
-        if avx2::is_there() {
-            // SAFETY: the processor has AVX2, as was just found.
-            return unsafe { follow_avx2(lanes) };
-        }
+    if Level::new().as_avx2().is_some() {
+        return Some(Level::new());
     }
-    lanes.follow::<vector::Portable>();
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,popcnt")]
-fn follow_avx512<F: Forcing>(lanes: &mut Lanes<'_, F>) {
-    lanes.follow::<avx512::Wide>();
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,popcnt")]
-fn follow_avx2<F: Forcing>(lanes: &mut Lanes<'_, F>) {
-    lanes.follow::<avx2::Halves>();
+    None
 }
 
 #[cfg(test)]
@@ -135,31 +112,21 @@ mod tests {
         (0..21).map(|i| Start { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
     }
 
-    /// Side by side, with many corners passed, and the same bits as on a processor without vectors.
+    /// Side by side, with many corners passed, and the same bits whatever vectors the processor has.
     #[test]
-    #[allow(unsafe_code, reason = "AVX2 is asked for first")]
-    #[allow(
-        clippy::redundant_closure_for_method_calls,
-        reason = "the method is for one lifetime, the closure for all"
-    )]
     fn runs_do_not_depend_on_the_processor() {
         let motion = motion(0.018);
         let samples = shaking();
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Samples(&samples));
-        let batch = solver.batch(&samples);
-        let responses = batch.responses.as_ref().expect("short steps");
         let starts = starts(&motion);
-        let by = |follow: fn(&mut Lanes<'_, Samples<'_>>)| {
-            let mut lanes = Lanes::new(&batch, responses, &starts, false);
-            follow(&mut lanes);
-            lanes.passages().expect("bounded motions")
-        };
-        let portable = by(|lanes| lanes.follow::<vector::Portable>());
-        assert_eq!(batch.run(&starts, false).expect("bounded motions"), portable);
-        #[cfg(target_arch = "x86_64")]
-        if avx2::is_there() {
-            // SAFETY: the processor has AVX2, as was just found.
-            assert_eq!(by(|lanes| unsafe { follow_avx2(lanes) }), portable);
+        let mut by_level = vector::tests::levels().into_iter().map(|level| {
+            let batch = solver.batch_on(&samples, Some(level));
+            assert!(batch.is_side_by_side());
+            batch.run(&starts, false).expect("bounded motions")
+        });
+        let portable = by_level.next().expect("a level");
+        for wider in by_level {
+            assert_eq!(wider, portable);
         }
         let corners: u64 = portable.iter().map(|passage| passage.work.corners).sum();
         let overturned = portable.iter().filter(|passage| passage.overturning.is_some()).count();
@@ -183,7 +150,7 @@ mod tests {
         };
         let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
         let still = Samples(&still);
-        let batch = solver.batch(&still);
+        let batch = solver.batch_on(&still, Some(Level::new()));
         assert!(batch.is_side_by_side());
         let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
         for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
@@ -208,9 +175,14 @@ mod tests {
         let samples = shaking();
         let all = Samples(&samples);
         let (soft, stiff) = (motion(0.018), motion(1e-4));
-        assert!(RecordSolver::new(&soft, 5e-3).batch(&all).is_side_by_side());
-        assert!(!RecordSolver::new(&stiff, 5e-3).batch(&all).is_side_by_side());
-        assert!(!RecordSolver::new(&soft, 5e-3).batch(&Samples(&samples[..15])).is_side_by_side());
+        let side_by_side = |motion: &Motion, samples: &Samples<'_>, level| {
+            RecordSolver::new(motion, 5e-3).batch_on(samples, level).is_side_by_side()
+        };
+        let level = Some(Level::new());
+        assert!(side_by_side(&soft, &all, level));
+        assert!(!side_by_side(&soft, &all, None));
+        assert!(!side_by_side(&stiff, &all, level));
+        assert!(!side_by_side(&soft, &Samples(&samples[..15]), level));
         let solver = RecordSolver::new(&stiff, 5e-3);
         let starts = starts(&stiff);
         let together = solver.batch(&all).run(&starts, false).expect("bounded motions");

@@ -4,12 +4,14 @@
 //! in looking back. Those at a corner pass it side by side; what is not ordinary is left to the lane by itself. What a lane
 //! does never depends on the others.
 
+use fearless_simd::Simd;
+
 use super::super::lane::{Lane, Plain};
 use super::super::stretches::AT_ONCE;
 use super::super::{Forcing, Passage, SolverError, Start, Work};
 use super::Batch;
 use super::responses::Responses;
-use super::vector::{Row, Vector, WIDTH};
+use super::vector::{Row, WIDTH};
 
 /// Runs side by side.
 pub(super) struct Lanes<'a, F> {
@@ -34,6 +36,8 @@ pub(super) struct Lanes<'a, F> {
 }
 
 /// The lanes' numbers while they go side by side; [`Lane`] hears of them by [`Lanes::tell`].
+#[derive(Default)]
+#[repr(align(64))]
 pub(super) struct Rows {
     /// The sample, and the first at which no plain steps begin.
     pub(super) index: Row,
@@ -79,7 +83,7 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             until_overturning,
             alone: [const { None }; WIDTH],
             runs: [0; WIDTH],
-            rows: Rows::ZERO,
+            rows: Rows::default(),
             busy: 0,
             ready: 0,
             ended: 0,
@@ -92,19 +96,19 @@ impl<'a, F: Forcing> Lanes<'a, F> {
 
     /// Follows all runs to their ends.
     #[inline(always)]
-    pub(super) fn follow<V: Vector>(&mut self) {
+    pub(super) fn follow<S: Simd>(&mut self, simd: S) {
         (0..WIDTH).for_each(|i| self.begin(i));
         while self.busy != 0 {
-            self.measure_ranges::<V>();
+            self.measure_ranges(simd);
             if self.ready.count_ones() > self.few() {
-                self.plain::<V>();
+                self.plain(simd);
             }
             each(self.ended).for_each(|i| self.turn_pages(i));
             let waiting = self.busy & !(self.ready | self.ended);
             each(waiting & self.grown).for_each(|i| self.measure(i));
             let waiting = waiting & !self.grown;
             if waiting != 0 {
-                let odd = self.step::<V>(waiting);
+                let odd = self.step(simd, waiting);
                 each(odd).for_each(|i| self.step_alone(i));
             }
         }
@@ -129,8 +133,8 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             let plain = Plain { steps: AT_ONCE, growth: self.responses.growth };
             self.alone[i] = Some(Lane::new(solver, forcing, largest, self.until_overturning, plain, start));
             self.runs[i] = self.next;
-            self.rows.factor.0[i] = start.factor;
-            self.rows.corners.0[i] = 0.0;
+            self.rows.factor[i] = start.factor;
+            self.rows.corners[i] = 0.0;
             self.next += 1;
             if self.bring(i) {
                 self.busy |= 1 << i;
@@ -156,12 +160,12 @@ impl<'a, F: Forcing> Lanes<'a, F> {
             }
         }
         let rows = &mut self.rows;
-        rows.index.0[i] = lane.index as f64;
-        rows.limit.0[i] = lane.limit as f64;
-        [rows.u.0[i], rows.v.0[i]] = lane.now;
-        rows.branch.0[i] = lane.state.branch as f64;
-        (rows.highest.0[i], rows.lowest.0[i]) = (lane.highest, lane.lowest);
-        rows.largest_forcing.0[i] = lane.largest_forcing;
+        rows.index[i] = lane.index as f64;
+        rows.limit[i] = lane.limit as f64;
+        [rows.u[i], rows.v[i]] = lane.now;
+        rows.branch[i] = lane.state.branch as f64;
+        (rows.highest[i], rows.lowest[i]) = (lane.highest, lane.lowest);
+        rows.largest_forcing[i] = lane.largest_forcing;
         rows.set_reach(i, lane);
         true
     }
@@ -184,15 +188,15 @@ impl<'a, F: Forcing> Lanes<'a, F> {
     fn tell(&mut self, i: usize) -> Option<&mut Lane<'a, F>> {
         let rows = &mut self.rows;
         let lane = self.alone[i].as_mut()?;
-        let corners = rows.corners.0[i] as u64;
-        rows.corners.0[i] = 0.0;
+        let corners = rows.corners[i] as u64;
+        rows.corners[i] = 0.0;
         lane.work.add(Work { pieces: 2 * corners, corners, impacts: 0 });
         lane.searched += corners;
-        lane.index = rows.index.0[i] as usize;
-        lane.forcing_now = rows.factor.0[i] * self.batch.forcing.at(lane.index);
-        (lane.highest, lane.lowest) = (rows.highest.0[i], rows.lowest.0[i]);
-        (lane.state.displacement, lane.state.velocity) = (rows.u.0[i], rows.v.0[i]);
-        lane.state.branch = rows.branch.0[i] as usize;
+        lane.index = rows.index[i] as usize;
+        lane.forcing_now = rows.factor[i] * self.batch.forcing.at(lane.index);
+        (lane.highest, lane.lowest) = (rows.highest[i], rows.lowest[i]);
+        (lane.state.displacement, lane.state.velocity) = (rows.u[i], rows.v[i]);
+        lane.state.branch = rows.branch[i] as usize;
         lane.load();
         Some(lane)
     }
@@ -229,31 +233,11 @@ impl<'a, F: Forcing> Lanes<'a, F> {
 }
 
 impl Rows {
-    const ZERO: Self = Self {
-        index: Row::ZERO,
-        limit: Row::ZERO,
-        factor: Row::ZERO,
-        u: Row::ZERO,
-        v: Row::ZERO,
-        branch: Row::ZERO,
-        highest: Row::ZERO,
-        lowest: Row::ZERO,
-        largest_forcing: Row::ZERO,
-        driving: Row::ZERO,
-        half_reach: Row::ZERO,
-        known: [Row::ZERO; 2],
-        corners: Row::ZERO,
-        range: [Row::ZERO; 2],
-        range4: [Row::ZERO; 2],
-        fastest: Row::ZERO,
-        slow: Row::ZERO,
-    };
-
     /// What follows from the forces a lane may meet.
     fn set_reach<F: Forcing>(&mut self, i: usize, lane: &Lane<'_, F>) {
-        self.driving.0[i] = lane.largest_forcing + lane.largest_force;
+        self.driving[i] = lane.largest_forcing + lane.largest_force;
         // in looking back nothing grows
-        self.half_reach.0[i] = if lane.looks_back() { f64::INFINITY } else { 0.5 * lane.reach };
-        [self.known[0].0[i], self.known[1].0[i]] = lane.known();
+        self.half_reach[i] = if lane.looks_back() { f64::INFINITY } else { 0.5 * lane.reach };
+        [self.known[0][i], self.known[1][i]] = lane.known();
     }
 }

@@ -3,10 +3,10 @@
 //! Over four steps a branch is an affine map of (u, u̇) and of the forcing. The forcing's part, for a run's factor s, is s times
 //! that of the record itself: a table of it, from each sample on, leaves a run two products for each of u and u̇.
 
-use super::super::lane::BRAKING;
 use super::super::stretches::{AT_ONCE, STRETCH};
-use super::super::{Affine, Forcing, RecordSolver, StepMap, growth};
-use super::vector::{Column, Row, Vector, WIDTH};
+use super::super::{Affine, Forcing, RecordSolver, StepMap};
+use super::table::BranchTable;
+use super::vector::WIDTH;
 
 /// Rows a lane may read on, from wherever it is: those of a stretch, and one.
 pub(super) const ROWS_AHEAD: usize = STRETCH / AT_ONCE + 1;
@@ -17,60 +17,17 @@ const MOST_SAMPLES: usize = 1 << 16;
 /// Share of the leading term that may be left out of a series.
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// What is looked up by branch. A is the affine map of one step, B that of four; p₀ and p₁ are the forcing at the ends of a step.
-#[derive(Clone, Copy)]
-pub(super) enum By {
-    /// Change of u by u and u̇, of u̇ by u and u̇, over four steps.
-    UByU4,
-    UByV4,
-    VByU4,
-    VByV4,
-    /// Of u and u̇ by the branch's force at u = 0, over four steps.
-    UByForce4,
-    VByForce4,
-    /// Change of u and u̇ by u, u̇, p₀ − f(0) and p₁ − f(0), over one step.
-    UByU,
-    UByV,
-    UByP0,
-    UByP1,
-    VByU,
-    VByV,
-    VByP0,
-    VByP1,
-    /// c \[1/s\], k \[1/s²\], f(0) \[m/s²\].
-    Damping,
-    Stiffness,
-    Force,
-    /// The ends of the branch \[m\].
-    Lower,
-    Upper,
-    /// The same where nothing but the stiffness changes there, else not a number.
-    PlainLower,
-    PlainUpper,
-    /// A over P + c V + f̂ over one step and over four.
-    Growth,
-    Growth4,
-    /// V over P + f̂ \[s\], and c V over P + f̂.
-    Speed,
-    Braking,
-    /// The first row of the branch's response.
-    Response,
-}
-
-/// Number of columns.
-const COLUMNS: usize = By::Response as usize + 1;
-
 /// For each branch its numbers, for each oscillator its response to a record.
 #[derive(Debug)]
 pub(super) struct Responses {
-    columns: [Column; COLUMNS],
+    pub(super) table: BranchTable,
     /// The response over four steps, of u and u̇: from samples 0, 4, 8, …, then from 1, 5, 9, …, and so on.
     rows: Vec<[f64; 2]>,
     /// Rows for each of these.
     stride: usize,
     /// Terms of the series of motion.
     pub(super) terms: usize,
-    /// The largest of `Growth4`.
+    /// The largest of `growth4`.
     pub(super) growth: f64,
 }
 
@@ -83,88 +40,30 @@ impl Responses {
             return None;
         }
         let maps: Vec<&StepMap> = solver.maps.iter().map(Option::as_ref).collect::<Option<_>>()?;
-        let step = solver.step;
-        let reach =
-            |map: &StepMap| (map.oscillator.damping() + map.oscillator.stiffness().abs().sqrt()) * step;
-        let longest = maps.iter().map(|map| reach(map)).fold(0.0, f64::max);
+        let reach = |map: &&StepMap| map.oscillator.damping() + map.oscillator.stiffness().abs().sqrt();
+        let longest = solver.step * maps.iter().map(reach).fold(0.0, f64::max);
         if longest > LONGEST {
             return None;
         }
-        // at most 1/(1 − 2 · 0.25)
-        let growths: Vec<f64> =
-            maps.iter().map(|map| growth(&map.oscillator, AT_ONCE as f64 * step)).collect();
-        let most_growth = growths.iter().copied().fold(0.0, f64::max);
         let mut responses = Self {
-            columns: [Row::ZERO; COLUMNS],
+            table: BranchTable::default(),
             rows: Vec::new(),
             stride: count / AT_ONCE + 1 + ROWS_AHEAD,
             terms: terms(longest),
-            growth: most_growth,
-        };
-        let first = |branch: usize| {
-            maps.iter().position(|map| map.oscillator == maps[branch].oscillator).unwrap_or(branch)
+            growth: 0.0,
         };
         for (branch, map) in maps.iter().enumerate() {
-            responses.fill_in(branch, map, growths[branch], solver);
-            let known = first(branch);
-            let start = if known == branch {
-                let start = responses.rows.len();
-                responses.respond(map, forcing, step);
-                start as f64
-            } else {
-                responses.columns[By::Response as usize].0[known]
-            };
-            responses.columns[By::Response as usize].0[branch] = start;
+            let known = maps[..branch].iter().position(|known| known.oscillator == map.oscillator);
+            let table = &mut responses.table;
+            table.enter(branch, map, solver);
+            table.response[branch] = known.map_or(responses.rows.len() as f64, |known| table.response[known]);
+            // at most 1/(1 − 2 · 0.25)
+            responses.growth = responses.growth.max(table.growth4[branch]);
+            if known.is_none() {
+                responses.respond(map, forcing, solver.step);
+            }
         }
         Some(responses)
-    }
-
-    /// Enters what is looked up by a branch, but for its response.
-    fn fill_in(&mut self, branch: usize, map: &StepMap, growth: f64, solver: &RecordSolver<'_>) {
-        let step = solver.step;
-        let (c, k) = (map.oscillator.damping(), map.oscillator.stiffness());
-        let [[uu, vu], [uv, vv], [u0, v0], [u1, v1], _] = map.single.terms;
-        let [[uu4, vu4], [uv4, vv4], ..] = Affine::single(&map.oscillator, AT_ONCE as f64 * step).terms;
-        // the response to a constant forcing of −1, step by step
-        let force = (0..AT_ONCE).fold([0.0; 2], |[u, v], _| {
-            [u + (uu * u + uv * v) - (u0 + u1), v + (vu * u + vv * v) - (v0 + v1)]
-        });
-        let corners = solver.motion.wall.corners();
-        let plain = |index: Option<usize>, next: Option<usize>| {
-            let corner = corners.get(index?)?;
-            let ahead = solver.maps.get(next?)?.as_ref()?;
-            let plain = !corner.is_marked() && ahead.oscillator.damping() == c;
-            plain.then_some(corner.displacement)
-        };
-        for (by, value) in [
-            (By::UByU4, uu4),
-            (By::UByV4, uv4),
-            (By::VByU4, vu4),
-            (By::VByV4, vv4),
-            (By::UByForce4, force[0] * map.force_at_zero),
-            (By::VByForce4, force[1] * map.force_at_zero),
-            (By::UByU, uu),
-            (By::UByV, uv),
-            (By::UByP0, u0),
-            (By::UByP1, u1),
-            (By::VByU, vu),
-            (By::VByV, vv),
-            (By::VByP0, v0),
-            (By::VByP1, v1),
-            (By::Damping, c),
-            (By::Stiffness, k),
-            (By::Force, map.force_at_zero),
-            (By::Lower, map.corners[0]),
-            (By::Upper, map.corners[1]),
-            (By::PlainLower, plain(Some(branch), branch.checked_sub(1)).unwrap_or(f64::NAN)),
-            (By::PlainUpper, plain(Some(branch + 1), Some(branch + 1)).unwrap_or(f64::NAN)),
-            (By::Growth, map.growth[0]),
-            (By::Growth4, growth),
-            (By::Speed, BRAKING * map.inverse_damping),
-            (By::Braking, if c > 0.0 { BRAKING } else { 0.0 }),
-        ] {
-            self.columns[by as usize].0[branch] = value;
-        }
     }
 
     /// Adds the response of an oscillator.
@@ -190,12 +89,6 @@ impl Responses {
     pub(super) fn ahead(&self, start: usize, sample: usize) -> &[[f64; 2]] {
         &self.rows[start + (sample % AT_ONCE) * self.stride + sample / AT_ONCE..][..ROWS_AHEAD]
     }
-
-    /// What belongs to each lane's branch.
-    #[inline(always)]
-    pub(super) fn of<V: Vector>(&self, branches: V) -> Found<'_, V> {
-        Found { places: branches.places(), columns: &self.columns }
-    }
 }
 
 /// Terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
@@ -206,20 +99,6 @@ fn terms(reach: f64) -> usize {
         share *= reach / (terms as f64 + 1.0);
     }
     terms.max(2)
-}
-
-/// Numbers of the lanes' branches.
-#[derive(Clone, Copy)]
-pub(super) struct Found<'a, V: Vector> {
-    places: V::Places,
-    columns: &'a [Column; COLUMNS],
-}
-
-impl<V: Vector> Found<'_, V> {
-    #[inline(always)]
-    pub(super) fn by(&self, by: By) -> V {
-        V::look_up(self.places, &self.columns[by as usize])
-    }
 }
 
 #[cfg(test)]

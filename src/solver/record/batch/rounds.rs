@@ -1,15 +1,113 @@
 //! What lanes do side by side: plain steps, four at once, and the steps of those that wait.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
 use super::super::Forcing;
 use super::super::stretches::AT_ONCE;
 use super::corners::{Arrival, Leaving};
-use super::lanes::Lanes;
-use super::responses::{By, ROWS_AHEAD};
-use super::vector::{Row, Vector, WIDTH};
+use super::lanes::{Lanes, Rows};
+use super::responses::{ROWS_AHEAD, Responses};
+use super::vector::{Branches, Row, WIDTH, indices, unzip};
 
 /// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much as some thirty of
 /// plain steps, however few they are.
 const FEW: u32 = 1;
+
+/// The numbers of a row.
+#[inline(always)]
+fn load<S: Simd>(simd: S, row: &Row) -> f64x8<S> {
+    f64x8::load_array_ref(simd, row)
+}
+
+/// The lanes set in a mask, by bits.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation, reason = "eight bits")]
+fn bits<S: Simd>(mask: mask64x8<S>) -> u8 {
+    mask.to_bitmask() as u8
+}
+
+/// The forcing at so many samples from those the lanes are at.
+#[inline(always)]
+fn nth<S: Simd>(simd: S, samples: [&[f64]; WIDTH], n: usize) -> f64x8<S> {
+    f64x8::from_fn(simd, |i| samples[i][n])
+}
+
+/// The change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
+#[inline(always)]
+fn change<S: Simd>(
+    [by_u, by_v, by_q0, by_q1]: [f64x8<S>; 4],
+    [u, v]: [f64x8<S>; 2],
+    q: [f64x8<S>; 2],
+) -> f64x8<S> {
+    (by_q0 * q[0] + by_q1 * q[1]) + (by_u * u + by_v * v)
+}
+
+/// Where u, and between which values |u̇|, may be.
+#[derive(Clone, Copy)]
+struct Range<S: Simd> {
+    low: f64x8<S>,
+    high: f64x8<S>,
+    fastest: f64x8<S>,
+}
+
+impl<S: Simd> Range<S> {
+    #[inline(always)]
+    fn load(simd: S, [low, high]: &[Row; 2], fastest: &Row) -> Self {
+        Self { low: load(simd, low), high: load(simd, high), fastest: load(simd, fastest) }
+    }
+
+    /// Lanes whose plain steps may start or end so.
+    #[inline(always)]
+    fn holds(&self, [u, v]: [f64x8<S>; 2]) -> mask64x8<S> {
+        self.low.simd_le(u) & u.simd_le(self.high) & v.abs().simd_le(self.fastest)
+    }
+}
+
+/// What lanes have come to: u and u̇, their steps, and the extremes at the ends of these.
+#[derive(Clone, Copy)]
+struct Reached<S: Simd> {
+    now: [f64x8<S>; 2],
+    steps: f64x8<S>,
+    highest: f64x8<S>,
+    lowest: f64x8<S>,
+}
+
+impl<S: Simd> Reached<S> {
+    #[inline(always)]
+    fn start(simd: S, rows: &Rows) -> Self {
+        let now = [load(simd, &rows.u), load(simd, &rows.v)];
+        let highest = load(simd, &rows.highest).max(now[0]);
+        let lowest = load(simd, &rows.lowest).min(now[0]);
+        Self { now, steps: f64x8::splat(simd, 0.0), highest, lowest }
+    }
+
+    /// Goes to the ends of steps where lanes took them.
+    #[inline(always)]
+    fn take(&mut self, lanes: mask64x8<S>, [u, v]: [f64x8<S>; 2], steps: f64x8<S>) {
+        self.now = [lanes.select(u, self.now[0]), lanes.select(v, self.now[1])];
+        self.steps = lanes.select(steps, self.steps);
+    }
+
+    #[inline(always)]
+    fn take_in(&mut self) {
+        self.highest = self.highest.max(self.now[0]);
+        self.lowest = self.lowest.min(self.now[0]);
+    }
+
+    /// Enters what these lanes have come to; returns the samples of all.
+    #[inline(always)]
+    fn store(self, lanes: mask64x8<S>, rows: &mut Rows) -> f64x8<S> {
+        let simd = self.steps.simd;
+        self.now[0].store_array(&mut rows.u);
+        self.now[1].store_array(&mut rows.v);
+        lanes.select(self.highest, load(simd, &rows.highest)).store_array(&mut rows.highest);
+        lanes.select(self.lowest, load(simd, &rows.lowest)).store_array(&mut rows.lowest);
+        let index = load(simd, &rows.index) + self.steps;
+        index.store_array(&mut rows.index);
+        index
+    }
+}
 
 impl<F: Forcing> Lanes<'_, F> {
     /// Lanes that are not worth going on for, of those that have a run.
@@ -19,198 +117,160 @@ impl<F: Forcing> Lanes<'_, F> {
 
     /// Where the lanes may go, and which of them may take plain steps.
     #[inline(always)]
-    pub(super) fn measure_ranges<V: Vector>(&mut self) {
+    pub(super) fn measure_ranges<S: Simd>(&mut self, simd: S) {
         let step = self.batch.solver.step;
         let rows = &mut self.rows;
-        let branch = self.responses.of(V::load(&rows.branch));
-        let driving = V::load(&rows.driving);
-        let braked = driving + branch.by(By::Braking) * driving;
-        let [most, most4] = [By::Growth, By::Growth4].map(|growth| branch.by(growth) * braked);
+        let table = &self.responses.table;
+        let branches = Branches::new(load(simd, &rows.branch));
+        let driving = load(simd, &rows.driving);
+        let braked = driving + branches.of(&table.braking) * driving;
+        let [most, most4] = [branches.of(&table.growth) * braked, branches.of(&table.growth4) * braked];
         let step4 = AT_ONCE as f64 * step;
-        let (margin, margin4) =
-            (V::splat(0.125 * step * step) * most, V::splat(0.125 * step4 * step4) * most4);
-        let lower = branch.by(By::Lower).max(V::load(&rows.known[0]));
-        let upper = branch.by(By::Upper).min(V::load(&rows.known[1]));
-        let (low, high) = (lower + margin4, upper - margin4);
-        let fastest = branch.by(By::Speed) * driving;
-        (lower + margin).store(&mut rows.range[0]);
-        (upper - margin).store(&mut rows.range[1]);
-        low.store(&mut rows.range4[0]);
-        high.store(&mut rows.range4[1]);
-        fastest.store(&mut rows.fastest);
-        (V::splat(step) * most).store(&mut rows.slow);
-        let (u, speed) = (V::load(&rows.u), V::load(&rows.v).abs());
-        let inside = low.at_most(u) & u.at_most(high);
+        let (margin, margin4) = (0.125 * step * step * most, 0.125 * step4 * step4 * most4);
+        let lower = branches.of(&table.lower).max(load(simd, &rows.known[0]));
+        let upper = branches.of(&table.upper).min(load(simd, &rows.known[1]));
+        let fastest = branches.of(&table.speed) * driving;
+        let range4 = Range { low: lower + margin4, high: upper - margin4, fastest };
+        (lower + margin).store_array(&mut rows.range[0]);
+        (upper - margin).store_array(&mut rows.range[1]);
+        range4.low.store_array(&mut rows.range4[0]);
+        range4.high.store_array(&mut rows.range4[1]);
+        fastest.store_array(&mut rows.fastest);
+        (step * most).store_array(&mut rows.slow);
+        let (u, v) = (load(simd, &rows.u), load(simd, &rows.v));
+        let speed = v.abs();
         // as fast as that, u̇ keeps its sign over four steps: then u is between its values at their ends
-        let steady = (V::splat(step4) * most4).at_most(speed) & lower.at_most(u) & u.at_most(upper);
-        let ready = (inside | steady) & speed.at_most(fastest);
-        let index = V::load(&rows.index);
+        let steady =
+            speed.simd_ge(step4 * most4) & speed.simd_le(fastest) & lower.simd_le(u) & u.simd_le(upper);
+        let ready = range4.holds([u, v]) | steady;
+        let index = load(simd, &rows.index);
         self.sort(u, index, ready);
     }
 
     /// Finds out which lanes may go on, and which wait for what.
     #[inline(always)]
-    fn sort<V: Vector>(&mut self, u: V, index: V, ready: V::Mask) {
-        let open = index.below(V::load(&self.rows.limit));
-        self.ready = V::bits(ready & open) & self.busy;
-        self.ended = V::bits(!open) & self.busy;
-        self.grown = V::bits(V::load(&self.rows.half_reach).below(u.abs()));
+    fn sort<S: Simd>(&mut self, u: f64x8<S>, index: f64x8<S>, ready: mask64x8<S>) {
+        let open = index.simd_lt(load(u.simd, &self.rows.limit));
+        self.ready = bits(ready & open) & self.busy;
+        self.ended = bits(!open) & self.busy;
+        self.grown = bits(load(u.simd, &self.rows.half_reach).simd_lt(u.abs()));
     }
 
     /// Plain steps, four at once, until all lanes but a few wait.
     ///
     /// Lanes that wait are taken along, and what they come to is not kept: so no step waits for a comparison.
     #[inline(always)]
-    pub(super) fn plain<V: Vector>(&mut self) {
-        let responses = self.responses;
+    pub(super) fn plain<S: Simd>(&mut self, simd: S) {
         let few = self.few();
+        let Responses { table, .. } = self.responses;
         let rows = &mut self.rows;
-        let branch = responses.of(V::load(&rows.branch));
-        let start = V::load(&rows.index);
-        let room = V::load(&rows.limit) - start;
-        let (samples, first_rows) = (start.whole(), branch.by(By::Response).whole());
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole numbers, none negative"
-        )]
+        let branches = Branches::new(load(simd, &rows.branch));
+        let start = load(simd, &rows.index);
+        let room = load(simd, &rows.limit) - start;
+        let (samples, first_rows) = (indices(start), indices(branches.of(&table.response)));
         let ahead: [&[[f64; 2]]; WIDTH] =
-            std::array::from_fn(|i| responses.ahead(first_rows[i] as usize, samples[i] as usize));
-        let (uu, uv, u_force) = (branch.by(By::UByU4), branch.by(By::UByV4), branch.by(By::UByForce4));
-        let (vu, vv, v_force) = (branch.by(By::VByU4), branch.by(By::VByV4), branch.by(By::VByForce4));
-        let factor = V::load(&rows.factor);
-        let (low, high, fastest) =
-            (V::load(&rows.range4[0]), V::load(&rows.range4[1]), V::load(&rows.fastest));
-        let at_once = V::splat(AT_ONCE as f64);
-        let mut goes = V::mask(self.ready);
-        let (mut u, mut v) = (V::load(&rows.u), V::load(&rows.v));
-        let (mut kept_u, mut kept_v, mut kept_gone) = (u, v, V::splat(0.0));
-        let started = goes;
-        let known_nodes = [V::load(&rows.highest), V::load(&rows.lowest)];
-        let (mut highest, mut lowest) = (known_nodes[0].max(u), known_nodes[1].min(u));
-        let mut gone = V::splat(0.0);
+            std::array::from_fn(|i| self.responses.ahead(first_rows[i], samples[i]));
+        let [[uu, uv, u_force], [vu, vv, v_force]] =
+            [branches.of_each(&table.four_steps[0]), branches.of_each(&table.four_steps[1])];
+        let factor = load(simd, &rows.factor);
+        let range = Range::load(simd, &rows.range4, &rows.fastest);
+        let started = mask64x8::from_bitmask(simd, self.ready.into());
+        let mut goes = started;
+        let mut reached = Reached::start(simd, rows);
+        let [mut u, mut v] = reached.now;
+        let mut steps = reached.steps;
         #[allow(clippy::needless_range_loop, reason = "eight tables at once")]
         for row in 0..ROWS_AHEAD {
-            let [of_u, of_v] = V::unzip(std::array::from_fn(|i| &ahead[i][row]));
+            let [of_u, of_v] = unzip(simd, std::array::from_fn(|i| &ahead[i][row]));
             let next_u = u + ((factor * of_u + u_force) + (uu * u + uv * v));
             v = v + ((factor * of_v + v_force) + (vu * u + vv * v));
             u = next_u;
-            goes = goes & low.at_most(u) & u.at_most(high) & v.abs().at_most(fastest) & gone.below(room);
-            gone = gone + at_once;
-            kept_u = V::choose(goes, u, kept_u);
-            kept_v = V::choose(goes, v, kept_v);
-            kept_gone = V::choose(goes, gone, kept_gone);
-            highest = highest.max(kept_u);
-            lowest = lowest.min(kept_u);
-            if V::bits(goes).count_ones() <= few {
+            goes = goes & range.holds([u, v]) & steps.simd_lt(room);
+            steps += AT_ONCE as f64;
+            reached.take(goes, [u, v], steps);
+            reached.take_in();
+            if bits(goes).count_ones() <= few {
                 break;
             }
         }
-        kept_u.store(&mut rows.u);
-        kept_v.store(&mut rows.v);
-        V::choose(started, highest, known_nodes[0]).store(&mut rows.highest);
-        V::choose(started, lowest, known_nodes[1]).store(&mut rows.lowest);
-        let index = start + kept_gone;
-        index.store(&mut rows.index);
-        self.sort(kept_u, index, goes);
+        let index = reached.store(started, rows);
+        self.sort(reached.now[0], index, goes);
     }
 
     /// One to four steps of lanes that wait, plain ones and at last one that passes a corner; tells which made none.
     #[inline(always)]
-    pub(super) fn step<V: Vector>(&mut self, waiting: u8) -> u8 {
-        let (zero, one) = (V::splat(0.0), V::splat(1.0));
-        let responses = self.responses;
-        let rows = &mut self.rows;
-        let branches = V::load(&rows.branch);
-        let branch = responses.of(branches);
-        let (uu, uv, u0, u1) =
-            (branch.by(By::UByU), branch.by(By::UByV), branch.by(By::UByP0), branch.by(By::UByP1));
-        let (vu, vv, v0, v1) =
-            (branch.by(By::VByU), branch.by(By::VByV), branch.by(By::VByP0), branch.by(By::VByP1));
-        let (lower, upper, force) = (branch.by(By::Lower), branch.by(By::Upper), branch.by(By::Force));
-        let known = [V::load(&rows.known[0]), V::load(&rows.known[1])];
-        let (low, high) = (V::load(&rows.range[0]), V::load(&rows.range[1]));
-        let (fastest, slow) = (V::load(&rows.fastest), V::load(&rows.slow));
-        let holds = |u: V, v: V| low.at_most(u) & u.at_most(high) & v.abs().at_most(fastest);
-        let index = V::load(&rows.index);
-        let samples = index.whole();
+    pub(super) fn step<S: Simd>(&mut self, simd: S, waiting: u8) -> u8 {
+        let waits = mask64x8::from_bitmask(simd, waiting.into());
+        let mut reached = Reached::start(simd, &self.rows);
+        let leaving = self.stay(waits, &mut reached);
+        if leaving.lanes.any_true() {
+            let Arrival { lanes, end, branch } = leaving.pass(self.responses);
+            reached.take(lanes, end, reached.steps + 1.0);
+            reached.take_in();
+            let rows = &mut self.rows;
+            lanes.select(branch, leaving.branch).store_array(&mut rows.branch);
+            let corners = load(simd, &rows.corners);
+            lanes.select(corners + 1.0, corners).store_array(&mut rows.corners);
+        }
+        reached.store(waits, &mut self.rows);
+        bits(reached.steps.simd_lt(1.0)) & waiting
+    }
+
+    /// Up to four steps on which these lanes stay on their branch and pass no extreme that counts; tells which would leave it in
+    /// the next one.
+    #[inline(always)]
+    fn stay<S: Simd>(&self, mut goes: mask64x8<S>, reached: &mut Reached<S>) -> Leaving<S> {
+        let simd = reached.steps.simd;
+        let (rows, table) = (&self.rows, &self.responses.table);
+        let branch = load(simd, &rows.branch);
+        let branches = Branches::new(branch);
+        let [u_by, v_by] = [branches.of_each(&table.one_step[0]), branches.of_each(&table.one_step[1])];
+        let (lower, upper) = (branches.of(&table.lower), branches.of(&table.upper));
+        let force = branches.of(&table.force_at_zero);
+        let known = [load(simd, &rows.known[0]), load(simd, &rows.known[1])];
+        let range = Range::load(simd, &rows.range, &rows.fastest);
+        let slow = load(simd, &rows.slow);
         // lanes that do not wait may be near the end
         let furthest = self.batch.forcing.count() - 1 - AT_ONCE;
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole numbers, none negative"
-        )]
-        let samples: [&[f64]; WIDTH] = std::array::from_fn(|i| {
-            self.batch.forcing.from((samples[i] as usize).min(furthest), AT_ONCE + 1)
-        });
-        let factor = V::load(&rows.factor);
-        let forcing = |n: usize| factor * V::load(&Row(std::array::from_fn(|i| samples[i][n])));
-
-        let (mut u, mut v, mut count) = (V::load(&rows.u), V::load(&rows.v), zero);
-        let (mut from, mut p0) = ([u, v], forcing(0));
-        let mut from_holds = holds(u, v);
-        let waits = V::mask(waiting);
-        let mut goes = waits;
-        let known_nodes = [V::load(&rows.highest), V::load(&rows.lowest)];
-        let (mut highest, mut lowest) = (known_nodes[0].max(u), known_nodes[1].min(u));
-        let mut leaving = V::mask(0);
-        let (mut beyond, mut ends) = ([zero; 2], [zero; 2]);
+        let samples = indices(load(simd, &rows.index))
+            .map(|index| self.batch.forcing.from(index.min(furthest), AT_ONCE + 1));
+        let factor = load(simd, &rows.factor);
+        let (mut from, mut p0) = (reached.now, factor * nth(simd, samples, 0));
+        let mut from_holds = range.holds(from);
+        let mut leaving = Leaving {
+            lanes: goes & !goes,
+            branch,
+            from,
+            to: from,
+            forcing: [p0; 2],
+            largest_forcing: load(simd, &rows.largest_forcing),
+            known,
+            step: self.batch.solver.step,
+        };
         for n in 1..=AT_ONCE {
-            let p1 = forcing(n);
-            let (q0, q1) = (p0 - force, p1 - force);
-            let to = [
-                from[0] + ((u0 * q0 + u1 * q1) + (uu * from[0] + uv * from[1])),
-                from[1] + ((v0 * q0 + v1 * q1) + (vu * from[0] + vv * from[1])),
-            ];
-            let to_holds = holds(to[0], to[1]);
-            let inside = lower.below(to[0]) & to[0].below(upper);
+            let p1 = factor * nth(simd, samples, n);
+            let q = [p0 - force, p1 - force];
+            let to = [from[0] + change(u_by, from, q), from[1] + change(v_by, from, q)];
+            let to_holds = range.holds(to);
+            let inside = lower.simd_lt(to[0]) & to[0].simd_lt(upper);
             let (speed0, speed1) = (from[1].abs(), to[1].abs());
-            let steady = zero.below(from[1] * to[1])
-                & slow.below(speed0 + speed1)
-                & speed0.max(speed1).at_most(fastest)
-                & known[0].at_most(from[0].min(to[0]))
-                & from[0].max(to[0]).at_most(known[1]);
+            let steady = (from[1] * to[1]).simd_gt(0.0)
+                & slow.simd_lt(speed0 + speed1)
+                & speed0.max(speed1).simd_le(range.fastest)
+                & known[0].simd_le(from[0].min(to[0]))
+                & from[0].max(to[0]).simd_le(known[1]);
             let stays = goes & ((from_holds & to_holds) | (inside & steady));
             let leaves = goes & !stays & !inside;
-            leaving = leaving | leaves;
-            beyond = [V::choose(leaves, to[0], beyond[0]), V::choose(leaves, to[1], beyond[1])];
-            ends = [V::choose(leaves, p0, ends[0]), V::choose(leaves, p1, ends[1])];
-            u = V::choose(stays, to[0], u);
-            v = V::choose(stays, to[1], v);
-            count = V::choose(stays, count + one, count);
-            (highest, lowest) = (highest.max(u), lowest.min(u));
+            leaving.take(leaves, to, [p0, p1]);
+            reached.take(stays, to, reached.steps + 1.0);
+            reached.take_in();
             goes = stays;
-            if V::bits(goes) == 0 {
+            if !goes.any_true() {
                 break;
             }
             (from, p0, from_holds) = (to, p1, to_holds);
         }
-        if V::bits(leaving) != 0 {
-            let leaving = Leaving {
-                lanes: leaving,
-                branch: branches,
-                from: [u, v],
-                to: beyond,
-                forcing: ends,
-                largest_forcing: V::load(&rows.largest_forcing),
-                known,
-                step: V::splat(self.batch.solver.step),
-                inverse_step: V::splat(1.0 / self.batch.solver.step),
-            };
-            let Arrival { lanes, end, branch } = leaving.pass(responses);
-            u = V::choose(lanes, end[0], u);
-            v = V::choose(lanes, end[1], v);
-            count = V::choose(lanes, count + one, count);
-            V::choose(lanes, branch, branches).store(&mut rows.branch);
-            let corners = V::load(&rows.corners);
-            V::choose(lanes, corners + one, corners).store(&mut rows.corners);
-        }
-        V::choose(waits, highest.max(u), known_nodes[0]).store(&mut rows.highest);
-        V::choose(waits, lowest.min(u), known_nodes[1]).store(&mut rows.lowest);
-        u.store(&mut rows.u);
-        v.store(&mut rows.v);
-        (index + count).store(&mut rows.index);
-        V::bits(count.below(one)) & waiting
+        leaving.from = reached.now;
+        leaving
     }
 }

@@ -1,318 +1,116 @@
-//! Eight numbers side by side, one for each lane.
+//! Eight numbers side by side, one for each lane: what `f64x8` of `fearless_simd` lacks.
 //!
-//! Every operation rounds as it does on one number, on every processor.
+//! Every operation used here rounds as it does on one number, on every processor. `mul_add` does not: it is fused on some
+//! processors only, so it is never used.
 
-use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x2, f64x8, i64x8, u8x64};
 
-/// Numbers side by side.
+/// Lanes of a vector.
 pub(super) const WIDTH: usize = 8;
 
-/// A number for each lane, in memory.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(super) struct Row(pub(super) [f64; WIDTH]);
+/// A number for each lane, or for each branch of a wall, in memory.
+pub(super) type Row = [f64; WIDTH];
 
-impl Row {
-    pub(super) const ZERO: Self = Self([0.0; WIDTH]);
+/// Whole numbers, none negative, as indices.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers, none negative")]
+pub(super) fn indices<S: Simd>(numbers: f64x8<S>) -> [usize; WIDTH] {
+    let whole: i64x8<S> = numbers.to_int();
+    whole.to_array().map(|number| number as usize)
 }
 
-/// A number for each of eight places, to be looked up.
-pub(super) type Column = Row;
-
-/// A number for each lane.
-pub(super) trait Vector:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// Yes or no for each lane.
-    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
-    /// A place of a column for each lane.
-    type Places: Copy;
-
-    /// The same number for all.
-    fn splat(value: f64) -> Self;
-    fn load(row: &Row) -> Self;
-    fn store(self, row: &mut Row);
-    /// ≤, false where one is not a number.
-    fn at_most(self, other: Self) -> Self::Mask;
-    /// <, false where one is not a number.
-    fn below(self, other: Self) -> Self::Mask;
-    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// The larger; `other` where one is not a number.
-    fn max(self, other: Self) -> Self;
-    /// The smaller; `other` where one is not a number.
-    fn min(self, other: Self) -> Self;
-    fn abs(self) -> Self;
-    /// Each as a place: a whole number that is not negative, taken modulo eight.
-    fn places(self) -> Self::Places;
-    /// The number at each place of a column.
-    fn look_up(places: Self::Places, column: &Column) -> Self;
-    /// Each as a whole number, which it is.
-    fn whole(self) -> [i64; WIDTH];
-    /// The first and the second numbers of pairs.
-    fn unzip(pairs: [&[f64; 2]; WIDTH]) -> [Self; 2];
-    /// Lane `i` by bit `i`.
-    fn mask(bits: u8) -> Self::Mask;
-    fn bits(mask: Self::Mask) -> u8;
+/// The first and the second numbers of eight pairs.
+#[inline(always)]
+pub(super) fn unzip<S: Simd>(simd: S, pairs: [&[f64; 2]; WIDTH]) -> [f64x8<S>; 2] {
+    let [a, b, c, d, e, f, g, h] = pairs;
+    let (first, second) = four(simd, [a, b, c, d]).deinterleave(four(simd, [e, f, g, h]));
+    [first, second]
 }
 
-/// On any processor.
+#[inline(always)]
+fn four<S: Simd>(simd: S, [a, b, c, d]: [&[f64; 2]; 4]) -> f64x8<S> {
+    let (a, b) = (f64x2::load_array_ref(simd, a), f64x2::load_array_ref(simd, b));
+    let (c, d) = (f64x2::load_array_ref(simd, c), f64x2::load_array_ref(simd, d));
+    a.combine(b).combine(c.combine(d))
+}
+
+/// The branch of each lane.
 #[derive(Clone, Copy)]
-pub(super) struct Portable([f64; WIDTH]);
-
-/// All ones or all zeros for each lane.
-#[derive(Clone, Copy)]
-pub(super) struct PortableMask([u64; WIDTH]);
-
-impl Portable {
-    #[inline(always)]
-    fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|i| operation(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    fn compare(self, other: Self, comparison: impl Fn(f64, f64) -> bool) -> PortableMask {
-        PortableMask(std::array::from_fn(|i| u64::from(comparison(self.0[i], other.0[i])).wrapping_neg()))
-    }
+pub(super) struct Branches<S: Simd> {
+    simd: S,
+    indices: [usize; WIDTH],
+    /// The bytes of each lane's number in a row.
+    bytes: u8x64<S>,
 }
 
-impl Add for Portable {
-    type Output = Self;
+impl<S: Simd> Branches<S> {
+    /// Takes whole numbers below eight.
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b| a + b)
-    }
-}
-
-impl Sub for Portable {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b| a - b)
-    }
-}
-
-impl Mul for Portable {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b| a * b)
-    }
-}
-
-impl Div for Portable {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b| a / b)
-    }
-}
-
-impl BitAnd for PortableMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] & other.0[i]))
-    }
-}
-
-impl BitOr for PortableMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] | other.0[i]))
-    }
-}
-
-impl Not for PortableMask {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        Self(self.0.map(|lane| !lane))
-    }
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "whole numbers far below 2⁵³, and places that are taken modulo eight"
-)]
-impl Vector for Portable {
-    type Mask = PortableMask;
-    type Places = [usize; WIDTH];
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self([value; WIDTH])
+    pub(super) fn new(branches: f64x8<S>) -> Self {
+        let whole: i64x8<S> = branches.to_int();
+        let bytes = (whole * 0x0808_0808_0808_0808 + 0x0706_0504_0302_0100).to_bytes();
+        Self { simd: branches.simd, indices: indices(branches), bytes }
     }
 
+    /// The number of a row that belongs to the branch of each lane.
     #[inline(always)]
-    fn load(row: &Row) -> Self {
-        Self(row.0)
+    pub(super) fn of(&self, row: &Row) -> f64x8<S> {
+        if S::f64s::LEN == WIDTH {
+            f64x8::load_array_ref(self.simd, row).swizzle_dyn(self.bytes)
+        } else {
+            // the permutation of a row in several registers takes longer
+            f64x8::from_fn(self.simd, |lane| row[self.indices[lane] % WIDTH])
+        }
     }
 
+    /// The same of several rows.
     #[inline(always)]
-    fn store(self, row: &mut Row) {
-        row.0 = self.0;
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> PortableMask {
-        self.compare(other, |a, b| a <= b)
-    }
-
-    #[inline(always)]
-    fn below(self, other: Self) -> PortableMask {
-        self.compare(other, |a, b| a < b)
-    }
-
-    #[inline(always)]
-    fn choose(mask: PortableMask, yes: Self, no: Self) -> Self {
-        Self(std::array::from_fn(|i| {
-            f64::from_bits((yes.0[i].to_bits() & mask.0[i]) | (no.0[i].to_bits() & !mask.0[i]))
-        }))
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.map(f64::abs))
-    }
-
-    #[inline(always)]
-    fn places(self) -> [usize; WIDTH] {
-        self.0.map(|place| place as usize)
-    }
-
-    #[inline(always)]
-    fn look_up(places: [usize; WIDTH], column: &Column) -> Self {
-        Self(places.map(|place| column.0[place % WIDTH]))
-    }
-
-    #[inline(always)]
-    fn whole(self) -> [i64; WIDTH] {
-        self.0.map(|number| number as i64)
-    }
-
-    #[inline(always)]
-    fn unzip(pairs: [&[f64; 2]; WIDTH]) -> [Self; 2] {
-        [0, 1].map(|part| Self(std::array::from_fn(|i| pairs[i][part])))
-    }
-
-    #[inline(always)]
-    fn mask(bits: u8) -> PortableMask {
-        PortableMask(std::array::from_fn(|i| u64::from(bits >> i & 1).wrapping_neg()))
-    }
-
-    #[inline(always)]
-    fn bits(mask: PortableMask) -> u8 {
-        (0..WIDTH).fold(0, |bits, i| bits | ((mask.0[i] & 1) as u8) << i)
+    pub(super) fn of_each<const ROWS: usize>(&self, rows: &[Row; ROWS]) -> [f64x8<S>; ROWS] {
+        let mut found = [f64x8::splat(self.simd, 0.0); ROWS];
+        for (found, row) in found.iter_mut().zip(rows) {
+            *found = self.of(row);
+        }
+        found
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use fearless_simd::Level;
+
     use super::*;
 
-    const VALUES: [f64; 14] = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        0.1,
-        -3.7,
-        7.0,
-        1e300,
-        -1e-300,
-        5e-324,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::NAN,
-        2.5,
-    ];
+    /// The levels this processor has, from none of the wide vectors to the widest.
+    pub(in super::super) fn levels() -> Vec<Level> {
+        let mut levels = vec![Level::baseline()];
+        #[cfg(target_arch = "x86_64")]
+        {
+            levels.extend(Level::new().as_avx2().map(Simd::level));
+            levels.extend(Level::new().as_avx512().map(Simd::level));
+        }
+        levels
+    }
 
-    fn outcome<V: Vector>() -> Vec<u64> {
-        let mut bits = Vec::new();
-        let mut keep = |vector: V| {
-            let mut row = Row::ZERO;
-            vector.store(&mut row);
-            // one NaN is as good as another
-            bits.extend(row.0.map(|x| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }));
-        };
-        let window = |from: usize| Row(std::array::from_fn(|i| VALUES[(from + i) % VALUES.len()]));
-        let column = Row(std::array::from_fn(|i| i as f64 * 1.5));
+    #[inline(always)]
+    fn outcome<S: Simd>(simd: S) -> [Row; 4] {
+        let row: Row = std::array::from_fn(|i| 1.5 * i as f64);
+        let branches: Row = [0.0, 3.0, 7.0, 7.0, 1.0, 2.0, 6.0, 5.0];
         let pairs: [[f64; 2]; WIDTH] = std::array::from_fn(|i| [i as f64, -0.5 * i as f64]);
-        for from in 0..VALUES.len() {
-            for to in 0..VALUES.len() {
-                let (a, b) = (V::load(&window(from)), V::load(&window(to)));
-                for result in [a + b, a - b, a * b, a / b, a.max(b), a.min(b), a.abs()] {
-                    keep(result);
-                }
-                let masks = [
-                    a.below(b),
-                    a.at_most(b),
-                    !a.below(b),
-                    a.below(b) | b.below(a),
-                    V::mask(u8::try_from(from * 17).unwrap_or(u8::MAX)),
-                ];
-                for mask in masks {
-                    keep(V::choose(mask & V::mask(0b1011_0111), a, b));
-                    keep(V::splat(f64::from(V::bits(mask))));
-                }
-            }
-            let places = V::load(&Row(std::array::from_fn(|i| (from + 3 * i) as f64)));
-            keep(V::look_up(places.places(), &column));
-            keep(V::load(&Row(places.whole().map(|number| number as f64))));
-        }
-        V::unzip(std::array::from_fn(|i| &pairs[i])).into_iter().for_each(keep);
-        bits
-    }
-
-    /// Written out for one lane.
-    #[test]
-    fn portable_numbers_are_numbers() {
-        let (a, b) = (Portable(std::array::from_fn(|i| i as f64 - 2.0)), Portable::splat(1.5));
-        assert_eq!((a * b - a).0, std::array::from_fn(|i| 0.5 * (i as f64 - 2.0)));
-        assert_eq!(Portable::bits(a.below(b)), 0b0000_1111);
-        assert_eq!(Portable::choose(Portable::mask(0b10), a, b).0, [1.5, -1.0, 1.5, 1.5, 1.5, 1.5, 1.5, 1.5]);
-        assert_eq!(
-            Portable::look_up(a.abs().places(), &Row([9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0])).0,
-            [7.0, 8.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0]
-        );
-        let pairs: [[f64; 2]; WIDTH] = std::array::from_fn(|i| [i as f64, 10.0 * i as f64]);
-        let [first, second] = Portable::unzip(std::array::from_fn(|i| &pairs[i]));
-        assert_eq!((first.0[3], second.0[3]), (3.0, 30.0));
+        let branches = f64x8::load_array_ref(simd, &branches);
+        let [first, second] = unzip(simd, pairs.each_ref());
+        let found = Branches::new(branches).of(&row);
+        [*first, *second, *found, indices(branches).map(|i| i as f64)]
     }
 
     #[test]
-    #[cfg(target_arch = "x86_64")]
-    #[allow(unsafe_code, reason = "each processor's own is asked for first")]
-    fn every_processor_gives_the_same_bits() {
-        use super::super::{avx2, avx512};
-
-        #[target_feature(enable = "avx2")]
-        fn halves() -> Vec<u64> {
-            outcome::<avx2::Halves>()
-        }
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-        fn wide() -> Vec<u64> {
-            outcome::<avx512::Wide>()
-        }
-        if avx2::is_there() {
-            // SAFETY: the processor has AVX2, as was just found.
-            assert_eq!(outcome::<Portable>(), unsafe { halves() });
-        }
-        if avx512::is_there() {
-            // SAFETY: the processor has AVX-512, as was just found.
-            assert_eq!(outcome::<Portable>(), unsafe { wide() });
+    fn every_processor_finds_the_same() {
+        for level in levels() {
+            let [first, second, found, whole] = fearless_simd::dispatch!(level, simd => outcome(simd));
+            assert_eq!(first, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+            assert_eq!(second, first.map(|i| -0.5 * i));
+            assert_eq!(whole, [0.0, 3.0, 7.0, 7.0, 1.0, 2.0, 6.0, 5.0]);
+            assert_eq!(found, whole.map(|i| 1.5 * i));
         }
     }
 }

@@ -1,0 +1,76 @@
+//! What the steps of a lane need of the branch it is on, to be looked up for all lanes at once.
+
+use super::super::lane::BRAKING;
+use super::super::stretches::AT_ONCE;
+use super::super::{Affine, RecordSolver, StepMap, growth};
+use super::vector::Row;
+
+/// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
+#[derive(Debug, Default)]
+#[repr(align(64))]
+pub(super) struct BranchTable {
+    /// Change over four steps, of u by u, u̇ and the branch's force at u = 0, and of u̇.
+    pub(super) four_steps: [[Row; 3]; 2],
+    /// Change over one step, of u by u, u̇, p₀ − f(0) and p₁ − f(0), and of u̇.
+    pub(super) one_step: [[Row; 4]; 2],
+    /// c \[1/s\], k \[1/s²\], f(0) \[m/s²\].
+    pub(super) damping: Row,
+    pub(super) stiffness: Row,
+    pub(super) force_at_zero: Row,
+    /// The ends of the branch \[m\].
+    pub(super) lower: Row,
+    pub(super) upper: Row,
+    /// The same where nothing but the stiffness changes there, else not a number.
+    pub(super) plain_lower: Row,
+    pub(super) plain_upper: Row,
+    /// A over P + c V + f̂, over one step and over four.
+    pub(super) growth: Row,
+    pub(super) growth4: Row,
+    /// V over P + f̂ \[s\], and c V over P + f̂.
+    pub(super) speed: Row,
+    pub(super) braking: Row,
+    /// The first row of the branch's response.
+    pub(super) response: Row,
+}
+
+impl BranchTable {
+    /// Enters what belongs to a branch, but for its response.
+    pub(super) fn enter(&mut self, branch: usize, map: &StepMap, solver: &RecordSolver<'_>) {
+        let (c, k) = (map.oscillator.damping(), map.oscillator.stiffness());
+        let four_steps = AT_ONCE as f64 * solver.step;
+        let one = map.single.terms;
+        let four = Affine::single(&map.oscillator, four_steps).terms;
+        // the response to a constant forcing of −1, step by step
+        let force = (0..AT_ONCE).fold([0.0; 2], |[u, v], _| {
+            [0, 1].map(|part| {
+                [u, v][part] + (one[0][part] * u + one[1][part] * v) - (one[2][part] + one[3][part])
+            })
+        });
+        for part in [0, 1] {
+            for (row, term) in self.one_step[part].iter_mut().zip(one) {
+                row[branch] = term[part];
+            }
+            let by_force = force[part] * map.force_at_zero;
+            for (row, change) in
+                self.four_steps[part].iter_mut().zip([four[0][part], four[1][part], by_force])
+            {
+                row[branch] = change;
+            }
+        }
+        self.damping[branch] = c;
+        self.stiffness[branch] = k;
+        self.force_at_zero[branch] = map.force_at_zero;
+        [self.lower[branch], self.upper[branch]] = map.corners;
+        let plain = |corner: usize, next: Option<usize>| {
+            let corner = solver.motion.wall.corners().get(corner)?;
+            let ahead = solver.maps.get(next?)?.as_ref()?;
+            (!corner.is_marked() && ahead.oscillator.damping() == c).then_some(corner.displacement)
+        };
+        self.plain_lower[branch] = plain(branch, branch.checked_sub(1)).unwrap_or(f64::NAN);
+        self.plain_upper[branch] = plain(branch + 1, Some(branch + 1)).unwrap_or(f64::NAN);
+        self.growth[branch] = map.growth[0];
+        self.growth4[branch] = growth(&map.oscillator, four_steps);
+        self.speed[branch] = BRAKING * map.inverse_damping;
+        self.braking[branch] = if c > 0.0 { BRAKING } else { 0.0 };
+    }
+}
