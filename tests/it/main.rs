@@ -19,6 +19,7 @@ mod fragility;
 mod ground_motion;
 mod ida;
 mod ida_command;
+mod manifest;
 mod measure_command;
 mod notices;
 mod numerics;

@@ -4,9 +4,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::command::{cargo, output, program, succeed};
+use crate::command::{Result, cargo, output, program, root, succeed, target};
 use crate::python::Environment;
-use crate::{Result, root, target};
 
 /// Names in the table.
 const OURS: &str = "rocking-wall";

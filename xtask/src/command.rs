@@ -1,9 +1,23 @@
-//! Runs other programs.
+//! Knows the folders of the jobs, and runs other programs in them.
 
 use std::ffi::OsStr;
+use std::path::PathBuf;
 use std::process::Command;
 
-use crate::{Result, root};
+/// What went wrong, with the remedy.
+pub(crate) type Result<T> = std::result::Result<T, String>;
+
+/// Returns the root of the workspace.
+pub(crate) fn root() -> PathBuf {
+    let mut path = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    path.pop();
+    path
+}
+
+/// Returns the target folder, which the environment may set.
+pub(crate) fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
+}
 
 /// Prepares a program to run in the root folder.
 pub(crate) fn program(name: impl AsRef<OsStr>) -> Command {

@@ -1,11 +1,10 @@
 //! `cargo xtask coupling`: measures coupling error against communication step and run time; writes a page and
 //! the figures of `docs/coupling.md`.
 
-use crate::command::succeed;
+use crate::command::{Result, root, succeed};
 use crate::figures;
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
-use crate::{Result, root};
 
 const DOCUMENT: &str = "docs/coupling.md";
 const MARK: &str = "figures";

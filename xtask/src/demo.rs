@@ -2,20 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::command::{output, succeed};
+use crate::command::{Result, output, root, succeed};
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
 use crate::test::wall_binary;
-use crate::{Result, root};
 
 /// Runs the demo with the embedded motion, then with the user's record if there is one.
 ///
 /// # Errors
 /// If a step of it fails.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
-    let unit = fmu::build(fmu::WALL, Linker::System)?;
-    let python = Environment::of("tests", "tests/python/requirements.lock")?;
-    let wall = wall_binary()?;
+    // the three take about as long as one another, and two of them wait for a linker or the network
+    let (unit, wall, python) = std::thread::scope(|scope| {
+        let unit = scope.spawn(|| fmu::build(fmu::WALL, Linker::System));
+        let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
+        let wall = wall_binary();
+        (joined(unit), wall, joined(python))
+    });
+    let (unit, wall, python) = (unit?, wall?, python?);
     let out = root().join("fmu_out");
     shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;
     if let [file, rest @ ..] = record {
@@ -27,6 +31,10 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
         shake(&unit, &python, &wall, &out.join(format!("demo_{name}")), &arguments)?;
     }
     Ok(())
+}
+
+fn joined<T>(thread: std::thread::ScopedJoinHandle<'_, Result<T>>) -> Result<T> {
+    thread.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned()))
 }
 
 /// Shakes the FMU in FMPy with a motion, and the same wall on the command line.

@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 
-use crate::command::{cargo, output};
-use crate::{Result, bench, root};
+use crate::bench;
+use crate::command::{Result, cargo, output, root};
 
 const DOCUMENT: &str = "docs/accuracy.md";
 /// First words of the last table of `wall accuracy`.

@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{cargo, succeed};
+use crate::command::{Result, cargo, root, succeed, target};
 use crate::python::Environment;
-use crate::{Result, root, target};
 
 /// The linker of the library.
 #[derive(Clone, Copy, PartialEq, Eq)]

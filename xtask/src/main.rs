@@ -14,11 +14,7 @@ mod fmu;
 mod python;
 mod test;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// What went wrong, with the remedy.
-pub(crate) type Result<T> = std::result::Result<T, String>;
 
 const HELP: &str = "\
 The jobs of the project.
@@ -73,16 +69,4 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// Returns the root of the workspace.
-pub(crate) fn root() -> PathBuf {
-    let mut path = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    path.pop();
-    path
-}
-
-/// Returns the target folder, which the environment may set.
-pub(crate) fn target() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
 }

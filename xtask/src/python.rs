@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::command::{output, program, succeed};
-use crate::{Result, root, target};
+use crate::command::{Result, output, program, root, succeed, target};
 
 /// A virtual environment with the packages of a lock file.
 pub(crate) struct Environment {

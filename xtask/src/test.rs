@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::command::{cargo, output, program, succeed};
+use crate::command::{Result, cargo, output, program, root, succeed, target};
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
-use crate::{Result, root, target};
 
 /// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";

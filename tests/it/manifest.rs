@@ -1,0 +1,98 @@
+//! What the manifests promise: metadata for a registry, walls between crates, the minimum Rust version.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+/// What cargo says of the packages that this platform builds.
+fn packages() -> Vec<Value> {
+    let version = Command::new("rustc").arg("-vV").output().unwrap();
+    let version = String::from_utf8(version.stdout).unwrap();
+    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
+    let output = Command::new(env!("CARGO"))
+        .current_dir(crate::root())
+        .args(["metadata", "--format-version", "1", "--offline", "--locked", "--filter-platform", host])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    metadata["packages"].as_array().unwrap().clone()
+}
+
+fn is_ours(package: &Value) -> bool {
+    package["source"].is_null()
+}
+
+/// Major and minor number of a version such as 1.89 or 1.89.0.
+fn minor(version: &str) -> (u32, u32) {
+    let mut numbers = version.split('.').map(|number| number.parse().unwrap());
+    (numbers.next().unwrap(), numbers.next().unwrap())
+}
+
+#[test]
+fn no_dependency_needs_a_newer_rust_than_the_project_states() {
+    let packages = packages();
+    let wall = packages.iter().find(|package| package["name"] == "rocking-wall").unwrap();
+    let stated = wall["rust_version"].as_str().unwrap();
+    for package in &packages {
+        if let Some(needed) = package["rust_version"].as_str() {
+            assert!(minor(needed) <= minor(stated), "{} needs Rust {needed}", package["name"]);
+        }
+    }
+    let workflow = std::fs::read_to_string(crate::root().join(".github/workflows/ci.yml")).unwrap();
+    assert!(workflow.contains(&format!("cargo +{stated} check")), "the workflow checks another version");
+}
+
+#[test]
+fn every_crate_has_what_a_registry_shows() {
+    for package in packages().iter().filter(|package| is_ours(package) && package["publish"].is_null()) {
+        for key in ["description", "license", "repository", "readme", "rust_version"] {
+            assert!(package[key].is_string(), "{} has no {key}", package["name"]);
+        }
+        for key in ["keywords", "categories"] {
+            let count = package[key].as_array().unwrap().len();
+            assert!((1..=5).contains(&count), "{} has {count} {key}", package["name"]);
+        }
+    }
+}
+
+/// What each crate may know of the others; Cargo holds it to this.
+#[test]
+fn arrows_between_crates_point_one_way() {
+    let known: [(&str, &[&str]); 9] = [
+        ("fmi2-export", &[]),
+        ("fmi2-export-build", &[]),
+        ("rocking-oscillator", &[]),
+        ("ground-motion", &["rocking-oscillator"]),
+        ("rocking-floor", &["fmi2-export", "rocking-oscillator"]),
+        ("rocking-wall", &["fmi2-export", "ground-motion", "rocking-oscillator"]),
+        ("rocking-study", &["fmi2-export", "ground-motion", "rocking-wall"]),
+        ("rocking-figures", &["rocking-study"]),
+        (
+            "rocking-wall-cli",
+            &[
+                "fmi2-export",
+                "fmi2-export-build",
+                "ground-motion",
+                "rocking-figures",
+                "rocking-floor",
+                "rocking-study",
+                "rocking-wall",
+            ],
+        ),
+    ];
+    let packages = packages();
+    let ours: Vec<_> = packages.iter().filter(|package| is_ours(package)).collect();
+    for package in &ours {
+        let Some((name, allowed)) = known.iter().find(|(name, _)| package["name"] == *name) else { continue };
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let other = dependency["name"].as_str().unwrap();
+            if dependency["kind"].is_null() && ours.iter().any(|ours| ours["name"] == other) {
+                assert!(allowed.contains(&other), "{name} knows {other}");
+            }
+        }
+    }
+    for (name, _) in known {
+        assert!(ours.iter().any(|package| package["name"] == name), "there is no crate {name}");
+    }
+}

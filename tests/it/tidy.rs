@@ -1,0 +1,55 @@
+//! What keeps the sources readable: widths, lengths, and `unsafe` in one place.
+
+use std::process::Command;
+
+/// Columns of code, comments and documents.
+const COLUMNS: usize = 110;
+/// Lines of a Rust file.
+const LINES: usize = 400;
+/// Kinds of files with lines that people read.
+const ENDINGS: [&str; 10] =
+    [".rs", ".md", ".toml", ".py", ".c", ".html", ".xml", ".css", ".yml", ".schema.json"];
+/// The folders where `unsafe` may stand: the C boundary, and tests that load libraries or count allocations.
+const UNSAFE: [&str; 4] =
+    ["crates/fmi2-export/src/ffi", "crates/fmi2-export/tests", "tests/", "crates/floor/tests"];
+
+/// The files of the project with their texts.
+fn files() -> Vec<(String, String)> {
+    let list = Command::new("git").args(["ls-files"]).current_dir(crate::root()).output().unwrap();
+    let list = String::from_utf8(list.stdout).unwrap();
+    let wanted =
+        |name: &&str| ENDINGS.iter().any(|ending| name.ends_with(ending)) && !name.contains("/licenses/");
+    let files = list.lines().filter(wanted).map(|name| (name.to_owned(), crate::root().join(name)));
+    // a file that is deleted but not yet committed is still in the list
+    files.filter_map(|(name, path)| Some((name, std::fs::read_to_string(path).ok()?))).collect()
+}
+
+#[test]
+fn lines_and_files_are_short() {
+    let files = files();
+    assert!(files.len() > 300, "git lists {} files", files.len());
+    let mut long = Vec::new();
+    for (name, text) in &files {
+        for (index, line) in text.lines().enumerate().filter(|(_, line)| line.chars().count() > COLUMNS) {
+            long.push(format!("{name}:{} has {} columns", index + 1, line.chars().count()));
+        }
+        if name.ends_with(".rs") && text.lines().count() > LINES {
+            long.push(format!("{name} has {} lines", text.lines().count()));
+        }
+    }
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}
+
+#[test]
+fn unsafe_code_stands_at_the_c_boundary() {
+    for (name, text) in files().iter().filter(|(name, _)| name.ends_with(".rs")) {
+        let is_unsafe = text.lines().any(|line| {
+            let code = line.split("//").next().unwrap_or_default();
+            ["unsafe {", "unsafe fn", "unsafe impl", "unsafe extern", "unsafe("]
+                .iter()
+                .any(|word| code.contains(word))
+        });
+        let allowed = UNSAFE.iter().any(|folder| name.starts_with(folder));
+        assert!(allowed || !is_unsafe, "{name} has unsafe code");
+    }
+}
