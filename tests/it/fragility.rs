@@ -1,10 +1,10 @@
 //! Fragilities: fits, medians, bootstrap.
 
 use study::fragility::{
-    Bootstrap, FitError, Interval, Lognormal, Observation, Observing, cumulative, fit, median, quantile,
-    steps,
+    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, cumulative, fit, median,
+    quantile, steps,
 };
-use study::ida::Occurrence;
+use study::ida::Exceedance;
 
 const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
 
@@ -89,13 +89,13 @@ fn censored_records_count() {
 fn wide_steps_make_stripes() {
     let step = 0.31;
     let levels: Vec<f64> = (1..=12).map(|k| step * f64::from(k)).collect();
-    let sample: Vec<Occurrence> =
-        stratified(4000).into_iter().map(|x| Occurrence::At((x / step).ceil() * step)).collect();
-    let found = fit(&Observing::InStripes(levels).observations(&sample)).unwrap();
+    let sample: Vec<Exceedance> =
+        stratified(4000).into_iter().map(|x| Exceedance::At((x / step).ceil() * step)).collect();
+    let found = fit(&ObservationKind::Stripes(levels).observations(&sample)).unwrap();
     // counts are off by less than one in 4000, and the highest level includes all records
     near(found.median, TRUTH.median, 1e-3);
     near(found.dispersion, TRUTH.dispersion, 1e-3);
-    assert!(fit(&Observing::Exactly.observations(&sample)).unwrap().median > 1.15 * TRUTH.median);
+    assert!(fit(&ObservationKind::Records.observations(&sample)).unwrap().median > 1.15 * TRUTH.median);
 }
 
 #[test]
@@ -124,12 +124,12 @@ fn what_gives_no_curve_is_refused() {
 
 #[test]
 fn medians_and_steps_count_censored_records() {
-    use Occurrence::{Above, At};
+    use Exceedance::{Above, At};
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2)]), 0.2);
     assert_eq!(median(&[At(0.3), At(0.1), At(0.2), Above(1.0)]), 0.25);
     assert_eq!(median(&[At(0.3), Above(1.0), Above(1.0)]), f64::INFINITY);
     assert_eq!(steps(&[At(0.3), Above(1.0), At(0.1), Above(1.0)]), [(0.1, 0.25), (0.3, 0.5)]);
-    let stripes = Observing::InStripes(vec![0.2, 0.4]).observations(&[At(0.2), At(0.4), Above(0.4)]);
+    let stripes = ObservationKind::Stripes(vec![0.2, 0.4]).observations(&[At(0.2), At(0.4), Above(0.4)]);
     let stripe = |intensity, exceeded| Observation::Stripe { intensity, runs: 3, exceeded };
     assert_eq!(stripes, [stripe(0.2, 1), stripe(0.4, 2)]);
 }
@@ -142,7 +142,7 @@ fn bootstrap_intervals_cover_the_truth() {
     let mut covered = 0;
     for seed in 0..200 {
         // the draws of one bootstrap serve as random samples
-        let sample: Vec<Occurrence> = draws(&population, 40, 1000 + seed);
+        let sample: Vec<Exceedance> = draws(&population, 40, 1000 + seed);
         let bootstrap = Bootstrap::new(sample.len(), 400, seed);
         let interval = Interval::new(median(&sample), bootstrap.medians(&sample), 0.95);
         covered += u32::from(interval.range[0] <= TRUTH.median && TRUTH.median <= interval.range[1]);
@@ -152,8 +152,8 @@ fn bootstrap_intervals_cover_the_truth() {
 }
 
 /// `count` members of a population, at random.
-fn draws(population: &[f64], count: usize, seed: u64) -> Vec<Occurrence> {
-    let all: Vec<Occurrence> = population.iter().copied().map(Occurrence::At).collect();
+fn draws(population: &[f64], count: usize, seed: u64) -> Vec<Exceedance> {
+    let all: Vec<Exceedance> = population.iter().copied().map(Exceedance::At).collect();
     // the median of a resample of one is a member drawn
     let one = |index: u64| {
         let mut state =
@@ -170,12 +170,12 @@ fn draws(population: &[f64], count: usize, seed: u64) -> Vec<Occurrence> {
 /// higher has a ratio of 1.1 with an interval of zero width.
 #[test]
 fn ratios_are_paired() {
-    let one: Vec<Occurrence> = stratified(30).into_iter().map(Occurrence::At).collect();
-    let other: Vec<Occurrence> = stratified(30).into_iter().map(|x| Occurrence::At(1.1 * x)).collect();
+    let one: Vec<Exceedance> = stratified(30).into_iter().map(Exceedance::At).collect();
+    let other: Vec<Exceedance> = stratified(30).into_iter().map(|x| Exceedance::At(1.1 * x)).collect();
     let bootstrap = Bootstrap::new(30, 500, 7);
     for medians in [
-        |b: &Bootstrap, o: &[Occurrence]| b.medians(o),
-        |b: &Bootstrap, o: &[Occurrence]| b.fitted_medians(o, &Observing::Exactly),
+        |b: &Bootstrap, o: &[Exceedance]| b.medians(o),
+        |b: &Bootstrap, o: &[Exceedance]| b.fitted_medians(o, &ObservationKind::Records),
     ] {
         let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
         assert!(a.iter().any(|median| (median / TRUTH.median - 1.0).abs() > 0.05), "resamples differ");

@@ -6,8 +6,8 @@ use rocking_wall::solver::Segment;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Support};
 use study::ida::{
-    Curve, Damping, IdaError, IntensityMeasure, Level, Levels, Model, NamedRecord, NamedWall, Occurrence,
-    Source, Study,
+    Curve, Damping, Exceedance, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall,
+    RatioSource, Run, Study,
 };
 
 /// Two walls of Table 5 of the paper.
@@ -87,8 +87,8 @@ fn levels_agree_with_runs_one_by_one() {
         let case = study.case(index);
         assert_eq!(study.index(case), index);
         let curve = study.curve(case).unwrap();
-        assert_eq!(curve.levels().len(), 11);
-        for level in curve.levels() {
+        assert_eq!(curve.runs().len(), 11);
+        for level in curve.runs() {
             let (demand, falls) = directly(&study, case.wall, case.model, case.record, level.intensity);
             assert_eq!(level.overturning.is_some(), falls, "{case:?} {level:?}");
             overturned += usize::from(falls);
@@ -123,13 +123,13 @@ fn the_hunt_finds_the_collapse_of_a_fine_grid() {
     for index in 0..fine.count() {
         let case = fine.case(index);
         let (grid, hunt) = (fine.curve(case).unwrap(), hunting.curve(case).unwrap());
-        let (Occurrence::At(at), Occurrence::At(found)) = (grid.collapse(), hunt.collapse()) else {
+        let (Exceedance::At(at), Exceedance::At(found)) = (grid.collapse(), hunt.collapse()) else {
             panic!("no collapse up to 20 m/s²: {case:?}");
         };
-        let bracket = found - hunt.standing();
+        let bracket = found - hunt.level_below_collapse();
         assert!(bracket <= 0.01 * found * (1.0 + 1e-6), "{bracket} at {found}");
         // grid: (at − step, at]; hunt: (standing, found]
-        if hunt.standing() < at && at - step < found {
+        if hunt.level_below_collapse() < at && at - step < found {
             continue;
         }
         windows += 1;
@@ -152,8 +152,8 @@ fn stepping_ends_at_the_first_overturning() {
     for index in 0..fixed.count() {
         let (up, all) = (stepping.curve(fixed.case(index)).unwrap(), fixed.curve(fixed.case(index)).unwrap());
         assert_eq!(up.collapse(), all.collapse());
-        assert_eq!(up.levels(), &all.levels()[..up.levels().len()]);
-        assert_eq!(up.levels().iter().filter(|level| level.overturning.is_some()).count(), 1);
+        assert_eq!(up.runs(), &all.runs()[..up.runs().len()]);
+        assert_eq!(up.runs().iter().filter(|level| level.overturning.is_some()).count(), 1);
     }
 }
 
@@ -203,16 +203,16 @@ fn the_free_vibration_after_a_record_counts() {
     let models = vec![Model::new(Damping::None)];
     let study = Study::new(walls(), records, models, IntensityMeasure::Pga, levels).unwrap();
     let curve = study.curve(study.case(0)).unwrap();
-    let Occurrence::At(collapse) = curve.collapse() else { panic!("it overturns") };
-    let level = curve.levels().iter().find(|level| level.intensity == collapse).unwrap();
+    let Exceedance::At(collapse) = curve.collapse() else { panic!("it overturns") };
+    let level = curve.runs().iter().find(|level| level.intensity == collapse).unwrap();
     assert!(level.overturning.unwrap() > pulse.duration(), "{level:?}");
     let cut = study.clone().with_tail(0.0).unwrap();
-    let Occurrence::At(later) = cut.curve(cut.case(0)).unwrap().collapse() else { panic!("it overturns") };
+    let Exceedance::At(later) = cut.curve(cut.case(0)).unwrap().collapse() else { panic!("it overturns") };
     assert!(later > 1.05 * collapse, "{later} {collapse}");
 }
 
-fn level(intensity: f64, demand: f64, overturned: bool) -> Level {
-    Level { intensity, demand, overturning: overturned.then_some(3.0) }
+fn level(intensity: f64, demand: f64, overturned: bool) -> Run {
+    Run { intensity, demand, overturning: overturned.then_some(3.0) }
 }
 
 #[test]
@@ -224,16 +224,19 @@ fn a_curve_tells_its_first_collapse_and_its_resurrections() {
         level(2.0, 0.4, false),
         level(5.0, 1.1, true),
     ]);
-    assert_eq!((curve.collapse(), curve.standing(), curve.resurrections()), (Occurrence::At(3.0), 2.0, 1));
-    assert_eq!(curve.exceedance(0.1, false), Occurrence::At(0.5));
-    assert_eq!(curve.exceedance(0.1, true), Occurrence::At(1.0));
-    assert_eq!(curve.exceedance(0.3, false), Occurrence::At(1.5));
-    assert_eq!(curve.exceedance(0.6, false), Occurrence::At(3.0));
-    assert_eq!(curve.exceedance(1.0, false), Occurrence::At(3.0));
+    assert_eq!(
+        (curve.collapse(), curve.level_below_collapse(), curve.resurrections()),
+        (Exceedance::At(3.0), 2.0, 1)
+    );
+    assert_eq!(curve.exceedance(0.1, false), Exceedance::At(0.5));
+    assert_eq!(curve.exceedance(0.1, true), Exceedance::At(1.0));
+    assert_eq!(curve.exceedance(0.3, false), Exceedance::At(1.5));
+    assert_eq!(curve.exceedance(0.6, false), Exceedance::At(3.0));
+    assert_eq!(curve.exceedance(1.0, false), Exceedance::At(3.0));
     assert_eq!([0.5, 1.5, 2.0].map(|x| curve.demand(x).unwrap()), [0.1, 0.2 + 0.5 * (0.4 - 0.2), 0.4]);
     assert_eq!(curve.demand(4.0), Some(f64::INFINITY));
     let standing = Curve::new(vec![level(1.0, 0.2, false)]);
-    assert_eq!((standing.collapse(), standing.demand(1.5)), (Occurrence::Above(1.0), None));
+    assert_eq!((standing.collapse(), standing.demand(1.5)), (Exceedance::Above(1.0), None));
 }
 
 #[test]
@@ -246,7 +249,7 @@ fn what_cannot_run_is_refused() {
         }
     };
     let cr = || vec![Model::new(Damping::Restitution)];
-    let rigid_ratio = Model::new(Damping::ConstantRatio(Source::Predicted));
+    let rigid_ratio = Model::new(Damping::ConstantRatio(RatioSource::Predicted));
     let mut rigid = walls();
     rigid[1].parameters.force_law = rocking_wall::variables::ForceLaw::RigidLinear;
     refused(vec![], records(1), cr(), HUNT, &["at least one wall"]);

@@ -1,79 +1,93 @@
-//! Charts as data: what is drawn, over which axes. Drawing them is the affair of who shows them.
+//! Charts as plain data: axes, lines and marks. Drawing them is left to the caller.
+//!
+//! ```
+//! use study::chart::{Axis, Chart, Series};
+//!
+//! let line = Series::line("u", 0, vec![(0.0, 0.0), (1.0, 2.0)]);
+//! let chart = Chart::new("a history", Axis::over("time (s)", [0.0, 1.0]), Axis::new("u (m)"), vec![line]);
+//! assert_eq!(chart.y.range, None);
+//! ```
 
-/// One pair of axes and what is on it.
+/// A pair of axes and the series on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What it shows, in a few words.
+    /// Title.
     pub title: String,
-    /// The horizontal axis.
+    /// Horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
+    /// Vertical axis.
     pub y: Axis,
     /// Lines and marks, the last one on top.
     pub series: Vec<Series>,
 }
 
-/// An axis.
+impl Chart {
+    /// Creates a chart.
+    #[must_use]
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self { title: title.into(), x, y, series }
+    }
+}
+
+/// An axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Quantity, and its unit in brackets.
     pub label: String,
-    /// From and to; of the data where `None`.
+    /// First and last value; the extremes of the data where `None`.
     pub range: Option<[f64; 2]>,
 }
 
 impl Axis {
-    /// An axis that takes its range from the data.
+    /// Creates an axis that takes its range from the data.
     #[must_use]
     pub fn new(label: &str) -> Self {
         Self { label: label.into(), range: None }
     }
 
-    /// An axis over a range.
+    /// Creates an axis over a range.
     #[must_use]
     pub fn over(label: &str, range: [f64; 2]) -> Self {
         Self { label: label.into(), range: Some(range) }
     }
 }
 
-/// How a series looks.
+/// Look of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names say it")]
 pub enum Look {
-    /// A line.
     Line,
-    /// A dashed line.
     Dashed,
-    /// Marks.
     Marks,
 }
 
-/// Points that belong together.
+/// Points drawn alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Name in the legend; none for a series that repeats another one.
+    /// Name in the legend; empty for a series that belongs to a named one.
     pub name: String,
-    /// How it looks.
+    /// Line, dashed line or marks.
     pub look: Look,
     /// Number of its colour; series that belong together share one.
     pub color: usize,
-    /// The points.
+    /// Points (x, y).
     pub points: Vec<(f64, f64)>,
 }
 
 impl Series {
-    /// A line.
+    /// Creates a line.
     #[must_use]
     pub fn line(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), look: Look::Line, color, points }
     }
 
-    /// A dashed line.
+    /// Creates a dashed line.
     #[must_use]
     pub fn dashed(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { look: Look::Dashed, ..Self::line(name, color, points) }
     }
 
-    /// Marks.
+    /// Creates marks without a line.
     #[must_use]
     pub fn marks(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { look: Look::Marks, ..Self::line(name, color, points) }

@@ -1,20 +1,32 @@
-//! Whether free motion can still raise the peak of a wall.
+//! Motion of a wall without excitation.
 
-use rocking_wall::solver::State;
-use rocking_wall::wall::Wall;
+use rocking_wall::solver::{Memo, Motion, Report, Segment, SolverError, State};
+use rocking_wall::wall::{Support, Wall};
 
-/// Energy over that of the peak by which rounding may exceed it.
+/// By how much rounding may raise the energy, relative to that at the peak.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
-/// Whether free motion from here cannot raise `u_max/u_ins`: inside the well, with no more energy than its rim or the peak has.
-pub(super) fn has_peaked(wall: &Wall, state: &State) -> bool {
+/// Advances a wall without excitation by `duration` \[s\].
+pub(crate) fn advance(
+    motion: &Motion,
+    state: &mut State,
+    duration: f64,
+    memo: &mut Memo,
+) -> Result<Report, SolverError> {
+    let segment = Segment { duration, from: Support::default(), to: Support::default() };
+    motion.advance(state, &segment, false, memo)
+}
+
+/// Whether free motion from `state` cannot raise `u_max/u_ins`: the wall is between its points of zero force, and
+/// its energy is at most that at the peak so far and that at either of these points.
+pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
     let (u_ins, end) = (wall.body().instability, wall.force_end());
     let ratio = state.peaks.ratio(u_ins);
     let energy = wall.energy(state.displacement, state.velocity);
-    let rim = |sign: f64| {
+    let highest = |sign: f64| {
         let peak = (ratio * u_ins.of(sign)).min(end.of(sign));
         wall.energy(sign * peak, 0.0)
     };
     state.displacement.abs() < end.of(state.displacement)
-        && energy * (1.0 - ENERGY_ROUNDING) <= rim(1.0).min(rim(-1.0))
+        && energy * (1.0 - ENERGY_ROUNDING) <= highest(1.0).min(highest(-1.0))
 }

@@ -1,6 +1,23 @@
-//! Studies: many runs of walls under many motions, and what they say together.
+//! Studies of rocking walls: many runs, and the results they have together.
 //!
-//! Nothing here opens a file or prints.
+//! Nothing here opens a file or prints. Each module uses only modules above it in this table:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`parallel`] | work shared by threads |
+//! | [`chart`] | charts as plain data |
+//! | `random` | random numbers that are the same on every machine |
+//! | `free_motion` | motion of a wall without excitation |
+//! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
+//! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
+//! | [`document`] | study files |
+//! | [`spectrum`] | rocking spectra over walls or over pulses |
+//! | [`calibration`] | viscous damping that is equivalent to restitution |
+//! | [`accuracy`] | error against run time of every solver; error of small rotations |
+//! | [`stability`] | stability maps and extremes |
+//! | [`reproduce`] | the tables and figures of the paper |
+//!
+//! Each module has a short example.
 
 pub mod accuracy;
 pub mod calibration;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use anyhow::{Context, Result, bail};
 use rocking_wall::scene::Scene;
-use study::accuracy::{Measurement, Problem, Study, defaults, measure};
+use study::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure};
 
 use crate::args::AccuracyArguments;
 use crate::linearisation::Linearisation;
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
     Ok(())
 }
 
-fn table(study: &Study) -> String {
+fn table(study: &WorkPrecision) -> String {
     let mut text = format!("{}\n", study.name);
     let fate = match study.overturning {
         Some(time) => format!("overturns at {time:.6} s"),
@@ -90,7 +90,7 @@ fn table(study: &Study) -> String {
             text,
             "  {:<10}{:<18}{:>11.1e}{:>11.1e}{peak:>11}{overturning:>11}{:>11.3}{:>10}{:>9}{:>9}",
             row.setting.solver(),
-            row.setting.words(study.step),
+            row.setting.describe(study.step),
             row.error_max,
             row.error_rms,
             row.seconds * 1e3,
@@ -107,7 +107,7 @@ fn table(study: &Study) -> String {
 const COLUMNS: &str = "scene,solver,setting,seconds,error_max,error_rms,error_peak,error_overturn_time,pieces,corners,\
                        impacts,amplification";
 
-fn csv(studies: &[Study]) -> String {
+fn csv(studies: &[WorkPrecision]) -> String {
     let mut text = format!("{COLUMNS}\n");
     let optional = |error: Option<f64>| error.map_or_else(String::new, |error| format!("{error:e}"));
     for study in studies {
@@ -119,7 +119,7 @@ fn csv(studies: &[Study]) -> String {
                 "\"{}\",{},{},{seconds:e},{error_max:e},{error_rms:e},{},{},{},{},{},{:e}",
                 study.name.replace('"', "\"\""),
                 setting.solver(),
-                setting.words(study.step),
+                setting.describe(study.step),
                 optional(*error_peak),
                 optional(*error_overturning),
                 work.pieces,

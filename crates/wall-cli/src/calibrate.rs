@@ -13,7 +13,7 @@ use rocking_wall::wall::Parameters;
 use study::calibration::{Calibration, Coefficient, Fit, Grid, STEP, calibrate};
 use study::chart::{Axis, Chart, Series};
 use study::parallel::threads;
-use study::reproduce::facts::{FREE_STANDING, REGRESSIONS};
+use study::reproduce::printed::{FREE_STANDING, REGRESSIONS};
 use study::reproduce::tables::abbreviation;
 
 use crate::args::SceneArguments;

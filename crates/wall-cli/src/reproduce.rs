@@ -70,7 +70,7 @@ fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
 /// How many numbers agree with print.
 fn counts(table: &Table) -> [usize; 2] {
     let all = table.values().count();
-    [table.values().filter(|value| value.agrees() == Some(true)).count(), all]
+    [table.values().filter(|value| value.agrees()).count(), all]
 }
 
 fn summary(reproduction: &Reproduction) -> String {
@@ -78,8 +78,8 @@ fn summary(reproduction: &Reproduction) -> String {
     for table in &reproduction.tables {
         let [agree, all] = counts(table);
         let relative = |value: &Value| match value.printed {
-            Some(printed) if printed != 0.0 => (value.ours / printed - 1.0).abs(),
-            _ => 0.0,
+            0.0 => 0.0,
+            printed => (value.computed / printed - 1.0).abs(),
         };
         let worst = table.values().map(relative).fold(0.0, f64::max);
         let _ = writeln!(
@@ -111,8 +111,8 @@ fn plain(table: &Table) -> String {
 
 fn words(cell: &Cell) -> String {
     match cell {
-        Cell::Words(words) => words.clone(),
-        Cell::Value(Value { ours, decimals, .. }) => format!("{ours:.decimals$}"),
+        Cell::Text(words) => words.clone(),
+        Cell::Value(Value { computed, decimals, .. }) => format!("{computed:.decimals$}"),
     }
 }
 
@@ -172,21 +172,15 @@ fn table(table: &Table) -> String {
 
 fn cell(cell: &Cell) -> String {
     match cell {
-        Cell::Words(words) => format!("<td>{}</td>", escaped(words)),
-        Cell::Value(Value { ours, printed: None, decimals }) => {
-            format!("<td class=\"number\">{ours:.decimals$}</td>")
-        }
+        Cell::Text(words) => format!("<td>{}</td>", escaped(words)),
         Cell::Value(value) => {
-            let Value { ours, printed, decimals } = *value;
-            let (class, printed) = (
-                if value.agrees() == Some(true) { "number" } else { "number off" },
-                printed.unwrap_or(f64::NAN),
-            );
+            let Value { computed, printed, decimals } = *value;
+            let class = if value.agrees() { "number" } else { "number off" };
             let finer = decimals + 1;
-            let deviation = shown(ours - printed, finer);
+            let deviation = shown(computed - printed, finer);
             let printed = shown(printed, decimals);
             format!(
-                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {ours:.finer$}<br><i>{deviation:+.finer$}</i></td>"
+                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {computed:.finer$}<br><i>{deviation:+.finer$}</i></td>"
             )
         }
     }

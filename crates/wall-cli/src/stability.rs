@@ -3,16 +3,16 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use study::stability::{Axis, Extreme, MAPS, Map, extremes, map};
+use study::stability::{Extreme, MAPS, Map, RowQuantity, extremes, map};
 
 use crate::args::StabilityArguments;
 use crate::{output, stability_page};
 
 pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
     let mut maps = Vec::with_capacity(2 * MAPS.len());
-    for axis in [Axis::Step, Axis::Ratio] {
+    for quantity in [RowQuantity::Step, RowQuantity::DampingRatio] {
         for (solver, damping) in MAPS {
-            let made = map(solver, damping, axis, arguments.columns)?;
+            let made = map(solver, damping, quantity, arguments.columns)?;
             output::to_stdout(&summary(&made))?;
             maps.push(made);
         }
@@ -29,10 +29,10 @@ pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
 }
 
 /// Words for the second axis.
-pub(crate) fn axis_words(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Step => "step",
-        Axis::Ratio => "xi",
+pub(crate) fn axis_words(quantity: RowQuantity) -> &'static str {
+    match quantity {
+        RowQuantity::Step => "step",
+        RowQuantity::DampingRatio => "xi",
     }
 }
 
@@ -44,7 +44,7 @@ fn summary(map: &Map) -> String {
         "{:<10}{:<24} a1 x {:<5} {:>4} cells, {unstable:>3} unstable, largest error {worst:.1e}\n",
         map.solver.name(),
         map.damping.name(),
-        axis_words(map.axis),
+        axis_words(map.quantity),
         cells().count()
     )
 }
@@ -52,9 +52,9 @@ fn summary(map: &Map) -> String {
 fn table(extremes: &[Extreme]) -> String {
     let mut text = String::from("\n");
     for extreme in extremes {
-        let Extreme { name, what, figure, limit } = extreme;
+        let Extreme { name, criterion, value, limit } = extreme;
         let verdict = if extreme.holds() { "holds" } else { "BROKEN" };
-        let _ = writeln!(text, "{verdict:<7}{name:<33}{figure:>9.1e} of {limit:.0e}: {what}");
+        let _ = writeln!(text, "{verdict:<7}{name:<33}{value:>9.1e} of {limit:.0e}: {criterion}");
     }
     text
 }
@@ -72,7 +72,7 @@ fn csv(maps: &[Map]) -> String {
                     "{},{},{},{a1:e},{row:e},{},{:e},{:e}",
                     map.solver.name(),
                     map.damping.name(),
-                    axis_words(map.axis),
+                    axis_words(map.quantity),
                     cell.stable,
                     cell.error,
                     cell.growth

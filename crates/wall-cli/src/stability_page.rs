@@ -5,7 +5,7 @@ use std::fmt::Write;
 use figures::escaped;
 use figures::heat_map::{self, HeatMap, scale};
 use figures::palette::mixed;
-use study::stability::{Axis, Cell, Extreme, Map};
+use study::stability::{Extreme, Map, MapCell, RowQuantity};
 
 use crate::stability::axis_words;
 use crate::template::filled;
@@ -16,8 +16,8 @@ const CELL: [f64; 2] = [26.0, 20.0];
 const EXPONENTS: [f64; 2] = [-14.0, 0.0];
 
 pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
-    let section = |axis: Axis| {
-        let figures: Vec<String> = maps.iter().filter(|map| map.axis == axis).map(figure).collect();
+    let section = |quantity: RowQuantity| {
+        let figures: Vec<String> = maps.iter().filter(|map| map.quantity == quantity).map(figure).collect();
         figures.concat()
     };
     let mut rows = String::new();
@@ -27,16 +27,16 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
             rows,
             "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.1e}</td><td>{:.0e}</td><td>{verdict}</td></tr>",
             escaped(extreme.name),
-            escaped(extreme.what),
-            extreme.figure,
+            escaped(extreme.criterion),
+            extreme.value,
             extreme.limit
         );
     }
     filled(
         include_str!("stability.html"),
         &[
-            ("steps", &section(Axis::Step)),
-            ("ratios", &section(Axis::Ratio)),
+            ("steps", &section(RowQuantity::Step)),
+            ("ratios", &section(RowQuantity::DampingRatio)),
             ("scale", &colours()),
             ("extremes", &rows),
         ],
@@ -53,7 +53,7 @@ fn figure(map: &Map) -> String {
 }
 
 fn drawing(map: &Map) -> String {
-    let axis = axis_words(map.axis);
+    let axis = axis_words(map.quantity);
     let paint = |row: usize, column: usize| {
         let (cell, a1, value) = (&map.cells[row][column], map.columns[column], map.rows[row]);
         heat_map::Cell {
@@ -69,9 +69,9 @@ fn drawing(map: &Map) -> String {
     // whole powers of ten only
     let mut values = map.columns.iter();
     columns.retain(|_| values.next().is_some_and(|a1| (a1.log10() - a1.log10().round()).abs() < 1e-6));
-    let label = match map.axis {
-        Axis::Step => "step (s)",
-        Axis::Ratio => "ξ",
+    let label = match map.quantity {
+        RowQuantity::Step => "step (s)",
+        RowQuantity::DampingRatio => "ξ",
     };
     HeatMap {
         label: format!("error over a1 and {axis}"),
@@ -83,7 +83,7 @@ fn drawing(map: &Map) -> String {
     .svg()
 }
 
-fn words(cell: &Cell) -> String {
+fn words(cell: &MapCell) -> String {
     let verdict = if cell.stable { "stable" } else { "unstable" };
     format!("{verdict}, error {:.1e}, growth of the energy {:.1e}", cell.error, cell.growth)
 }

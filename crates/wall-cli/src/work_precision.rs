@@ -5,12 +5,12 @@ use std::fmt::Write;
 
 use figures::escaped;
 use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
-use study::accuracy::{Measurement, Study};
+use study::accuracy::{Measurement, WorkPrecision};
 
 use crate::template::filled;
 
 /// The page; `rotations` is its section on small rotations, `peers_csv` what `cargo xtask bench --peers` wrote.
-pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) -> String {
+pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option<&str>) -> String {
     let mut figures = String::new();
     for study in studies {
         let fate = match study.overturning {
@@ -35,7 +35,7 @@ pub(crate) fn page(studies: &[Study], rotations: &str, peers_csv: Option<&str>) 
     )
 }
 
-fn solver_plot(study: &Study) -> String {
+fn solver_plot(study: &WorkPrecision) -> String {
     let tools = SOLVERS.map(|(name, color, mark)| {
         let rows: Vec<&Measurement> =
             study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
@@ -100,13 +100,13 @@ fn peers(csv: &str) -> String {
     section + "</main>\n"
 }
 
-fn hover(study: &Study, row: &Measurement) -> String {
+fn hover(study: &WorkPrecision, row: &Measurement) -> String {
     let Measurement { seconds, error_max, error_rms, error_peak, work, .. } = row;
     format!(
         "{}, {}: max error {error_max:.1e}, rms {error_rms:.1e}{}; {:.3} ms, {} pieces, {} \
          corners, {} impacts",
         row.setting.solver(),
-        row.setting.words(study.step),
+        row.setting.describe(study.step),
         error_peak.map_or_else(String::new, |error| format!(", peak {error:.1e}")),
         seconds * 1e3,
         work.pieces,

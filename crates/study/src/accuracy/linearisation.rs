@@ -1,15 +1,25 @@
-//! What small rotations leave out: Eq. (1) beside full rotations, Figures 2 and 3 of the paper.
+//! Error of small rotations: Eq. (1) beside full rotations, Figures 2 and 3 of the paper.
 //!
 //! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full ones, so that
 //! both start at the same θ₀/α of Eq. (5).
+//!
+//! ```
+//! use study::accuracy::linearisation::{figure_2_wall, period};
+//! use rocking_wall::variables::Mechanism;
+//!
+//! let period = period(&figure_2_wall(Mechanism::Parapet), 0.9)?;
+//! assert!((period.ratio() - 0.9975).abs() < 1e-3);
+//! # Ok::<(), study::accuracy::AccuracyError>(())
+//! ```
 
-use rocking_wall::solver::{Memo, Motion, Segment, SolverError, State};
+use crate::free_motion::advance;
+use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::variables::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Solver,
 };
-use rocking_wall::wall::{Kinematics, Parameters, Support, equivalence};
+use rocking_wall::wall::{Kinematics, Parameters, Support, Wall, equivalence};
 
-use super::AccuracyError;
+use super::error::AccuracyError;
 
 /// Tolerance of full rotations here.
 const TOLERANCE: f64 = 1e-12;
@@ -18,10 +28,10 @@ const BISECTIONS: u32 = 64;
 /// Most output steps of a history.
 const MOST_STEPS: usize = 10_000_000;
 
-/// Slenderness angles at which the period is compared by default \[rad\].
+/// Default slenderness angles at which the period is compared \[rad\].
 pub const SLENDERNESS: [f64; 15] =
     [0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16, 0.18, 0.2, 0.22, 0.24, 0.26, 0.28, 0.3];
-/// Initial rotations θ₀/α at which the period is compared by default; the last is that of Figure 2.
+/// Default initial rotations θ₀/α at which the period is compared; the last is that of Figure 2.
 pub const STARTS: [f64; 3] = [0.1, 0.5, 0.9];
 
 /// A free motion in fractions of the unstable equilibrium.
@@ -35,7 +45,7 @@ pub struct FreeMotion {
     pub amplitudes: Vec<f64>,
 }
 
-/// The same wall, released from the same fraction of its unstable equilibrium, with small and with full rotations.
+/// Free motions of one wall, released from one fraction of its unstable equilibrium, in small and in full rotations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Output step \[s\].
@@ -47,19 +57,19 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Largest distance of the two histories \[-\].
+    /// Returns the largest difference between the two histories \[-\].
     #[must_use]
     pub fn largest_difference(&self) -> f64 {
         largest_difference(&self.linear.history, &self.trigonometric.history)
     }
 
-    /// Largest distance of the amplitudes of one half cycle \[-\]: what is left once the phase is set aside.
+    /// Returns the largest difference between the amplitudes of a half cycle, which no phase enters \[-\].
     #[must_use]
     pub fn largest_amplitude_difference(&self) -> f64 {
         largest_difference(&self.linear.amplitudes, &self.trigonometric.amplitudes)
     }
 
-    /// Time of the n-th impact with small rotations over that with full ones; `None` where either has fewer.
+    /// Returns the time of an impact in small rotations over that in full ones; `None` where either has fewer.
     #[must_use]
     pub fn time_ratio(&self, impact: usize) -> Option<f64> {
         Some(self.linear.impacts.get(impact)? / self.trigonometric.impacts.get(impact)?)
@@ -70,7 +80,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// The walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip, hinge at mid-height).
+/// Returns the walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip, hinge at mid-height).
 #[must_use]
 pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     let restitution = match mechanism {
@@ -88,35 +98,28 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     }
 }
 
-/// Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in steps of `step` \[s\].
+/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in steps of `step`
+/// \[s\].
 ///
 /// # Errors
-/// [`AccuracyError`].
+/// [`AccuracyError::Run`] if a run fails.
 pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Comparison, AccuracyError> {
     compare(&figure_2_wall(mechanism), 0.9, duration, step)
 }
 
-/// Releases a wall at rest from the fraction `start` of its unstable equilibrium, rigid and with restitution whatever its
-/// force law and damping, and follows it over `duration` in steps of `step` \[s\] both ways.
+/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it both ways over `duration`
+/// in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its force law and damping.
 ///
 /// # Errors
-/// [`AccuracyError`], if the parameters make no such wall.
+/// [`AccuracyError`] if the parameters make no such wall or a run fails.
 pub fn compare(
     parameters: &Parameters,
     start: f64,
     duration: f64,
     step: f64,
 ) -> Result<Comparison, AccuracyError> {
-    let free = |kinematics| {
-        let release = Release::new(parameters, kinematics)?;
-        let failed = |source| AccuracyError::Run { name: format!("{} rotations", kinematics.name()), source };
-        release.run(start, duration, step).map_err(failed)
-    };
-    Ok(Comparison {
-        step,
-        linear: free(Kinematics::Linear)?,
-        trigonometric: free(Kinematics::Trigonometric)?,
-    })
+    let [linear, trigonometric] = both(parameters, |release| release.run(start, duration, step))?;
+    Ok(Comparison { step, linear, trigonometric })
 }
 
 /// Periods of free rocking from one rotation.
@@ -135,33 +138,28 @@ pub struct Period {
 }
 
 impl Period {
-    /// Period of Eq. (1) over that of full rotations \[-\].
+    /// Returns the period of Eq. (1) over that of full rotations \[-\].
     #[must_use]
     pub fn ratio(&self) -> f64 {
         self.linear / self.trigonometric
     }
 
-    /// Period of Eq. (1) over Eq. (5), √cos α \[-\]: Figure 3.
+    /// Returns the period of Eq. (1) over that of Eq. (5), which is √cos α \[-\]: Figure 3.
     #[must_use]
     pub fn over_housner(&self) -> Option<f64> {
         self.housner.map(|housner| self.linear / housner)
     }
 }
 
-/// Four times the time to the first impact of a wall released at rest from the fraction `start` of its unstable equilibrium.
+/// Computes four times the time to the first impact of a wall released at rest from the fraction `start` of its unstable
+/// equilibrium.
 ///
 /// # Errors
-/// [`AccuracyError`], if the parameters make no rigid wall.
+/// [`AccuracyError`] if the parameters make no rigid wall or a run fails.
 pub fn period(parameters: &Parameters, start: f64) -> Result<Period, AccuracyError> {
-    let quarter = |kinematics: Kinematics| {
-        let release = Release::new(parameters, kinematics)?;
-        let failed = |source| AccuracyError::Run { name: format!("{} rotations", kinematics.name()), source };
-        let first = release.first_impact(start).map_err(failed)?;
-        Ok::<_, AccuracyError>((first, release))
-    };
-    let (linear, release) = quarter(Kinematics::Linear)?;
-    let (trigonometric, _) = quarter(Kinematics::Trigonometric)?;
-    let body = release.motion.wall().body();
+    let [linear, trigonometric] = both(parameters, |release| release.first_impact(start))?;
+    let wall = Wall::new(&rigid(parameters, Kinematics::Linear))?;
+    let body = wall.body();
     let plain = body.mechanism == Mechanism::Parapet && body.overburden == 0.0;
     let housner = plain.then(|| {
         // R = h/(2 cos α), p = √(3g/(4R))
@@ -169,20 +167,15 @@ pub fn period(parameters: &Parameters, start: f64) -> Result<Period, AccuracyErr
         let frequency = (0.75 * parameters.gravity / radius).sqrt();
         equivalence::housner_period(frequency, start)
     });
-    Ok(Period {
-        slenderness: body.slenderness,
-        start,
-        linear: 4.0 * linear,
-        trigonometric: 4.0 * trigonometric,
-        housner,
-    })
+    let (linear, trigonometric) = (4.0 * linear, 4.0 * trigonometric);
+    Ok(Period { slenderness: body.slenderness, start, linear, trigonometric, housner })
 }
 
-/// Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its hinge at mid-height.
-/// Ratios of periods depend on nothing else but the hinge ratio and the start.
+/// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its hinge at
+/// mid-height. Ratios of periods depend only on the slenderness, the hinge ratio and the start.
 ///
 /// # Errors
-/// [`AccuracyError`], if a slenderness makes no wall.
+/// [`AccuracyError`] if a slenderness makes no wall or a run fails.
 pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, AccuracyError> {
     let wall = figure_2_wall(mechanism);
     let lower = match mechanism {
@@ -194,31 +187,44 @@ pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result
     slenderness.iter().map(at).collect()
 }
 
+/// Returns the rigid wall that is released.
+fn rigid(parameters: &Parameters, kinematics: Kinematics) -> Parameters {
+    Parameters {
+        kinematics,
+        force_law: ForceLaw::RigidLinear,
+        multilinear: None,
+        a3: 1.0,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        // both sides are alike, so that a quarter of the motion gives the period
+        eccentricity_mode: EccentricityMode::FollowsPivot,
+        solver: Solver::Automatic,
+        u_start: 0.0,
+        u_dot_start: 0.0,
+        ..parameters.clone()
+    }
+}
+
+/// Runs a wall in small and in full rotations.
+fn both<T>(
+    parameters: &Parameters,
+    run: impl Fn(&Release) -> Result<T, SolverError>,
+) -> Result<[T; 2], AccuracyError> {
+    let one = |kinematics: Kinematics| {
+        let failed = |source| AccuracyError::Run { name: format!("{} rotations", kinematics.name()), source };
+        let motion = Motion::of(&rigid(parameters, kinematics), TOLERANCE)?;
+        run(&Release { motion }).map_err(failed)
+    };
+    Ok([one(Kinematics::Linear)?, one(Kinematics::Trigonometric)?])
+}
+
 /// A rigid wall to release.
 struct Release {
     motion: Motion,
 }
 
 impl Release {
-    fn new(parameters: &Parameters, kinematics: Kinematics) -> Result<Self, AccuracyError> {
-        let rigid = Parameters {
-            kinematics,
-            force_law: ForceLaw::RigidLinear,
-            multilinear: None,
-            a3: 1.0,
-            damping_model: DampingModel::None,
-            impact: Impact::Restitution,
-            // both sides alike, so that one period tells all
-            eccentricity_mode: EccentricityMode::FollowsPivot,
-            solver: Solver::Automatic,
-            u_start: 0.0,
-            u_dot_start: 0.0,
-            ..parameters.clone()
-        };
-        Ok(Self { motion: Motion::of(&rigid, TOLERANCE)? })
-    }
-
-    /// The displacement at a fraction of the unstable equilibrium \[m\].
+    /// Returns the displacement at a fraction of the unstable equilibrium \[m\].
     fn displacement(&self, fraction: f64) -> f64 {
         let wall = self.motion.wall();
         let u_ins = wall.body().instability.positive;
@@ -236,14 +242,12 @@ impl Release {
         self.motion.start(self.displacement(start), 0.0, Support::default())
     }
 
-    /// Moves `state` on; the number of impacts.
+    /// Advances `state` by `duration` \[s\]; returns the number of impacts.
     fn advance(&self, state: &mut State, duration: f64) -> Result<u64, SolverError> {
-        let segment = Segment { duration, from: Support::default(), to: Support::default() };
-        let report = self.motion.advance(state, &segment, false, &mut Memo::default())?;
-        Ok(report.work.impacts)
+        Ok(advance(&self.motion, state, duration, &mut Memo::default())?.work.impacts)
     }
 
-    /// Time to the first impact after a state, which lies within `longest` \[s\].
+    /// Returns the time from `state` to the first impact, which comes within `longest` \[s\].
     fn time_to_impact(&self, state: State, longest: f64) -> Result<f64, SolverError> {
         let (mut low, mut high) = (0.0, longest);
         for _ in 0..BISECTIONS {
@@ -261,7 +265,7 @@ impl Release {
     }
 
     fn first_impact(&self, start: f64) -> Result<f64, SolverError> {
-        // small rotations come within a quarter of it, however slow they are near the equilibrium
+        // the time of small rotations is a quarter of it, however slow they are near the equilibrium
         let rate = self.motion.wall().rocking_rate();
         let longest = 4.0 * (1.0 / (1.0 - start)).acosh() / rate;
         self.time_to_impact(self.released(start), longest)
@@ -278,7 +282,7 @@ impl Release {
             if self.advance(&mut state, step)? > 0 {
                 motion.impacts.push(time + self.time_to_impact(before, step)?);
                 motion.amplitudes.push(self.fraction(before.peaks.largest()).abs());
-                // the turning points of the next half cycle are its own
+                // the next half cycle has its own peaks
                 state.peaks = self.motion.start(state.displacement, 0.0, Support::default()).peaks;
             }
             motion.history.push(self.fraction(state.displacement));

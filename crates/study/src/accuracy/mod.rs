@@ -1,33 +1,45 @@
 //! Error against run time of every solver on a set of problems.
 //!
-//! Errors are taken at the samples of the record, over `u_ins`, while the wall stands. The reference is the exact solver where
-//! it is exact, else the adaptive one at its tightest; the reference itself is measured against the other of the two.
+//! Errors are taken at the samples of the record, over `u_ins`, until either wall overturns. The reference is the exact
+//! solver where there is a closed form, otherwise the adaptive solver at its tightest tolerance. The reference itself
+//! is measured against the other of the two.
+//!
+//! ```
+//! use study::accuracy::{Problem, Setting, measure_at};
+//!
+//! let scene = rocking_wall::scene::Scene { stop_time: 2.0, ..Default::default() };
+//! let problem = Problem::from_scene(&scene)?;
+//! let result = measure_at(&problem, &[Setting::Newmark(1), Setting::Newmark(10)], 0.0)?;
+//! assert!(result.measurements[1].error_max < result.measurements[0].error_max);
+//! # Ok::<(), study::accuracy::AccuracyError>(())
+//! ```
 
+mod error;
 pub mod linearisation;
 mod problem;
 
 use std::time::Instant;
 
+pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
-use ground_motion::GroundMotionError;
 use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
-use rocking_wall::wall::{ParameterError, Wall};
+use rocking_wall::wall::Wall;
 
-/// A solver and what sets its accuracy.
+/// A solver and the setting of its accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
     /// Exact, each sample of the record in so many steps.
     Exact(u32),
-    /// Adaptive, with the largest error of u/`u_ins` to aim at.
+    /// Adaptive, with the tolerance on u/`u_ins`.
     Adaptive(f64),
     /// Newmark, each sample of the record in so many steps.
     Newmark(u32),
 }
 
 impl Setting {
-    /// Name of the solver, as the parameter `solver` spells it.
+    /// Returns the name of the solver, as the parameter `solver` spells it.
     #[must_use]
     pub fn solver(self) -> &'static str {
         match self {
@@ -37,9 +49,9 @@ impl Setting {
         }
     }
 
-    /// Step or tolerance in words, for a record of `step` \[s\].
+    /// Describes the step or tolerance for a record of `step` \[s\].
     #[must_use]
-    pub fn words(self, step: f64) -> String {
+    pub fn describe(self, step: f64) -> String {
         match self {
             Self::Exact(parts) | Self::Newmark(parts) => format!("step {:.3e} s", step / f64::from(parts)),
             Self::Adaptive(tolerance) => format!("tolerance {tolerance:.0e}"),
@@ -51,77 +63,58 @@ impl Setting {
 const ADAPTIVE: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const NEWMARK_PARTS: [u32; 6] = [1, 3, 10, 30, 100, 300];
 const EXACT_PARTS: [u32; 3] = [1, 4, 16];
-/// The adaptive solver at its tightest.
+/// Tightest tolerance of the adaptive solver.
 const TIGHTEST: f64 = 1e-13;
-/// Relative change of the motion that shows how much the wall amplifies.
+/// Relative change of the motion that measures the amplification.
 const PROBE: f64 = 1e-8;
 
-/// What one setting costs and how far it is off.
+/// Run time and error of one setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
-    /// What was measured.
+    /// Setting.
     pub setting: Setting,
-    /// Least run time of several runs after a warm-up \[s\].
+    /// Shortest run time of several runs after a warm-up \[s\].
     pub seconds: f64,
-    /// Largest |Δu|/`u_ins`.
+    /// Largest |Δu|/`u_ins` \[-\].
     pub error_max: f64,
-    /// Root mean square of |Δu|/`u_ins`.
+    /// Root mean square of |Δu|/`u_ins` \[-\].
     pub error_rms: f64,
-    /// Relative error of the largest |u|, where neither run overturned.
+    /// Relative error of the largest |u|, where neither run overturned \[-\].
     pub error_peak: Option<f64>,
-    /// Error of the time of overturning \[s\], where both overturn; infinite where only one of the two does.
+    /// Error of the time of overturning \[s\]; infinite where only one run overturned, `None` where neither did.
     pub error_overturning: Option<f64>,
     /// Pieces of motion, corners and impacts. No solver here rejects a step.
     pub work: Work,
 }
 
-/// All measurements of one problem.
+/// Work-precision set: all measurements of one problem.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Study {
+pub struct WorkPrecision {
     /// Name of the problem.
     pub name: String,
     /// Length of a record step \[s\].
     pub step: f64,
-    /// Largest |u|/`u_ins` of the reference.
+    /// Largest |u|/`u_ins` of the reference \[-\].
     pub peak: f64,
     /// Time of overturning of the reference \[s\].
     pub overturning: Option<f64>,
-    /// How many times a relative change of the motion comes back in u/`u_ins`.
+    /// Change of u/`u_ins` over the relative change of the motion that causes it \[-\].
     pub amplification: f64,
-    /// The reference is the exact solver.
+    /// Whether the reference is the exact solver.
     pub exact: bool,
-    /// One for each setting; that of the reference tells how far the two best solvers are apart.
+    /// A measurement for each setting. That of the reference tells how far the two best solvers differ.
     pub measurements: Vec<Measurement>,
 }
 
-impl Study {
-    /// What rounding alone may do, 100 ε times the amplification \[-\].
+impl WorkPrecision {
+    /// Returns the error that rounding alone may cause, 100 ε times the amplification \[-\].
     #[must_use]
     pub fn rounding(&self) -> f64 {
         100.0 * f64::EPSILON * self.amplification
     }
 }
 
-/// Why a problem could not be measured.
-#[derive(Debug, thiserror::Error)]
-pub enum AccuracyError {
-    /// The wall's parameters.
-    #[error(transparent)]
-    Parameters(#[from] ParameterError),
-    /// The motion.
-    #[error(transparent)]
-    Motion(#[from] GroundMotionError),
-    /// The run.
-    #[error("{name}: {source}")]
-    Run {
-        /// Name of the problem.
-        name: String,
-        /// What stopped it.
-        source: SolverError,
-    },
-}
-
-/// A history at the samples, and what became of the run.
+/// Displacements at the samples, NaN after overturning, and the result of the run.
 struct History {
     displacements: Vec<f64>,
     passage: Passage,
@@ -130,35 +123,37 @@ struct History {
 /// Measures a problem at every setting of the default set; each is timed for about `budget` \[s\].
 ///
 /// # Errors
-/// [`AccuracyError`].
-pub fn measure(problem: &Problem, budget: f64) -> Result<Study, AccuracyError> {
+/// [`AccuracyError`] if the parameters make no wall or a run fails.
+pub fn measure(problem: &Problem, budget: f64) -> Result<WorkPrecision, AccuracyError> {
     let wall = Wall::new(&problem.parameters)?;
-    let exact = wall.has_closed_form();
-    let settings: Vec<Setting> = std::iter::empty()
-        .chain(EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| exact))
-        .chain(ADAPTIVE.map(Setting::Adaptive))
-        // full rotations move by the adaptive solver only
-        .chain(NEWMARK_PARTS.map(Setting::Newmark).into_iter().filter(|_| wall.rotations().is_none()))
-        .collect();
+    let exact = EXACT_PARTS.map(Setting::Exact).into_iter().filter(|_| wall.has_closed_form());
+    // full rotations are followed by the adaptive solver only
+    let newmark = NEWMARK_PARTS.map(Setting::Newmark).into_iter().filter(|_| wall.rotations().is_none());
+    let settings: Vec<Setting> = exact.chain(ADAPTIVE.map(Setting::Adaptive)).chain(newmark).collect();
     measure_at(problem, &settings, budget)
 }
 
 /// Measures a problem at some settings.
 ///
 /// # Errors
-/// [`AccuracyError`].
+/// [`AccuracyError`] if the parameters make no wall or a run fails.
 ///
 /// # Panics
-/// If full rotations are to be measured at other settings than adaptive ones.
-pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Result<Study, AccuracyError> {
+/// If full rotations are measured at other settings than adaptive ones.
+pub fn measure_at(
+    problem: &Problem,
+    settings: &[Setting],
+    budget: f64,
+) -> Result<WorkPrecision, AccuracyError> {
     let wall = Wall::new(&problem.parameters)?;
     let exact = wall.has_closed_form();
     let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
     let runner = Runner { problem, wall };
-    let best = [Setting::Exact(1), Setting::Adaptive(TIGHTEST)];
-    let reference = runner.history(if exact { best[0] } else { best[1] }, 1.0).map_err(failed)?;
-    let other = if exact { Some(runner.history(best[1], 1.0).map_err(failed)?) } else { None };
-    let probed = runner.history(if exact { best[0] } else { best[1] }, 1.0 + PROBE).map_err(failed)?;
+    let tightest = Setting::Adaptive(TIGHTEST);
+    let best = if exact { Setting::Exact(1) } else { tightest };
+    let reference = runner.history(best, 1.0).map_err(failed)?;
+    let other = if exact { Some(runner.history(tightest, 1.0).map_err(failed)?) } else { None };
+    let probed = runner.history(best, 1.0 + PROBE).map_err(failed)?;
     let scale = runner.wall.displacement_scale();
     let amplification = 1.0 + largest_difference(&reference, &probed, scale) / PROBE;
     let mut measurements = Vec::with_capacity(settings.len());
@@ -171,7 +166,7 @@ pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Resul
         let seconds = runner.time(setting, budget).map_err(failed)?;
         measurements.push(compare(setting, seconds, &history, against, scale));
     }
-    Ok(Study {
+    Ok(WorkPrecision {
         name: problem.name.clone(),
         step: problem.step,
         peak: reference.passage.state.peaks.largest() / scale,
@@ -182,15 +177,15 @@ pub fn measure_at(problem: &Problem, settings: &[Setting], budget: f64) -> Resul
     })
 }
 
-/// Samples before either run overturned.
-fn standing(a: &History, b: &History) -> usize {
+/// Counts the samples before either run overturned.
+fn compared(a: &History, b: &History) -> usize {
     let count = a.displacements.len();
     let until = |history: &History| history.displacements.iter().position(|u| u.is_nan()).unwrap_or(count);
     until(a).min(until(b))
 }
 
 fn largest_difference(a: &History, b: &History, scale: f64) -> f64 {
-    let pairs = a.displacements.iter().zip(&b.displacements).take(standing(a, b));
+    let pairs = a.displacements.iter().zip(&b.displacements).take(compared(a, b));
     pairs.map(|(a, b)| (a - b).abs() / scale).fold(0.0, f64::max)
 }
 
@@ -201,7 +196,7 @@ fn compare(
     reference: &History,
     scale: f64,
 ) -> Measurement {
-    let count = standing(history, reference);
+    let count = compared(history, reference);
     let pairs = || history.displacements.iter().zip(&reference.displacements).take(count);
     let squares: f64 = pairs().map(|(a, b)| ((a - b) / scale).powi(2)).sum();
     let peak = reference.passage.state.peaks.largest();
@@ -222,13 +217,14 @@ fn compare(
     }
 }
 
+/// Runs one problem at any setting.
 struct Runner<'a> {
     problem: &'a Problem,
     wall: Wall,
 }
 
 impl Runner<'_> {
-    /// The motion of a setting, and the parts of each sample it steps through.
+    /// Returns the motion of a setting, and the number of record steps that it makes of one.
     fn motion(&self, setting: Setting) -> (Motion, u32) {
         let (method, parts) = match setting {
             Setting::Exact(parts) => (Method::Exact, parts),
@@ -274,7 +270,7 @@ impl Runner<'_> {
         solver.run(Start { state, factor }, &Samples(forcing), true, |index, u, _| observe(index, u))
     }
 
-    /// Least run time of at least three runs.
+    /// Returns the shortest run time of at least three runs \[s\].
     fn time(&self, setting: Setting, budget: f64) -> Result<f64, SolverError> {
         let (motion, parts) = self.motion(setting);
         let forcing = refined(&self.problem.forcing, parts);
@@ -292,7 +288,7 @@ impl Runner<'_> {
     }
 }
 
-/// A broken line with each interval cut into `parts`.
+/// Cuts each interval of a piecewise linear motion into `parts`.
 fn refined(samples: &[f64], parts: u32) -> Vec<f64> {
     let mut refined = Vec::with_capacity(samples.len() * parts as usize);
     for ends in samples.windows(2) {

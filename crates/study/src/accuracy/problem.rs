@@ -1,20 +1,20 @@
-//! Problems to measure on.
+//! Problems on which solvers are measured.
 
 use ground_motion::{GroundMotion, GroundMotionError, SyntheticMotion};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
-use super::AccuracyError;
+use super::error::AccuracyError;
 
 /// A wall under a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// Name, for people.
+    /// Name in tables and messages.
     pub name: String,
-    /// The wall; its solver is ignored.
+    /// Parameters of the wall; its solver is ignored.
     pub parameters: Parameters,
-    /// Forcing p at the samples, linear between \[m/s²\].
+    /// Forcing p at the samples, linear between them \[m/s²\].
     pub forcing: Vec<f64>,
     /// Time between samples \[s\].
     pub step: f64,
@@ -24,10 +24,10 @@ pub struct Problem {
 const MOST_SAMPLES: f64 = 1e7;
 
 impl Problem {
-    /// The wall and the motion of a scene, sampled as its bottom record is; free vibration at the output step.
+    /// Takes the wall and the motion of a scene, sampled as its bottom record, or at the output step if it has none.
     ///
     /// # Errors
-    /// [`AccuracyError`] if the parameters do not make a wall.
+    /// [`AccuracyError::Parameters`] if the parameters make no wall.
     pub fn from_scene(scene: &Scene) -> Result<Self, AccuracyError> {
         let wall = Wall::new(&scene.parameters)?;
         let step = scene.excitation.as_ref().map_or(scene.output_step, |motion| motion.bottom().step());
@@ -56,15 +56,16 @@ impl Problem {
     }
 }
 
-/// A parapet of Table 5 of the paper.
-fn table_5(height: f64, thickness: f64, a1: f64, damping_model: DampingModel) -> Parameters {
+/// A parapet with the other parameters at their defaults.
+fn parapet([height, thickness, a1]: [f64; 3], damping_model: DampingModel) -> Parameters {
     Parameters { height, thickness, a1, damping_model, ..Parameters::default() }
 }
 
-/// The problems measured by default; `record` replaces the synthetic motion under the walls of Table 5, whose first 30 s count.
+/// Returns the problems measured by default. The first 30 s of `record` replace the synthetic motion under the walls of
+/// Table 5.
 ///
 /// # Errors
-/// [`AccuracyError`], if the record cannot be used.
+/// [`AccuracyError::Motion`] if the record cannot be cut.
 pub fn defaults(record: Option<&GroundMotion>) -> Result<Vec<Problem>, AccuracyError> {
     use DampingModel::{ConstantCoefficient as Cdc, ConstantRatio as Cdr, StiffnessProportional as Sdr};
     let synthetic = SyntheticMotion::default().motion()?;
@@ -73,42 +74,25 @@ pub fn defaults(record: Option<&GroundMotion>) -> Result<Vec<Problem>, AccuracyE
         Some(record) => record.trimmed(0.0, record.duration().min(30.0))?,
         None => synthetic.clone(),
     };
-    let stiff = |a1: f64, damping_model| Parameters {
-        height: 3.0,
-        thickness: 0.3,
-        a1,
-        damping_model,
-        ..Parameters::default()
-    };
-    let strip = Parameters {
-        mechanism: Mechanism::VerticalSpanning,
-        height: 5.0,
-        thickness: 0.3,
-        a1: 0.02,
-        damping_model: Sdr,
-        ..Parameters::default()
-    };
-    let rigid = Parameters {
-        height: 3.0,
-        thickness: 0.3,
-        force_law: ForceLaw::RigidLinear,
-        damping_model: DampingModel::None,
-        impact: Impact::Restitution,
-        ..Parameters::default()
-    };
-    let default = Parameters { damping_model: Cdc, ..Parameters::default() };
+    let stiff = |a1: f64, damping_model| parapet([3.0, 0.3, a1], damping_model);
+    let mechanism = Mechanism::VerticalSpanning;
+    let strip = Parameters { mechanism, ..parapet([5.0, 0.3, 0.02], Sdr) };
+    let default = Parameters::default();
+    let (force_law, impact) = (ForceLaw::RigidLinear, Impact::Restitution);
+    let rigid = Parameters { force_law, impact, ..stiff(default.a1, DampingModel::None) };
+    let default = Parameters { damping_model: Cdc, ..default };
     let shaken = Problem::shaken;
     Ok(vec![
         shaken("mild: the default parapet, CDC", default.clone(), &synthetic, 0.4)?,
         shaken("stiff: a1 = 1e-3, CDC", stiff(1e-3, Cdc), &synthetic, 0.5)?,
         shaken("stiff: a1 = 1e-3, CDR", stiff(1e-3, Cdr), &synthetic, 0.5)?,
         shaken("very stiff: a1 = 1e-4, CDC", stiff(1e-4, Cdc), &synthetic, 0.5)?,
-        shaken("Table 5, wall 6, CDC", table_5(6.0, 0.6, 0.018, Cdc), &record, 0.8)?,
-        shaken("Table 5, wall 6, CDR", table_5(6.0, 0.6, 0.018, Cdr), &record, 0.8)?,
-        shaken("Table 5, wall 5, CDC", table_5(3.0, 0.6, 0.0024, Cdc), &record, 1.2)?,
-        shaken("Table 5, wall 5, CDR", table_5(3.0, 0.6, 0.0024, Cdr), &record, 1.2)?,
-        shaken("Table 5, wall 2, CDC", table_5(1.5, 0.3, 0.0012, Cdc), &record, 0.8)?,
-        shaken("Table 5, wall 2, CDR", table_5(1.5, 0.3, 0.0012, Cdr), &record, 0.8)?,
+        shaken("Table 5, wall 6, CDC", parapet([6.0, 0.6, 0.018], Cdc), &record, 0.8)?,
+        shaken("Table 5, wall 6, CDR", parapet([6.0, 0.6, 0.018], Cdr), &record, 0.8)?,
+        shaken("Table 5, wall 5, CDC", parapet([3.0, 0.6, 0.0024], Cdc), &record, 1.2)?,
+        shaken("Table 5, wall 5, CDR", parapet([3.0, 0.6, 0.0024], Cdr), &record, 1.2)?,
+        shaken("Table 5, wall 2, CDC", parapet([1.5, 0.3, 0.0012], Cdc), &record, 0.8)?,
+        shaken("Table 5, wall 2, CDR", parapet([1.5, 0.3, 0.0012], Cdr), &record, 0.8)?,
         shaken("strip: Table 5, wall 7, SDR", strip, &synthetic, 1.0)?,
         shaken("restitution: rigid-linear", rigid, &synthetic, 0.5)?,
         shaken("high frequencies: 12 to 40 Hz, CDC", stiff(3e-3, Cdc), &high_frequencies()?, 4.0)?,

@@ -1,53 +1,44 @@
-//! A free vibration, and how far two of them are apart.
+//! Decay of a free vibration.
 
+use crate::free_motion::advance;
 use rocking_wall::solver::record::{RecordSolver, Start, Still};
-use rocking_wall::solver::{Memo, Motion, Segment, SolverError, State};
-use rocking_wall::wall::{ParameterError, Parameters, Support};
+use rocking_wall::solver::{Memo, Motion, SolverError, State};
+use rocking_wall::wall::{ParameterError, Parameters};
 
-/// The decay has ended when |u| stays below this part of `u_ins`.
+/// Part of `u_ins` below which |u| stays once the decay has ended.
 pub(super) const DECAYED: f64 = 1e-3;
 /// Samples beyond the end of the decay, as a part of those before.
 const MARGIN: f64 = 0.1;
 /// Most samples of a decay.
 pub(super) const MOST_SAMPLES: usize = 200_000;
 
-/// A free vibration.
+/// A free vibration at its start.
 pub(super) struct Decay {
     motion: Motion,
     state: State,
-    memo: Memo,
 }
 
 impl Decay {
     pub(super) fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let motion = Motion::of(parameters, parameters.tolerance)?;
         let state = motion.start_under(parameters.u_start, parameters.u_dot_start, 0.0);
-        Ok(Self { motion, state, memo: Memo::default() })
+        Ok(Self { motion, state })
     }
 
-    /// One step on: u and u̇ there.
-    fn advance(&mut self, step: f64) -> Result<[f64; 2], SolverError> {
-        let still = Support::default();
-        let segment = Segment { duration: step, from: still, to: still };
-        self.motion.advance(&mut self.state, &segment, false, &mut self.memo)?;
-        Ok([self.state.displacement, self.state.velocity])
-    }
-
-    /// |u|/`u_ins` at each step until the motion has decayed, and a margin more; `None` if that takes too many.
+    /// Returns |u|/`u_ins` at each step until the motion has decayed, and a margin more; `None` if that takes too
+    /// many steps.
     pub(super) fn samples(mut self, step: f64) -> Result<Option<Vec<f64>>, SolverError> {
-        let u_ins = self.motion.wall().body().instability;
-        // Between impacts the energy stays, and at impacts it falls: below this one |u| cannot come back.
-        let decayed = self
-            .motion
-            .wall()
-            .energy(DECAYED * u_ins.positive, 0.0)
-            .min(self.motion.wall().energy(-DECAYED * u_ins.negative, 0.0));
-        let mut samples = Vec::new();
-        let mut count = None;
+        let wall = self.motion.wall();
+        let u_ins = wall.body().instability;
+        // the energy is constant between impacts and falls at each: below this one |u| stays below `DECAYED`
+        let [positive, negative] = [u_ins.positive, -u_ins.negative].map(|u| wall.energy(DECAYED * u, 0.0));
+        let decayed = positive.min(negative);
+        let (mut samples, mut count, mut memo) = (Vec::new(), None, Memo::default());
         while samples.len() < count.unwrap_or(MOST_SAMPLES) {
-            let state = self.advance(step)?;
-            samples.push(state[0].abs() / u_ins.of(state[0]));
-            if count.is_none() && self.motion.wall().energy(state[0], state[1]) < decayed {
+            advance(&self.motion, &mut self.state, step, &mut memo)?;
+            let (u, velocity) = (self.state.displacement, self.state.velocity);
+            samples.push(u.abs() / u_ins.of(u));
+            if count.is_none() && wall.energy(u, velocity) < decayed {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2e5")]
                 let margin = (MARGIN * samples.len() as f64).ceil() as usize;
                 count = Some(samples.len() + margin);
@@ -56,8 +47,8 @@ impl Decay {
         Ok(count.map(|_| samples))
     }
 
-    /// Err of Eq. (18) against the samples of a reference.
-    pub(super) fn difference(&self, reference: &[f64], step: f64) -> Result<f64, SolverError> {
+    /// Returns Err of Eq. (18) against the samples of a reference.
+    pub(super) fn error(&self, reference: &[f64], step: f64) -> Result<f64, SolverError> {
         let u_ins = self.motion.wall().body().instability;
         let solver = RecordSolver::new(&self.motion, step);
         let mut sum = 0.0;

@@ -1,72 +1,94 @@
-//! The damping that matches one free vibration.
+//! Damping that matches one free vibration.
 
-use rocking_wall::variables::{DampingModel, DampingSource, Impact, RestitutionSource, Solver};
+use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, RestitutionSource, Solver};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::decay::Decay;
+use super::error::CalibrationError;
 use super::minimum::minimum;
-use super::{CalibrationError, Fit, own_a1};
 
-/// The scan for the basin of the least: so many octaves to each side of the prediction of Eqs. (20)–(23), so many steps in each.
+/// Octaves that the scan for the least error goes to each side of the damping that Eqs. (20)–(23) predict.
 const SCAN_OCTAVES: f64 = 1.25;
+/// Steps of the scan in each octave.
 const SCAN_STEPS: f64 = 8.0;
-/// Below this −ln e the steps shrink in proportion: the more cycles a decay has, the closer together lie the dampings with
-/// which the two motions get out of step, each with a least of its own.
+/// Value of −ln e below which the steps shrink in proportion. A decay of more cycles has more local minima, which lie
+/// closer together: each is a damping with which the two motions stay in step for another while.
 const SCAN_FEW_CYCLES: f64 = 0.06;
-/// How far they may shrink.
+/// Smallest factor by which the steps shrink.
 const SCAN_FINEST: f64 = 1.0 / 32.0;
-/// Most further steps when the least of a scan lies at its end.
+/// Most further steps when the least error of a scan lies at its end.
 const MOST_FURTHER: u32 = 400;
-/// Relative tolerance of the minimiser. Ripples of Eq. (18), whose samples meet the decay at different phases, move the least by
-/// more: 1e-4 as a rule, 5e-3 at times, and 2e-2 near e = 1.
+/// Relative tolerance of the minimiser. The samples of Eq. (18) meet the decay at different phases, and the ripples
+/// that follow from it move the minimum by more: 1e-4 as a rule, 5e-3 at times, and 2e-2 near e = 1.
 const TOLERANCE: f64 = 1e-5;
 
-/// One free vibration to be matched.
+/// Damping that matches one decay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// End of the elastic branch a₁ \[-\]; 0 for the rigid-linear law.
+    pub a1: f64,
+    /// Initial displacement u₀/`u_ins` \[-\].
+    pub start: f64,
+    /// Coefficient of restitution e \[-\].
+    pub restitution: f64,
+    /// ξ, ξ₁ or c̄ \[-\].
+    pub damping: f64,
+    /// Err of Eq. (18) with it \[-\].
+    pub error: f64,
+    /// Number of samples compared.
+    pub samples: usize,
+}
+
+/// One free vibration to match.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Case {
+pub(super) struct FreeVibration {
     pub(super) a1: f64,
     pub(super) start: f64,
     pub(super) restitution: f64,
 }
 
-impl Case {
+/// Returns a₁ of a law that has only its own: a multilinear law's first corner, 0 for the rigid-linear law.
+pub(super) fn own_a1(parameters: &Parameters) -> Option<f64> {
+    match &parameters.multilinear {
+        Some(points) => points.first().map(|point| point[0]),
+        None => (parameters.force_law == ForceLaw::RigidLinear).then_some(0.0),
+    }
+}
+
+impl FreeVibration {
+    /// Fits the damping of a model, comparing samples `step` \[s\] apart.
     pub(super) fn fit(
         &self,
         parameters: &Parameters,
         model: DampingModel,
         step: f64,
     ) -> Result<Fit, CalibrationError> {
-        let failed = |source| {
-            let Self { a1, start, restitution } = *self;
-            CalibrationError::Run { a1, start, restitution, source }
-        };
-        let rocking = self.rocking(parameters)?;
         let Self { a1, start, restitution } = *self;
+        let failed = |source| CalibrationError::Run { a1, start, restitution, source };
+        let rocking = self.rocking(parameters)?;
         let reference = Decay::new(&rocking)?
             .samples(step)
             .map_err(failed)?
             .ok_or(CalibrationError::NoDecay { restitution, start, step })?;
-        let damped = |damping: f64| Parameters {
-            damping_model: model,
-            damping_source: DampingSource::Given,
-            xi: damping,
-            c_bar: damping,
-            impact: Impact::None,
-            ..rocking.clone()
-        };
         let error = |damping: f64| -> Result<f64, CalibrationError> {
-            let decay = Decay::new(&damped(damping))?;
-            decay.difference(&reference, step).map_err(failed)
+            let damped = Parameters {
+                damping_model: model,
+                damping_source: DampingSource::Given,
+                xi: damping,
+                c_bar: damping,
+                impact: Impact::None,
+                ..rocking.clone()
+            };
+            Decay::new(&damped)?.error(&reference, step).map_err(failed)
         };
-        let expected = equivalence::predicted(model, self.a1, self.restitution);
-        let bracket = self.bracket(expected, error)?;
+        let bracket = self.bracket(equivalence::predicted(model, a1, restitution), error)?;
         let (damping, error) = minimum(error, bracket, TOLERANCE)?;
         Ok(Fit { a1, start, restitution, damping, error, samples: reference.len() })
     }
 
-    /// The wall with restitution and no damping.
+    /// Returns the wall with restitution and no damping.
     fn rocking(&self, parameters: &Parameters) -> Result<Parameters, CalibrationError> {
-        let mut rocking = Parameters {
+        let rocking = Parameters {
             damping_model: DampingModel::None,
             impact: Impact::Restitution,
             restitution_source: RestitutionSource::Given,
@@ -74,16 +96,14 @@ impl Case {
             u_start: 0.0,
             u_dot_start: 0.0,
             solver: Solver::Automatic,
+            a1: if own_a1(parameters).is_none() { self.a1 } else { parameters.a1 },
             ..parameters.clone()
         };
-        if own_a1(parameters).is_none() {
-            rocking.a1 = self.a1;
-        }
-        rocking.u_start = self.start * Wall::new(&rocking)?.body().instability.positive;
-        Ok(rocking)
+        let u_start = self.start * Wall::new(&rocking)?.body().instability.positive;
+        Ok(Parameters { u_start, ..rocking })
     }
 
-    /// The damping on both sides of the least error of a scan around `expected`.
+    /// Scans around the damping `expected` and returns the dampings on both sides of the least error.
     fn bracket(
         &self,
         expected: f64,

@@ -1,9 +1,9 @@
-//! The least of a scalar function.
+//! Minimum of a scalar function.
 
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentOpt;
 
-use super::CalibrationError;
+use super::error::CalibrationError;
 
 const MOST_ITERATIONS: u64 = 100;
 
@@ -19,18 +19,15 @@ impl<F: Fn(f64) -> Result<f64, CalibrationError>> CostFunction for Cost<F> {
     }
 }
 
-/// Where a function is least on an interval, and its value there, by Brent's method.
+/// Finds the minimum of a function on an interval by Brent's method; returns its place and its value.
 pub(super) fn minimum(
     function: impl Fn(f64) -> Result<f64, CalibrationError>,
     [low, high]: [f64; 2],
     tolerance: f64,
 ) -> Result<(f64, f64), CalibrationError> {
     let solver = BrentOpt::new(low, high).set_tolerance(tolerance, tolerance * (high - low));
-    let run = Executor::new(Cost(function), solver)
-        .configure(|state| state.max_iters(MOST_ITERATIONS))
-        .timer(false)
-        .run();
-    match run {
+    let executor = Executor::new(Cost(function), solver).timer(false);
+    match executor.configure(|state| state.max_iters(MOST_ITERATIONS)).run() {
         Ok(result) => Ok((result.state.best_param.unwrap_or(f64::NAN), result.state.best_cost)),
         Err(error) => Err(error
             .downcast::<CalibrationError>()

@@ -1,14 +1,24 @@
-//! The equivalence between restitution and viscous damping, section 5 of the paper, for any wall.
+//! Equivalence of restitution and viscous damping, section 5 of the paper, for any wall.
 //!
-//! A wall rocks freely from u₀ and loses energy at impacts; the same wall, on the same force law, loses it to a damping ratio
-//! ξ instead. The ratio sought makes the least of
+//! A wall rocks freely from u₀ and loses energy at impacts. The same wall, on the same force law, loses it by a
+//! damping ratio ξ instead. The ratio sought minimises
 //!
 //! ```text
 //! Err = Σ (|u_CR|/u_ins − |u_EVD|/u_ins)²                                                Eq. (18)
 //! ```
 //!
 //! over the samples of the decay. Over e the ratios follow ξ = −x ln e (Eq. 19), and over a₁ the coefficients follow
-//! x = q a₁^r (Eqs. 20–22); for a free-standing block ξ stands for c̄ (Eq. 23).
+//! x = q a₁^r (Eqs. 20–22). For a free-standing block ξ stands for c̄ (Eq. 23).
+//!
+//! ```
+//! use rocking_wall::{variables::DampingModel, wall::Parameters};
+//! use study::{calibration::{Grid, calibrate}, parallel::threads};
+//!
+//! let grid = Grid { restitution: vec![0.85], a1: vec![0.03], ..Grid::default() };
+//! let found = calibrate(&Parameters::default(), DampingModel::ConstantRatio, &grid, threads(None))?;
+//! assert!((found.fits[0].damping - 0.04).abs() < 0.01);
+//! # Ok::<(), study::calibration::CalibrationError>(())
+//! ```
 
 mod decay;
 mod error;
@@ -18,24 +28,25 @@ mod minimum;
 use std::num::NonZeroUsize;
 
 use crate::parallel;
-use rocking_wall::variables::{DampingModel, ForceLaw};
+use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::Parameters;
 
 pub use error::CalibrationError;
+pub use matching::Fit;
 
 use decay::DECAYED;
-use matching::Case;
+use matching::{FreeVibration, own_a1};
 use minimum::minimum;
 
-/// Time between the samples that Eq. (18) compares \[s\].
+/// Default time between the samples that Eq. (18) compares \[s\].
 pub const STEP: f64 = 0.01;
 
-/// The values over which a wall is calibrated.
+/// Values over which a wall is calibrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Coefficients of restitution e \[-\].
     pub restitution: Vec<f64>,
-    /// Ends of the elastic branch a₁ \[-\]; not used for a multilinear or rigid-linear law, which have their own.
+    /// Ends of the elastic branch a₁ \[-\]; unused for a multilinear or rigid-linear law, which has its own.
     pub a1: Vec<f64>,
     /// Initial displacements u₀/`u_ins` \[-\].
     pub start: Vec<f64>,
@@ -55,23 +66,6 @@ impl Default for Grid {
     }
 }
 
-/// The damping that matches one decay.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fit {
-    /// End of the elastic branch a₁ \[-\]; 0 for the rigid-linear law.
-    pub a1: f64,
-    /// Initial displacement u₀/`u_ins` \[-\].
-    pub start: f64,
-    /// Coefficient of restitution e \[-\].
-    pub restitution: f64,
-    /// ξ, ξ₁ or c̄ \[-\].
-    pub damping: f64,
-    /// Err of Eq. (18) there \[-\].
-    pub error: f64,
-    /// Samples compared.
-    pub samples: usize,
-}
-
 /// x of Eq. (19) at one a₁ and one initial displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coefficient {
@@ -83,7 +77,7 @@ pub struct Coefficient {
     pub x: f64,
 }
 
-/// x = q a₁^r.
+/// Power law x = q a₁^r.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
     /// q \[-\].
@@ -92,23 +86,23 @@ pub struct PowerLaw {
     pub r: f64,
 }
 
-/// What a calibration found for one damping model.
+/// Result of a calibration for one damping model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// The model.
+    /// Damping model.
     pub model: DampingModel,
     /// One fit for each a₁, u₀ and e, in this order.
     pub fits: Vec<Fit>,
     /// One coefficient for each a₁ and u₀.
     pub coefficients: Vec<Coefficient>,
-    /// One law for each u₀; none with fewer than two values of a₁.
+    /// u₀/`u_ins` and law of each u₀ that has at least two values of a₁.
     pub laws: Vec<(f64, PowerLaw)>,
 }
 
-/// Calibrates a damping model of a wall over a grid, on `threads` threads; the result does not depend on their number.
+/// Calibrates a damping model of a wall over a grid on `threads` threads. The result does not depend on their number.
 ///
 /// # Errors
-/// [`CalibrationError`].
+/// [`CalibrationError`] if the grid or the wall is invalid, a run fails, or a decay or a minimum is not found.
 pub fn calibrate(
     parameters: &Parameters,
     model: DampingModel,
@@ -124,11 +118,12 @@ pub fn calibrate(
     let mut cases = Vec::new();
     for &a1 in a1 {
         for &start in &grid.start {
-            cases.extend(grid.restitution.iter().map(|&restitution| Case { a1, start, restitution }));
+            let case = |&restitution| FreeVibration { a1, start, restitution };
+            cases.extend(grid.restitution.iter().map(case));
         }
     }
-    let fits =
-        parallel::map(cases.len(), threads.get(), |index| cases[index].fit(parameters, model, grid.step))?;
+    let fit = |index: usize| cases[index].fit(parameters, model, grid.step);
+    let fits = parallel::map(cases.len(), threads.get(), fit)?;
     let coefficients: Vec<Coefficient> = fits
         .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))
         .map(|fits| Coefficient { a1: fits[0].a1, start: fits[0].start, x: coefficient(fits) })
@@ -141,7 +136,7 @@ pub fn calibrate(
     Ok(Calibration { model, fits, coefficients, laws })
 }
 
-/// x of ξ = −x ln e through the origin, Eq. (19): Σ ξ (−ln e)/Σ (ln e)².
+/// Returns x of ξ = −x ln e, Eq. (19), by least squares through the origin: Σ ξ (−ln e)/Σ (ln e)².
 #[must_use]
 pub fn coefficient(fits: &[Fit]) -> f64 {
     let (products, squares) = fits.iter().fold((0.0, 0.0), |(products, squares), fit| {
@@ -152,8 +147,9 @@ pub fn coefficient(fits: &[Fit]) -> f64 {
 }
 
 impl PowerLaw {
-    /// Least squares of x itself, as in the paper's nonlinear regression: q is linear for any r, so that a scalar
-    /// minimiser finds r. `None` for fewer than two different a₁ or values that are not positive.
+    /// Fits points (a₁, x) by least squares of x itself, as the paper's nonlinear regression does. Since q is linear
+    /// for any r, a scalar minimiser finds r. Returns `None` for fewer than two different a₁, or for values that are
+    /// not positive.
     #[must_use]
     pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
         let positive = |&(a1, x): &(f64, f64)| a1 > 0.0 && x > 0.0 && a1.is_finite() && x.is_finite();
@@ -174,18 +170,10 @@ impl PowerLaw {
         Some(Self { q: factor(r), r })
     }
 
-    /// x at a₁.
+    /// Returns x at a₁.
     #[must_use]
     pub fn at(&self, a1: f64) -> f64 {
         self.q * a1.powf(self.r)
-    }
-}
-
-/// a₁ of a law that has only its own: a multilinear law's first corner, 0 for the rigid-linear one.
-fn own_a1(parameters: &Parameters) -> Option<f64> {
-    match &parameters.multilinear {
-        Some(points) => points.first().map(|point| point[0]),
-        None => (parameters.force_law == ForceLaw::RigidLinear).then_some(0.0),
     }
 }
 

@@ -70,33 +70,32 @@ pub(super) fn levels(table: &Spanned<LevelsTable>, place: &Place<'_>) -> Result<
         }
     };
     let given = [
-        ("first", spec.first.is_some()),
-        ("increase", spec.increase.is_some()),
-        ("step", spec.step.is_some()),
-        ("top", spec.top.is_some()),
-        ("resolution", spec.resolution.is_some()),
-        ("gap", spec.gap.is_some()),
-        ("values", spec.values.is_some()),
+        ("first", spec.first),
+        ("increase", spec.increase),
+        ("step", spec.step),
+        ("top", spec.top),
+        ("resolution", spec.resolution),
+        ("gap", spec.gap),
+        ("values", spec.values.as_ref().map(|_| 0.0)),
     ];
-    if let Some((name, _)) = given.iter().find(|(name, given)| *given && !keys.contains(name)) {
+    if let Some((name, _)) = given.iter().find(|(name, value)| value.is_some() && !keys.contains(name)) {
         let message = format!("{name} has no part in method = {method:?}, which takes {}", keys.join(", "));
         return Err(place.error(table.span(), message));
     }
-    let needed = |name: &str, value: Option<f64>| {
+    let needed = |name: &str| {
         let missing = || place.error(table.span(), format!("method = {method:?} needs {name}"));
+        let value = given.iter().find(|(given, _)| *given == name).and_then(|(_, value)| *value);
         value.map(|value| unit.to_si(value)).ok_or_else(missing)
     };
     match method {
         "hunt" => Ok(Levels::HuntAndFill {
-            first: needed("first", spec.first)?,
-            increase: needed("increase", spec.increase)?,
-            top: needed("top", spec.top)?,
+            first: needed("first")?,
+            increase: needed("increase")?,
+            top: needed("top")?,
             resolution: spec.resolution.unwrap_or(0.01),
             gap: spec.gap.unwrap_or(0.1),
         }),
-        "step" => {
-            Ok(Levels::ToOverturning { step: needed("step", spec.step)?, top: needed("top", spec.top)? })
-        }
+        "step" => Ok(Levels::ToOverturning { step: needed("step")?, top: needed("top")? }),
         _ => match (&spec.values, spec.step, spec.top) {
             (Some(values), None, None) => Ok(Levels::Grid(values.iter().map(|&x| unit.to_si(x)).collect())),
             (None, Some(step), Some(top)) => {

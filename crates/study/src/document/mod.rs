@@ -1,6 +1,19 @@
 //! Study files: walls, records, damping models, intensity and levels, as TOML.
 //!
-//! Parameters of walls stand in the same tables as in a scene. Files that a study names are opened by whoever runs it.
+//! Parameters of walls stand in the same tables as in a scene. The caller opens the files that a study names.
+//!
+//! ```
+//! use study::document::StudyFile;
+//!
+//! let text = r#"
+//! models = ["CR", "CDC"]
+//! levels = { method = "step", step = 0.1, top = 2 }
+//! records = { synthetic = { count = 3 } }
+//! walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
+//! "#;
+//! assert_eq!(StudyFile::parse("study.toml", text)?.models[1].name, "CDC");
+//! # Ok::<(), rocking_wall::scene::SceneError>(())
+//! ```
 
 mod levels;
 mod model;
@@ -14,7 +27,7 @@ use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
 use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
 use rocking_wall::wall::Parameters;
 
-use super::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model};
+use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::model;
@@ -24,10 +37,10 @@ const MOST_RECORDS: u64 = 10_000;
 /// Most resamples of the bootstrap.
 const MOST_RESAMPLES: u32 = 100_000;
 
-/// A study as its file states it, in SI units.
+/// Content of a study file, in SI units.
 #[derive(Clone, Debug)]
-pub struct Outline {
-    /// Title, for people.
+pub struct StudyFile {
+    /// Title.
     pub title: String,
     /// Walls in order.
     pub walls: Vec<WallEntry>,
@@ -41,49 +54,49 @@ pub struct Outline {
     pub levels: Levels,
     /// Free vibration after each record \[s\].
     pub tail: f64,
-    /// What is made of the runs.
-    pub report: Report,
+    /// Options of the report.
+    pub report: ReportOptions,
 }
 
 /// A wall of a study.
 #[derive(Clone, Debug)]
 pub struct WallEntry {
-    /// Name; that of a scene's file if none is given.
+    /// Name; if none is given, that of the scene file.
     pub name: Option<String>,
-    /// Where it comes from.
+    /// Source of its parameters.
     pub source: WallSource,
-    /// Line of the study file.
+    /// Line in the study file.
     pub line: usize,
 }
 
-/// Where a wall comes from.
+/// Source of a wall.
 #[derive(Clone, Debug)]
 pub enum WallSource {
-    /// The study file itself.
-    Here(Box<Parameters>),
-    /// A scene file, beside the study file.
+    /// Parameters in the study file itself.
+    Inline(Box<Parameters>),
+    /// A scene file, relative to the study file.
     Scene(PathBuf),
 }
 
 /// Records of a study.
 #[derive(Clone, Debug, Default)]
 pub struct RecordsEntry {
-    /// Files, folders and patterns with `*` and `?`, beside the study file, each with its line.
+    /// Files, folders and patterns with `*` and `?`, relative to the study file, each with its line.
     pub files: Vec<(String, usize)>,
-    /// How to read them.
+    /// Options for reading them.
     pub options: RecordOptions,
     /// Synthetic records after them.
     pub synthetic: Vec<SyntheticMotion>,
 }
 
-/// What is made of the runs.
+/// Options of a study's report.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    /// Fractions of `u_ins` whose fragilities are shown.
+pub struct ReportOptions {
+    /// Limit states to report: fractions of `u_ins`.
     pub fractions: Vec<f64>,
-    /// Name of the model that the others' medians are divided by.
+    /// Name of the model by whose medians those of the others are divided.
     pub reference: String,
-    /// Resamples of the records.
+    /// Number of resamples of the records.
     pub resamples: u32,
     /// Seed of the resamples.
     pub seed: u64,
@@ -149,7 +162,7 @@ struct WallTable {
     solver: Group,
 }
 
-impl Outline {
+impl StudyFile {
     /// Reads a study from its text; `name` stands for the file in messages.
     ///
     /// # Errors
@@ -212,7 +225,7 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
     for (name, group) in groups {
         apply_group(&mut parameters, name, group, place)?;
     }
-    let source = WallSource::Here(Box::new(parameters));
+    let source = WallSource::Inline(Box::new(parameters));
     Ok(WallEntry { name: spec.name.clone(), source, line })
 }
 
@@ -248,10 +261,10 @@ fn report(
     table: Option<&Spanned<ReportTable>>,
     models: &[Model],
     place: &Place<'_>,
-) -> Result<Report, SceneError> {
+) -> Result<ReportOptions, SceneError> {
     let first = models.first().map(|model| model.name.clone()).unwrap_or_default();
-    let mut report =
-        Report { fractions: vec![0.1, 0.4, 0.6, 1.0], reference: first, resamples: 1000, seed: 1 };
+    let fractions = vec![0.1, 0.4, 0.6, 1.0];
+    let mut report = ReportOptions { fractions, reference: first, resamples: 1000, seed: 1 };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();
     if let Some(fractions) = &spec.fractions {

@@ -2,16 +2,16 @@
 
 use toml::{Spanned, Value};
 
-use crate::ida::{Damping, Model, Source};
+use crate::ida::{Damping, Model, RatioSource};
 use rocking_wall::scene::{Place, SceneError};
 
-/// Models by their short names.
+/// Short names, for messages.
 const MODELS: &str =
     "none, CR, \"CR rigid\", CDC, CDR, SDR, block, and CDC, CDR, SDR with \" Eq. 14\" after it";
 
 pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {
     let refuse = |message: String| place.error(value.span(), message);
-    let known = |short: &str, source: Source| match short {
+    let known = |short: &str, source: RatioSource| match short {
         "none" => Some(Damping::None),
         "CR" => Some(Damping::Restitution),
         "CR rigid" => Some(Damping::RigidRestitution),
@@ -25,9 +25,9 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
     match value.get_ref() {
         Value::String(text) => {
             let damping = match text.strip_suffix(" Eq. 14") {
-                Some(short @ ("CDC" | "CDR" | "SDR")) => known(short, Source::Equation14),
+                Some(short @ ("CDC" | "CDR" | "SDR")) => known(short, RatioSource::Equation14),
                 Some(_) => None,
-                None => known(text, Source::Predicted),
+                None => known(text, RatioSource::Predicted),
             };
             damping.map(Model::new).ok_or_else(|| unknown(text))
         }
@@ -54,7 +54,7 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
                 return Err(refuse(format!("{ratio_key} = {ratio} must be from 0 to 100")));
             }
             let damping = match short {
-                "CDC" | "CDR" | "SDR" | "block" => known(short, Source::Given(ratio)),
+                "CDC" | "CDR" | "SDR" | "block" => known(short, RatioSource::Given(ratio)),
                 _ => return Err(refuse(format!("{short:?} takes no {ratio_key}; write it as \"{short}\""))),
             };
             let mut model = damping.map(Model::new).ok_or_else(|| unknown(short))?;

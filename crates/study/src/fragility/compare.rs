@@ -1,53 +1,55 @@
-//! Models side by side.
+//! Fragilities of several models beside that of a reference.
 
-use super::{Bootstrap, FitError, Interval, Lognormal, Observing, fit, median};
-use crate::ida::Occurrence;
+use super::bootstrap::{Bootstrap, Interval};
+use super::fit::{FitError, Lognormal, fit};
+use super::observation::ObservationKind;
+use super::sample::median;
+use crate::ida::Exceedance;
 
-/// Part of the resamples within an interval.
+/// Fraction of the resamples within an interval.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// The fragility of one model beside a reference.
+/// Fragility of one model beside a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Number of records.
     pub records: usize,
-    /// Records that do not exceed the demand at any level.
+    /// Number of records that do not exceed the limit state at any level.
     pub censored: usize,
-    /// The intensity that half of the records need.
+    /// Intensity that half of the records need.
     pub median: Interval,
-    /// The fitted curve.
+    /// Fitted curve.
     pub fitted: Result<Lognormal, FitError>,
     /// θ of the fitted curve; NaN where there is none.
     pub theta: Interval,
-    /// The median over the reference's.
+    /// Median over that of the reference.
     pub median_ratio: Interval,
-    /// θ over the reference's.
+    /// θ over that of the reference.
     pub theta_ratio: Interval,
 }
 
-/// Compares the first exceedances of some models, record by record the same, with those of the `reference`; intervals hold
-/// 95 % of the resamples.
+/// Compares the exceedances of some models, over the same records, with those of the model number `reference`.
+/// Intervals hold 95 % of the resamples.
 ///
 /// # Panics
-/// If there is no model of the number `reference`, or the models differ in their number of records.
+/// If there is no such model, or the models differ in their number of records.
 #[must_use]
 pub fn compare(
-    models: &[Vec<Occurrence>],
+    models: &[Vec<Exceedance>],
     reference: usize,
-    observing: &Observing,
+    kind: &ObservationKind,
     bootstrap: &Bootstrap,
 ) -> Vec<Summary> {
     let records = models[reference].len();
-    assert!(models.iter().all(|model| model.len() == records), "each model has seen each record");
-    let all: Vec<Resampled> =
-        models.iter().map(|model| Resampled::new(model, observing, bootstrap)).collect();
+    assert!(models.iter().all(|model| model.len() == records), "each model has a result for each record");
+    let all: Vec<Resampled> = models.iter().map(|model| Resampled::new(model, kind, bootstrap)).collect();
     let base = &all[reference];
     let ratio = |[a, b]: [f64; 2], [above, below]: [&Vec<f64>; 2]| {
         Interval::new(a / b, above.iter().zip(below).map(|(a, b)| a / b), CONFIDENCE)
     };
-    let summary = |(model, own): (&Vec<Occurrence>, &Resampled)| Summary {
+    let summary = |(model, own): (&Vec<Exceedance>, &Resampled)| Summary {
         records,
-        censored: model.iter().filter(|occurrence| matches!(occurrence, Occurrence::Above(_))).count(),
+        censored: model.iter().filter(|exceedance| matches!(exceedance, Exceedance::Above(_))).count(),
         median: Interval::new(own.median, own.medians.iter().copied(), CONFIDENCE),
         fitted: own.fitted,
         theta: Interval::new(own.theta(), own.thetas.iter().copied(), CONFIDENCE),
@@ -57,7 +59,7 @@ pub fn compare(
     models.iter().zip(&all).map(summary).collect()
 }
 
-/// One model's median and fit, and those of the resamples.
+/// Median and fit of one model, and those of its resamples.
 struct Resampled {
     median: f64,
     medians: Vec<f64>,
@@ -66,13 +68,10 @@ struct Resampled {
 }
 
 impl Resampled {
-    fn new(model: &[Occurrence], observing: &Observing, bootstrap: &Bootstrap) -> Self {
-        let fitted = fit(&observing.observations(model));
-        // without a curve of all records there is none to resample
-        let thetas = match &fitted {
-            Ok(_) => bootstrap.fitted_medians(model, observing),
-            Err(_) => Vec::new(),
-        };
+    fn new(model: &[Exceedance], kind: &ObservationKind, bootstrap: &Bootstrap) -> Self {
+        let fitted = fit(&kind.observations(model));
+        // where all records give no curve, resamples are not fitted
+        let thetas = fitted.map_or(Vec::new(), |_| bootstrap.fitted_medians(model, kind));
         Self { median: median(model), medians: bootstrap.medians(model), fitted, thetas }
     }
 

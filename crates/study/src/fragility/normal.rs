@@ -1,17 +1,19 @@
-//! The standard normal distribution.
+//! Standard normal distribution.
 
 use std::f64::consts::{PI, SQRT_2};
 
-/// Below this the distribution's logarithm comes from its asymptotic series; Φ itself underflows at −38.
-const FAR: f64 = -20.0;
+/// Below this ln Φ comes from its asymptotic series, since Φ itself underflows at −38.
+const ASYMPTOTIC: f64 = -20.0;
+/// Above this 1 − Φ is below half a rounding of 1.
+const NEAR_ONE: f64 = 8.5;
 
-/// Φ(z).
+/// Returns Φ(z).
 #[must_use]
 pub fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
-/// The z with Φ(z) = p, by bisection; infinite at 0 and 1, NaN outside.
+/// Returns the z with Φ(z) = p, by bisection; infinite at 0 and 1, NaN outside.
 #[must_use]
 pub fn quantile(p: f64) -> f64 {
     match p {
@@ -29,15 +31,12 @@ pub fn quantile(p: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Above this 1 − Φ is below half a rounding of 1.
-const NEAR_ONE: f64 = 8.5;
-
-/// ln Φ(z) and its derivative, φ(z)/Φ(z).
+/// Returns ln Φ(z) and its derivative φ(z)/Φ(z).
 pub(super) fn log_and_hazard(z: f64) -> (f64, f64) {
     if z > NEAR_ONE {
         return (0.0, 0.0);
     }
-    let log = if z > FAR {
+    let log = if z > ASYMPTOTIC {
         libm::log(cumulative(z))
     } else {
         // 1 − 1/z² + 3/z⁴ − 15/z⁶: the next term is 105/z⁸, 4e-9 at z = −20

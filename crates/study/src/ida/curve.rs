@@ -1,115 +1,123 @@
-//! What the levels of one wall, record and model came to.
+//! Curve of demand over intensity, of one wall, record and model.
 
-/// One run.
+/// A run: one wall through one record scaled to one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Level {
-    /// Intensity the record was scaled to \[m/s²\].
+pub struct Run {
+    /// Level: the intensity to which the record was scaled \[m/s²\].
     pub intensity: f64,
-    /// Largest |u|/`u_ins`; of an overturned wall where its run stopped.
+    /// Demand: largest |u|/`u_ins` \[-\]; of a wall that overturned, that at which its run stopped.
     pub demand: f64,
     /// Time of overturning from the start of the record \[s\].
     pub overturning: Option<f64>,
 }
 
-/// Where a demand is first exceeded.
+/// Intensity at which the demand first exceeds a limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Occurrence {
+pub enum Exceedance {
     /// At this intensity \[m/s²\].
     At(f64),
-    /// Not up to this intensity, the highest that was run \[m/s²\]: a censored record.
+    /// Above this intensity, the highest level of the curve \[m/s²\]: the record is censored.
     Above(f64),
 }
 
-/// The levels of one wall, record and model, in rising order.
+impl Exceedance {
+    /// Returns the intensity, infinite for a censored record.
+    #[must_use]
+    pub fn or_infinity(self) -> f64 {
+        match self {
+            Self::At(intensity) => intensity,
+            Self::Above(_) => f64::INFINITY,
+        }
+    }
+}
+
+/// Runs of one wall, record and model, in the order of their levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    levels: Vec<Level>,
+    runs: Vec<Run>,
+    /// Number of runs below the collapse.
+    below_collapse: usize,
 }
 
 impl Curve {
-    /// A curve from its levels in any order.
+    /// Creates a curve from its runs in any order.
     #[must_use]
-    pub fn new(mut levels: Vec<Level>) -> Self {
-        levels.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
-        Self { levels }
+    pub fn new(mut runs: Vec<Run>) -> Self {
+        runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
+        let below_collapse = runs.iter().position(|run| run.overturning.is_some()).unwrap_or(runs.len());
+        Self { runs, below_collapse }
     }
 
-    /// The levels, in rising order.
+    /// Returns the runs in the order of their levels.
     #[must_use]
-    pub fn levels(&self) -> &[Level] {
-        &self.levels
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
     }
 
-    /// Place of the lowest level at which the wall overturned.
-    fn first_overturning(&self) -> Option<usize> {
-        self.levels.iter().position(|level| level.overturning.is_some())
-    }
-
-    /// The collapse intensity: the lowest level at which the wall overturned.
+    /// Returns the collapse intensity: the lowest level at which the wall overturned.
     #[must_use]
-    pub fn collapse(&self) -> Occurrence {
-        match self.first_overturning() {
-            Some(index) => Occurrence::At(self.levels[index].intensity),
-            None => Occurrence::Above(self.top()),
+    pub fn collapse(&self) -> Exceedance {
+        match self.runs.get(self.below_collapse) {
+            Some(run) => Exceedance::At(run.intensity),
+            None => Exceedance::Above(self.top()),
         }
     }
 
-    /// The highest level below the collapse, 0 if there is none: the collapse lies between the two \[m/s²\].
+    /// Returns the highest level below the collapse, or 0 \[m/s²\]. The collapse lies between the two.
     #[must_use]
-    pub fn standing(&self) -> f64 {
-        let index = self.first_overturning().unwrap_or(self.levels.len());
-        index.checked_sub(1).map_or(0.0, |below| self.levels[below].intensity)
+    pub fn level_below_collapse(&self) -> f64 {
+        self.runs[..self.below_collapse].last().map_or(0.0, |run| run.intensity)
     }
 
-    /// Levels above the collapse at which the wall stood: resurrections. Overturning is not monotonic in the intensity.
+    /// Counts the levels above the collapse at which the wall did not overturn: structural resurrections.
     #[must_use]
     pub fn resurrections(&self) -> usize {
-        let first = self.first_overturning().unwrap_or(self.levels.len());
-        self.levels[first..].iter().filter(|level| level.overturning.is_none()).count()
+        self.runs[self.below_collapse..].iter().filter(|run| run.overturning.is_none()).count()
     }
 
-    /// Where |u| first exceeds a `fraction` of `u_ins`: between two standing levels by a straight line, at the level itself
-    /// where the wall overturns or where `at_levels` asks for it; at the collapse for a fraction of 1 and more.
+    /// Returns where |u| first exceeds a `fraction` of `u_ins`, which is the collapse for a fraction of 1 and more.
+    ///
+    /// Between two levels without overturning the demand is interpolated linearly. The intensity is that of a level
+    /// where the wall overturns at it, or where `at_levels` is set.
     #[must_use]
-    pub fn exceedance(&self, fraction: f64, at_levels: bool) -> Occurrence {
+    pub fn exceedance(&self, fraction: f64, at_levels: bool) -> Exceedance {
         let mut before = [0.0, 0.0];
-        for level in &self.levels {
-            let exceeded = level.overturning.is_some() || (fraction < 1.0 && level.demand > fraction);
-            if exceeded && (at_levels || level.overturning.is_some()) {
-                return Occurrence::At(level.intensity);
+        for run in &self.runs {
+            let exceeded = run.overturning.is_some() || (fraction < 1.0 && run.demand > fraction);
+            if exceeded && (at_levels || run.overturning.is_some()) {
+                return Exceedance::At(run.intensity);
             }
             if exceeded {
                 let [intensity, demand] = before;
-                let part = (fraction - demand) / (level.demand - demand);
-                return Occurrence::At(intensity + part * (level.intensity - intensity));
+                let part = (fraction - demand) / (run.demand - demand);
+                return Exceedance::At(intensity + part * (run.intensity - intensity));
             }
-            before = [level.intensity, level.demand];
+            before = [run.intensity, run.demand];
         }
-        Occurrence::Above(self.top())
+        Exceedance::Above(self.top())
     }
 
-    /// |u|/`u_ins` at an intensity, by straight lines between levels from the origin on; infinite from the collapse on.
-    /// `None` above the levels of a wall that stood.
+    /// Returns |u|/`u_ins` at an intensity, interpolated linearly from the origin on, and infinite from the collapse
+    /// on. Returns `None` above the levels of a wall that never overturned.
     #[must_use]
     pub fn demand(&self, intensity: f64) -> Option<f64> {
         let mut before = [0.0, 0.0];
-        for level in &self.levels {
-            if level.overturning.is_some() {
-                let standing = intensity <= before[0];
-                return Some(if standing { before[1] } else { f64::INFINITY });
+        for run in &self.runs {
+            if run.overturning.is_some() {
+                return Some(if intensity <= before[0] { before[1] } else { f64::INFINITY });
             }
-            if intensity <= level.intensity {
-                let part = (intensity - before[0]) / (level.intensity - before[0]);
-                return Some(before[1] + part * (level.demand - before[1]));
+            if intensity <= run.intensity {
+                let part = (intensity - before[0]) / (run.intensity - before[0]);
+                return Some(before[1] + part * (run.demand - before[1]));
             }
-            before = [level.intensity, level.demand];
+            before = [run.intensity, run.demand];
         }
         None
     }
 
-    /// The highest level \[m/s²\].
+    /// Returns the highest level \[m/s²\].
     #[must_use]
     pub fn top(&self) -> f64 {
-        self.levels.last().map_or(0.0, |level| level.intensity)
+        self.runs.last().map_or(0.0, |run| run.intensity)
     }
 }

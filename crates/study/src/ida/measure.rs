@@ -3,7 +3,7 @@
 use ground_motion::spectrum::AVERAGE_PERIODS;
 use ground_motion::{GroundMotion, GroundMotionError, Spectrum};
 
-/// What records are scaled by; spectral ones at 5 % damping.
+/// Intensity measure by which records are scaled; spectral ones are at 5 % damping.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IntensityMeasure {
     /// Peak ground acceleration.
@@ -28,10 +28,10 @@ impl Default for IntensityMeasure {
 }
 
 impl IntensityMeasure {
-    /// Intensity of a motion \[m/s²\]; it grows in proportion to the motion.
+    /// Returns the intensity of a motion \[m/s²\]. It is proportional to the motion.
     ///
     /// # Errors
-    /// If a period is outside its limits, or there is none.
+    /// [`GroundMotionError`] if there is no period, or one is outside its limits.
     pub fn of(&self, motion: &GroundMotion) -> Result<f64, GroundMotionError> {
         match self {
             Self::Pga => Ok(motion.peak()),
@@ -40,7 +40,7 @@ impl IntensityMeasure {
         }
     }
 
-    /// Name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
+    /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
     #[must_use]
     pub fn name(&self) -> String {
         match self {

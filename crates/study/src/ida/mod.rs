@@ -1,77 +1,66 @@
 //! Incremental dynamic analysis: walls × records × damping models, each record scaled level by level.
 //!
-//! D. Vamvatsikos, C. A. Cornell: Incremental dynamic analysis. Earthquake Engineering & Structural Dynamics 31(3), 2002,
-//! 491–514. A wall starts upright and at rest; a run stops when it overturns. Several levels of one wall, record and model
-//! run side by side.
+//! D. Vamvatsikos, C. A. Cornell: Incremental dynamic analysis. Earthquake Engineering & Structural Dynamics 31(3),
+//! 2002, 491–514. A wall starts upright and at rest, and a run stops when it overturns. Several levels of one wall,
+//! record and model run side by side.
+//!
+//! ```
+//! use ground_motion::SyntheticMotion;
+//! use rocking_wall::wall::Parameters;
+//! use study::ida::{Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study};
+//!
+//! let walls = vec![NamedWall { name: "parapet".into(), parameters: Parameters::default() }];
+//! let motion = SyntheticMotion { duration: 5.0, ..SyntheticMotion::default() }.motion()?;
+//! let records = vec![NamedRecord { name: "synthetic".into(), motion }];
+//! let models = vec![Model::new(Damping::Restitution)];
+//! let levels = Levels::ToOverturning { step: 2.0, top: 100.0 };
+//! let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;
+//! let curves = study.run(1)?;
+//! assert!(matches!(curves[0].collapse(), Exceedance::At(_)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod curve;
+mod error;
 mod levels;
 mod measure;
 mod model;
 
-use crate::free_motion::has_peaked;
+use crate::free_motion::peak_is_final;
 use crate::parallel;
-use ground_motion::{GroundMotion, GroundMotionError};
+use ground_motion::GroundMotion;
 use rocking_wall::solver::record::{Batch, Passage, RecordSolver, Samples, Start, Still};
 use rocking_wall::solver::{Motion, SolverError, State};
-use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
+use rocking_wall::wall::{Parameters, Support, Wall};
 
-pub use curve::{Curve, Level, Occurrence};
+pub use curve::{Curve, Exceedance, Run};
+pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
-pub use model::{Damping, Model, Source};
+pub use model::{Damping, Model, RatioSource};
 
-/// Free vibration after a record unless stated otherwise \[s\].
+/// Default free vibration after a record \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
 
-/// A wall of a study; its damping and impact are those of the study's models, its start is upright and at rest.
+/// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedWall {
-    /// Name, for people.
+    /// Name in tables and messages.
     pub name: String,
-    /// Parameters; the coefficient of restitution they state or imply serves every model.
+    /// Parameters. The coefficient of restitution that they state or imply serves every model.
     pub parameters: Parameters,
 }
 
 /// A record of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedRecord {
-    /// Name, for people.
+    /// Name in tables and messages.
     pub name: String,
-    /// The motion, unscaled.
+    /// Motion, unscaled.
     pub motion: GroundMotion,
 }
 
-/// Why a study cannot be run.
-#[derive(Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the fields are the words of the message")]
-pub enum IdaError {
-    /// A list is empty.
-    #[error("a study needs at least one {what}")]
-    Empty { what: &'static str },
-    /// Wall and damping model do not go together.
-    #[error("wall {wall:?} with the damping model {model:?}: {source}")]
-    Parameters { wall: String, model: String, source: Box<ParameterError> },
-    /// The intensity of a record.
-    #[error("record {record:?}: {source}")]
-    Record { record: String, source: Box<GroundMotionError> },
-    /// A record that cannot be scaled.
-    #[error("record {record:?} has the intensity {intensity} m/s² and cannot be scaled; leave it out")]
-    Still { record: String, intensity: f64 },
-    /// The levels.
-    #[error("{name} of the levels is {value}; it must be {limit}")]
-    Levels { name: &'static str, value: String, limit: String },
-    /// The free vibration after a record.
-    #[error("the tail is {value} s; it must be from 0 to 1000 s")]
-    Tail { value: f64 },
-    /// A run that could not be followed.
-    #[error(
-        "wall {wall:?}, record {record:?}, damping model {model:?}, from the level {level} m/s² on: {source}"
-    )]
-    Run { wall: String, record: String, model: String, level: f64, source: Box<SolverError> },
-}
-
-/// A study ready to run: every combination is valid.
+/// A study ready to run: each wall is valid with each damping model, and each record can be scaled.
 #[derive(Clone, Debug)]
 pub struct Study {
     walls: Vec<NamedWall>,
@@ -80,29 +69,29 @@ pub struct Study {
     measure: IntensityMeasure,
     levels: Levels,
     tail: f64,
-    /// Wall by wall, model by model.
+    /// Motion of each wall and model, models innermost.
     motions: Vec<Motion>,
-    /// Intensity of each record as it is \[m/s²\].
+    /// Intensity of each unscaled record \[m/s²\].
     intensities: Vec<f64>,
 }
 
-/// One wall, record and model of a study, by their places.
+/// A combination of one wall, record and model, by their indices in the study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Case {
-    /// Place among the walls.
+    /// Index of the wall.
     pub wall: usize,
-    /// Place among the records.
+    /// Index of the record.
     pub record: usize,
-    /// Place among the models.
+    /// Index of the model.
     pub model: usize,
 }
 
 impl Study {
-    /// Prepares a study with the default tail.
+    /// Prepares a study with the default free vibration after each record.
     ///
     /// # Errors
-    /// [`IdaError`] if a wall does not go with a model, if a record has no intensity, if the levels are outside their limits,
-    /// if there is nothing to run.
+    /// [`IdaError`] if a list is empty, if a wall does not go with a model, if a record cannot be scaled, or if the
+    /// levels are outside their limits.
     pub fn new(
         walls: Vec<NamedWall>,
         records: Vec<NamedRecord>,
@@ -115,198 +104,187 @@ impl Study {
             return Err(IdaError::Empty { what });
         }
         levels.check()?;
-        let mut motions = Vec::with_capacity(walls.len() * models.len());
-        for wall in &walls {
-            for model in &models {
-                motions.push(motion(wall, model)?);
-            }
-        }
+        let pairs = walls.iter().flat_map(|wall| models.iter().map(move |model| motion(wall, model)));
+        let motions = pairs.collect::<Result<_, _>>()?;
         let intensity = |record: &NamedRecord| {
-            let found = measure.of(&record.motion);
-            let intensity = found.map_err(|source| IdaError::Record {
-                record: record.name.clone(),
-                source: Box::new(source),
-            })?;
-            if intensity > 0.0 && intensity.is_finite() {
-                Ok(intensity)
-            } else {
-                Err(IdaError::Still { record: record.name.clone(), intensity })
+            let name = || record.name.clone();
+            match measure.of(&record.motion) {
+                Ok(intensity) if intensity > 0.0 && intensity.is_finite() => Ok(intensity),
+                Ok(intensity) => Err(IdaError::Unscalable { record: name(), intensity }),
+                Err(source) => Err(IdaError::Record { record: name(), source: Box::new(source) }),
             }
         };
         let intensities = records.iter().map(intensity).collect::<Result<_, _>>()?;
         Ok(Self { walls, records, models, measure, levels, tail: DEFAULT_TAIL, motions, intensities })
     }
 
-    /// The same with another length of free vibration after each record \[s\].
+    /// Sets the free vibration after each record \[s\].
     ///
     /// # Errors
     /// [`IdaError::Tail`] outside 0 to 1000 s.
-    pub fn with_tail(mut self, tail: f64) -> Result<Self, IdaError> {
-        if !(0.0..=1000.0).contains(&tail) {
-            return Err(IdaError::Tail { value: tail });
+    pub fn with_tail(self, tail: f64) -> Result<Self, IdaError> {
+        if (0.0..=1000.0).contains(&tail) {
+            Ok(Self { tail, ..self })
+        } else {
+            Err(IdaError::Tail { value: tail })
         }
-        self.tail = tail;
-        Ok(self)
     }
 
-    /// The walls.
+    /// Returns the walls.
     #[must_use]
     pub fn walls(&self) -> &[NamedWall] {
         &self.walls
     }
 
-    /// The records.
+    /// Returns the records.
     #[must_use]
     pub fn records(&self) -> &[NamedRecord] {
         &self.records
     }
 
-    /// The damping models.
+    /// Returns the damping models.
     #[must_use]
     pub fn models(&self) -> &[Model] {
         &self.models
     }
 
-    /// The intensity measure.
+    /// Returns the intensity measure.
     #[must_use]
     pub fn measure(&self) -> &IntensityMeasure {
         &self.measure
     }
 
-    /// The levels.
+    /// Returns the levels.
     #[must_use]
     pub fn levels(&self) -> &Levels {
         &self.levels
     }
 
-    /// Free vibration after each record \[s\].
+    /// Returns the free vibration after each record \[s\].
     #[must_use]
     pub fn tail(&self) -> f64 {
         self.tail
     }
 
-    /// Intensity of a record as it is \[m/s²\].
+    /// Returns the intensity of an unscaled record \[m/s²\].
     #[must_use]
     pub fn intensity(&self, record: usize) -> f64 {
         self.intensities[record]
     }
 
-    /// The wall of a combination, its damping and impact those of the model.
+    /// Returns a wall with the damping and impact of a model.
     #[must_use]
     pub fn wall(&self, wall: usize, model: usize) -> &Wall {
-        self.motions[wall * self.models.len() + model].wall()
+        self.motion(wall, model).wall()
     }
 
-    /// Number of combinations.
+    fn motion(&self, wall: usize, model: usize) -> &Motion {
+        &self.motions[wall * self.models.len() + model]
+    }
+
+    /// Counts the combinations.
     #[must_use]
     pub fn count(&self) -> usize {
         self.walls.len() * self.records.len() * self.models.len()
     }
 
-    /// The combination of a number: walls outermost, then models, records innermost.
+    /// Returns the combination of a number: walls outermost, then models, records innermost.
     #[must_use]
     pub fn case(&self, index: usize) -> Case {
         let (records, models) = (self.records.len(), self.models.len());
         Case { wall: index / (records * models), model: index / records % models, record: index % records }
     }
 
-    /// The number of a combination.
+    /// Returns the number of a combination.
     #[must_use]
     pub fn index(&self, case: Case) -> usize {
         (case.wall * self.models.len() + case.model) * self.records.len() + case.record
     }
 
-    /// The curve of one combination.
+    /// Computes the curve of one combination.
     ///
     /// # Errors
-    /// [`IdaError::Run`] if a run could not be followed.
+    /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
-        let motion = &self.motions[case.wall * self.models.len() + case.model];
-        let record = &self.records[case.record].motion;
-        let solver = RecordSolver::new(motion, record.step());
-        let samples = Samples(record.samples());
-        let runs = Runs {
-            motion,
-            record,
-            solver: &solver,
-            batch: solver.batch(&samples),
-            intensity: self.intensities[case.record],
-            tail: self.tail,
-        };
-        let levels = self.levels.trace(|levels| {
-            runs.at(levels).map_err(|source| IdaError::Run {
+        let record = &self.records[case.record];
+        let solver = RecordSolver::new(self.motion(case.wall, case.model), record.motion.step());
+        let samples = Samples(record.motion.samples());
+        let batch = solver.batch(&samples);
+        let runs = self.levels.trace(|levels| {
+            self.runs(case, &solver, &batch, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
-                record: self.records[case.record].name.clone(),
+                record: record.name.clone(),
                 model: self.models[case.model].name.clone(),
                 level: levels[0],
                 source: Box::new(source),
             })
         })?;
-        Ok(Curve::new(levels))
+        Ok(Curve::new(runs))
     }
 
-    /// All curves, in the order of their numbers, on `threads` threads; the same whatever their number.
+    /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend on the
+    /// number of threads.
     ///
     /// # Errors
-    /// The error of the first combination, in their order, whose runs could not be followed.
+    /// The error of the first combination, in their order, whose run fails.
     pub fn run(&self, threads: usize) -> Result<Vec<Curve>, IdaError> {
         parallel::map(self.count(), threads, |index| self.curve(self.case(index)))
     }
+
+    /// Runs the record of a combination scaled to each of some levels \[m/s²\].
+    fn runs(
+        &self,
+        case: Case,
+        solver: &RecordSolver<'_>,
+        batch: &Batch<'_, Samples<'_>>,
+        levels: &[f64],
+    ) -> Result<Vec<Run>, SolverError> {
+        let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record].motion);
+        let body = motion.wall().body();
+        // p = −λ a_g
+        let participation = body.forcing(Support::rigid(1.0));
+        let start = |level: &f64| {
+            let factor = level / self.intensities[case.record] * participation;
+            Start { state: motion.start_under(0.0, 0.0, factor * record.samples()[0]), factor }
+        };
+        let starts: Vec<_> = levels.iter().map(start).collect();
+        let passages = batch.run(&starts, true)?;
+        let run = |(&intensity, passage): (&f64, &Passage)| {
+            let (state, overturning) = match passage.overturning {
+                Some(time) => (passage.state, Some(time)),
+                None => self.free_vibration(solver, motion.wall(), record, passage.state)?,
+            };
+            Ok(Run { intensity, demand: state.peaks.ratio(body.instability), overturning })
+        };
+        levels.iter().zip(&passages).map(run).collect()
+    }
+
+    /// Returns the state after the free vibration that follows a record, and the time of overturning. A wall that
+    /// lacks the energy to exceed its peak is not followed.
+    fn free_vibration(
+        &self,
+        solver: &RecordSolver<'_>,
+        wall: &Wall,
+        record: &GroundMotion,
+        state: State,
+    ) -> Result<(State, Option<f64>), SolverError> {
+        if peak_is_final(wall, &state) {
+            return Ok((state, None));
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
+        let count = (self.tail / record.step()).ceil() as usize + 1;
+        let passage = solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
+        Ok((passage.state, passage.overturning.map(|time| record.duration() + time)))
+    }
 }
 
+/// Prepares the motion of a wall with a damping model.
 fn motion(wall: &NamedWall, model: &Model) -> Result<Motion, IdaError> {
-    let fail = |source| IdaError::Parameters {
+    let failed = |source| IdaError::Parameters {
         wall: wall.name.clone(),
         model: model.name.clone(),
         source: Box::new(source),
     };
-    let parameters = model.applied_to(&wall.parameters).map_err(fail)?;
-    Motion::of(&parameters, parameters.tolerance).map_err(fail)
-}
-
-/// Runs of one wall under one record.
-struct Runs<'a> {
-    motion: &'a Motion,
-    record: &'a GroundMotion,
-    solver: &'a RecordSolver<'a>,
-    batch: Batch<'a, Samples<'a>>,
-    /// Intensity of the record as it is \[m/s²\].
-    intensity: f64,
-    tail: f64,
-}
-
-impl Runs<'_> {
-    /// The record scaled to each of some intensities \[m/s²\].
-    fn at(&self, levels: &[f64]) -> Result<Vec<Level>, SolverError> {
-        // p = −λ a_g
-        let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
-        let u_ins = self.motion.wall().body().instability;
-        let samples = self.record.samples();
-        let start = |level: &f64| {
-            let factor = level / self.intensity * participation;
-            Start { state: self.motion.start_under(0.0, 0.0, factor * samples[0]), factor }
-        };
-        let starts: Vec<_> = levels.iter().map(start).collect();
-        let passages = self.batch.run(&starts, true)?;
-        let level = |(&intensity, passage): (&f64, &Passage)| {
-            let (state, overturning) = match passage.overturning {
-                Some(time) => (passage.state, Some(time)),
-                None => self.free(passage.state)?,
-            };
-            Ok(Level { intensity, demand: state.peaks.ratio(u_ins), overturning })
-        };
-        levels.iter().zip(&passages).map(level).collect()
-    }
-
-    /// The state after the free vibration that follows the record, and the time of overturning; what cannot go beyond the
-    /// peak it has already seen, for lack of energy, is not followed.
-    fn free(&self, state: State) -> Result<(State, Option<f64>), SolverError> {
-        if has_peaked(self.motion.wall(), &state) {
-            return Ok((state, None));
-        }
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
-        let count = (self.tail / self.record.step()).ceil() as usize + 1;
-        let passage = self.solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
-        Ok((passage.state, passage.overturning.map(|time| self.record.duration() + time)))
-    }
+    let parameters = model.applied_to(&wall.parameters).map_err(failed)?;
+    Motion::of(&parameters, parameters.tolerance).map_err(failed)
 }

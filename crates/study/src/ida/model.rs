@@ -3,83 +3,90 @@
 use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
-/// Where a damping ratio comes from.
+/// Source of a damping ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum RatioSource {
     /// Eqs. (20)–(23), from a₁ and e.
     Predicted,
-    /// A damping ratio ξ, or c̄ of a free-standing block \[-\].
+    /// A given damping ratio ξ, or c̄ of a free-standing block \[-\].
     Given(f64),
     /// ξ = −0.68 ln e. Makris and Konstantinidis, Eq. (14).
     Equation14,
 }
 
-/// How a wall loses energy.
+/// Energy loss of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
-    /// Not at all.
+    /// None.
     None,
     /// Restitution at each passage of u = 0, on the wall's own force law (CR).
     Restitution,
     /// Restitution on the rigid-linear law.
     RigidRestitution,
     /// Constant damping coefficient, Eq. (6) (CDC).
-    ConstantCoefficient(Source),
+    ConstantCoefficient(RatioSource),
     /// Constant damping coefficient of a free-standing block, Eq. (7).
-    FreeStandingBlock(Source),
+    FreeStandingBlock(RatioSource),
     /// Constant damping ratio, Eqs. (8)–(9) (CDR).
-    ConstantRatio(Source),
+    ConstantRatio(RatioSource),
     /// Stiffness-proportional damping ratio, Eqs. (10)–(11) (SDR).
-    StiffnessProportional(Source),
+    StiffnessProportional(RatioSource),
+}
+
+impl Damping {
+    /// Returns the short name, the viscous damping and the source of its ratio.
+    fn parts(self) -> (&'static str, DampingModel, RatioSource) {
+        match self {
+            Self::None => ("none", DampingModel::None, RatioSource::Predicted),
+            Self::Restitution => ("CR", DampingModel::None, RatioSource::Predicted),
+            Self::RigidRestitution => ("CR rigid", DampingModel::None, RatioSource::Predicted),
+            Self::ConstantCoefficient(source) => ("CDC", DampingModel::ConstantCoefficient, source),
+            Self::FreeStandingBlock(source) => ("block", DampingModel::FreeStandingBlock, source),
+            Self::ConstantRatio(source) => ("CDR", DampingModel::ConstantRatio, source),
+            Self::StiffnessProportional(source) => ("SDR", DampingModel::StiffnessProportional, source),
+        }
+    }
 }
 
 /// A damping model and its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// Name, for people.
+    /// Name in tables and messages.
     pub name: String,
-    /// What it does.
+    /// Energy loss.
     pub damping: Damping,
 }
 
 impl Model {
-    /// The model of a damping under its short name: `CR`, `CDC`, `CDR Eq. 14` …
+    /// Names a model after its damping: `CR`, `CDC`, `CDR Eq. 14` …
     #[must_use]
     pub fn new(damping: Damping) -> Self {
-        let (short, source) = match damping {
-            Damping::None => ("none", Source::Predicted),
-            Damping::Restitution => ("CR", Source::Predicted),
-            Damping::RigidRestitution => ("CR rigid", Source::Predicted),
-            Damping::ConstantCoefficient(source) => ("CDC", source),
-            Damping::FreeStandingBlock(source) => ("block", source),
-            Damping::ConstantRatio(source) => ("CDR", source),
-            Damping::StiffnessProportional(source) => ("SDR", source),
-        };
+        let (short, _, source) = damping.parts();
         let name = match source {
-            Source::Predicted => short.to_owned(),
-            Source::Given(value) => format!("{short} {value}"),
-            Source::Equation14 => format!("{short} Eq. 14"),
+            RatioSource::Predicted => short.to_owned(),
+            RatioSource::Given(value) => format!("{short} {value}"),
+            RatioSource::Equation14 => format!("{short} Eq. 14"),
         };
         Self { name, damping }
     }
 
-    /// The models of Figure 15 of the paper: CR, CDC, CDR, SDR and CDR with the damping of Eq. (14).
+    /// Returns the models of Figure 15 of the paper: CR, CDC, CDR, SDR, and CDR with the damping of Eq. (14).
     #[must_use]
     pub fn figure_15() -> Vec<Self> {
-        let viscous = [
+        let dampings = [
             Damping::Restitution,
-            Damping::ConstantCoefficient(Source::Predicted),
-            Damping::ConstantRatio(Source::Predicted),
-            Damping::StiffnessProportional(Source::Predicted),
-            Damping::ConstantRatio(Source::Equation14),
+            Damping::ConstantCoefficient(RatioSource::Predicted),
+            Damping::ConstantRatio(RatioSource::Predicted),
+            Damping::StiffnessProportional(RatioSource::Predicted),
+            Damping::ConstantRatio(RatioSource::Equation14),
         ];
-        viscous.map(Self::new).into()
+        dampings.map(Self::new).into()
     }
 
-    /// The parameters of a wall with this model's damping and impact, upright and at rest.
+    /// Returns the parameters of a wall with this model's damping and impact, upright and at rest.
     ///
     /// # Errors
-    /// [`ParameterError`] if the parameters do not make a wall whose e Eq. (14) could take.
+    /// [`ParameterError`] if the ratio is that of Eq. (14) and the parameters make no wall, or one with e = 0.
     pub fn applied_to(&self, wall: &Parameters) -> Result<Parameters, ParameterError> {
         let mut parameters = Parameters {
             damping_model: DampingModel::None,
@@ -88,25 +95,21 @@ impl Model {
             u_dot_start: 0.0,
             ..wall.clone()
         };
-        let (model, source) = match self.damping {
-            Damping::None => return Ok(parameters),
-            Damping::Restitution | Damping::RigidRestitution => {
-                parameters.impact = Impact::Restitution;
-                if self.damping == Damping::RigidRestitution {
-                    parameters.force_law = ForceLaw::RigidLinear;
-                    parameters.multilinear = None;
-                }
-                return Ok(parameters);
-            }
-            Damping::ConstantCoefficient(source) => (DampingModel::ConstantCoefficient, source),
-            Damping::FreeStandingBlock(source) => (DampingModel::FreeStandingBlock, source),
-            Damping::ConstantRatio(source) => (DampingModel::ConstantRatio, source),
-            Damping::StiffnessProportional(source) => (DampingModel::StiffnessProportional, source),
-        };
+        if matches!(self.damping, Damping::Restitution | Damping::RigidRestitution) {
+            parameters.impact = Impact::Restitution;
+        }
+        if self.damping == Damping::RigidRestitution {
+            parameters.force_law = ForceLaw::RigidLinear;
+            parameters.multilinear = None;
+        }
+        let (_, model, source) = self.damping.parts();
+        if model == DampingModel::None {
+            return Ok(parameters);
+        }
         let ratio = match source {
-            Source::Predicted => None,
-            Source::Given(value) => Some(value),
-            Source::Equation14 => {
+            RatioSource::Predicted => None,
+            RatioSource::Given(value) => Some(value),
+            RatioSource::Equation14 => {
                 let e = Wall::new(&parameters)?.restitution();
                 if e <= 0.0 {
                     return Err(ParameterError::Prediction { restitution: e });
@@ -115,12 +118,9 @@ impl Model {
             }
         };
         parameters.damping_model = model;
-        match ratio {
-            None => parameters.damping_source = DampingSource::Predicted,
-            Some(ratio) => {
-                parameters.damping_source = DampingSource::Given;
-                (parameters.xi, parameters.c_bar) = (ratio, ratio);
-            }
+        parameters.damping_source = ratio.map_or(DampingSource::Predicted, |_| DampingSource::Given);
+        if let Some(ratio) = ratio {
+            (parameters.xi, parameters.c_bar) = (ratio, ratio);
         }
         Ok(parameters)
     }

@@ -3,42 +3,43 @@
 use std::num::NonZeroUsize;
 
 use crate::chart::{Axis, Chart, Series};
-use crate::fragility::{Bootstrap, Interval, Observing, Summary, compare, steps};
+use crate::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
 use crate::ida::{
-    Case, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Occurrence, Study,
+    Case, Exceedance, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study,
 };
 use ground_motion::STANDARD_GRAVITY;
-use rocking_wall::variables::{Mechanism, RestitutionSource};
+use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
 
-use super::facts::{TABLE_5, Table5};
-use super::tables::table_5_wall;
-use super::{Cell, Figure, Table};
+use super::figure::Figure;
+use super::printed::{TABLE_5, Table5};
+use super::table::{Cell, Table, columns};
+use super::tables::{mechanism, table_5_wall};
 
-/// Hunt for the collapse of each record: 1 % of its intensity.
+/// Levels that find the collapse intensity of each record to 1 %.
 const LEVELS: Levels =
     Levels::HuntAndFill { first: 0.2, increase: 0.05, top: 150.0, resolution: 0.01, gap: 1.0 };
-/// Resamples of the records.
+/// Number of resamples of the records.
 const RESAMPLES: usize = 1000;
 const SEED: u64 = 15;
-/// Place of CDR with Eq. (14) among the models of Figure 15.
+/// Index of CDR with Eq. (14) among the models of Figure 15.
 const EQUATION_14: usize = 4;
 
 /// Figure 15 and its medians.
 #[derive(Clone, Debug)]
 pub struct Collapses {
-    /// The fragilities of each wall.
+    /// Fragilities of each wall.
     pub figure: Figure,
     /// Medians of CR, and those of the other models over it.
     pub table: Table,
-    /// For each wall the models in the order of [`Model::figure_15`].
+    /// Summaries of each wall, its models in the order of [`Model::figure_15`].
     pub walls: Vec<Vec<Summary>>,
 }
 
 /// Scales each record by `AvgSA` until each wall of Table 5 overturns, for CR, CDC, CDR, SDR and CDR with Eq. (14).
 ///
 /// # Errors
-/// [`IdaError`], if there is no record or one cannot be scaled.
+/// [`IdaError`] if there is no record, if one cannot be scaled, or if a run fails.
 pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Collapses, IdaError> {
     let count = records.len();
     let walls = TABLE_5.iter().map(|row| NamedWall {
@@ -51,12 +52,12 @@ pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Col
     let bootstrap = Bootstrap::new(count, RESAMPLES, SEED);
     let (mut charts, mut rows, mut walls) = (Vec::new(), Vec::new(), Vec::new());
     for (wall, row) in TABLE_5.iter().enumerate() {
-        let collapses = |model| -> Vec<Occurrence> {
+        let collapses = |model| -> Vec<Exceedance> {
             let curve = |record| &curves[study.index(Case { wall, record, model })];
             (0..count).map(|record| curve(record).collapse()).collect()
         };
         let collapses: Vec<_> = (0..study.models().len()).map(collapses).collect();
-        let summaries = compare(&collapses, 0, &Observing::Exactly, &bootstrap);
+        let summaries = compare(&collapses, 0, &ObservationKind::Records, &bootstrap);
         charts.push(chart(row, study.models(), &collapses));
         rows.push(table_row(row, &summaries));
         walls.push(summaries);
@@ -78,12 +79,14 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
         title: "Collapse fragilities of the walls of Table 5",
         notes: vec![
             format!(
-                "{count} records, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of RINTC for L'Aquila are \
-                 not public: medians cannot be compared with print, only how the models compare with each other."
+                "{count} records, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of \
+                 RINTC for L'Aquila are not public: medians cannot be compared with print, only how the models \
+                 compare with each other."
             ),
             format!(
-                "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with Eq. (14): above 1, the \
-                 probability of overturning underestimated, with its whole 95 % interval for {clear} of {} walls.",
+                "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with Eq. \
+                 (14): above 1, the probability of overturning underestimated, with its whole 95 % interval for \
+                 {clear} of {} walls.",
                 extremes(1..EQUATION_14),
                 extremes(EQUATION_14..EQUATION_14 + 1),
                 walls.len()
@@ -93,12 +96,8 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
     }
 }
 
-fn kind(row: &Table5) -> &'static str {
-    if row.mechanism == Mechanism::Parapet { "PW" } else { "VSSW" }
-}
-
-/// Empirical fragilities of one wall.
-fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Occurrence>]) -> Chart {
+/// Draws the empirical fragilities of one wall.
+fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart {
     let series = models.iter().zip(collapses).enumerate().map(|(color, (model, collapses))| {
         let mut points = vec![(0.0, 0.0)];
         let mut below = 0.0;
@@ -111,27 +110,24 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Occurrence>]) -> Chart
         look(&model.name, color, points)
     });
     let series: Vec<_> = series.collect();
-    // far above the rest a single record would squeeze all others
+    // a single record far above the rest would squeeze all others
     let mut widest: Vec<f64> =
         series[0].points.iter().map(|point| point.0).filter(|intensity| *intensity > 0.0).collect();
     widest.sort_by(f64::total_cmp);
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
-    Chart {
-        title: format!("{}: {} {:.2} m × {:.2} m", row.number, kind(row), row.size[0], row.size[1]),
-        x: Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]),
-        y: Axis::over("probability of overturning", [0.0, 1.02]),
-        series,
-    }
+    let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
+    let x = Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
+    Chart::new(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn table_row(row: &Table5, summaries: &[Summary]) -> Vec<Cell> {
     let mut cells = vec![
-        Cell::words(row.number.to_string()),
-        Cell::words(kind(row)),
-        Cell::words(interval(summaries[0].median, 1.0 / STANDARD_GRAVITY)),
+        Cell::text(row.number.to_string()),
+        Cell::text(mechanism(row)),
+        Cell::text(interval(summaries[0].median, 1.0 / STANDARD_GRAVITY)),
     ];
-    cells.extend(summaries[1..].iter().map(|summary| Cell::words(interval(summary.median_ratio, 1.0))));
-    cells.push(Cell::words(summaries.iter().map(|summary| summary.censored).sum::<usize>().to_string()));
+    cells.extend(summaries[1..].iter().map(|summary| Cell::text(interval(summary.median_ratio, 1.0))));
+    cells.push(Cell::text(summaries.iter().map(|summary| summary.censored).sum::<usize>().to_string()));
     cells
 }
 
@@ -145,19 +141,13 @@ fn table(count: usize, rows: Vec<Vec<Cell>>) -> Table {
         name: "Medians",
         title: "Median collapse AvgSA of CR, and that of each damping model over it",
         notes: vec![format!(
-            "In brackets 95 % of {RESAMPLES} resamples of the {count} records. Collapse is the first overturning found while the records \
-             are scaled up, to 1 % of its intensity."
+            "In brackets 95 % of {RESAMPLES} resamples of the {count} records. Collapse is the first overturning \
+             found while the records are scaled up, to 1 % of its intensity."
         )],
-        columns: vec![
-            "wall",
-            "type",
-            "CR: median (g)",
-            "CDC / CR",
-            "CDR / CR",
-            "SDR / CR",
-            "CDR with Eq. (14) / CR",
-            "runs that stood at 150 m/s²",
-        ],
+        columns: columns(
+            "wall | type | CR: median (g) | CDC / CR | CDR / CR | SDR / CR | CDR with Eq. (14) / CR | \
+             runs that stood at 150 m/s²",
+        ),
         rows,
     }
 }

@@ -1,11 +1,11 @@
 //! Tables 1 and 2: the paper's formulas as printed, evaluated beside the wall.
 
-use rocking_wall::variables::{ForceLaw, Mechanism};
+use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
-use super::{Cell, Table};
+use super::table::{Cell, Table, columns};
 
-/// A wall with an eccentric overburden, for which every term counts: O = W/2, c = b/10, h₁ = 0.6 h.
+/// Returns a wall with an eccentric overburden, for which every term counts: O = W/2, c = b/10, h₁ = 0.6 h.
 fn loaded(mechanism: Mechanism) -> Result<Wall, ParameterError> {
     let bare = Parameters { mechanism, hinge_ratio: 0.6, ..Parameters::default() };
     let weight = Wall::new(&bare)?.body().weight;
@@ -13,13 +13,13 @@ fn loaded(mechanism: Mechanism) -> Result<Wall, ParameterError> {
         overburden: 0.5 * weight,
         overburden_eccentricity: 0.1 * bare.thickness,
         force_law: ForceLaw::RigidLinear,
-        damping_model: rocking_wall::variables::DampingModel::None,
+        damping_model: DampingModel::None,
         ..bare
     })
 }
 
-/// The numbers in the formulas.
-struct Numbers {
+/// Symbols of the formulas.
+struct Symbols {
     h: f64,
     b: f64,
     h1: f64,
@@ -29,19 +29,11 @@ struct Numbers {
     overburden: f64,
 }
 
-impl Numbers {
+impl Symbols {
     fn of(wall: &Wall) -> Self {
         let body = wall.body();
-        let b = body.hinge_height * body.slenderness.tan();
-        Self {
-            h: body.height,
-            b,
-            h1: body.hinge_height,
-            h2: body.height - body.hinge_height,
-            c: 0.1 * b,
-            weight: body.weight,
-            overburden: body.overburden,
-        }
+        let (h, h1, b) = (body.height, body.hinge_height, body.hinge_height * body.slenderness.tan());
+        Self { h, b, h1, h2: h - h1, c: 0.1 * b, weight: body.weight, overburden: body.overburden }
     }
 
     /// Table 1, parapet: as printed, which is right.
@@ -82,77 +74,91 @@ impl Numbers {
     }
 }
 
-/// Tables 1 and 2.
+/// Returns a row of either table.
+fn row(name: &str, formula: &str, computed: f64, printed: f64, remark: &str) -> Vec<Cell> {
+    vec![Cell::text(name), Cell::text(formula), Cell::value(computed, printed, 4), Cell::text(remark)]
+}
+
+/// Returns the rows of Table 1 for one mechanism: `m_eff` as printed and its factor, λ, and the force as printed with its
+/// formula and a remark.
+fn parameter_rows(
+    (name, wall): (&str, &Wall),
+    (m_eff, factor, lambda): (&str, f64, f64),
+    (formula, force, remark): (&str, impl Fn(f64) -> f64, &str),
+) -> Vec<Vec<Cell>> {
+    let body = wall.body();
+    let mass = factor * body.mass / 1e3;
+    let mut rows = vec![
+        row(&format!("{name}: m_eff (t)"), m_eff, body.effective_mass / 1e3, mass, ""),
+        row(&format!("{name}: λ"), &format!("{lambda}"), body.participation, lambda, ""),
+    ];
+    for (place, part) in [("0⁺", 0.0), ("u_ins/2", 0.5), ("u_ins", 1.0)] {
+        let u = part * body.instability.positive;
+        let branch = &wall.branches()[wall.branch_of(u, 1.0)];
+        // at the corner u = u_ins the force is zero but for rounding, of either sign
+        let computed = if part < 1.0 { branch.restoring(u) * body.effective_mass / 1e3 } else { 0.0 };
+        rows.push(row(&format!("{name}: F({place}) (kN)"), formula, computed, force(u) / 1e3, remark));
+    }
+    rows
+}
+
+/// Computes Tables 1 and 2.
 ///
 /// # Errors
-/// [`ParameterError`], if the example made no wall.
+/// [`ParameterError`] if the example makes no wall.
 pub(super) fn tables_1_and_2() -> Result<[Table; 2], ParameterError> {
     let [parapet, strip] = [Mechanism::Parapet, Mechanism::VerticalSpanning].map(loaded);
     let (parapet, strip) = (parapet?, strip?);
-    let (p, s) = (Numbers::of(&parapet), Numbers::of(&strip));
-    let force = |wall: &Wall, u: f64| {
-        let branch = &wall.branches()[wall.branch_of(u, 1.0)];
-        branch.restoring(u) * wall.body().effective_mass / 1e3
-    };
-    let row = |name: &str, formula: &str, ours: f64, printed: f64, remark: &str| {
-        vec![Cell::words(name), Cell::words(formula), Cell::value(ours, printed, 4), Cell::words(remark)]
-    };
-    let columns = vec!["quantity", "as printed", "value", "remark"];
-    let mut first = Vec::new();
-    for (wall, name, m_eff, lambda) in
-        [(&parapet, "PW", "4/3 m", 0.75), (&strip, "VSSW", "2/3 (m₁ + m₂)", 1.5)]
-    {
-        let body = wall.body();
-        let factor = if name == "PW" { 4.0 / 3.0 } else { 2.0 / 3.0 };
-        let mass = factor * body.mass / 1e3;
-        first.push(row(&format!("{name}: m_eff (t)"), m_eff, body.effective_mass / 1e3, mass, ""));
-        first.push(row(&format!("{name}: λ"), &format!("{lambda}"), body.participation, lambda, ""));
-        let misprint = "print: −u and 2/h₁; from Lagrange: h/(h₁h₂) O (b + 2c − 2u) + O (b − 2c)/h₁";
-        let (formula, remark) = if name == "PW" {
-            ("2/h W (b/2 − u) + 2/h O (b/2 − c − 2u)", "")
-        } else {
-            ("2/h₁ W (b − u) + h/(h₁h₂) O (b + 2c − u) + 2/h₁ O (b − 2c)", misprint)
-        };
-        for (words, part) in [("0⁺", 0.0), ("u_ins/2", 0.5), ("u_ins", 1.0)] {
-            let u = part * body.instability.positive;
-            let printed = if name == "PW" { p.parapet_force(u) } else { s.strip_force(u) } / 1e3;
-            // at the corner u = u_ins the force is zero but for rounding, of either sign
-            let ours = if part < 1.0 { force(wall, u) } else { 0.0 };
-            first.push(row(&format!("{name}: F({words}) (kN)"), formula, ours, printed, remark));
-        }
-    }
+    let (p, s) = (Symbols::of(&parapet), Symbols::of(&strip));
+    let mut first = parameter_rows(
+        ("PW", &parapet),
+        ("4/3 m", 4.0 / 3.0, 0.75),
+        ("2/h W (b/2 − u) + 2/h O (b/2 − c − 2u)", |u| p.parapet_force(u), ""),
+    );
+    first.extend(parameter_rows(
+        ("VSSW", &strip),
+        ("2/3 (m₁ + m₂)", 2.0 / 3.0, 1.5),
+        (
+            "2/h₁ W (b − u) + h/(h₁h₂) O (b + 2c − u) + 2/h₁ O (b − 2c)",
+            |u| s.strip_force(u),
+            "print: −u and 2/h₁; from Lagrange: h/(h₁h₂) O (b + 2c − 2u) + O (b − 2c)/h₁",
+        ),
+    ));
+    let strength = |wall: &Wall| wall.body().strength.positive / 1e3;
+    let instability = |wall: &Wall| wall.body().instability.positive;
     let second = vec![
         row(
             "PW: F₀ (kN)",
             "(W + O) b/h + 2/h O c",
-            parapet.body().strength.positive / 1e3,
+            strength(&parapet),
             p.parapet_strength() / 1e3,
             "sign of c: Table 1 and u_ins have −c",
         ),
         row(
             "PW: u_ins (m)",
             "[2/h (W + O) b/2 − 2/h O c]/[2/h (W + 2O)]",
-            parapet.body().instability.positive,
+            instability(&parapet),
             p.parapet_instability(),
             "",
         ),
         row(
             "VSSW: F₀ (kN)",
             "2/h₁ (W + O) b + O (b + 2c)/(h − h₁)",
-            strip.body().strength.positive / 1e3,
+            strength(&strip),
             s.strip_strength() / 1e3,
             "",
         ),
         row(
             "VSSW: u_ins (m)",
             "F₀/[2/h₁ (W + O) + 2 O/(h − h₁)]",
-            strip.body().instability.positive,
+            instability(&strip),
             s.strip_instability(),
             "",
         ),
     ];
-    let example = "Evaluated for a wall of 4 m by 0.4 m by 1 m, 1800 kg/m³, with O = W/2 at c = b/10 and h₁ = 0.6 h. Without \
-                   overburden every formula agrees.";
+    let example = "Evaluated for a wall of 4 m by 0.4 m by 1 m, 1800 kg/m³, with O = W/2 at c = b/10 and h₁ = 0.6 h. \
+                   Without overburden every formula agrees.";
+    let columns = columns("quantity | as printed | value | remark");
     Ok([
         Table {
             name: "Table 1",

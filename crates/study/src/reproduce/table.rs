@@ -1,82 +1,82 @@
-//! Tables as data: each number beside the one in print.
+//! Tables as data: each computed number beside the printed one.
 
 /// A table of the paper, computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Such as "Table 5".
+    /// Name, such as "Table 5".
     pub name: &'static str,
-    /// What it holds.
+    /// Title.
     pub title: &'static str,
-    /// Where print cannot be matched and why, what was assumed.
+    /// Assumptions, and why some numbers do not match print.
     pub notes: Vec<String>,
     /// Heads of the columns.
     pub columns: Vec<&'static str>,
-    /// The rows, as long as the heads.
+    /// Rows, each with a cell for each column.
     pub rows: Vec<Vec<Cell>>,
 }
 
-/// One cell.
+/// A cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Words, or a number that is only given.
-    Words(String),
-    /// A number computed now.
+    /// A text, or a number that is given and not computed.
+    Text(String),
+    /// A computed number.
     Value(Value),
 }
 
-/// A number computed now, beside print.
+/// A computed number beside the printed one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
-    /// Computed now.
-    pub ours: f64,
-    /// In print; `None` where the paper has no such number.
-    pub printed: Option<f64>,
+    /// Computed number.
+    pub computed: f64,
+    /// Printed number.
+    pub printed: f64,
     /// Decimals in print.
     pub decimals: usize,
 }
 
 impl Value {
-    /// Ours minus print.
+    /// Returns the computed number minus the printed one.
     #[must_use]
-    pub fn deviation(&self) -> Option<f64> {
-        self.printed.map(|printed| self.ours - printed)
+    pub fn deviation(&self) -> f64 {
+        self.computed - self.printed
     }
 
-    /// Whether ours rounds to print: within half a unit of its last digit, and 1e-9 of it for ties.
+    /// Returns whether the computed number rounds to the printed one: within half a unit of its last digit, and 1e-9 of
+    /// it for ties.
     #[must_use]
-    pub fn agrees(&self) -> Option<bool> {
+    pub fn agrees(&self) -> bool {
         #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few decimals")]
         let unit = 10.0_f64.powi(-(self.decimals as i32));
-        self.deviation().map(|deviation| deviation.abs() <= (0.5 + 1e-9) * unit)
+        self.deviation().abs() <= (0.5 + 1e-9) * unit
     }
 }
 
 impl Cell {
-    /// Words.
+    /// Creates a cell of text.
     #[must_use]
-    pub fn words(text: impl Into<String>) -> Self {
-        Self::Words(text.into())
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(text.into())
     }
 
-    /// A number beside print.
+    /// Creates a cell of a computed number beside the printed one.
     #[must_use]
-    pub fn value(ours: f64, printed: f64, decimals: usize) -> Self {
-        Self::Value(Value { ours, printed: Some(printed), decimals })
-    }
-
-    /// A number without a counterpart in print.
-    #[must_use]
-    pub fn ours(ours: f64, decimals: usize) -> Self {
-        Self::Value(Value { ours, printed: None, decimals })
+    pub fn value(computed: f64, printed: f64, decimals: usize) -> Self {
+        Self::Value(Value { computed, printed, decimals })
     }
 }
 
+/// Splits a line of column heads at " | ".
+pub(super) fn columns(heads: &'static str) -> Vec<&'static str> {
+    heads.split(" | ").collect()
+}
+
 impl Table {
-    /// All numbers that have a counterpart in print.
+    /// Returns all computed numbers.
     pub fn values(&self) -> impl Iterator<Item = &Value> {
         self.rows.iter().flatten().filter_map(|cell| match cell {
-            Cell::Value(value) if value.printed.is_some() => Some(value),
-            _ => None,
+            Cell::Value(value) => Some(value),
+            Cell::Text(_) => None,
         })
     }
 }

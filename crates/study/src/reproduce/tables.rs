@@ -3,16 +3,16 @@
 use rocking_wall::variables::{DampingModel, Mechanism, RestitutionSource};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
-use super::facts::{
+use super::printed::{
     TABLE_3, TABLE_3_A1, TABLE_3_RESTITUTION, TABLE_4, TABLE_5, TABLE_5_HINGE, Table4, Table5,
 };
-use super::{Cell, Table};
+use super::table::{Cell, Table, columns};
 
-/// The damping models of the paper that take a ratio ξ.
+/// Damping models of the paper that take a ratio ξ.
 pub(super) const RATIO_MODELS: [DampingModel; 3] =
     [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
 
-/// The paper's name of a damping model.
+/// Returns the paper's abbreviation of a damping model.
 #[must_use]
 pub fn abbreviation(model: DampingModel) -> &'static str {
     match model {
@@ -24,15 +24,20 @@ pub fn abbreviation(model: DampingModel) -> &'static str {
     }
 }
 
-/// Table 3.
+/// Returns the paper's abbreviation of a mechanism.
+pub(super) fn mechanism(row: &Table5) -> &'static str {
+    if row.mechanism == Mechanism::Parapet { "PW" } else { "VSSW" }
+}
+
+/// Computes Table 3.
 #[must_use]
 pub fn table_3() -> Table {
-    let rows = TABLE_3.iter().map(|row| {
-        let mut cells = vec![Cell::words(format!("{}, Eq. ({})", abbreviation(row.model), row.equation))];
-        for (printed, restitutions) in [row.single_leaf, row.cavity].iter().zip(TABLE_3_RESTITUTION) {
-            cells.push(Cell::words(format!("{:.3}", printed[0])));
-            for (printed, e) in printed[1..].iter().zip(restitutions) {
-                cells.push(Cell::value(equivalence::predicted(row.model, TABLE_3_A1, e), *printed, 3));
+    let rows = TABLE_3.iter().map(|&(model, equation, walls)| {
+        let mut cells = vec![Cell::text(format!("{}, Eq. ({equation})", abbreviation(model)))];
+        for ([tests, predicted @ ..], restitutions) in walls.into_iter().zip(TABLE_3_RESTITUTION) {
+            cells.push(Cell::text(format!("{tests:.3}")));
+            for (printed, e) in predicted.into_iter().zip(restitutions) {
+                cells.push(Cell::value(equivalence::predicted(model, TABLE_3_A1, e), printed, 3));
             }
         }
         cells
@@ -44,29 +49,24 @@ pub fn table_3() -> Table {
             "Two cells of the cavity wall differ by 0.001 to 0.002: their e is printed to two digits only."
                 .into(),
         ],
-        columns: vec![
-            "model",
-            "single leaf: tests",
-            "predicted, e = 0.84",
-            "predicted, e = 0.87",
-            "cavity: tests",
-            "predicted, e = 0.61",
-            "predicted, e = 0.74",
-        ],
+        columns: columns(
+            "model | single leaf: tests | predicted, e = 0.84 | predicted, e = 0.87 | cavity: tests | \
+             predicted, e = 0.61 | predicted, e = 0.74",
+        ),
         rows: rows.collect(),
     }
 }
 
-/// Table 4.
+/// Computes Table 4.
 #[must_use]
 pub fn table_4() -> Table {
     let rows = TABLE_4.iter().map(|row: &Table4| {
         let [cr_a1, e] = row.restitution;
         let [cdr_a1, cdr_test, cdr] = row.constant_ratio;
         let [sdr_a1, sdr_test, sdr] = row.stiffness_proportional;
-        let given = |value: f64| Cell::words(format!("{value:.3}"));
+        let given = |value: f64| Cell::text(format!("{value:.3}"));
         vec![
-            Cell::words(row.specimen),
+            Cell::text(row.specimen),
             given(cr_a1),
             given(e),
             given(cdr_a1),
@@ -83,22 +83,14 @@ pub fn table_4() -> Table {
         notes: vec![
             "Parameters from tests are given, not computed. 0.0298 is printed as 0.029: cut off, not rounded.".into(),
         ],
-        columns: vec![
-            "specimen",
-            "CR: a₁",
-            "e",
-            "CDR: a₁",
-            "ξ from tests",
-            "ξ, Eq. (21)",
-            "SDR: a₁",
-            "ξ₁ from tests",
-            "ξ₁, Eq. (22)",
-        ],
+        columns: columns(
+            "specimen | CR: a₁ | e | CDR: a₁ | ξ from tests | ξ, Eq. (21) | SDR: a₁ | ξ₁ from tests | ξ₁, Eq. (22)",
+        ),
         rows: rows.collect(),
     }
 }
 
-/// The wall of a row of Table 5, bilinear, without damping or impact yet.
+/// Returns the wall of a row of Table 5, bilinear, with default damping and impact.
 #[must_use]
 pub fn table_5_wall(row: &Table5) -> Parameters {
     let [height, thickness] = row.size;
@@ -113,10 +105,10 @@ pub fn table_5_wall(row: &Table5) -> Parameters {
     }
 }
 
-/// Table 5.
+/// Computes Table 5.
 ///
 /// # Errors
-/// [`ParameterError`], if a row made no wall.
+/// [`ParameterError`] if a row makes no wall.
 pub fn table_5() -> Result<Table, ParameterError> {
     let mut rows = Vec::new();
     for row in &TABLE_5 {
@@ -133,17 +125,16 @@ pub fn table_5() -> Result<Table, ParameterError> {
             equivalence::makris_konstantinidis(e),
         ]
         .map(|ratio| 100.0 * ratio);
-        let kind = if row.mechanism == Mechanism::Parapet { "PW" } else { "VSSW" };
         let mut cells = vec![
-            Cell::words(row.number.to_string()),
-            Cell::words(kind),
-            Cell::words(format!("{:.2}", row.size[0])),
-            Cell::words(format!("{:.2}", row.size[1])),
-            Cell::words(format!("{:.4}", row.a1)),
+            Cell::text(row.number.to_string()),
+            Cell::text(mechanism(row)),
+            Cell::text(format!("{:.2}", row.size[0])),
+            Cell::text(format!("{:.2}", row.size[1])),
+            Cell::text(format!("{:.4}", row.a1)),
             Cell::value(e_an, row.restitution[0], 3),
             Cell::value(e, row.restitution[1], 3),
         ];
-        cells.extend(percent.iter().zip(row.damping).map(|(ours, printed)| Cell::value(*ours, printed, 2)));
+        cells.extend(percent.iter().zip(row.damping).map(|(ratio, printed)| Cell::value(*ratio, printed, 2)));
         rows.push(cells);
     }
     Ok(Table {
@@ -162,19 +153,9 @@ pub fn table_5() -> Result<Table, ParameterError> {
                 .into(),
             "a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) were fitted over.".into(),
         ],
-        columns: vec![
-            "wall",
-            "type",
-            "h (m)",
-            "b (m)",
-            "a₁",
-            "e_an",
-            "e_exp",
-            "ξ CDC (%)",
-            "ξ CDR (%)",
-            "ξ₁ SDR (%)",
-            "ξ Eq. (14) (%)",
-        ],
+        columns: columns(
+            "wall | type | h (m) | b (m) | a₁ | e_an | e_exp | ξ CDC (%) | ξ CDR (%) | ξ₁ SDR (%) | ξ Eq. (14) (%)",
+        ),
         rows,
     })
 }

@@ -1,4 +1,4 @@
-//! What a rocking spectrum goes over, and what can be wrong with it.
+//! Axes of a rocking spectrum, and errors of their values.
 
 use std::f64::consts::TAU;
 
@@ -6,12 +6,12 @@ use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
 
-use super::MOST_POINTS;
-
-/// Steps of a pulse in a period.
+/// Most points of a spectrum.
+pub const MOST_POINTS: usize = 250_000;
+/// Steps of a pulse in one period.
 const STEPS_PER_PERIOD: f64 = 2000.0;
 
-/// How the size of a wall is measured.
+/// Measure of the size of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
     /// Height h \[m\].
@@ -20,7 +20,7 @@ pub enum Size {
     SemiDiagonal,
 }
 
-/// How the slenderness of a wall is measured.
+/// Measure of the slenderness of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slenderness {
     /// h/b \[-\].
@@ -29,7 +29,7 @@ pub enum Slenderness {
     Angle,
 }
 
-/// The form of a pulse of unit amplitude; `ω_p` = 2π f.
+/// Form of a pulse of unit amplitude; `ω_p` = 2π f.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PulseForm {
     /// Symmetric Ricker pulse (1 − 2z²) exp(−z²), z = π f (t − t₀).
@@ -42,56 +42,30 @@ pub enum PulseForm {
 
 /// Why a spectrum could not be made.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum SpectrumError {
-    /// A value of an axis that makes no wall or pulse.
+    /// A value of an axis makes no wall or pulse.
     #[error("{name} = {value} is out of range; it must be {limit}")]
-    Value {
-        /// The axis.
-        name: &'static str,
-        /// The value.
-        value: f64,
-        /// What is allowed.
-        limit: String,
-    },
-    /// More points than memory or patience are for.
+    Value { name: &'static str, value: f64, limit: String },
+    /// There are more points than [`MOST_POINTS`].
     #[error("{found} points are more than {MOST_POINTS}; take fewer rows or columns")]
-    TooManyPoints {
-        /// Points asked for.
-        found: usize,
-    },
-    /// R and α belong to a parapet.
+    TooManyPoints { found: usize },
+    /// R or α is given for a wall that is not a parapet.
     #[error("{name} is that of a parapet; for a vertical spanning wall give heights and h/b")]
-    ParapetOnly {
-        /// The axis.
-        name: &'static str,
-    },
-    /// One of the walls.
+    ParapetOnly { name: &'static str },
+    /// A wall of a height and thickness \[m\] is invalid.
     #[error("wall of {height} m by {thickness} m: {source}")]
-    Wall {
-        /// Height \[m\].
-        height: f64,
-        /// Thickness \[m\].
-        thickness: f64,
-        /// What is wrong with it.
-        source: ParameterError,
-    },
-    /// One of the runs.
+    Wall { height: f64, thickness: f64, source: ParameterError },
+    /// A run of the wall of a height and thickness \[m\] failed.
     #[error("wall of {height} m by {thickness} m: {source}")]
-    Run {
-        /// Height \[m\].
-        height: f64,
-        /// Thickness \[m\].
-        thickness: f64,
-        /// Why it broke off.
-        source: SolverError,
-    },
-    /// The pulse.
+    Run { height: f64, thickness: f64, source: SolverError },
+    /// A pulse is invalid.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
 }
 
 impl Size {
-    /// Name and unit, for axes and messages.
+    /// Returns name and unit, for axes and messages.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -102,7 +76,7 @@ impl Size {
 }
 
 impl Slenderness {
-    /// Name and unit, for axes and messages.
+    /// Returns name and unit, for axes and messages.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -113,7 +87,7 @@ impl Slenderness {
 }
 
 impl PulseForm {
-    /// The pulse with a frequency \[Hz\] and the amplitude 1 m/s²; a Ricker pulse from where it is −4e-17 on.
+    /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is −4e-17.
     #[must_use]
     pub fn pulse(self, frequency: f64) -> Pulse {
         let shape = match self {
@@ -124,7 +98,7 @@ impl PulseForm {
         Pulse { shape, amplitude: 1.0, frequency }
     }
 
-    /// The pulse as a record, in 2000 steps a period: with a frequency \[Hz\] and the amplitude 1 m/s².
+    /// Samples the pulse of a frequency \[Hz\] and the amplitude 1 m/s² in 2000 steps a period.
     ///
     /// # Errors
     /// [`GroundMotionError`] if the frequency is not positive and finite.

@@ -56,7 +56,7 @@ fn rows(
     let levels: Vec<_> = curves.iter().flat_map(Curve::levels).collect();
     let alike = |name: &str| vec![ByteArray::from(name); levels.len()];
     let records = curves.iter().zip(&contents.records).flat_map(|(curve, record)| {
-        std::iter::repeat_n(ByteArray::from(record.name.as_str()), curve.levels().len())
+        std::iter::repeat_n(ByteArray::from(record.name.as_str()), curve.runs().len())
     });
     text(group, &alike(&contents.walls[wall].name))?;
     text(group, &alike(&contents.models[model].name))?;

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use rocking_wall::scene::{Scene, fingerprint, to_toml};
 use serde::{Deserialize, Serialize};
-use study::document::Report;
-use study::ida::{Case, Curve, Level, Study};
+use study::document::ReportOptions;
+use study::ida::{Case, Curve, Run, Study};
 
 use crate::output;
 
@@ -159,7 +159,7 @@ pub(crate) struct Folder {
 
 impl Folder {
     /// Takes a folder for a study: a new one, or one that holds runs of the same study.
-    pub(super) fn of_study(path: &Path, title: &str, study: &Study, report: &Report) -> Result<Self> {
+    pub(super) fn of_study(path: &Path, title: &str, study: &Study, report: &ReportOptions) -> Result<Self> {
         let contents = Contents::of(study);
         if path.join(STUDY).exists() {
             let other = Self::open(path)?;
@@ -247,7 +247,7 @@ impl Folder {
                 "" => None,
                 time => Some(time.parse().ok()?),
             };
-            levels.push(Level { intensity, demand, overturning });
+            levels.push(Run { intensity, demand, overturning });
         }
         // what tells a whole file from a cut one
         (lines.next() == Some("end") && text.ends_with("end\n")).then(|| Curve::new(levels))
@@ -255,10 +255,10 @@ impl Folder {
 
     /// Puts down the curve of a combination.
     pub(super) fn keep(&self, index: usize, curve: &Curve) -> Result<()> {
-        let mut text = format!("{} {index} {}\n", self.fingerprint, curve.levels().len());
-        for level in curve.levels() {
-            let time = level.overturning.map_or_else(String::new, |time| format!("{time:?}"));
-            let _ = writeln!(text, "{:?},{:?},{time}", level.intensity, level.demand);
+        let mut text = format!("{} {index} {}\n", self.fingerprint, curve.runs().len());
+        for run in curve.runs() {
+            let time = run.overturning.map_or_else(String::new, |time| format!("{time:?}"));
+            let _ = writeln!(text, "{:?},{:?},{time}", run.intensity, run.demand);
         }
         text.push_str("end\n");
         let file = self.run_file(index);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use ground_motion::read;
 use rocking_wall::scene::Scene;
-use study::document::{Outline, RecordsEntry, Report, WallEntry, WallSource};
+use study::document::{RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource};
 use study::ida::{NamedRecord, NamedWall, Study};
 
 /// Largest study file that is read.
@@ -16,7 +16,7 @@ const MAX_FILE_BYTES: u64 = 4 << 20;
 pub(super) struct Loaded {
     pub(super) title: String,
     pub(super) study: Study,
-    pub(super) report: Report,
+    pub(super) report: ReportOptions,
     /// What a quick check doubts about its records.
     pub(super) doubts: Vec<String>,
 }
@@ -28,8 +28,8 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
         bail!("{name}: expected a study file (TOML) of at most {MAX_FILE_BYTES} bytes");
     }
     let text = std::fs::read_to_string(path).with_context(|| format!("{name}: cannot be read"))?;
-    let Outline { title, walls, records, models, measure, levels, tail, report } =
-        Outline::parse(&name, &text)?;
+    let StudyFile { title, walls, records, models, measure, levels, tail, report } =
+        StudyFile::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
     let walls = walls.into_iter().map(|entry| wall(entry, folder, &name)).collect::<Result<Vec<_>>>()?;
     let mut doubts = Vec::new();
@@ -44,7 +44,7 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
 
 fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
     let (parameters, own_name) = match entry.source {
-        WallSource::Here(parameters) => (*parameters, String::new()),
+        WallSource::Inline(parameters) => (*parameters, String::new()),
         WallSource::Scene(path) => {
             let scene = Scene::read(&folder.join(&path))
                 .with_context(|| format!("{study}, line {}: a wall's scene", entry.line))?;

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use study::ida::{Occurrence, Study};
+use study::ida::{Exceedance, Study};
 use study::parallel;
 
 use crate::output;
@@ -170,13 +170,14 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Re
     let progress = Progress::new(missing.len());
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
-    let outcome = parallel::each(missing, threads, |index| -> Result<()> {
+    let outcome = parallel::map(missing.len(), threads, |place| -> Result<()> {
+        let index = missing[place];
         let case = study.case(index);
         let begun = Instant::now();
         let curve = study.curve(case)?;
         let seconds = begun.elapsed().as_secs_f64();
         folder.keep(index, &curve)?;
-        let runs = curve.levels().len();
+        let runs = curve.runs().len();
         if let Ok(mut shares) = shares.lock() {
             let share = &mut shares[case.model];
             share.seconds += seconds;
@@ -285,7 +286,7 @@ fn resurrections(results: &Results) -> String {
     let contents = results.contents();
     let resurrected = (0..contents.walls.len() * contents.models.len())
         .flat_map(|pair| results.curves(pair / contents.models.len(), pair % contents.models.len()))
-        .filter(|curve| matches!(curve.collapse(), Occurrence::At(_)) && curve.resurrections() > 0)
+        .filter(|curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0)
         .count();
     if resurrected == 0 {
         return String::new();

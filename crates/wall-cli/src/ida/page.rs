@@ -6,7 +6,7 @@ use figures::escaped;
 use figures::many_lines::ManyLines;
 use figures::palette::{AMBER, BLACK, BLUE, BROWN, GREEN, GREY, PURPLE, RED, TEAL};
 use study::fragility::{Interval, fractile, steps};
-use study::ida::{Curve, Occurrence};
+use study::ida::{Curve, Exceedance};
 
 use crate::template::filled;
 
@@ -187,10 +187,10 @@ fn top_at(results: &Results, wall: usize, fraction: f64) -> f64 {
     let models = results.contents().models.len();
     let largest = |model: usize| {
         let mut intensities: Vec<f64> = results
-            .occurrences(wall, model, fraction)
+            .exceedances(wall, model, fraction)
             .into_iter()
             .map(|occurrence| match occurrence {
-                Occurrence::At(intensity) | Occurrence::Above(intensity) => intensity,
+                Exceedance::At(intensity) | Exceedance::Above(intensity) => intensity,
             })
             .collect();
         intensities.sort_by(f64::total_cmp);
@@ -210,7 +210,7 @@ fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: 
         let color = color(results, model);
         let mut points = vec![[0.0, 0.0]];
         let mut before = 0.0;
-        for (intensity, part) in steps(&results.occurrences(wall, model, fraction)) {
+        for (intensity, part) in steps(&results.exceedances(wall, model, fraction)) {
             points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
             before = part;
         }
@@ -245,13 +245,13 @@ fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
 /// A curve up to its collapse, where it goes flat.
 fn path(curve: &Curve) -> Vec<[f64; 2]> {
     let mut points = vec![[0.0, 0.0]];
-    for level in curve.levels() {
-        if level.overturning.is_some() {
+    for run in curve.runs() {
+        if run.overturning.is_some() {
             let standing = points.last().map_or(0.0, |point| point[0]);
-            points.extend([[standing, in_g(level.intensity)], [2.0 * DEMAND_END, in_g(level.intensity)]]);
+            points.extend([[standing, in_g(run.intensity)], [2.0 * DEMAND_END, in_g(run.intensity)]]);
             break;
         }
-        points.push([level.demand, in_g(level.intensity)]);
+        points.push([run.demand, in_g(run.intensity)]);
     }
     points
 }

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use ground_motion::STANDARD_GRAVITY;
-use study::fragility::{Bootstrap, Interval, Observing, Summary, compare};
-use study::ida::{Curve, Occurrence};
+use study::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare};
+use study::ida::{Curve, Exceedance};
 use study::parallel;
 
 use super::folder::{Contents, Manifest};
@@ -25,14 +25,14 @@ impl Results {
         let report = &results.manifest.report;
         let bootstrap =
             Bootstrap::new(results.contents().records.len(), report.resamples as usize, report.seed);
-        let observing = results.observing();
+        let kind = results.observation_kind();
         let models = &results.contents().models;
         let reference = models.iter().position(|model| model.name == report.reference).unwrap_or(0);
         let summaries = parallel::map(walls * fractions, threads, |index| -> Result<_> {
             let (wall, fraction) = (index / fractions, report.fractions[index % fractions]);
-            let occurrences: Vec<_> =
-                (0..models.len()).map(|model| results.occurrences(wall, model, fraction)).collect();
-            Ok(compare(&occurrences, reference, &observing, &bootstrap))
+            let exceedances: Vec<_> =
+                (0..models.len()).map(|model| results.exceedances(wall, model, fraction)).collect();
+            Ok(compare(&exceedances, reference, &kind, &bootstrap))
         })?;
         results.summaries = summaries;
         Ok(results)
@@ -42,9 +42,9 @@ impl Results {
         &self.manifest.contents
     }
 
-    /// Levels that all records share make stripes; levels of each record's own tell its intensity itself.
-    fn observing(&self) -> Observing {
-        self.contents().grid.clone().map_or(Observing::Exactly, Observing::InStripes)
+    /// Returns stripes at levels that all records share, or the records' own intensities.
+    fn observation_kind(&self) -> ObservationKind {
+        self.contents().grid.clone().map_or(ObservationKind::Records, ObservationKind::Stripes)
     }
 
     /// The curves of a wall and model, record by record.
@@ -55,7 +55,7 @@ impl Results {
     }
 
     /// Where each record first exceeds a fraction of `u_ins`.
-    pub(crate) fn occurrences(&self, wall: usize, model: usize, fraction: f64) -> Vec<Occurrence> {
+    pub(crate) fn exceedances(&self, wall: usize, model: usize, fraction: f64) -> Vec<Exceedance> {
         let at_levels = self.contents().grid.is_some();
         self.curves(wall, model).iter().map(|curve| curve.exceedance(fraction, at_levels)).collect()
     }
@@ -67,7 +67,7 @@ impl Results {
 
     /// Number of runs.
     pub(crate) fn runs(&self) -> usize {
-        self.curves.iter().map(|curve| curve.levels().len()).sum()
+        self.curves.iter().map(|curve| curve.runs().len()).sum()
     }
 
     /// The names of a combination, for the first columns of a table.
@@ -87,14 +87,14 @@ impl Results {
             "wall,model,record,intensity_g,u_max_over_u_ins,overturned,overturn_time_s\n".to_owned();
         for (index, curve) in self.curves.iter().enumerate() {
             let names = self.names(index);
-            for level in curve.levels() {
-                let time = level.overturning.map_or_else(String::new, |time| time.to_string());
+            for run in curve.runs() {
+                let time = run.overturning.map_or_else(String::new, |time| time.to_string());
                 let _ = writeln!(
                     text,
                     "{names},{},{},{},{time}",
-                    in_g(level.intensity),
-                    level.demand,
-                    u8::from(level.overturning.is_some())
+                    in_g(run.intensity),
+                    run.demand,
+                    u8::from(run.overturning.is_some())
                 );
             }
         }
@@ -107,16 +107,16 @@ impl Results {
             "wall,model,record,collapse_g,standing_below_g,highest_level_g,runs,resurrections\n".to_owned();
         for (index, curve) in self.curves.iter().enumerate() {
             let collapse = match curve.collapse() {
-                Occurrence::At(intensity) => in_g(intensity).to_string(),
-                Occurrence::Above(_) => String::new(),
+                Exceedance::At(intensity) => in_g(intensity).to_string(),
+                Exceedance::Above(_) => String::new(),
             };
             let _ = writeln!(
                 text,
                 "{},{collapse},{},{},{},{}",
                 self.names(index),
-                in_g(curve.standing()),
+                in_g(curve.level_below_collapse()),
                 in_g(curve.top()),
-                curve.levels().len(),
+                curve.runs().len(),
                 curve.resurrections()
             );
         }

@@ -1,17 +1,26 @@
 //! Rocking spectra: `u_max/u_ins` over walls under one motion, or over pulses on one wall.
 //!
-//! Not to be mixed up with the elastic response spectra of [`ground_motion::spectrum`]: here each point is a rocking
-//! wall, which may overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical design
-//! methodologies, Earthquake Engineering and Structural Dynamics 32, 2003).
+//! These are not the elastic response spectra of [`ground_motion::spectrum`]: each point is a rocking wall, which may
+//! overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical design methodologies,
+//! Earthquake Engineering and Structural Dynamics 32, 2003).
 //!
-//! Over pulses the axes are dimensionless: `ω_p/p` across with p = √(k₀/`m_eff`), and `a_p/a₀` up with the acceleration a₀ = F₀/(λ `m_eff`) at
-//! which the rigid wall begins to rock. For a parapet without overburden p = √(3g/(2h)), Housner's √(3g/(4R)) with h for 2R as
-//! everywhere in the linearised model, and a₀ = g tan α. Two walls with the same damping and restitution then have the same
-//! spectrum, whatever their size (Zhang and Makris, Rocking response of free-standing blocks under cycloidal pulses, Journal
-//! of Engineering Mechanics 127, 2001).
+//! Over pulses the axes are dimensionless: `ω_p/p` along the columns with p = √(k₀/`m_eff`), and `a_p/a₀` along the rows
+//! with the acceleration a₀ = F₀/(λ `m_eff`) at which the rigid wall begins to rock. For a parapet without overburden
+//! p = √(3g/(2h)), which is Housner's √(3g/(4R)) with h for 2R, as everywhere in the linearised model, and a₀ = g tan α.
+//! Two walls with the same damping and restitution then have the same spectrum, whatever their size (Zhang and Makris,
+//! Rocking response of free-standing blocks under cycloidal pulses, Journal of Engineering Mechanics 127, 2001).
 //!
-//! Each wall starts upright and at rest. After the motion it is followed until the energy left cannot raise its peak; a run ends at
-//! overturning. Results do not depend on the number of threads.
+//! Each wall starts upright and at rest. After the motion it is followed until it lacks the energy to exceed its peak. A
+//! run ends at overturning. Results do not depend on the number of threads.
+//!
+//! ```
+//! use rocking_wall::wall::Parameters;
+//! use study::spectrum::{PulseForm, over_pulses};
+//!
+//! let spectrum = over_pulses(&Parameters::default(), PulseForm::Ricker, &[2.0, 4.0], &[0.5, 5.0], 1)?;
+//! assert!(!spectrum.points[0][0].rocked && spectrum.points[1][1].ratio > 0.0);
+//! # Ok::<(), study::spectrum::SpectrumError>(())
+//! ```
 
 mod axes;
 
@@ -21,48 +30,47 @@ use fmi2_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
 use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
-use rocking_wall::solver::{Memo, Motion, Segment, SolverError};
+use rocking_wall::solver::{Memo, Motion, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
-use rocking_wall::wall::{Parameters, Support};
+use rocking_wall::wall::Parameters;
 
-use super::free_motion::has_peaked;
-use super::parallel;
+use crate::free_motion::{advance, peak_is_final};
+use crate::parallel;
 
-pub use axes::{PulseForm, Size, Slenderness, SpectrumError};
+pub use axes::{MOST_POINTS, PulseForm, Size, Slenderness, SpectrumError};
 
-/// Most points of a spectrum.
-pub const MOST_POINTS: usize = 250_000;
-/// Steps of the free motion after the record, over 1/p, and their number: a wall near the instability leaves it as e^{pt}, so
-/// that after 100/p every peak has come.
+/// Step of the free motion after the record, over 1/p.
 const FREE_STEP: f64 = 0.25;
+/// Most steps of the free motion: a wall near the instability leaves it as e^{pt}, so that every peak comes within 100/p.
 const MOST_FREE_STEPS: u32 = 400;
 
-/// What became of one wall.
+/// Result of one wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Largest |u|/`u_ins` of its side \[-\]; at most 1.
+    /// Largest |u|/`u_ins`, of the side it is on \[-\]; at most 1.
     pub ratio: f64,
-    /// Whether it left its elastic branch, or with the rigid-linear law u = 0.
+    /// Whether the wall left its elastic branch, or u = 0 with the rigid-linear law.
     pub rocked: bool,
     /// Time of overturning from the start of the motion \[s\].
     pub overturning: Option<f64>,
 }
 
-/// A rocking spectrum: `points[row][column]`.
+/// A rocking spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RockingSpectrum {
     /// Values along the columns.
     pub columns: Vec<f64>,
     /// Values along the rows.
     pub rows: Vec<f64>,
-    /// One for each row and column.
+    /// Results: `points[row][column]`.
     pub points: Vec<Vec<Point>>,
 }
 
-/// A rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness; all else is as `parameters` say.
+/// Computes the rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness. The walls are otherwise
+/// as `parameters` state.
 ///
 /// # Errors
-/// [`SpectrumError`], of the first wall in order of rows and columns.
+/// [`SpectrumError`] of the first wall in the order of rows and columns.
 pub fn over_walls(
     parameters: &Parameters,
     motion: &GroundMotion,
@@ -72,13 +80,12 @@ pub fn over_walls(
 ) -> Result<RockingSpectrum, SpectrumError> {
     check_count(sizes.len() * rows.len())?;
     if parameters.mechanism != Mechanism::Parapet {
-        for (name, is_of_parapet) in [
+        let names = [
             (size.label(), size == Size::SemiDiagonal),
             (slenderness.label(), slenderness == Slenderness::Angle),
-        ] {
-            if is_of_parapet {
-                return Err(SpectrumError::ParapetOnly { name });
-            }
+        ];
+        if let Some(&(name, _)) = names.iter().find(|(_, parapet_only)| *parapet_only) {
+            return Err(SpectrumError::ParapetOnly { name });
         }
     }
     let walls: Vec<Parameters> = rows
@@ -91,13 +98,14 @@ pub fn over_walls(
         wall.point(-wall.participation(), motion)
     };
     let points = parallel::map(walls.len(), threads, run)?;
-    Ok(RockingSpectrum::new(sizes, rows, &points))
+    let points = points.chunks(sizes.len().max(1)).map(<[Point]>::to_vec).collect();
+    Ok(RockingSpectrum { columns: sizes.to_vec(), rows: rows.to_vec(), points })
 }
 
-/// A rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are `a_p/a₀`.
+/// Computes the rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are `a_p/a₀`.
 ///
 /// # Errors
-/// [`SpectrumError`], of the first pulse in order of columns.
+/// [`SpectrumError`] of the first pulse in the order of columns.
 pub fn over_pulses(
     parameters: &Parameters,
     form: PulseForm,
@@ -120,30 +128,20 @@ pub fn over_pulses(
         wall.points(&factors, &motion)
     };
     let found = parallel::map(columns.len(), threads, run)?;
-    let points: Vec<_> = (0..rows.len())
-        .flat_map(|row| (0..columns.len()).map(move |column| (row, column)))
-        .map(|(row, column)| found[column][row])
-        .collect();
-    Ok(RockingSpectrum::new(columns, rows, &points))
-}
-
-impl RockingSpectrum {
-    fn new(columns: &[f64], rows: &[f64], points: &[Point]) -> Self {
-        let points = points.chunks(columns.len().max(1)).map(<[Point]>::to_vec).collect();
-        Self { columns: columns.to_vec(), rows: rows.to_vec(), points }
-    }
+    let points = (0..rows.len()).map(|row| found.iter().map(|column| column[row]).collect()).collect();
+    Ok(RockingSpectrum { columns: columns.to_vec(), rows: rows.to_vec(), points })
 }
 
 fn check_count(found: usize) -> Result<(), SpectrumError> {
     if found > MOST_POINTS { Err(SpectrumError::TooManyPoints { found }) } else { Ok(()) }
 }
 
-/// The wall upright and at rest.
+/// Returns the wall upright and at rest.
 fn upright(parameters: &Parameters) -> Parameters {
     Parameters { u_start: 0.0, u_dot_start: 0.0, ..parameters.clone() }
 }
 
-/// The wall of a size and a slenderness, within the limits of the model description.
+/// Returns the wall of a size and a slenderness, within the limits of the model description.
 fn shaped(
     parameters: &Parameters,
     (size, value): (Size, f64),
@@ -195,26 +193,23 @@ struct Prepared {
 impl Prepared {
     fn new(parameters: &Parameters) -> Result<Self, SpectrumError> {
         let Parameters { height, thickness, .. } = *parameters;
-        let motion = Motion::of(parameters, parameters.tolerance).map_err(|source| SpectrumError::Wall {
-            height,
-            thickness,
-            source,
-        })?;
+        let failed = |source| SpectrumError::Wall { height, thickness, source };
+        let motion = Motion::of(parameters, parameters.tolerance).map_err(failed)?;
         Ok(Self { height, thickness, motion })
     }
 
-    /// λ, by which the ground acceleration enters.
+    /// Returns λ, the factor of the ground acceleration \[-\].
     fn participation(&self) -> f64 {
         self.motion.wall().body().participation
     }
 
-    /// a₀ = F₀/(λ `m_eff`) \[m/s²\].
+    /// Returns a₀ = F₀/(λ `m_eff`) \[m/s²\].
     fn onset(&self) -> f64 {
         let body = self.motion.wall().body();
         body.strength.positive / (body.participation * body.effective_mass)
     }
 
-    /// Runs through a motion, its accelerations times `factor` the forcing, and the free motion after it.
+    /// Runs through a motion, with `factor` times its accelerations as forcing, and the free motion after it.
     fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
         let samples = Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
@@ -224,7 +219,7 @@ impl Prepared {
             .map_err(|error| self.failed(error))
     }
 
-    /// The same for each of many factors.
+    /// Runs as [`point`](Self::point) does, for each of many factors.
     fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
         let samples = Samples(motion.samples());
         let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
@@ -243,17 +238,16 @@ impl Prepared {
         SpectrumError::Run { height: self.height, thickness: self.thickness, source }
     }
 
-    /// Follows the free motion after a record of some duration \[s\].
+    /// Follows the free motion after a record of `duration` \[s\].
     fn followed(&self, passage: Passage, duration: f64) -> Result<Point, SolverError> {
         let Passage { mut state, mut overturning, .. } = passage;
         let step = FREE_STEP / self.motion.wall().rocking_rate();
-        let still = Segment { duration: step, from: Support::default(), to: Support::default() };
         let mut memo = Memo::default();
         for index in 0..MOST_FREE_STEPS {
-            if overturning.is_some() || has_peaked(self.motion.wall(), &state) {
+            if overturning.is_some() || peak_is_final(self.motion.wall(), &state) {
                 break;
             }
-            let report = self.motion.advance(&mut state, &still, false, &mut memo)?;
+            let report = advance(&self.motion, &mut state, step, &mut memo)?;
             overturning = report.overturning.map(|offset| duration + f64::from(index) * step + offset);
         }
         let wall = self.motion.wall();

@@ -5,8 +5,8 @@ use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning, calibration};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
+use super::figure::{Figure, spaced};
 use super::tables::{RATIO_MODELS, abbreviation};
-use super::{Figure, spaced};
 
 /// Figure 4: a) bilinear and b) trilinear law on the rigid-linear one.
 pub(super) fn figure_4() -> Result<Figure, ParameterError> {
@@ -23,23 +23,24 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
     };
     let chart = |title: &str, name: &str, points: Vec<(f64, f64)>, at: f64| {
         let secant = at.mul_add(-1.0, a3) / at;
-        Chart {
-            title: title.into(),
-            x: Axis::over("u / u_ins", [0.0, 1.1]),
-            y: Axis::over("F / F0", [0.0, 1.1]),
-            series: vec![
+        let [x, y] = ["u / u_ins", "F / F0"].map(|label| Axis::over(label, [0.0, 1.1]));
+        Chart::new(
+            title,
+            x,
+            y,
+            vec![
                 Series::dashed("rigid-linear, slope −k₀", 5, vec![(0.0, 1.0), (1.0, 0.0)]),
                 Series::dashed("secant stiffness k_sec", 2, vec![(0.0, 0.0), (at, secant * at)]),
                 Series::line(name, 0, points),
             ],
-        }
+        )
     };
     Ok(Figure {
         number: 4,
         title: "Force-displacement laws built on the rigid-linear one",
         notes: vec![format!(
-            "The values drawn are lost; here a₁ = {a1}, a₃ = {a3}, d₁ = {d1}. The softening line keeps the slope −k₀ and ends \
-             at u₃ = a₃ u_ins; for a₃ = 1 all readings of the figure agree."
+            "The values drawn are lost; here a₁ = {a1}, a₃ = {a3}, d₁ = {d1}. The softening line keeps the slope −k₀ \
+             and ends at u₃ = a₃ u_ins; for a₃ = 1 all readings of the figure agree."
         )],
         charts: vec![
             chart("a) bilinear", "bilinear: u₁ = a₁ u_ins, u₃ = a₃ u_ins", law(ForceLaw::Bilinear)?, 0.6),
@@ -62,16 +63,17 @@ pub(super) fn figure_13() -> Figure {
         spaced([0.02, 0.35], 66).map(|angle| (angle, 100.0 * ratio(angle))).collect()
     };
     let (parapet, strip) = (Mechanism::Parapet, Mechanism::VerticalSpanning);
-    let charts = RATIO_MODELS.map(|model| Chart {
-        title: format!("{}, a₁ = {a1}, a₃ = 1", abbreviation(model)),
-        x: Axis::over("α or α₁ (rad)", [0.0, 0.35]),
-        y: Axis::over("damping ratio (%)", [0.0, if model == RATIO_MODELS[0] { 8.0 } else { 16.0 }]),
-        series: vec![
+    let charts = RATIO_MODELS.map(|model| {
+        let title = format!("{}, a₁ = {a1}, a₃ = 1", abbreviation(model));
+        let top = if model == RATIO_MODELS[0] { 8.0 } else { 16.0 };
+        let (x, y) = (Axis::over("α or α₁ (rad)", [0.0, 0.35]), Axis::over("damping ratio (%)", [0.0, top]));
+        let series = vec![
             Series::line("PW, e_an", 0, curve(model, parapet, 1.0)),
             Series::dashed("PW, 0.95 e_an", 0, curve(model, parapet, calibration(parapet))),
             Series::line("VSSW, e_an", 1, curve(model, strip, 1.0)),
             Series::dashed("VSSW, 0.90 e_an", 1, curve(model, strip, calibration(strip))),
-        ],
+        ];
+        Chart::new(title, x, y, series)
     });
     Figure {
         number: 13,

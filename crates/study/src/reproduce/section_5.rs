@@ -7,11 +7,12 @@ use crate::chart::{Axis, Chart, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 
-use super::facts::{FIGURE_WALL, FREE_STANDING, REGRESSIONS, START};
+use super::figure::{Figure, spaced};
+use super::printed::{FIGURE_WALL, FREE_STANDING, REGRESSIONS, START};
+use super::table::{Cell, Table, columns};
 use super::tables::{RATIO_MODELS as MODELS, abbreviation};
-use super::{Cell, Figure, Table, spaced};
 
-/// u₀/`u_ins` of Figure 8, and a₁ of Figure 10: the drawings are lost.
+/// u₀/`u_ins` assumed for Figure 8, and a₁ for Figure 10: those drawn are lost.
 const STARTS: [f64; 4] = [0.3, 0.5, 0.7, START];
 const A1: [f64; 4] = [0.01, 0.03, 0.05, 0.10];
 /// a₁ of Figures 8, 9 and 11.
@@ -20,7 +21,7 @@ const HEIGHTS: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 /// Largest ratio drawn (%).
 const TOP: f64 = 16.0;
 
-/// All calibrations of section 5.
+/// Calibrations of section 5.
 pub(super) struct Section5 {
     /// Over e and a₁ from 0.005 on, for each model.
     stiffness: [Calibration; 3],
@@ -57,7 +58,7 @@ impl Section5 {
         })
     }
 
-    /// Eqs. (20)–(23), refitted.
+    /// Refits Eqs. (20)–(23).
     pub(super) fn equations(&self) -> Table {
         let mut rows = Vec::new();
         for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
@@ -65,33 +66,33 @@ impl Section5 {
             for (words, points) in [("0.01 … 0.10", &points[2..]), ("0.005 … 0.10", &points[..])] {
                 let Some(law) = PowerLaw::fit(points) else { continue };
                 rows.push(vec![
-                    Cell::words(format!("Eq. ({equation}), {}", abbreviation(model))),
-                    Cell::words(words),
+                    Cell::text(format!("Eq. ({equation}), {}", abbreviation(model))),
+                    Cell::text(words),
                     Cell::value(law.q, q, 3),
                     Cell::value(law.r, r, 3),
                 ]);
             }
         }
         rows.push(vec![
-            Cell::words("Eq. (23), c̄ = −q ln e"),
-            Cell::words("rigid-linear"),
+            Cell::text("Eq. (23), c̄ = −q ln e"),
+            Cell::text("rigid-linear"),
             Cell::value(self.free_standing.coefficients[0].x, FREE_STANDING, 2),
-            Cell::words(""),
+            Cell::text(""),
         ]);
         let implied = implied_c_bar(REFERENCE_A1);
         Table {
             name: "Equations (20) to (23)",
             title: "Section 5 refitted: ξ = −q a₁^r ln e, u₀ = 0.9 u_ins, e = 0.80 … 0.98",
             notes: vec![
-                "CR runs on the same bilinear law as the damped wall: on the rigid law the fit is another. The ranges of e and a₁ \
-                 behind the printed values are not stated; CDC depends on them most."
+                "CR runs on the same bilinear law as the damped wall: on the rigid law the fit is another. The ranges \
+                 of e and a₁ behind the printed values are not stated; CDC depends on them most."
                     .into(),
                 format!(
-                    "Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ = {REFERENCE_A1}, and the \
-                     refit confirms that value rather than 1.55."
+                    "Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ = \
+                     {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
                 ),
             ],
-            columns: vec!["equation", "a₁", "q", "r"],
+            columns: columns("equation | a₁ | q | r"),
             rows,
         }
     }
@@ -118,8 +119,9 @@ impl Section5 {
             number: 8,
             title: "Damping that matches a free vibration of CR, over e and u₀",
             notes: vec![format!(
-                "Drawn values of u₀ are lost; here 0.3, 0.5, 0.7 and 0.9 u_ins. From the least to the largest x goes {} (CDC), {} \
-                 (CDR), {} (SDR): CDC depends most on the amplitude. That of SDR rises, on which the paper's text contradicts itself.",
+                "Drawn values of u₀ are lost; here 0.3, 0.5, 0.7 and 0.9 u_ins. From the least to the largest x goes {} \
+                 (CDC), {} (CDR), {} (SDR): CDC depends most on the amplitude. That of SDR rises, on which the \
+                 paper's text contradicts itself.",
                 trend(0),
                 trend(1),
                 trend(2)
@@ -152,7 +154,7 @@ impl Section5 {
         }
     }
 
-    /// Largest relative difference of x between heights.
+    /// Returns the largest relative difference of x between heights \[-\].
     fn spread(&self) -> f64 {
         let x = |height: usize, model: usize| self.shape[height][model].coefficients[0].x;
         let of = |model| (0..HEIGHTS.len()).map(move |height| (x(height, model) / x(1, model) - 1.0).abs());
@@ -190,16 +192,16 @@ impl Section5 {
             number: 11,
             title: "Least error of Eq. (18)",
             notes: vec![
-                "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the paper finds so for 0.82 to 0.88 \
-                 only."
+                "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the paper finds so \
+                 for 0.82 to 0.88 only."
                     .into(),
             ],
-            charts: vec![Chart {
-                title: format!("a₁ = {REFERENCE_A1}, u₀ = {START} u_ins"),
-                x: Axis::over("e", [0.78, 1.0]),
-                y: Axis::new("√Err"),
-                series: series.collect(),
-            }],
+            charts: vec![Chart::new(
+                format!("a₁ = {REFERENCE_A1}, u₀ = {START} u_ins"),
+                Axis::over("e", [0.78, 1.0]),
+                Axis::new("√Err"),
+                series.collect(),
+            )],
         }
     }
 
@@ -221,17 +223,17 @@ impl Section5 {
             number: 12,
             title: "Coefficient x of Eq. (19) over the initial stiffness",
             notes: vec!["Solid: fitted now over a₁ = 0.01 … 0.10; dashed: as printed.".into()],
-            charts: vec![Chart {
-                title: "ξ = −x ln e".into(),
-                x: Axis::over("a₁", [0.0, 0.1]),
-                y: Axis::over("x", [0.0, 0.8]),
+            charts: vec![Chart::new(
+                "ξ = −x ln e",
+                Axis::over("a₁", [0.0, 0.1]),
+                Axis::over("x", [0.0, 0.8]),
                 series,
-            }],
+            )],
         }
     }
 }
 
-/// c̄/(−ln e) that Eq. (20) implies for an unloaded bilinear parapet: c̄ √(g/(h/2)) = 2 ω₁ ξ.
+/// Returns c̄/(−ln e) that Eq. (20) implies for an unloaded bilinear parapet: c̄ √(g/(h/2)) = 2 ω₁ ξ.
 fn implied_c_bar(a1: f64) -> f64 {
     // ω₁² = k₀ (1 − a₁)/(a₁ m_eff) = (3/2)(g/h)(1 − a₁)/a₁
     let omega1 = (0.75 * (1.0 - a1) / a1).sqrt();
@@ -251,10 +253,5 @@ fn marks_and_fit<'a>(name: &str, color: usize, fits: impl Iterator<Item = &'a Fi
 }
 
 fn over_restitution(title: &str, top: f64, series: Vec<Series>) -> Chart {
-    Chart {
-        title: title.into(),
-        x: Axis::over("e", [0.78, 1.0]),
-        y: Axis::over("damping ratio (%)", [0.0, top]),
-        series,
-    }
+    Chart::new(title, Axis::over("e", [0.78, 1.0]), Axis::over("damping ratio (%)", [0.0, top]), series)
 }

@@ -1,4 +1,4 @@
-//! Figures 5, 6 and 7: free vibrations, and the numbers printed in their captions.
+//! Figures 5, 6 and 7: free vibrations; and the numbers printed in captions and text.
 
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
@@ -10,19 +10,21 @@ use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mec
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
-use super::facts::{
+use super::error::ReproductionError;
+use super::figure::{Figure, history, spaced};
+use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
+use super::table::{Cell, Table, columns};
 use super::tables::{RATIO_MODELS as MODELS, abbreviation};
-use super::{Cell, Figure, ReproductionError, Table, history, spaced};
 
-/// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the caption leaves out: with them `C_CDC` is the
-/// 300 kg/s of the text, and nothing else depends on them.
+/// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With them `C_CDC` is
+/// the 300 kg/s of the text, and nothing else depends on them.
 const STRIP_WIDTH: f64 = 1.5;
 const STRIP_DENSITY: f64 = 1850.0;
 
-/// The strip of Figures 5 and 6, released at 0.9 `u_ins`.
+/// Returns the strip of Figures 5 and 6, released at 0.9 `u_ins`.
 fn strip() -> Result<Parameters, ParameterError> {
     let [height, thickness, h1, a1, d1] = FIGURE_5_WALL;
     released(
@@ -43,18 +45,23 @@ fn strip() -> Result<Parameters, ParameterError> {
     )
 }
 
-/// A wall at a part of its `u_ins`.
-pub(super) fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterError> {
+/// Returns a wall released at the fraction `start` of its `u_ins`.
+fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterError> {
     let u_start = start * Wall::new(&parameters)?.body().instability.positive;
     Ok(Parameters { u_start, ..parameters })
 }
 
-fn damped(parameters: &Parameters, damping_model: DampingModel, xi: f64) -> Parameters {
+/// Returns the wall with a damping ratio ξ and no impacts.
+pub(super) fn damped(parameters: &Parameters, damping_model: DampingModel, xi: f64) -> Parameters {
     let damping_source = DampingSource::Given;
     Parameters { damping_model, damping_source, xi, impact: Impact::None, ..parameters.clone() }
 }
 
-/// The wall with restitution and no damping.
+fn u_axis() -> Axis {
+    Axis::over("u / u_ins", [-1.0, 1.0])
+}
+
+/// Returns the wall with restitution and no damping.
 pub(super) fn rocking(parameters: &Parameters, restitution: f64) -> Parameters {
     Parameters {
         damping_model: DampingModel::None,
@@ -65,27 +72,19 @@ pub(super) fn rocking(parameters: &Parameters, restitution: f64) -> Parameters {
     }
 }
 
-/// Figure 5: C over u, ξ over ω, damping force over u.
+/// Computes Figure 5: C over u, ξ over ω, damping force over u.
 pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
     for (color, (model, xi)) in MODELS.into_iter().zip(FIGURE_5_RATIOS).enumerate() {
         let parameters = damped(&strip, model, xi);
         let wall = Wall::new(&parameters)?;
-        let (body, name) = (wall.body(), abbreviation(model));
-        let u_ins = body.instability.positive;
-        let coefficient = |part: f64| {
-            let u = part * u_ins;
-            let branch = &wall.branches()[wall.branch_of(u, 0.0)];
-            (part, branch.damping_at(u) * body.effective_mass)
-        };
-        // just short of u_ins, beyond which C is another
-        let parts = spaced([-0.9999, 0.9999], 800).map(coefficient).collect();
-        coefficients.push(Series::line(name, color, parts));
+        let (name, strength) = (abbreviation(model), wall.body().strength.positive);
+        coefficients.push(Series::line(name, color, damping_coefficients(&wall)));
         let omega1 = wall.omega1();
         let ratio = |omega: f64| {
             let ratio = match model {
-                // C = 2 m_eff ω₁ ξ, seen as 2 m_eff ω ξ(ω)
+                // C = 2 m_eff ω₁ ξ = 2 m_eff ω ξ(ω)
                 DampingModel::ConstantCoefficient => xi * omega1 / omega,
                 DampingModel::StiffnessProportional => xi * omega / omega1,
                 _ => xi,
@@ -93,14 +92,12 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
             (omega, 100.0 * ratio)
         };
         ratios.push(Series::line(name, color, spaced([0.5, omega1], 200).map(ratio).collect()));
-        let force =
-            |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / body.strength.positive);
+        let force = |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / strength);
         let samples = history(&parameters, None, [0.002, 5.0])?;
         forces.push(Series::line(name, color, samples.iter().map(force).collect()));
     }
-    // the one with the largest forces behind the others
+    // the model with the largest forces lies behind the others
     forces.reverse();
-    let u_axis = || Axis::over("u / u_ins", [-1.0, 1.0]);
     Ok(Figure {
         number: 5,
         title: "The three damping models on one strip",
@@ -114,29 +111,35 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
                 .into(),
         ],
         charts: vec![
-            Chart {
-                title: "a) damping coefficient".into(),
-                x: u_axis(),
-                y: Axis::new("C (kg/s)"),
-                series: coefficients,
-            },
-            Chart {
-                title: "b) damping ratio".into(),
-                x: Axis::new("ω (rad/s)"),
-                y: Axis::over("damping ratio (%)", [0.0, 10.0]),
-                series: ratios,
-            },
-            Chart {
-                title: "c) damping force in a free vibration from 0.9 u_ins".into(),
-                x: u_axis(),
-                y: Axis::new("C u̇ / F0"),
-                series: forces,
-            },
+            Chart::new("a) damping coefficient", u_axis(), Axis::new("C (kg/s)"), coefficients),
+            Chart::new(
+                "b) damping ratio",
+                Axis::new("ω (rad/s)"),
+                Axis::over("damping ratio (%)", [0.0, 10.0]),
+                ratios,
+            ),
+            Chart::new(
+                "c) damping force in a free vibration from 0.9 u_ins",
+                u_axis(),
+                Axis::new("C u̇ / F0"),
+                forces,
+            ),
         ],
     })
 }
 
-/// Figure 6: a free vibration of CR beside one of CDR.
+/// Returns (u/`u_ins`, C) of a wall, C in kg/s.
+fn damping_coefficients(wall: &Wall) -> Vec<(f64, f64)> {
+    let body = wall.body();
+    let coefficient = |part: f64| {
+        let u = part * body.instability.positive;
+        (part, wall.branches()[wall.branch_of(u, 0.0)].damping_at(u) * body.effective_mass)
+    };
+    // C changes at u_ins
+    spaced([-0.9999, 0.9999], 800).map(coefficient).collect()
+}
+
+/// Computes Figure 6: a free vibration of CR beside one of CDR.
 pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
     let [e, xi] = FIGURE_6;
     let strip = strip()?;
@@ -159,23 +162,13 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
         title: "Matched free vibrations of CR and CDR",
         notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
         charts: vec![
-            Chart {
-                title: "a) history".into(),
-                x: Axis::over("time (s)", [0.0, 10.0]),
-                y: Axis::over("u / u_ins", [-1.0, 1.0]),
-                series: histories,
-            },
-            Chart {
-                title: "b) displacement and velocity".into(),
-                x: Axis::over("u / u_ins", [-1.0, 1.0]),
-                y: Axis::new("velocity / u_ins (1/s)"),
-                series: phases,
-            },
+            Chart::new("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
+            Chart::new("b) displacement and velocity", u_axis(), Axis::new("velocity / u_ins (1/s)"), phases),
         ],
     })
 }
 
-/// Figure 7: a rocking body beside elastic oscillators.
+/// Computes Figure 7: a rocking body beside elastic oscillators.
 pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     let [height, thickness] = FIGURE_WALL;
     let rigid = Parameters {
@@ -193,25 +186,19 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     for ((e, impacts), (panel, end)) in FIGURE_7.into_iter().zip([("a", 20.0), ("b", 10.0)]) {
         let samples = history(&rocking(&body, e), None, [0.005, end])?;
         let xi = equivalence::priestley(e, FIGURE_7_START, impacts);
-        let amplitude = after(e, impacts / 2);
+        let amplitude = amplitude_after(e, impacts / 2);
         let period = equivalence::housner_period(frequency, amplitude);
         let oscillator = |period: f64| {
             spaced([0.0, end], 2000).map(|t| (t, FIGURE_7_START * elastic(t, TAU / period, xi))).collect()
         };
-        charts.push(Chart {
-            title: format!("{panel}) e = {e}, ξ = {xi:.4} from Eq. (13) with n = {impacts}"),
-            x: Axis::over("time (s)", [0.0, end]),
-            y: Axis::over("u / u_ins", [-1.0, 1.0]),
-            series: vec![
-                Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
-                Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
-                Series::line(
-                    "rocking body, CR",
-                    0,
-                    samples.iter().map(|s| (s.time, s.outputs.ratio)).collect(),
-                ),
-            ],
-        });
+        let title = format!("{panel}) e = {e}, ξ = {xi:.4} from Eq. (13) with n = {impacts}");
+        let rocking = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
+        let series = vec![
+            Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
+            Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
+            Series::line("rocking body, CR", 0, rocking),
+        ];
+        charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
     }
     Ok(Figure {
         number: 7,
@@ -225,20 +212,20 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     })
 }
 
-/// Amplitude θ/α of a rocking block after `impacts` impacts, by Housner's energy.
-fn after(e: f64, impacts: u32) -> f64 {
+/// Returns the amplitude θ/α of a rocking block after `impacts` impacts, by Housner's energy.
+fn amplitude_after(e: f64, impacts: u32) -> f64 {
     let energy = e.powf(2.0 * f64::from(impacts)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
     1.0 - (1.0 - energy).sqrt()
 }
 
-/// Free vibration of an elastic oscillator from 1 at rest.
+/// Returns the free vibration of an elastic oscillator released at rest from 1.
 fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
     let root = (1.0 - xi * xi).sqrt();
     let phase = omega * root * time;
     (-xi * omega * time).exp() * (phase.cos() + xi / root * phase.sin())
 }
 
-/// Numbers that captions and text print.
+/// Computes the numbers printed in captions and text.
 pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError> {
     let strip = strip()?;
     let cdc = Wall::new(&damped(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
@@ -253,48 +240,48 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError
     let cdr = fits(MODELS[1], &ends)?;
     let part = (FIGURE_5_RATIOS[1] - cdr[0]) / (cdr[1] - cdr[0]);
     let e = ends[0] + part * (ends[1] - ends[0]);
-    let mut rows = vec![
-        vec![
-            Cell::words("Figure 2: e of the parapet"),
-            Cell::value(
-                analytic_parapet((FIGURE_WALL[1] / FIGURE_WALL[0]).atan()),
-                FIGURE_2_RESTITUTION[0],
-                3,
-            ),
-            Cell::words("Eq. (2)"),
-        ],
-        vec![
-            Cell::words("Figure 2: e of the strip"),
-            Cell::value(
-                analytic_vertical_spanning((2.0 * FIGURE_WALL[1] / FIGURE_WALL[0]).atan()),
-                FIGURE_2_RESTITUTION[1],
-                3,
-            ),
-            Cell::words("Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used"),
-        ],
-        vec![
-            Cell::words("Figure 5: C_CDC (kg/s)"),
-            Cell::value(cdc.elastic_damping(), FIGURE_5_COEFFICIENT, 0),
-            Cell::words("the assumed width and density were chosen for it"),
-        ],
-        vec![
-            Cell::words("Figure 6: ξ of CDR for e = 0.875"),
-            Cell::value(figure_6, FIGURE_6[1], 3),
-            Cell::words("least of Eq. (18) for this wall and start"),
-        ],
+    let row = |number: &str, computed: f64, printed: f64, decimals: usize, remark: &str| {
+        vec![Cell::text(number), Cell::value(computed, printed, decimals), Cell::text(remark)]
+    };
+    let [height, thickness] = FIGURE_WALL;
+    let [e_parapet, e_strip] = [
+        analytic_parapet((thickness / height).atan()),
+        analytic_vertical_spanning((2.0 * thickness / height).atan()),
     ];
+    let mut rows = vec![
+        row("Figure 2: e of the parapet", e_parapet, FIGURE_2_RESTITUTION[0], 3, "Eq. (2)"),
+        row(
+            "Figure 2: e of the strip",
+            e_strip,
+            FIGURE_2_RESTITUTION[1],
+            3,
+            "Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used",
+        ),
+        row(
+            "Figure 5: C_CDC (kg/s)",
+            cdc.elastic_damping(),
+            FIGURE_5_COEFFICIENT,
+            0,
+            "the assumed width and density were chosen for it",
+        ),
+        row(
+            "Figure 6: ξ of CDR for e = 0.875",
+            figure_6,
+            FIGURE_6[1],
+            3,
+            "least of Eq. (18) for this wall and start",
+        ),
+    ];
+    let remark = format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value");
     for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
-        rows.push(vec![
-            Cell::words(format!("Figure 5: ξ of {}", abbreviation(model))),
-            Cell::value(fits(model, &[e])?[0], printed, 3),
-            Cell::words(format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value")),
-        ]);
+        let number = format!("Figure 5: ξ of {}", abbreviation(model));
+        rows.push(row(&number, fits(model, &[e])?[0], printed, 3, &remark));
     }
     Ok(Table {
         name: "Captions",
         title: "Numbers printed in captions and text",
         notes: vec![],
-        columns: vec!["number", "value", "remark"],
+        columns: columns("number | value | remark"),
         rows,
     })
 }

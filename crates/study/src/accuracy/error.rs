@@ -1,0 +1,20 @@
+//! Errors of a measurement.
+
+use ground_motion::GroundMotionError;
+use rocking_wall::solver::SolverError;
+use rocking_wall::wall::ParameterError;
+
+/// Why a problem could not be measured.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum AccuracyError {
+    /// The parameters make no wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// The motion is invalid.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
+    /// A run failed.
+    #[error("{name}: {source}")]
+    Run { name: String, source: SolverError },
+}

@@ -1,0 +1,34 @@
+//! Errors of an incremental dynamic analysis.
+
+use ground_motion::GroundMotionError;
+use rocking_wall::solver::SolverError;
+use rocking_wall::wall::ParameterError;
+
+/// Why a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum IdaError {
+    /// A list is empty.
+    #[error("a study needs at least one {what}")]
+    Empty { what: &'static str },
+    /// A wall and a damping model do not go together.
+    #[error("wall {wall:?} with the damping model {model:?}: {source}")]
+    Parameters { wall: String, model: String, source: Box<ParameterError> },
+    /// The intensity of a record cannot be computed.
+    #[error("record {record:?}: {source}")]
+    Record { record: String, source: Box<GroundMotionError> },
+    /// A record whose intensity is zero or not finite.
+    #[error("record {record:?} has the intensity {intensity} m/s² and cannot be scaled; leave it out")]
+    Unscalable { record: String, intensity: f64 },
+    /// A value of the levels is outside its limits.
+    #[error("{name} of the levels is {value}; it must be {limit}")]
+    Levels { name: &'static str, value: String, limit: String },
+    /// The free vibration after a record is outside its limits.
+    #[error("the tail is {value} s; it must be from 0 to 1000 s")]
+    Tail { value: f64 },
+    /// A run failed.
+    #[error(
+        "wall {wall:?}, record {record:?}, damping model {model:?}, from the level {level} m/s² on: {source}"
+    )]
+    Run { wall: String, record: String, model: String, level: f64, source: Box<SolverError> },
+}
