@@ -8,6 +8,23 @@ use study::ida::Exceedance;
 
 const TRUTH: Lognormal = Lognormal { median: 0.62, dispersion: 0.45 };
 
+/// Returns the z with Φ(z) = p, by bisection; infinite at 0 and 1, NaN outside.
+fn quantile(p: f64) -> f64 {
+    match p {
+        0.0 => return f64::NEG_INFINITY,
+        1.0 => return f64::INFINITY,
+        p if !(p > 0.0 && p < 1.0) => return f64::NAN,
+        _ => {}
+    }
+    let (mut low, mut high) = (-39.0, 39.0);
+    // 78 · 2⁻⁶⁰ is below a rounding of z = 1
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if cumulative(middle) < p { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
 /// Intensities at the middles of `count` equally likely parts of the truth.
 fn stratified(count: u32) -> Vec<f64> {
     let z = |k: u32| quantile((f64::from(k) + 0.5) / f64::from(count));

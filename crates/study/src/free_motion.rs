@@ -1,7 +1,8 @@
-//! Motion of a wall without excitation.
+//! Free motion of a wall, with impacts or with viscous damping.
 
 use rocking_wall::solver::{Memo, Motion, Report, Segment, SolverError, State};
-use rocking_wall::wall::{Support, Wall};
+use rocking_wall::variables::{DampingModel, DampingSource, Impact, RestitutionSource};
+use rocking_wall::wall::{Parameters, Support, Wall};
 
 /// By how much rounding may raise the energy, relative to that at the peak.
 const ENERGY_ROUNDING: f64 = 1e-13;
@@ -17,8 +18,8 @@ pub(crate) fn advance(
     motion.advance(state, &segment, false, memo)
 }
 
-/// Whether free motion from `state` cannot raise `u_max/u_ins`: the wall is between its points of zero force, and
-/// its energy is at most that at the peak so far and that at either of these points.
+/// Whether free motion from `state` cannot raise `u_max/u_ins`: the wall is between its points of zero force,
+/// and its energy is at most that at the peak so far and that at either of these points.
 pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
     let (u_ins, end) = (wall.body().instability, wall.force_end());
     let ratio = state.peaks.ratio(u_ins);
@@ -29,4 +30,27 @@ pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
     };
     state.displacement.abs() < end.of(state.displacement)
         && energy * (1.0 - ENERGY_ROUNDING) <= highest(1.0).min(highest(-1.0))
+}
+
+/// Returns a wall with restitution and no damping.
+pub(crate) fn with_restitution(parameters: &Parameters, restitution: f64) -> Parameters {
+    Parameters {
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        restitution_source: RestitutionSource::Given,
+        restitution,
+        ..parameters.clone()
+    }
+}
+
+/// Returns a wall with a damping ratio, ξ or c̄, and no impacts.
+pub(crate) fn with_damping(parameters: &Parameters, damping_model: DampingModel, ratio: f64) -> Parameters {
+    Parameters {
+        damping_model,
+        damping_source: DampingSource::Given,
+        xi: ratio,
+        c_bar: ratio,
+        impact: Impact::None,
+        ..parameters.clone()
+    }
 }

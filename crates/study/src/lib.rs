@@ -7,7 +7,7 @@
 //! | [`parallel`] | work shared by threads |
 //! | [`chart`] | charts as plain data |
 //! | `random` | random numbers that are the same on every machine |
-//! | `free_motion` | motion of a wall without excitation |
+//! | `free_motion` | free motion of a wall, with impacts or with viscous damping |
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`document`] | study files |

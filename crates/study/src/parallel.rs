@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Most threads. More would only wait for one another, and a system that refuses to start one ends the program.
+/// Most threads. More would only wait for one another, and a system that refuses to start one ends the
+/// program.
 const MOST_THREADS: usize = 512;
 
 /// Returns the number of threads asked for, or one for each core.

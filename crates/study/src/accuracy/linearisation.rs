@@ -1,7 +1,7 @@
 //! Error of small rotations: Eq. (1) beside full rotations, Figures 2 and 3 of the paper.
 //!
-//! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full ones, so that
-//! both start at the same θ₀/α of Eq. (5).
+//! Displacements are fractions of the unstable equilibrium: u/`u_ins` for small rotations, θ/`θ_ins` for full
+//! ones, so that both start at the same θ₀/α of Eq. (5).
 //!
 //! ```
 //! use study::accuracy::linearisation::{figure_2_wall, period};
@@ -45,7 +45,8 @@ pub struct FreeMotion {
     pub amplitudes: Vec<f64>,
 }
 
-/// Free motions of one wall, released from one fraction of its unstable equilibrium, in small and in full rotations.
+/// Free motions of one wall, released from one fraction of its unstable equilibrium, in small and in full
+/// rotations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Output step \[s\].
@@ -69,7 +70,8 @@ impl Comparison {
         largest_difference(&self.linear.amplitudes, &self.trigonometric.amplitudes)
     }
 
-    /// Returns the time of an impact in small rotations over that in full ones; `None` where either has fewer.
+    /// Returns the time of an impact in small rotations over that in full ones; `None` where either has
+    /// fewer.
     #[must_use]
     pub fn time_ratio(&self, impact: usize) -> Option<f64> {
         Some(self.linear.impacts.get(impact)? / self.trigonometric.impacts.get(impact)?)
@@ -80,7 +82,8 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Returns the walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip, hinge at mid-height).
+/// Returns the walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip,
+/// hinge at mid-height).
 #[must_use]
 pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     let restitution = match mechanism {
@@ -98,8 +101,8 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     }
 }
 
-/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in steps of `step`
-/// \[s\].
+/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in
+/// steps of `step` \[s\].
 ///
 /// # Errors
 /// [`AccuracyError::Run`] if a run fails.
@@ -107,8 +110,9 @@ pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Compar
     compare(&figure_2_wall(mechanism), 0.9, duration, step)
 }
 
-/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it both ways over `duration`
-/// in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its force law and damping.
+/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it both ways
+/// over `duration` in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its force law
+/// and damping.
 ///
 /// # Errors
 /// [`AccuracyError`] if the parameters make no such wall or a run fails.
@@ -151,8 +155,8 @@ impl Period {
     }
 }
 
-/// Computes four times the time to the first impact of a wall released at rest from the fraction `start` of its unstable
-/// equilibrium.
+/// Computes four times the time to the first impact of a wall released at rest from the fraction `start` of
+/// its unstable equilibrium.
 ///
 /// # Errors
 /// [`AccuracyError`] if the parameters make no rigid wall or a run fails.
@@ -171,8 +175,9 @@ pub fn period(parameters: &Parameters, start: f64) -> Result<Period, AccuracyErr
     Ok(Period { slenderness: body.slenderness, start, linear, trigonometric, housner })
 }
 
-/// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m with its hinge at
-/// mid-height. Ratios of periods depend only on the slenderness, the hinge ratio and the start.
+/// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m
+/// with its hinge at mid-height. Ratios of periods depend only on the slenderness, the hinge ratio and the
+/// start.
 ///
 /// # Errors
 /// [`AccuracyError`] if a slenderness makes no wall or a run fails.

@@ -1,8 +1,8 @@
 //! Error against run time of every solver on a set of problems.
 //!
-//! Errors are taken at the samples of the record, over `u_ins`, until either wall overturns. The reference is the exact
-//! solver where there is a closed form, otherwise the adaptive solver at its tightest tolerance. The reference itself
-//! is measured against the other of the two.
+//! Errors are taken at the samples of the record, over `u_ins`, until either wall overturns. The reference is
+//! the exact solver where there is a closed form, otherwise the adaptive solver at its tightest tolerance.
+//! The reference itself is measured against the other of the two.
 //!
 //! ```
 //! use study::accuracy::{Problem, Setting, measure_at};
@@ -81,7 +81,8 @@ pub struct Measurement {
     pub error_rms: f64,
     /// Relative error of the largest |u|, where neither run overturned \[-\].
     pub error_peak: Option<f64>,
-    /// Error of the time of overturning \[s\]; infinite where only one run overturned, `None` where neither did.
+    /// Error of the time of overturning \[s\]; infinite where only one run overturned, `None` where neither
+    /// did.
     pub error_overturning: Option<f64>,
     /// Pieces of motion, corners and impacts. No solver here rejects a step.
     pub work: Work,
@@ -148,24 +149,24 @@ pub fn measure_at(
     let wall = Wall::new(&problem.parameters)?;
     let exact = wall.has_closed_form();
     let failed = |source| AccuracyError::Run { name: problem.name.clone(), source };
-    let runner = Runner { problem, wall };
     let tightest = Setting::Adaptive(TIGHTEST);
-    let best = if exact { Setting::Exact(1) } else { tightest };
-    let reference = runner.history(best, 1.0).map_err(failed)?;
-    let other = if exact { Some(runner.history(tightest, 1.0).map_err(failed)?) } else { None };
-    let probed = runner.history(best, 1.0 + PROBE).map_err(failed)?;
-    let scale = runner.wall.displacement_scale();
+    let best = Trial::new(problem, &wall, if exact { Setting::Exact(1) } else { tightest });
+    let reference = best.history(1.0).map_err(failed)?;
+    let adaptive = Trial::new(problem, &wall, tightest);
+    let other = exact.then(|| adaptive.history(1.0)).transpose().map_err(failed)?;
+    let probed = best.history(1.0 + PROBE).map_err(failed)?;
+    let scale = wall.displacement_scale();
     let amplification = 1.0 + largest_difference(&reference, &probed, scale) / PROBE;
-    let mut measurements = Vec::with_capacity(settings.len());
-    for &setting in settings {
-        let history = runner.history(setting, 1.0).map_err(failed)?;
+    let measurement = |&setting: &Setting| {
+        let trial = Trial::new(problem, &wall, setting);
+        let history = trial.history(1.0)?;
         let against = match (setting, &other) {
             (Setting::Exact(_), Some(other)) => other,
             _ => &reference,
         };
-        let seconds = runner.time(setting, budget).map_err(failed)?;
-        measurements.push(compare(setting, seconds, &history, against, scale));
-    }
+        Ok(compare(setting, trial.time(budget)?, &history, against, scale))
+    };
+    let measurements = settings.iter().map(measurement).collect::<Result<_, _>>().map_err(failed)?;
     Ok(WorkPrecision {
         name: problem.name.clone(),
         step: problem.step,
@@ -217,32 +218,41 @@ fn compare(
     }
 }
 
-/// Runs one problem at any setting.
-struct Runner<'a> {
+/// One problem at one setting.
+struct Trial<'a> {
     problem: &'a Problem,
-    wall: Wall,
+    motion: Motion,
+    /// Forcing at the ends of the steps, of which each sample of the record has `parts`.
+    forcing: Vec<f64>,
+    parts: usize,
 }
 
-impl Runner<'_> {
-    /// Returns the motion of a setting, and the number of record steps that it makes of one.
-    fn motion(&self, setting: Setting) -> (Motion, u32) {
+impl<'a> Trial<'a> {
+    fn new(problem: &'a Problem, wall: &Wall, setting: Setting) -> Self {
         let (method, parts) = match setting {
             Setting::Exact(parts) => (Method::Exact, parts),
             Setting::Adaptive(tolerance) => (Method::Adaptive { tolerance }, 1),
-            Setting::Newmark(parts) => (Method::Newmark { step: self.problem.step / f64::from(parts) }, 1),
+            Setting::Newmark(parts) => (Method::Newmark { step: problem.step / f64::from(parts) }, 1),
         };
-        (Motion::new(self.wall.clone(), method), parts)
+        let (motion, forcing) = (Motion::new(wall.clone(), method), refined(&problem.forcing, parts));
+        Self { problem, motion, forcing, parts: parts as usize }
     }
 
-    fn history(&self, setting: Setting, factor: f64) -> Result<History, SolverError> {
-        let (motion, parts) = self.motion(setting);
-        let forcing = refined(&self.problem.forcing, parts);
-        let parts = parts as usize;
+    fn run(&self, factor: f64, mut observe: impl FnMut(usize, f64)) -> Result<Passage, SolverError> {
+        let solver = RecordSolver::new(&self.motion, self.problem.step / self.parts as f64);
+        let parameters = &self.problem.parameters;
+        let first = factor * self.forcing[0];
+        let state = self.motion.start_under(parameters.u_start, parameters.u_dot_start, first);
+        let samples = Samples(&self.forcing);
+        solver.run(Start { state, factor }, &samples, true, |index, u, _| observe(index, u))
+    }
+
+    fn history(&self, factor: f64) -> Result<History, SolverError> {
         let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
         displacements[0] = factor * self.problem.parameters.u_start;
-        let passage = self.run(&motion, &forcing, parts, factor, |index, u| {
-            if index % parts == 0 {
-                displacements[index / parts] = u;
+        let passage = self.run(factor, |index, u| {
+            if index % self.parts == 0 {
+                displacements[index / self.parts] = u;
             }
         })?;
         if let Some(time) = passage.overturning {
@@ -255,30 +265,13 @@ impl Runner<'_> {
         Ok(History { displacements, passage })
     }
 
-    fn run(
-        &self,
-        motion: &Motion,
-        forcing: &[f64],
-        parts: usize,
-        factor: f64,
-        mut observe: impl FnMut(usize, f64),
-    ) -> Result<Passage, SolverError> {
-        let solver = RecordSolver::new(motion, self.problem.step / parts as f64);
-        let parameters = &self.problem.parameters;
-        let first = factor * forcing[0];
-        let state = motion.start_under(parameters.u_start, parameters.u_dot_start, first);
-        solver.run(Start { state, factor }, &Samples(forcing), true, |index, u, _| observe(index, u))
-    }
-
     /// Returns the shortest run time of at least three runs \[s\].
-    fn time(&self, setting: Setting, budget: f64) -> Result<f64, SolverError> {
-        let (motion, parts) = self.motion(setting);
-        let forcing = refined(&self.problem.forcing, parts);
+    fn time(&self, budget: f64) -> Result<f64, SolverError> {
         let begun = Instant::now();
         let mut least = f64::INFINITY;
         for run in 0..10_000 {
             let start = Instant::now();
-            std::hint::black_box(self.run(&motion, &forcing, parts as usize, 1.0, |_, _| {})?);
+            std::hint::black_box(self.run(1.0, |_, _| {})?);
             least = least.min(start.elapsed().as_secs_f64());
             if run >= 2 && begun.elapsed().as_secs_f64() > budget {
                 break;

@@ -24,7 +24,8 @@ pub struct Problem {
 const MOST_SAMPLES: f64 = 1e7;
 
 impl Problem {
-    /// Takes the wall and the motion of a scene, sampled as its bottom record, or at the output step if it has none.
+    /// Takes the wall and the motion of a scene, sampled as its bottom record, or at the output step if it
+    /// has none.
     ///
     /// # Errors
     /// [`AccuracyError::Parameters`] if the parameters make no wall.
@@ -61,8 +62,8 @@ fn parapet([height, thickness, a1]: [f64; 3], damping_model: DampingModel) -> Pa
     Parameters { height, thickness, a1, damping_model, ..Parameters::default() }
 }
 
-/// Returns the problems measured by default. The first 30 s of `record` replace the synthetic motion under the walls of
-/// Table 5.
+/// Returns the problems measured by default. The first 30 s of `record` replace the synthetic motion under
+/// the walls of Table 5.
 ///
 /// # Errors
 /// [`AccuracyError::Motion`] if the record cannot be cut.

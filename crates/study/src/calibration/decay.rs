@@ -25,8 +25,8 @@ impl Decay {
         Ok(Self { motion, state })
     }
 
-    /// Returns |u|/`u_ins` at each step until the motion has decayed, and a margin more; `None` if that takes too
-    /// many steps.
+    /// Returns |u|/`u_ins` at each step until the motion has decayed, and a margin more; `None` if that takes
+    /// too many steps.
     pub(super) fn samples(mut self, step: f64) -> Result<Option<Vec<f64>>, SolverError> {
         let wall = self.motion.wall();
         let u_ins = wall.body().instability;

@@ -1,6 +1,7 @@
 //! Damping that matches one free vibration.
 
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, RestitutionSource, Solver};
+use crate::free_motion::{with_damping, with_restitution};
+use rocking_wall::variables::{DampingModel, ForceLaw, Solver};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::decay::Decay;
@@ -11,15 +12,15 @@ use super::minimum::minimum;
 const SCAN_OCTAVES: f64 = 1.25;
 /// Steps of the scan in each octave.
 const SCAN_STEPS: f64 = 8.0;
-/// Value of −ln e below which the steps shrink in proportion. A decay of more cycles has more local minima, which lie
-/// closer together: each is a damping with which the two motions stay in step for another while.
+/// Value of −ln e below which the steps shrink in proportion. A decay of more cycles has more local minima,
+/// which lie closer together: each is a damping with which the two motions stay in step for another while.
 const SCAN_FEW_CYCLES: f64 = 0.06;
 /// Smallest factor by which the steps shrink.
 const SCAN_FINEST: f64 = 1.0 / 32.0;
 /// Most further steps when the least error of a scan lies at its end.
 const MOST_FURTHER: u32 = 400;
-/// Relative tolerance of the minimiser. The samples of Eq. (18) meet the decay at different phases, and the ripples
-/// that follow from it move the minimum by more: 1e-4 as a rule, 5e-3 at times, and 2e-2 near e = 1.
+/// Relative tolerance of the minimiser. The samples of Eq. (18) meet the decay at different phases, and the
+/// ripples that follow from it move the minimum by more: 1e-4 as a rule, 5e-3 at times, and 2e-2 near e = 1.
 const TOLERANCE: f64 = 1e-5;
 
 /// Damping that matches one decay.
@@ -71,15 +72,8 @@ impl FreeVibration {
             .map_err(failed)?
             .ok_or(CalibrationError::NoDecay { restitution, start, step })?;
         let error = |damping: f64| -> Result<f64, CalibrationError> {
-            let damped = Parameters {
-                damping_model: model,
-                damping_source: DampingSource::Given,
-                xi: damping,
-                c_bar: damping,
-                impact: Impact::None,
-                ..rocking.clone()
-            };
-            Decay::new(&damped)?.error(&reference, step).map_err(failed)
+            let decay = Decay::new(&with_damping(&rocking, model, damping))?;
+            decay.error(&reference, step).map_err(failed)
         };
         let bracket = self.bracket(equivalence::predicted(model, a1, restitution), error)?;
         let (damping, error) = minimum(error, bracket, TOLERANCE)?;
@@ -88,16 +82,13 @@ impl FreeVibration {
 
     /// Returns the wall with restitution and no damping.
     fn rocking(&self, parameters: &Parameters) -> Result<Parameters, CalibrationError> {
+        let a1 = if own_a1(parameters).is_none() { self.a1 } else { parameters.a1 };
         let rocking = Parameters {
-            damping_model: DampingModel::None,
-            impact: Impact::Restitution,
-            restitution_source: RestitutionSource::Given,
-            restitution: self.restitution,
             u_start: 0.0,
             u_dot_start: 0.0,
             solver: Solver::Automatic,
-            a1: if own_a1(parameters).is_none() { self.a1 } else { parameters.a1 },
-            ..parameters.clone()
+            a1,
+            ..with_restitution(parameters, self.restitution)
         };
         let u_start = self.start * Wall::new(&rocking)?.body().instability.positive;
         Ok(Parameters { u_start, ..rocking })

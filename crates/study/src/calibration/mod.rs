@@ -1,14 +1,14 @@
 //! Equivalence of restitution and viscous damping, section 5 of the paper, for any wall.
 //!
-//! A wall rocks freely from u₀ and loses energy at impacts. The same wall, on the same force law, loses it by a
-//! damping ratio ξ instead. The ratio sought minimises
+//! A wall rocks freely from u₀ and loses energy at impacts. The same wall, on the same force law, loses it by
+//! a damping ratio ξ instead. The ratio sought minimises
 //!
 //! ```text
 //! Err = Σ (|u_CR|/u_ins − |u_EVD|/u_ins)²                                                Eq. (18)
 //! ```
 //!
-//! over the samples of the decay. Over e the ratios follow ξ = −x ln e (Eq. 19), and over a₁ the coefficients follow
-//! x = q a₁^r (Eqs. 20–22). For a free-standing block ξ stands for c̄ (Eq. 23).
+//! over the samples of the decay. Over e the ratios follow ξ = −x ln e (Eq. 19), and over a₁ the coefficients
+//! follow x = q a₁^r (Eqs. 20–22). For a free-standing block ξ stands for c̄ (Eq. 23).
 //!
 //! ```
 //! use rocking_wall::{variables::DampingModel, wall::Parameters};
@@ -99,10 +99,12 @@ pub struct Calibration {
     pub laws: Vec<(f64, PowerLaw)>,
 }
 
-/// Calibrates a damping model of a wall over a grid on `threads` threads. The result does not depend on their number.
+/// Calibrates a damping model of a wall over a grid on `threads` threads. The result does not depend on their
+/// number.
 ///
 /// # Errors
-/// [`CalibrationError`] if the grid or the wall is invalid, a run fails, or a decay or a minimum is not found.
+/// [`CalibrationError`] if the grid or the wall is invalid, a run fails, or a decay or a minimum is not
+/// found.
 pub fn calibrate(
     parameters: &Parameters,
     model: DampingModel,
@@ -147,9 +149,9 @@ pub fn coefficient(fits: &[Fit]) -> f64 {
 }
 
 impl PowerLaw {
-    /// Fits points (a₁, x) by least squares of x itself, as the paper's nonlinear regression does. Since q is linear
-    /// for any r, a scalar minimiser finds r. Returns `None` for fewer than two different a₁, or for values that are
-    /// not positive.
+    /// Fits points (a₁, x) by least squares of x itself, as the paper's nonlinear regression does. Since q is
+    /// linear for any r, a scalar minimiser finds r. Returns `None` for fewer than two different a₁, or for
+    /// values that are not positive.
     #[must_use]
     pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
         let positive = |&(a1, x): &(f64, f64)| a1 > 0.0 && x > 0.0 && a1.is_finite() && x.is_finite();

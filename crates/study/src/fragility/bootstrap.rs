@@ -74,8 +74,8 @@ impl Bootstrap {
 }
 
 impl Interval {
-    /// Encloses the central `part` of the resamples' values. Values that are not numbers (a ratio of two medians
-    /// above the levels) are left out.
+    /// Encloses the central `part` of the resamples' values. Values that are not numbers (a ratio of two
+    /// medians above the levels) are left out.
     #[must_use]
     pub fn new(estimate: f64, resampled: impl IntoIterator<Item = f64>, part: f64) -> Self {
         let mut values: Vec<f64> = resampled.into_iter().filter(|value| !value.is_nan()).collect();

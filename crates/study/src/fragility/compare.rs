@@ -28,8 +28,8 @@ pub struct Summary {
     pub theta_ratio: Interval,
 }
 
-/// Compares the exceedances of some models, over the same records, with those of the model number `reference`.
-/// Intervals hold 95 % of the resamples.
+/// Compares the exceedances of some models, over the same records, with those of the model number
+/// `reference`. Intervals hold 95 % of the resamples.
 ///
 /// # Panics
 /// If there is no such model, or the models differ in their number of records.

@@ -48,8 +48,8 @@ const MOST_HALVINGS: usize = 60;
 const STEEPEST: f64 = 1e5;
 /// 1/β below which there is no rise.
 const FLATTEST: f64 = 1e-3;
-/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about 1e-14
-/// standard errors.
+/// Newton's decrement, in units of ln L, at which the next step is the last: it leaves an error of about
+/// 1e-14 standard errors.
 const DECREMENT: f64 = 1e-14;
 /// Smallest β to start from.
 const LEAST_SPREAD: f64 = 0.05;

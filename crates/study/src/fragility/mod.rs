@@ -5,8 +5,8 @@
 //! ```text
 //! P(exceeded | IM = x) = Φ(ln(x/θ)/β)
 //! ```
-//! J. W. Baker: Efficient analytical fragility function fitting using dynamic structural analysis. Earthquake Spectra
-//! 31(1), 2015, 579–599.
+//! J. W. Baker: Efficient analytical fragility function fitting using dynamic structural analysis. Earthquake
+//! Spectra 31(1), 2015, 579–599.
 //!
 //! ```
 //! use study::fragility::{Observation, fit};
@@ -27,6 +27,6 @@ mod sample;
 pub use bootstrap::{Bootstrap, Interval};
 pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit};
-pub use normal::{cumulative, quantile};
+pub use normal::cumulative;
 pub use observation::{Observation, ObservationKind};
 pub use sample::{fractile, median, steps};

@@ -13,24 +13,6 @@ pub fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
-/// Returns the z with Φ(z) = p, by bisection; infinite at 0 and 1, NaN outside.
-#[must_use]
-pub fn quantile(p: f64) -> f64 {
-    match p {
-        0.0 => return f64::NEG_INFINITY,
-        1.0 => return f64::INFINITY,
-        p if !(p > 0.0 && p < 1.0) => return f64::NAN,
-        _ => {}
-    }
-    let (mut low, mut high) = (-39.0, 39.0);
-    // 78 · 2⁻⁶⁰ is below a rounding of z = 1
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if cumulative(middle) < p { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
 /// Returns ln Φ(z) and its derivative φ(z)/Φ(z).
 pub(super) fn log_and_hazard(z: f64) -> (f64, f64) {
     if z > NEAR_ONE {

@@ -25,7 +25,8 @@ pub enum Observation {
 pub enum ObservationKind {
     /// The intensity of each record, for records with levels of their own.
     Records,
-    /// Stripes at the levels that all records share. Of a record only the two levels around its exceedance are known.
+    /// Stripes at the levels that all records share. Of a record only the two levels around its exceedance
+    /// are known.
     Stripes(Vec<f64>),
 }
 

@@ -75,10 +75,11 @@ impl Curve {
         self.runs[self.below_collapse..].iter().filter(|run| run.overturning.is_none()).count()
     }
 
-    /// Returns where |u| first exceeds a `fraction` of `u_ins`, which is the collapse for a fraction of 1 and more.
+    /// Returns where |u| first exceeds a `fraction` of `u_ins`, which is the collapse for a fraction of 1 and
+    /// more.
     ///
-    /// Between two levels without overturning the demand is interpolated linearly. The intensity is that of a level
-    /// where the wall overturns at it, or where `at_levels` is set.
+    /// Between two levels without overturning the demand is interpolated linearly. The intensity is that of a
+    /// level where the wall overturns at it, or where `at_levels` is set.
     #[must_use]
     pub fn exceedance(&self, fraction: f64, at_levels: bool) -> Exceedance {
         let mut before = [0.0, 0.0];
@@ -97,8 +98,8 @@ impl Curve {
         Exceedance::Above(self.top())
     }
 
-    /// Returns |u|/`u_ins` at an intensity, interpolated linearly from the origin on, and infinite from the collapse
-    /// on. Returns `None` above the levels of a wall that never overturned.
+    /// Returns |u|/`u_ins` at an intensity, interpolated linearly from the origin on, and infinite from the
+    /// collapse on. Returns `None` above the levels of a wall that never overturned.
     #[must_use]
     pub fn demand(&self, intensity: f64) -> Option<f64> {
         let mut before = [0.0, 0.0];

@@ -24,10 +24,11 @@ pub enum Levels {
         /// Highest level \[m/s²\].
         top: f64,
     },
-    /// Growing steps until the wall overturns, then a bracket of the collapse, then levels in the gaps below it.
+    /// Growing steps until the wall overturns, then a bracket of the collapse, then levels in the gaps below
+    /// it.
     ///
-    /// D. Vamvatsikos, C. A. Cornell: Applied incremental dynamic analysis. Earthquake Spectra 20(2), 2004, 523–553.
-    /// The bracket is cut into up to nine parts at once, whose levels run side by side.
+    /// D. Vamvatsikos, C. A. Cornell: Applied incremental dynamic analysis. Earthquake Spectra 20(2), 2004,
+    /// 523–553. The bracket is cut into up to nine parts at once, whose levels run side by side.
     HuntAndFill {
         /// First level and first step \[m/s²\].
         first: f64,
@@ -72,8 +73,8 @@ fn check_range(
 }
 
 impl Levels {
-    /// Returns the levels \[m/s²\] at which every record is run up to its collapse; `None` where each record has its
-    /// own levels.
+    /// Returns the levels \[m/s²\] at which every record is run up to its collapse; `None` where each record
+    /// has its own levels.
     #[must_use]
     pub fn shared(&self) -> Option<Vec<f64>> {
         match self {
@@ -189,7 +190,8 @@ fn first_overturning(runs: &[Run]) -> Option<usize> {
     runs.iter().position(|run| run.overturning.is_some())
 }
 
-/// Returns levels that cut the bracket of the collapse; none where it is within `resolution` or nothing collapsed.
+/// Returns levels that cut the bracket of the collapse; none where it is within `resolution` or nothing
+/// collapsed.
 fn bracket(runs: &[Run], resolution: f64) -> Vec<f64> {
     let Some(first) = first_overturning(runs) else { return Vec::new() };
     let upper = runs[first].intensity;
@@ -206,7 +208,8 @@ fn gaps(runs: &[Run], gap: f64) -> Vec<f64> {
     pairs.flat_map(|(lower, upper)| cuts(lower, upper, widest)).collect()
 }
 
-/// Returns the inner ends of the fewest equal parts of an interval no longer than `longest`, at most nine parts.
+/// Returns the inner ends of the fewest equal parts of an interval no longer than `longest`, at most nine
+/// parts.
 fn cuts(lower: f64, upper: f64, longest: f64) -> Vec<f64> {
     // a part that is too long only by its rounding is not cut again
     let count = ((upper - lower) / longest - 1e-9).ceil().min(LANES as f64 + 1.0);

@@ -1,8 +1,8 @@
 //! Incremental dynamic analysis: walls × records × damping models, each record scaled level by level.
 //!
-//! D. Vamvatsikos, C. A. Cornell: Incremental dynamic analysis. Earthquake Engineering & Structural Dynamics 31(3),
-//! 2002, 491–514. A wall starts upright and at rest, and a run stops when it overturns. Several levels of one wall,
-//! record and model run side by side.
+//! D. Vamvatsikos, C. A. Cornell: Incremental dynamic analysis. Earthquake Engineering & Structural Dynamics
+//! 31(3), 2002, 491–514. A wall starts upright and at rest, and a run stops when it overturns. Several levels
+//! of one wall, record and model run side by side.
 //!
 //! ```
 //! use ground_motion::SyntheticMotion;
@@ -90,8 +90,8 @@ impl Study {
     /// Prepares a study with the default free vibration after each record.
     ///
     /// # Errors
-    /// [`IdaError`] if a list is empty, if a wall does not go with a model, if a record cannot be scaled, or if the
-    /// levels are outside their limits.
+    /// [`IdaError`] if a list is empty, if a wall does not go with a model, if a record cannot be scaled, or
+    /// if the levels are outside their limits.
     pub fn new(
         walls: Vec<NamedWall>,
         records: Vec<NamedRecord>,
@@ -222,8 +222,8 @@ impl Study {
         Ok(Curve::new(runs))
     }
 
-    /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend on the
-    /// number of threads.
+    /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend
+    /// on the number of threads.
     ///
     /// # Errors
     /// The error of the first combination, in their order, whose run fails.
@@ -259,8 +259,8 @@ impl Study {
         levels.iter().zip(&passages).map(run).collect()
     }
 
-    /// Returns the state after the free vibration that follows a record, and the time of overturning. A wall that
-    /// lacks the energy to exceed its peak is not followed.
+    /// Returns the state after the free vibration that follows a record, and the time of overturning. A wall
+    /// that lacks the energy to exceed its peak is not followed.
     fn free_vibration(
         &self,
         solver: &RecordSolver<'_>,

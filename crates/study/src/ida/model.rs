@@ -86,7 +86,8 @@ impl Model {
     /// Returns the parameters of a wall with this model's damping and impact, upright and at rest.
     ///
     /// # Errors
-    /// [`ParameterError`] if the ratio is that of Eq. (14) and the parameters make no wall, or one with e = 0.
+    /// [`ParameterError`] if the ratio is that of Eq. (14) and the parameters make no wall, or one with e =
+    /// 0.
     pub fn applied_to(&self, wall: &Parameters) -> Result<Parameters, ParameterError> {
         let mut parameters = Parameters {
             damping_model: DampingModel::None,

@@ -39,8 +39,8 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
         number: 4,
         title: "Force-displacement laws built on the rigid-linear one",
         notes: vec![format!(
-            "The values drawn are lost; here a₁ = {a1}, a₃ = {a3}, d₁ = {d1}. The softening line keeps the slope −k₀ \
-             and ends at u₃ = a₃ u_ins; for a₃ = 1 all readings of the figure agree."
+            "The values drawn are lost; here a₁ = {a1}, a₃ = {a3}, d₁ = {d1}. The softening line keeps the \
+             slope −k₀ and ends at u₃ = a₃ u_ins; for a₃ = 1 all readings of the figure agree."
         )],
         charts: vec![
             chart("a) bilinear", "bilinear: u₁ = a₁ u_ins, u₃ = a₃ u_ins", law(ForceLaw::Bilinear)?, 0.6),

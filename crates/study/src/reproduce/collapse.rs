@@ -36,7 +36,8 @@ pub struct Collapses {
     pub walls: Vec<Vec<Summary>>,
 }
 
-/// Scales each record by `AvgSA` until each wall of Table 5 overturns, for CR, CDC, CDR, SDR and CDR with Eq. (14).
+/// Scales each record by `AvgSA` until each wall of Table 5 overturns, for CR, CDC, CDR, SDR and CDR with Eq.
+/// (14).
 ///
 /// # Errors
 /// [`IdaError`] if there is no record, if one cannot be scaled, or if a run fails.
@@ -79,14 +80,14 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
         title: "Collapse fragilities of the walls of Table 5",
         notes: vec![
             format!(
-                "{count} records, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of \
-                 RINTC for L'Aquila are not public: medians cannot be compared with print, only how the models \
-                 compare with each other."
+                "{count} records, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty \
+                 of RINTC for L'Aquila are not public: medians cannot be compared with print, only how the \
+                 models compare with each other."
             ),
             format!(
-                "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with Eq. \
-                 (14): above 1, the probability of overturning underestimated, with its whole 95 % interval for \
-                 {clear} of {} walls.",
+                "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with \
+                 Eq. (14): above 1, the probability of overturning underestimated, with its whole 95 % \
+                 interval for {clear} of {} walls.",
                 extremes(1..EQUATION_14),
                 extremes(EQUATION_14..EQUATION_14 + 1),
                 walls.len()
@@ -141,8 +142,8 @@ fn table(count: usize, rows: Vec<Vec<Cell>>) -> Table {
         name: "Medians",
         title: "Median collapse AvgSA of CR, and that of each damping model over it",
         notes: vec![format!(
-            "In brackets 95 % of {RESAMPLES} resamples of the {count} records. Collapse is the first overturning \
-             found while the records are scaled up, to 1 % of its intensity."
+            "In brackets 95 % of {RESAMPLES} resamples of the {count} records. Collapse is the first \
+             overturning found while the records are scaled up, to 1 % of its intensity."
         )],
         columns: columns(
             "wall | type | CR: median (g) | CDC / CR | CDR / CR | SDR / CR | CDR with Eq. (14) / CR | \

@@ -79,8 +79,8 @@ fn row(name: &str, formula: &str, computed: f64, printed: f64, remark: &str) -> 
     vec![Cell::text(name), Cell::text(formula), Cell::value(computed, printed, 4), Cell::text(remark)]
 }
 
-/// Returns the rows of Table 1 for one mechanism: `m_eff` as printed and its factor, λ, and the force as printed with its
-/// formula and a remark.
+/// Returns the rows of Table 1 for one mechanism: `m_eff` as printed and its factor, λ, and the force as
+/// printed with its formula and a remark.
 fn parameter_rows(
     (name, wall): (&str, &Wall),
     (m_eff, factor, lambda): (&str, f64, f64),
@@ -124,45 +124,26 @@ pub(super) fn tables_1_and_2() -> Result<[Table; 2], ParameterError> {
             "print: −u and 2/h₁; from Lagrange: h/(h₁h₂) O (b + 2c − 2u) + O (b − 2c)/h₁",
         ),
     ));
-    let strength = |wall: &Wall| wall.body().strength.positive / 1e3;
-    let instability = |wall: &Wall| wall.body().instability.positive;
+    let (f0, u_ins) = (["PW: F₀ (kN)", "VSSW: F₀ (kN)"], ["PW: u_ins (m)", "VSSW: u_ins (m)"]);
+    let strength = [&parapet, &strip].map(|wall| wall.body().strength.positive / 1e3);
+    let instability = [&parapet, &strip].map(|wall| wall.body().instability.positive);
+    let (p_f0, s_f0) = (p.parapet_strength() / 1e3, s.strip_strength() / 1e3);
+    let (p_u, s_u) = (p.parapet_instability(), s.strip_instability());
+    let sign = "sign of c: Table 1 and u_ins have −c";
     let second = vec![
-        row(
-            "PW: F₀ (kN)",
-            "(W + O) b/h + 2/h O c",
-            strength(&parapet),
-            p.parapet_strength() / 1e3,
-            "sign of c: Table 1 and u_ins have −c",
-        ),
-        row(
-            "PW: u_ins (m)",
-            "[2/h (W + O) b/2 − 2/h O c]/[2/h (W + 2O)]",
-            instability(&parapet),
-            p.parapet_instability(),
-            "",
-        ),
-        row(
-            "VSSW: F₀ (kN)",
-            "2/h₁ (W + O) b + O (b + 2c)/(h − h₁)",
-            strength(&strip),
-            s.strip_strength() / 1e3,
-            "",
-        ),
-        row(
-            "VSSW: u_ins (m)",
-            "F₀/[2/h₁ (W + O) + 2 O/(h − h₁)]",
-            instability(&strip),
-            s.strip_instability(),
-            "",
-        ),
+        row(f0[0], "(W + O) b/h + 2/h O c", strength[0], p_f0, sign),
+        row(u_ins[0], "[2/h (W + O) b/2 − 2/h O c]/[2/h (W + 2O)]", instability[0], p_u, ""),
+        row(f0[1], "2/h₁ (W + O) b + O (b + 2c)/(h − h₁)", strength[1], s_f0, ""),
+        row(u_ins[1], "F₀/[2/h₁ (W + O) + 2 O/(h − h₁)]", instability[1], s_u, ""),
     ];
-    let example = "Evaluated for a wall of 4 m by 0.4 m by 1 m, 1800 kg/m³, with O = W/2 at c = b/10 and h₁ = 0.6 h. \
-                   Without overburden every formula agrees.";
+    let example = "Evaluated for a wall of 4 m by 0.4 m by 1 m, 1800 kg/m³, with O = W/2 at c = b/10 and h₁ \
+        = 0.6 h. Without overburden every formula agrees.";
     let columns = columns("quantity | as printed | value | remark");
     Ok([
         Table {
             name: "Table 1",
-            title: "Parameters of Eq. (1): the printed formulas beside those derived from Lagrange's equations",
+            title: "Parameters of Eq. (1): the printed formulas beside those derived from Lagrange's \
+                    equations",
             notes: vec![
                 example.into(),
                 "The printed strip force contradicts Table 2: it is not F₀ at u = 0 and not zero at u_ins."

@@ -5,8 +5,9 @@ use std::num::NonZeroUsize;
 
 use crate::calibration::{Grid, calibrate};
 use crate::chart::{Axis, Chart, Series};
+use crate::free_motion::{with_damping, with_restitution};
 use rocking_wall::response::Sample;
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
+use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
@@ -19,8 +20,8 @@ use super::printed::{
 use super::table::{Cell, Table, columns};
 use super::tables::{RATIO_MODELS as MODELS, abbreviation};
 
-/// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With them `C_CDC` is
-/// the 300 kg/s of the text, and nothing else depends on them.
+/// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
+/// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.
 const STRIP_WIDTH: f64 = 1.5;
 const STRIP_DENSITY: f64 = 1850.0;
 
@@ -51,25 +52,8 @@ fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterE
     Ok(Parameters { u_start, ..parameters })
 }
 
-/// Returns the wall with a damping ratio ξ and no impacts.
-pub(super) fn damped(parameters: &Parameters, damping_model: DampingModel, xi: f64) -> Parameters {
-    let damping_source = DampingSource::Given;
-    Parameters { damping_model, damping_source, xi, impact: Impact::None, ..parameters.clone() }
-}
-
 fn u_axis() -> Axis {
     Axis::over("u / u_ins", [-1.0, 1.0])
-}
-
-/// Returns the wall with restitution and no damping.
-pub(super) fn rocking(parameters: &Parameters, restitution: f64) -> Parameters {
-    Parameters {
-        damping_model: DampingModel::None,
-        impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
-        restitution,
-        ..parameters.clone()
-    }
 }
 
 /// Computes Figure 5: C over u, ξ over ω, damping force over u.
@@ -77,7 +61,7 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
     for (color, (model, xi)) in MODELS.into_iter().zip(FIGURE_5_RATIOS).enumerate() {
-        let parameters = damped(&strip, model, xi);
+        let parameters = with_damping(&strip, model, xi);
         let wall = Wall::new(&parameters)?;
         let (name, strength) = (abbreviation(model), wall.body().strength.positive);
         coefficients.push(Series::line(name, color, damping_coefficients(&wall)));
@@ -103,11 +87,11 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
         title: "The three damping models on one strip",
         notes: vec![
             format!(
-                "Width and density are not stated: {STRIP_WIDTH} m and {STRIP_DENSITY} kg/m³ make C_CDC the 300 kg/s of the \
-                 text."
+                "Width and density are not stated: {STRIP_WIDTH} m and {STRIP_DENSITY} kg/m³ make C_CDC the \
+                 300 kg/s of the text."
             ),
-            "b) ω is the secant frequency; a constant coefficient C is there ξ = C/(2 m_eff ω). c) The force is divided by \
-             F₀, which the caption does not say; the first 5 s."
+            "b) ω is the secant frequency; a constant coefficient C is there ξ = C/(2 m_eff ω). c) The force \
+             is divided by F₀, which the caption does not say; the first 5 s."
                 .into(),
         ],
         charts: vec![
@@ -145,8 +129,8 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let u_ins = Wall::new(&strip)?.body().instability.positive;
     let runs = [
-        (format!("CR, e = {e}"), 0, rocking(&strip, e)),
-        (format!("CDR, ξ = {xi}"), 1, damped(&strip, DampingModel::ConstantRatio, xi)),
+        (format!("CR, e = {e}"), 0, with_restitution(&strip, e)),
+        (format!("CDR, ξ = {xi}"), 1, with_damping(&strip, DampingModel::ConstantRatio, xi)),
     ];
     let (mut histories, mut phases) = (Vec::new(), Vec::new());
     for (name, color, parameters) in runs {
@@ -184,7 +168,7 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
     let frequency = (0.75 * body.gravity / (height.hypot(thickness) / 2.0)).sqrt();
     let mut charts = Vec::new();
     for ((e, impacts), (panel, end)) in FIGURE_7.into_iter().zip([("a", 20.0), ("b", 10.0)]) {
-        let samples = history(&rocking(&body, e), None, [0.005, end])?;
+        let samples = history(&with_restitution(&body, e), None, [0.005, end])?;
         let xi = equivalence::priestley(e, FIGURE_7_START, impacts);
         let amplitude = amplitude_after(e, impacts / 2);
         let period = equivalence::housner_period(frequency, amplitude);
@@ -204,8 +188,8 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
         number: 7,
         title: "Free vibrations of a rocking body and of elastic oscillators",
         notes: vec![
-            "Which cycle gave the period is lost; taken is the one that starts half-way through the impacts that Eq. (13) \
-             counts, after 2 of 4 in a) and after 1 of 3 in b), by Eq. (5)."
+            "Which cycle gave the period is lost; taken is the one that starts half-way through the impacts \
+             that Eq. (13) counts, after 2 of 4 in a) and after 1 of 3 in b), by Eq. (5)."
                 .into(),
         ],
         charts,
@@ -225,10 +209,15 @@ fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
     (-xi * omega * time).exp() * (phase.cos() + xi / root * phase.sin())
 }
 
+/// Returns a row of the captions: a number, its printed value with its decimals, and a remark.
+fn row(number: &str, computed: f64, (printed, decimals): (f64, usize), remark: &str) -> Vec<Cell> {
+    vec![Cell::text(number), Cell::value(computed, printed, decimals), Cell::text(remark)]
+}
+
 /// Computes the numbers printed in captions and text.
 pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError> {
     let strip = strip()?;
-    let cdc = Wall::new(&damped(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
+    let cdc = Wall::new(&with_damping(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
     let fits = |model, restitution: &[f64]| {
         let grid = Grid { restitution: restitution.to_vec(), a1: vec![strip.a1], ..Grid::default() };
         let found = calibrate(&strip, model, &grid, threads)?;
@@ -240,42 +229,27 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError
     let cdr = fits(MODELS[1], &ends)?;
     let part = (FIGURE_5_RATIOS[1] - cdr[0]) / (cdr[1] - cdr[0]);
     let e = ends[0] + part * (ends[1] - ends[0]);
-    let row = |number: &str, computed: f64, printed: f64, decimals: usize, remark: &str| {
-        vec![Cell::text(number), Cell::value(computed, printed, decimals), Cell::text(remark)]
-    };
     let [height, thickness] = FIGURE_WALL;
-    let [e_parapet, e_strip] = [
-        analytic_parapet((thickness / height).atan()),
-        analytic_vertical_spanning((2.0 * thickness / height).atan()),
-    ];
+    let e_parapet = analytic_parapet((thickness / height).atan());
+    let e_strip = analytic_vertical_spanning((2.0 * thickness / height).atan());
+    let [e_2_parapet, e_2_strip] = FIGURE_2_RESTITUTION;
+    let strip_remark = "Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used";
+    let cdc_remark = "the assumed width and density were chosen for it";
     let mut rows = vec![
-        row("Figure 2: e of the parapet", e_parapet, FIGURE_2_RESTITUTION[0], 3, "Eq. (2)"),
-        row(
-            "Figure 2: e of the strip",
-            e_strip,
-            FIGURE_2_RESTITUTION[1],
-            3,
-            "Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used",
-        ),
-        row(
-            "Figure 5: C_CDC (kg/s)",
-            cdc.elastic_damping(),
-            FIGURE_5_COEFFICIENT,
-            0,
-            "the assumed width and density were chosen for it",
-        ),
+        row("Figure 2: e of the parapet", e_parapet, (e_2_parapet, 3), "Eq. (2)"),
+        row("Figure 2: e of the strip", e_strip, (e_2_strip, 3), strip_remark),
+        row("Figure 5: C_CDC (kg/s)", cdc.elastic_damping(), (FIGURE_5_COEFFICIENT, 0), cdc_remark),
         row(
             "Figure 6: ξ of CDR for e = 0.875",
             figure_6,
-            FIGURE_6[1],
-            3,
+            (FIGURE_6[1], 3),
             "least of Eq. (18) for this wall and start",
         ),
     ];
     let remark = format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value");
     for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
         let number = format!("Figure 5: ξ of {}", abbreviation(model));
-        rows.push(row(&number, fits(model, &[e])?[0], printed, 3, &remark));
+        rows.push(row(&number, fits(model, &[e])?[0], (printed, 3), &remark));
     }
     Ok(Table {
         name: "Captions",

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::chart::{Axis, Chart, Series};
+use crate::free_motion::{with_damping, with_restitution};
 use ground_motion::GroundMotion;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
@@ -10,10 +11,10 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use super::error::ReproductionError;
 use super::figure::{Figure, history};
-use super::free_vibrations::{damped, rocking};
 use super::printed::{TABLE_4, TABLE_4_A3, TABLE_4_SIZE, TABLE_4_STRENGTH};
 
-/// The motion assumed, a sine whose amplitude grows and falls linearly: frequency \[Hz\], amplitude \[m/s²\], times \[s\].
+/// The motion assumed, a sine whose amplitude grows and falls linearly: frequency \[Hz\], amplitude \[m/s²\],
+/// times \[s\].
 const FREQUENCY: f64 = 1.5;
 const AMPLITUDE: f64 = 4.0;
 const RISE: f64 = 30.0;
@@ -51,9 +52,9 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
         let [sdr_a1, sdr, _] = row.stiffness_proportional;
         let with = |a1| Parameters { a1, ..wall.clone() };
         let runs = [
-            ("CR", rocking(&with(cr_a1), e)),
-            ("CDR", damped(&with(cdr_a1), DampingModel::ConstantRatio, cdr)),
-            ("SDR", damped(&with(sdr_a1), DampingModel::StiffnessProportional, sdr)),
+            ("CR", with_restitution(&with(cr_a1), e)),
+            ("CDR", with_damping(&with(cdr_a1), DampingModel::ConstantRatio, cdr)),
+            ("SDR", with_damping(&with(sdr_a1), DampingModel::StiffnessProportional, sdr)),
         ];
         let mut series = Vec::new();
         for (color, (name, parameters)) in runs.into_iter().enumerate() {
@@ -75,9 +76,10 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
         title: "Parapets P4-(B) and P7-(C) under a harmonic motion, with the parameters of Table 4",
         notes: vec![
             format!(
-                "The shake-table signals and the measured response are not public. Assumed: a sine of {FREQUENCY} Hz \
-                 whose amplitude grows linearly to {AMPLITUDE} m/s² in {RISE} s and falls to zero in {FALL} s. What \
-                 can be compared is whether CR, CDR and SDR agree with each other, not with the tests."
+                "The shake-table signals and the measured response are not public. Assumed: a sine of \
+                 {FREQUENCY} Hz whose amplitude grows linearly to {AMPLITUDE} m/s² in {RISE} s and falls to \
+                 zero in {FALL} s. What can be compared is whether CR, CDR and SDR agree with each other, \
+                 not with the tests."
             ),
             format!(
                 "F₀ = 1.24 kN with h = 1180 mm, b = 230 mm and a width of 1200 mm means {density:.0} kg/m³."

@@ -49,8 +49,8 @@ pub struct Reproduction {
     pub figures: Vec<Figure>,
 }
 
-/// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs records, is
-/// computed by [`collapse::figure_15`].
+/// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
+/// records, is computed by [`collapse::figure_15`].
 ///
 /// # Errors
 /// [`ReproductionError`] if a wall, a motion, a run or a calibration fails.

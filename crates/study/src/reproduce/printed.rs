@@ -1,6 +1,7 @@
 //! Numbers that the paper prints in its tables, captions and text.
 //!
-//! U. Tomassetti, F. Graziotti, L. Sorrentino, A. Penna, *Modelling rocking response via equivalent viscous damping*.
+//! U. Tomassetti, F. Graziotti, L. Sorrentino, A. Penna, *Modelling rocking response via equivalent viscous
+//! damping*.
 
 use rocking_wall::variables::{DampingModel, Mechanism};
 
@@ -8,8 +9,8 @@ use rocking_wall::variables::{DampingModel, Mechanism};
 pub const TABLE_3_A1: f64 = 0.03;
 /// Measured e of Table 3 \[-\], the smaller one first: single leaf, cavity wall.
 pub const TABLE_3_RESTITUTION: [[f64; 2]; 2] = [[0.84, 0.87], [0.61, 0.74]];
-/// Table 3: damping model, number of its equation, and for the single leaf and the cavity wall the ratio calibrated on tests
-/// and those predicted from the two measured e \[-\].
+/// Table 3: damping model, number of its equation, and for the single leaf and the cavity wall the ratio
+/// calibrated on tests and those predicted from the two measured e \[-\].
 pub const TABLE_3: [(DampingModel, u8, [[f64; 3]; 2]); 3] = [
     (DampingModel::ConstantCoefficient, 20, [[0.045, 0.024, 0.019], [0.060, 0.068, 0.041]]),
     (DampingModel::ConstantRatio, 21, [[0.060, 0.047, 0.038], [0.100, 0.134, 0.082]]),
@@ -66,7 +67,8 @@ pub struct Table5 {
     pub damping: [f64; 4],
 }
 
-/// h₁/h of the strip walls of Table 5: not printed, but their `e_an` follows from Eq. (3) with this value only.
+/// h₁/h of the strip walls of Table 5: not printed, but their `e_an` follows from Eq. (3) with this value
+/// only.
 pub const TABLE_5_HINGE: f64 = 0.58;
 
 const fn parapet(number: u8, size: [f64; 2], a1: f64, restitution: [f64; 2], damping: [f64; 4]) -> Table5 {

@@ -44,16 +44,16 @@ pub(super) fn free_vibrations() -> Result<Figure, AccuracyError> {
         title: "Free vibrations in full rotations and by Eq. (1)",
         notes: vec![
             format!(
-                "Parapet: first impact at {:.5} s in full rotations and {:.5} s by Eq. (1), a ratio of √cos α; the \
-                 histories are at most {:.3} u_ins apart.",
+                "Parapet: first impact at {:.5} s in full rotations and {:.5} s by Eq. (1), a ratio of √cos \
+                 α; the histories are at most {:.3} u_ins apart.",
                 first(&parapet.trigonometric),
                 first(&parapet.linear),
                 parapet.largest_difference()
             ),
             format!(
-                "Strip: the first impact comes {:.1} % early, so that the histories drift {:.2} u_ins apart in phase, \
-                 while the amplitudes stay within {:.3} u_ins; the paper calls the match good. Its e = 0.955 is \
-                 given, not that of Eq. (3).",
+                "Strip: the first impact comes {:.1} % early, so that the histories drift {:.2} u_ins apart \
+                 in phase, while the amplitudes stay within {:.3} u_ins; the paper calls the match good. Its \
+                 e = 0.955 is given, not that of Eq. (3).",
                 100.0 * (1.0 - ratio(&strip)),
                 strip.largest_difference(),
                 strip.largest_amplitude_difference()

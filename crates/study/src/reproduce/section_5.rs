@@ -84,12 +84,12 @@ impl Section5 {
             name: "Equations (20) to (23)",
             title: "Section 5 refitted: ξ = −q a₁^r ln e, u₀ = 0.9 u_ins, e = 0.80 … 0.98",
             notes: vec![
-                "CR runs on the same bilinear law as the damped wall: on the rigid law the fit is another. The ranges \
-                 of e and a₁ behind the printed values are not stated; CDC depends on them most."
+                "CR runs on the same bilinear law as the damped wall: on the rigid law the fit is another. \
+                 The ranges of e and a₁ behind the printed values are not stated; CDC depends on them most."
                     .into(),
                 format!(
-                    "Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ = \
-                     {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
+                    "Eq. (23) is not Eq. (20) in other words: Eq. (20) implies c̄ = −{implied:.2} ln e at a₁ \
+                     = {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
                 ),
             ],
             columns: columns("equation | a₁ | q | r"),
@@ -119,9 +119,9 @@ impl Section5 {
             number: 8,
             title: "Damping that matches a free vibration of CR, over e and u₀",
             notes: vec![format!(
-                "Drawn values of u₀ are lost; here 0.3, 0.5, 0.7 and 0.9 u_ins. From the least to the largest x goes {} \
-                 (CDC), {} (CDR), {} (SDR): CDC depends most on the amplitude. That of SDR rises, on which the \
-                 paper's text contradicts itself.",
+                "Drawn values of u₀ are lost; here 0.3, 0.5, 0.7 and 0.9 u_ins. From the least to the \
+                 largest x goes {} (CDC), {} (CDR), {} (SDR): CDC depends most on the amplitude. That of SDR \
+                 rises, on which the paper's text contradicts itself.",
                 trend(0),
                 trend(1),
                 trend(2)
@@ -146,8 +146,8 @@ impl Section5 {
             number: 9,
             title: "The same over the wall's shape",
             notes: vec![format!(
-                "Nothing of the shape is left in normalised displacements and time, so that the marks lie on each other; \
-                     what differs is the sampling at 0.01 s, x by at most {:.2} %.",
+                "Nothing of the shape is left in normalised displacements and time, so that the marks lie on \
+                 each other; what differs is the sampling at 0.01 s, x by at most {:.2} %.",
                 100.0 * self.spread()
             )],
             charts: charts.collect(),
@@ -192,8 +192,8 @@ impl Section5 {
             number: 11,
             title: "Least error of Eq. (18)",
             notes: vec![
-                "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the paper finds so \
-                 for 0.82 to 0.88 only."
+                "As in print CDC is worst throughout. CDR stays below SDR for all e ≥ 0.82, where the paper \
+                 finds so for 0.82 to 0.88 only."
                     .into(),
             ],
             charts: vec![Chart::new(

@@ -42,8 +42,8 @@ impl Value {
         self.computed - self.printed
     }
 
-    /// Returns whether the computed number rounds to the printed one: within half a unit of its last digit, and 1e-9 of
-    /// it for ties.
+    /// Returns whether the computed number rounds to the printed one: within half a unit of its last digit,
+    /// and 1e-9 of it for ties.
     #[must_use]
     pub fn agrees(&self) -> bool {
         #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few decimals")]

@@ -141,15 +141,15 @@ pub fn table_5() -> Result<Table, ParameterError> {
         name: "Table 5",
         title: "The walls of the incremental dynamic analyses, a₃ = 1",
         notes: vec![
-            "The whole column of CDR lies 0.014 to 0.042 below print: a factor of 0.352 to 0.354 in Eq. (21) gives the printed \
-             values, not the 0.350 that the paper prints."
+            "The whole column of CDR lies 0.014 to 0.042 below print: a factor of 0.352 to 0.354 in Eq. (21) \
+             gives the printed values, not the 0.350 that the paper prints."
                 .into(),
             format!(
-                "e of the strip walls follows from Eq. (3) with h₁ = {TABLE_5_HINGE} h, which the paper does not state; with h₁ = \
-                 h/2 it does not."
+                "e of the strip walls follows from Eq. (3) with h₁ = {TABLE_5_HINGE} h, which the paper does \
+                 not state; with h₁ = h/2 it does not."
             ),
-            "e_exp = 0.9359 is printed as 0.935, cut off. CDC and SDR deviate by up to 0.01, where print was made from rounded \
-             numbers."
+            "e_exp = 0.9359 is printed as 0.935, cut off. CDC and SDR deviate by up to 0.01, where print was \
+             made from rounded numbers."
                 .into(),
             "a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) were fitted over.".into(),
         ],

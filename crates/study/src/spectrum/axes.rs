@@ -87,7 +87,8 @@ impl Slenderness {
 }
 
 impl PulseForm {
-    /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is −4e-17.
+    /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is
+    /// −4e-17.
     #[must_use]
     pub fn pulse(self, frequency: f64) -> Pulse {
         let shape = match self {

@@ -1,17 +1,18 @@
 //! Rocking spectra: `u_max/u_ins` over walls under one motion, or over pulses on one wall.
 //!
-//! These are not the elastic response spectra of [`ground_motion::spectrum`]: each point is a rocking wall, which may
-//! overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical design methodologies,
-//! Earthquake Engineering and Structural Dynamics 32, 2003).
+//! These are not the elastic response spectra of [`ground_motion::spectrum`]: each point is a rocking wall,
+//! which may overturn (Makris and Konstantinidis, The rocking spectrum and the limitations of practical
+//! design methodologies, Earthquake Engineering and Structural Dynamics 32, 2003).
 //!
-//! Over pulses the axes are dimensionless: `ω_p/p` along the columns with p = √(k₀/`m_eff`), and `a_p/a₀` along the rows
-//! with the acceleration a₀ = F₀/(λ `m_eff`) at which the rigid wall begins to rock. For a parapet without overburden
-//! p = √(3g/(2h)), which is Housner's √(3g/(4R)) with h for 2R, as everywhere in the linearised model, and a₀ = g tan α.
-//! Two walls with the same damping and restitution then have the same spectrum, whatever their size (Zhang and Makris,
-//! Rocking response of free-standing blocks under cycloidal pulses, Journal of Engineering Mechanics 127, 2001).
+//! Over pulses the axes are dimensionless: `ω_p/p` along the columns with p = √(k₀/`m_eff`), and `a_p/a₀`
+//! along the rows with the acceleration a₀ = F₀/(λ `m_eff`) at which the rigid wall begins to rock. For a
+//! parapet without overburden p = √(3g/(2h)), which is Housner's √(3g/(4R)) with h for 2R, as everywhere in
+//! the linearised model, and a₀ = g tan α. Two walls with the same damping and restitution then have the same
+//! spectrum, whatever their size (Zhang and Makris, Rocking response of free-standing blocks under cycloidal
+//! pulses, Journal of Engineering Mechanics 127, 2001).
 //!
-//! Each wall starts upright and at rest. After the motion it is followed until it lacks the energy to exceed its peak. A
-//! run ends at overturning. Results do not depend on the number of threads.
+//! Each wall starts upright and at rest. After the motion it is followed until it lacks the energy to exceed
+//! its peak. A run ends at overturning. Results do not depend on the number of threads.
 //!
 //! ```
 //! use rocking_wall::wall::Parameters;
@@ -41,7 +42,8 @@ pub use axes::{MOST_POINTS, PulseForm, Size, Slenderness, SpectrumError};
 
 /// Step of the free motion after the record, over 1/p.
 const FREE_STEP: f64 = 0.25;
-/// Most steps of the free motion: a wall near the instability leaves it as e^{pt}, so that every peak comes within 100/p.
+/// Most steps of the free motion: a wall near the instability leaves it as e^{pt}, so that every peak comes
+/// within 100/p.
 const MOST_FREE_STEPS: u32 = 400;
 
 /// Result of one wall.
@@ -66,8 +68,8 @@ pub struct RockingSpectrum {
     pub points: Vec<Vec<Point>>,
 }
 
-/// Computes the rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness. The walls are otherwise
-/// as `parameters` state.
+/// Computes the rocking spectrum of one motion: columns are `sizes`, rows are values of slenderness. The
+/// walls are otherwise as `parameters` state.
 ///
 /// # Errors
 /// [`SpectrumError`] of the first wall in the order of rows and columns.
@@ -102,7 +104,8 @@ pub fn over_walls(
     Ok(RockingSpectrum { columns: sizes.to_vec(), rows: rows.to_vec(), points })
 }
 
-/// Computes the rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are `a_p/a₀`.
+/// Computes the rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are
+/// `a_p/a₀`.
 ///
 /// # Errors
 /// [`SpectrumError`] of the first pulse in the order of columns.

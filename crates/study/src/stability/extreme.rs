@@ -34,7 +34,8 @@ type Case = (&'static str, &'static str, f64, fn() -> Value);
 const AGREE: &str = "exact against adaptive (1e-13): |Δu|/u_ins";
 const GROUPS: &str = "|Δu|/u_ins from the default wall, equal groups";
 
-/// All cases. The limits follow from ε = 2.2e-16, from the amplification of the case and from the tolerance 1e-13.
+/// All cases. The limits follow from ε = 2.2e-16, from the amplification of the case and from the tolerance
+/// 1e-13.
 const CASES: [Case; 24] = [
     // u(t) = u_ins − δ cosh(pt) is 0 at t = acosh(u_ins/δ)/p; pt = 28 rounds to 28 ε, times the slope u_ins p
     ("u₀ = (1 − 1e-12) u_ins", "falls back; |u|/u_ins when it should pass 0", 1e-13, separatrix),
@@ -183,7 +184,8 @@ fn onset(wall: &Wall) -> f64 {
     wall.body().strength.positive / wall.body().effective_mass
 }
 
-/// Forcing of a Ricker pulse with a peak of twice `strength` times the onset, one time constant 1/p wide, and its step.
+/// Forcing of a Ricker pulse with a peak of twice `strength` times the onset, one time constant 1/p wide, and
+/// its step.
 fn pulse(wall: &Wall, strength: f64) -> (Vec<f64>, f64) {
     let (onset, duration) = (onset(wall), 1.0 / wall.rocking_rate());
     let step = duration / 200.0;
@@ -298,7 +300,8 @@ fn tiny(peak: f64) -> Value {
     Ok(largest(under_sine(peak)?.iter().map(|u| u * scale)))
 }
 
-/// On the elastic branch the response is linear: a motion 1e157 times smaller moves the wall 1e157 times less.
+/// On the elastic branch the response is linear: a motion 1e157 times smaller moves the wall 1e157 times
+/// less.
 fn underflow() -> Value {
     let (small, large) = (under_sine(1e-160)?, under_sine(1e-3)?);
     let raised: Vec<f64> = small.iter().map(|u| u * 1e157).collect();

@@ -1,7 +1,8 @@
 //! Stability of the solvers: maps over stiffness, step and damping, and a table of extremes.
 //!
-//! A free motion is stable if it stays finite, |u| never exceeds its start, and the energy ½ u̇² + ∫F du never grows by
-//! more than [`GROWTH`]. Its error is the largest |Δu|/`u_ins` against the tightest solver, at every tenth of a second.
+//! A free motion is stable if it stays finite, |u| never exceeds its start, and the energy ½ u̇² + ∫F du
+//! never grows by more than [`GROWTH`]. Its error is the largest |Δu|/`u_ins` against the tightest solver, at
+//! every tenth of a second.
 //!
 //! ```
 //! use rocking_wall::variables::{DampingModel, Solver};
@@ -24,8 +25,8 @@ use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, DampingSource, Solver};
 use rocking_wall::wall::Parameters;
 
-/// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The adaptive
-/// solver's tolerance of 1e-8 on u allows ten times as much on the energy.
+/// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
+/// adaptive solver's tolerance of 1e-8 on u allows ten times as much on the energy.
 pub const GROWTH: f64 = 1e-7;
 /// Number of instants compared in a run of 4 s.
 const INSTANTS: u32 = 40;
@@ -71,7 +72,8 @@ pub struct Map {
     pub cells: Vec<Vec<MapCell>>,
 }
 
-/// Solvers and damping models worth a map: `automatic` with each damping model, and the others where they differ.
+/// Solvers and damping models worth a map: `automatic` with each damping model, and the others where they
+/// differ.
 pub const MAPS: [(Solver, DampingModel); 7] = [
     (Solver::Automatic, DampingModel::ConstantCoefficient),
     (Solver::Automatic, DampingModel::ConstantRatio),
