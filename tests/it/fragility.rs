@@ -1,8 +1,7 @@
 //! Fragilities: fits, medians, bootstrap.
 
 use study::fragility::{
-    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, cumulative, fit, median,
-    quantile, steps,
+    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, cumulative, fit, median, steps,
 };
 use study::ida::Exceedance;
 

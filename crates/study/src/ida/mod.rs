@@ -10,7 +10,7 @@
 //! use study::ida::{Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study};
 //!
 //! let walls = vec![NamedWall { name: "parapet".into(), parameters: Parameters::default() }];
-//! let motion = SyntheticMotion { duration: 5.0, ..SyntheticMotion::default() }.motion()?;
+//! let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() }.motion()?;
 //! let records = vec![NamedRecord { name: "synthetic".into(), motion }];
 //! let models = vec![Model::new(Damping::Restitution)];
 //! let levels = Levels::ToOverturning { step: 2.0, top: 100.0 };
