@@ -314,19 +314,9 @@ impl Model for Spring {
     }
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-        codec.f64s([
-            &mut self.stiffness,
-            &mut self.x_start,
-            &mut self.period,
-            &mut self.force,
-            &mut self.force_rate,
-            &mut self.push,
-            &mut self.trim,
-            &mut self.bias,
-            &mut self.x,
-            &mut self.v,
-            &mut self.time,
-        ])?;
+        codec.f64s([&mut self.stiffness, &mut self.x_start, &mut self.period, &mut self.force])?;
+        codec.f64s([&mut self.force_rate, &mut self.push, &mut self.trim, &mut self.bias])?;
+        codec.f64s([&mut self.x, &mut self.v, &mut self.time])?;
         for value in [&mut self.law, &mut self.substeps, &mut self.fault, &mut self.count] {
             codec.i32(value)?;
         }
