@@ -56,8 +56,11 @@ impl Excitation {
             }
         }
         let ends = |record| {
-            let [from, to] = ends(record, elapsed, duration);
-            if self.held { [sample_at(record, elapsed); 2] } else { [from, to] }
+            if self.held {
+                [sample(record, sample_before(record, elapsed).max(0.0)).unwrap_or(0.0); 2]
+            } else {
+                ends(record, elapsed, duration)
+            }
         };
         let [from, to] = ends(&self.bottom);
         let [from_top, to_top] = self.top.as_ref().map_or([from, to], ends);
@@ -83,28 +86,18 @@ fn next_sample(record: &GroundMotion, elapsed: f64) -> Option<f64> {
     (next < record.samples().len() as f64).then(|| next * record.step())
 }
 
-/// The sample at or before a time; zero after the record.
-fn sample_at(record: &GroundMotion, elapsed: f64) -> f64 {
-    let before = sample_before(record, elapsed);
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a saturated cast is out of range"
-    )]
-    let sample = record.samples().get(before.max(0.0) as usize);
-    sample.copied().unwrap_or(0.0)
+/// The sample of a number; `None` outside the record.
+fn sample(record: &GroundMotion, number: f64) -> Option<f64> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "out of range stays so")]
+    (number >= 0.0).then(|| record.samples().get(number as usize).copied()).flatten()
 }
 
 /// Accelerations at both ends of a segment within one sample interval; zero after the record.
 fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
-    let samples = record.samples();
     let before = sample_before(record, elapsed);
-    if before < 0.0 || before + 1.0 >= samples.len() as f64 {
+    let (Some(low), Some(high)) = (sample(record, before), sample(record, before + 1.0)) else {
         return [0.0, 0.0];
-    }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ before < samples.len()")]
-    let index = before as usize;
-    let (low, high) = (samples[index], samples[index + 1]);
+    };
     let value = |time: f64| {
         let fraction = (time / record.step() - before).clamp(0.0, 1.0);
         if fraction > 1.0 - SAMPLE_ROUNDING { high } else { low + (high - low) * fraction }

@@ -54,21 +54,14 @@ impl Step {
 
 /// Why a wall could not be moved to the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum RunError {
-    /// The motion could not be followed.
+    /// The motion could not be followed in the segment from `time` on.
     #[error("at t = {time} s: {source}")]
-    Solver {
-        /// Time at the start of the segment \[s\].
-        time: f64,
-        /// The failure.
-        source: SolverError,
-    },
+    Solver { time: f64, source: SolverError },
     /// The step is too long for its excitation.
     #[error("the step spans more than {limit} samples; use smaller steps")]
-    TooManySegments {
-        /// The bound.
-        limit: usize,
-    },
+    TooManySegments { limit: usize },
 }
 
 /// Segments in one step.

@@ -50,17 +50,18 @@ fn rounded(duration: f64) -> f64 {
 
 impl ClosedForm {
     /// The motion from `start`, for `remaining` or as long as the closed form is well behaved. An oscillation
-    /// that stays within `quiet` needs no search for events.
+    /// within the `bounds` of u and its `peaks` so far needs no search for events.
     pub(super) fn new(
         oscillator: Oscillator,
         start: Kinematics,
         forcing_rate: f64,
         remaining: f64,
-        quiet: &Quiet,
+        bounds: [f64; 2],
+        peaks: &Peaks,
     ) -> Self {
         let mut piece =
             Self { oscillator, start, forcing_rate, horizon: remaining, end: None, series: OnceCell::new() };
-        if remaining > oscillator.longest_piece() && !piece.stays_within(quiet) {
+        if remaining > oscillator.longest_piece() && !piece.stays_within(bounds, peaks) {
             piece.horizon = oscillator.longest_piece();
         }
         piece
@@ -98,7 +99,7 @@ impl ClosedForm {
     }
 
     /// Whether the whole motion stays in the range, by its amplitude around the moving equilibrium.
-    fn stays_within(&self, quiet: &Quiet) -> bool {
+    fn stays_within(&self, [lower, upper]: [f64; 2], peaks: &Peaks) -> bool {
         let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
         let Regime::Oscillating(omega) = self.oscillator.regime() else { return false };
         if k <= 0.0 || omega == 0.0 {
@@ -114,21 +115,12 @@ impl ClosedForm {
         let to = from + drift * self.horizon;
         let (highest, lowest) = (from.max(to) + amplitude, from.min(to) - amplitude);
         let rounding = PEAK_ROUNDING * amplitude;
-        highest <= quiet.upper
-            && lowest >= quiet.lower
-            && quiet.peaks.cover(lowest + rounding, highest - rounding)
+        highest <= upper && lowest >= lower && peaks.cover(lowest + rounding, highest - rounding)
     }
 }
 
 /// Rounding of the amplitude against a peak already seen.
 const PEAK_ROUNDING: f64 = 1e-14;
-
-/// The range within which no event can happen.
-pub(super) struct Quiet {
-    pub(super) lower: f64,
-    pub(super) upper: f64,
-    pub(super) peaks: Peaks,
-}
 
 impl Piece for ClosedForm {
     fn start(&self) -> Kinematics {

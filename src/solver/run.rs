@@ -3,7 +3,7 @@
 use super::adaptive::Series;
 use super::demand::Demands;
 use super::event::{self, Ending, Exit, Kinematics, Piece};
-use super::exact::{ClosedForm, Memo, Quiet};
+use super::exact::{ClosedForm, Memo};
 use super::motion::{Method, Motion, is_constant};
 use super::newmark;
 use super::state::{Phase, Report, Segment, SolverError, State};
@@ -183,18 +183,14 @@ impl<'a> Run<'a> {
 
     fn closed_form(&mut self, index: usize, start: Kinematics, remaining: f64) -> ClosedForm {
         let branch = &self.motion.wall.branches()[index];
-        let quiet = Quiet { lower: branch.lower, upper: branch.upper, peaks: self.state.peaks };
-        let piece = ClosedForm::new(self.motion.oscillators[index], start, self.rate, remaining, &quiet);
+        let (oscillator, rate, peaks) = (self.motion.oscillators[index], self.rate, &self.state.peaks);
+        let piece = ClosedForm::new(oscillator, start, rate, remaining, [branch.lower, branch.upper], peaks);
         // only whole segments come again
         let whole = self.time == 0.0 && piece.horizon() == self.duration;
         if let (true, Some(end)) = (whole, self.first_end) {
             return piece.ending_at(end);
         }
-        if whole && !self.motion.oscillators[index].is_spread(self.duration) {
-            piece.remembered(index, self.memo)
-        } else {
-            piece
-        }
+        if whole && !oscillator.is_spread(self.duration) { piece.remembered(index, self.memo) } else { piece }
     }
 
     /// Follows a piece to its end or to the first corner.
@@ -239,11 +235,7 @@ impl<'a> Run<'a> {
                 self.reach(bounds[usize::from(upwards)], upwards);
             }
         }
-        if self.state.displacement.is_finite() && self.state.velocity.is_finite() {
-            Ok(())
-        } else {
-            Err(self.not_finite())
-        }
+        self.check()
     }
 
     /// Returns the corners that end a piece: those of the branch, for Newmark the next marked ones.
@@ -289,26 +281,16 @@ impl<'a> Run<'a> {
 
     fn check(&self) -> Result<(), SolverError> {
         let State { displacement, velocity, .. } = self.state;
-        if displacement.is_finite() && velocity.is_finite() { Ok(()) } else { Err(self.not_finite()) }
-    }
-
-    fn not_finite(&self) -> SolverError {
-        SolverError::NotFinite {
-            reached: self.time,
-            duration: self.duration,
-            displacement: self.state.displacement,
-            velocity: self.state.velocity,
-            forcing: self.forcing_now(),
+        if displacement.is_finite() && velocity.is_finite() {
+            return Ok(());
         }
+        let (reached, duration, forcing) = (self.time, self.duration, self.forcing_now());
+        Err(SolverError::NotFinite { reached, duration, displacement, velocity, forcing })
     }
 
     fn exhausted(&self) -> SolverError {
-        SolverError::TooManyPieces {
-            reached: self.time,
-            duration: self.duration,
-            limit: MOST_PIECES,
-            displacement: self.state.displacement,
-            velocity: self.state.velocity,
-        }
+        let State { displacement, velocity, .. } = self.state;
+        let (reached, duration, limit) = (self.time, self.duration, MOST_PIECES);
+        SolverError::TooManyPieces { reached, duration, limit, displacement, velocity }
     }
 }

@@ -36,21 +36,11 @@ impl Stretch {
         if !duration.is_finite() {
             return Self { from: elapsed, ..Self::default() };
         }
-        let rate = |from: f64, to: f64| (to - from) / duration;
-        let rate = Support {
-            bottom: rate(from.bottom, to.bottom),
-            top: rate(from.top, to.top),
-            drift: rate(from.drift, to.drift),
-        };
+        let rate = from.with(to, |from, to| (to - from) / duration);
         Self { from: elapsed, support: from, rate, end: Some(elapsed + duration) }
     }
 
     pub(super) fn at(&self, elapsed: f64) -> Support {
-        let on = |value: f64, rate: f64| value + rate * (elapsed - self.from);
-        Support {
-            bottom: on(self.support.bottom, self.rate.bottom),
-            top: on(self.support.top, self.rate.top),
-            drift: on(self.support.drift, self.rate.drift),
-        }
+        self.support.with(self.rate, |value, rate| value + rate * (elapsed - self.from))
     }
 }

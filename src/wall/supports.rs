@@ -26,11 +26,15 @@ impl Support {
     /// Linear interpolation towards `other`; `fraction` from 0 to 1.
     #[must_use]
     pub fn towards(self, other: Self, fraction: f64) -> Self {
-        let between = |a: f64, b: f64| a + (b - a) * fraction;
+        self.with(other, |a, b| a + (b - a) * fraction)
+    }
+
+    /// Combines each component with that of `other`.
+    pub(crate) fn with(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self {
-            bottom: between(self.bottom, other.bottom),
-            top: between(self.top, other.top),
-            drift: between(self.drift, other.drift),
+            bottom: f(self.bottom, other.bottom),
+            top: f(self.top, other.top),
+            drift: f(self.drift, other.drift),
         }
     }
 
