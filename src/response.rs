@@ -47,7 +47,7 @@ pub struct Summary {
     /// Work of the solver.
     pub work: Work,
     /// The bound on impacts was reached and the wall put to rest.
-    pub stilled: bool,
+    pub put_to_rest: bool,
 }
 
 impl Response {
@@ -69,12 +69,12 @@ impl Response {
         };
         samples.push(sample(&simulation, support_at(0.0)));
         let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
-        let mut stilled = false;
+        let mut put_to_rest = false;
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
             let next = |now: f64, _: f64| (segment_of(excitation, now, time - now), time - now);
-            stilled |= simulation.advance_through(next, Some(&mut demands))?.stilled;
+            put_to_rest |= simulation.advance_through(next, Some(&mut demands))?.put_to_rest;
             simulation.set_time(time);
             samples.push(sample(&simulation, support_at(time)));
         }
@@ -87,7 +87,7 @@ impl Response {
             overturn_time: progress.overturn_time,
             end_time: progress.time,
             work: progress.work,
-            stilled,
+            put_to_rest,
         };
         let residual = progress.state.displacement;
         Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })

@@ -39,7 +39,7 @@ pub struct Step {
     /// The wall left its supports in this step.
     pub departed: bool,
     /// The bound on impacts was reached and the wall put to rest.
-    pub stilled: bool,
+    pub put_to_rest: bool,
 }
 
 impl Step {
@@ -48,7 +48,7 @@ impl Step {
         self.impulses.top += later.impulses.top;
         self.overturned |= later.overturned;
         self.departed |= later.departed;
-        self.stilled |= later.stilled;
+        self.put_to_rest |= later.put_to_rest;
     }
 }
 
@@ -171,7 +171,7 @@ impl Simulation {
         let mut step = Step {
             overturned: report.overturning.is_some(),
             departed: report.departure.is_some(),
-            stilled: report.stilled,
+            put_to_rest: report.put_to_rest,
             ..Step::default()
         };
         if !before.state.departed {

@@ -13,9 +13,9 @@
 
 use crate::wall::{Branch, BranchDamping};
 
-use oscillator::{HIGHEST_ORDER, Polynomial};
+use oscillator::{HIGHEST_ORDER, KinematicState, Polynomial};
 
-use super::event::{Kinematics, Piece};
+use super::event::Piece;
 
 /// The largest terms in u \[m\] and in u̇ \[m/s\] that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,7 @@ impl Series {
     /// order reaches within the tolerance.
     pub(super) fn new(
         branch: &Branch,
-        start: Kinematics,
+        start: KinematicState,
         forcing: [f64; 2],
         remaining: f64,
         tolerances: Tolerances,
@@ -169,7 +169,7 @@ impl Series {
     }
 
     /// The cubic of constant d³u/dt³.
-    pub(super) fn cubic(start: Kinematics, acceleration_rate: f64, horizon: f64) -> Self {
+    pub(super) fn cubic(start: KinematicState, acceleration_rate: f64, horizon: f64) -> Self {
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
         coefficients[0] = start.displacement;
         coefficients[1] = start.velocity;
@@ -199,7 +199,7 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
 }
 
 impl Piece for Series {
-    fn start(&self) -> Kinematics {
+    fn start(&self) -> KinematicState {
         self.polynomial.start()
     }
 
@@ -207,11 +207,11 @@ impl Piece for Series {
         self.horizon
     }
 
-    fn at(&self, time: f64) -> Kinematics {
+    fn at(&self, time: f64) -> KinematicState {
         self.polynomial.at(time)
     }
 
-    fn bounds(&self, _from: Kinematics, _length: f64) -> (f64, f64) {
+    fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
         // over the whole piece, which is short
         self.polynomial.bounds(self.horizon)
     }

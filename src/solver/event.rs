@@ -1,22 +1,23 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
 pub(super) use oscillator::KinematicState as Kinematics;
+use oscillator::KinematicState;
 
 use super::state::Peaks;
 
 /// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
     /// The motion at the start of the piece.
-    fn start(&self) -> Kinematics;
+    fn start(&self) -> KinematicState;
 
     /// Length of time over which the piece holds \[s\].
     fn horizon(&self) -> f64;
 
     /// The motion `time` after the start of the piece.
-    fn at(&self, time: f64) -> Kinematics;
+    fn at(&self, time: f64) -> KinematicState;
 
     /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
-    fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64);
+    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64);
 
     /// Bound on the rate of the jerk \[m/s⁴\], where |ü| and the jerk keep within `bounds`.
     fn snap(&self, bounds: (f64, f64)) -> f64;
@@ -37,7 +38,7 @@ pub(super) struct Exit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Ending {
     /// At its horizon.
-    Horizon(Kinematics),
+    Horizon(KinematicState),
     /// At a corner.
     Exit(Exit),
 }
@@ -56,7 +57,7 @@ const ROOT_STEPS: u32 = 128;
 #[derive(Clone, Copy)]
 struct Node {
     time: f64,
-    motion: Kinematics,
+    motion: KinematicState,
 }
 
 /// Follows a piece to its horizon, or to the first time u passes `bounds` = \[lower, upper\]. Raises `peaks`
@@ -104,7 +105,7 @@ pub(super) enum Verdict {
 /// them.
 #[inline]
 pub(super) fn settle(
-    [from, to]: [Kinematics; 2],
+    [from, to]: [KinematicState; 2],
     length: f64,
     (most_acceleration, most_jerk): (f64, f64),
     [lower, upper]: [f64; 2],
@@ -208,7 +209,7 @@ impl<P: Piece> Search<'_, P> {
         let jerk = self.piece.bounds(from, right.time - left.time).1;
         root([left.time, right.time], guess, from.velocity < 0.0, |time| {
             let motion = self.piece.at(time);
-            let Kinematics { velocity, acceleration, .. } = motion;
+            let KinematicState { velocity, acceleration, .. } = motion;
             let step = -velocity / acceleration;
             // Newton leaves jerk δ²/(2ü) of time, and half its square times ü of u
             let left = 0.5 * jerk * step * step / acceleration.abs();
@@ -236,7 +237,7 @@ impl<P: Piece> Search<'_, P> {
         let jerk = self.piece.bounds(left.motion, length).1;
         let exit = root([left.time, right.time], guess, upwards, |time| {
             let motion = self.piece.at(time);
-            let Kinematics { displacement, velocity, acceleration } = motion;
+            let KinematicState { displacement, velocity, acceleration } = motion;
             let value = displacement - bound;
             let step = parabola([value, velocity, acceleration]);
             // the parabola leaves jerk δ³/6 of u, that over u̇ of time, and jerk δ²/2 of u̇
@@ -273,7 +274,7 @@ fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
 
 /// Returns the fraction of an interval at which the quintic through the motion at both ends passes `bound`: a
 /// parabola's root, improved by a number of Newton steps.
-pub(super) fn crossing([from, to]: [Kinematics; 2], length: f64, bound: f64, improvements: u32) -> f64 {
+pub(super) fn crossing([from, to]: [KinematicState; 2], length: f64, bound: f64, improvements: u32) -> f64 {
     let (v0, v1) = (from.velocity * length, to.velocity * length);
     let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
     let start = from.displacement - bound;
@@ -329,8 +330,8 @@ fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Tria
 impl Node {
     /// Returns the motion a small step later, by constant ü.
     fn shifted(self, step: f64) -> Self {
-        let Kinematics { displacement, velocity, acceleration } = self.motion;
-        let motion = Kinematics {
+        let KinematicState { displacement, velocity, acceleration } = self.motion;
+        let motion = KinematicState {
             displacement: displacement + step * (velocity + 0.5 * step * acceleration),
             velocity: velocity + step * acceleration,
             acceleration,

@@ -3,21 +3,21 @@
 use std::cell::OnceCell;
 
 use nalgebra::{Matrix3, Vector3};
-use oscillator::{Oscillator, Polynomial, Regime};
+use oscillator::{KinematicState, Oscillator, Polynomial, Regime};
 
-use super::event::{Kinematics, Piece};
+use super::event::Piece;
 use super::state::Peaks;
 
 /// Motion on a branch in closed form.
 #[derive(Clone, Debug)]
 pub(super) struct ClosedForm {
     oscillator: Oscillator,
-    start: Kinematics,
+    start: KinematicState,
     /// Rate of the forcing p₁ \[m/s³\].
     forcing_rate: f64,
     horizon: f64,
     /// The motion at the horizon, where it is known already.
-    end: Option<Kinematics>,
+    end: Option<KinematicState>,
     /// The Taylor series of a short piece, once needed.
     series: OnceCell<Option<Polynomial>>,
 }
@@ -53,7 +53,7 @@ impl ClosedForm {
     /// within the `bounds` of u and its `peaks` so far needs no search for events.
     pub(super) fn new(
         oscillator: Oscillator,
-        start: Kinematics,
+        start: KinematicState,
         forcing_rate: f64,
         remaining: f64,
         bounds: [f64; 2],
@@ -68,7 +68,7 @@ impl ClosedForm {
     }
 
     /// The same piece, its end known.
-    pub(super) fn ending_at(mut self, end: Kinematics) -> Self {
+    pub(super) fn ending_at(mut self, end: KinematicState) -> Self {
         self.end = Some(end);
         self
     }
@@ -83,9 +83,10 @@ impl ClosedForm {
         let from = Vector3::new(self.start.velocity, self.start.acceleration, self.forcing_rate);
         let change = memo.propagator * from;
         let (velocity, acceleration) = (change[1], change[2]);
-        let end = Kinematics { displacement: self.start.displacement + change[0], velocity, acceleration };
+        let end =
+            KinematicState { displacement: self.start.displacement + change[0], velocity, acceleration };
         let rest = self.horizon - duration;
-        self.end = Some(Kinematics {
+        self.end = Some(KinematicState {
             displacement: end.displacement + rest * velocity,
             velocity: velocity + rest * acceleration,
             acceleration: acceleration + rest * self.oscillator.jerk(end, self.forcing_rate),
@@ -105,7 +106,7 @@ impl ClosedForm {
         if k <= 0.0 || omega == 0.0 {
             return false;
         }
-        let Kinematics { displacement, velocity, acceleration } = self.start;
+        let KinematicState { displacement, velocity, acceleration } = self.start;
         // moving equilibrium: u_p = u₀ + (ü₀ + c (u̇₀ − u̇_p))/k, u̇_p = p₁/k
         let drift = self.forcing_rate / k;
         let swing_rate = velocity - drift;
@@ -123,7 +124,7 @@ impl ClosedForm {
 const PEAK_ROUNDING: f64 = 1e-14;
 
 impl Piece for ClosedForm {
-    fn start(&self) -> Kinematics {
+    fn start(&self) -> KinematicState {
         self.start
     }
 
@@ -131,7 +132,7 @@ impl Piece for ClosedForm {
         self.horizon
     }
 
-    fn at(&self, time: f64) -> Kinematics {
+    fn at(&self, time: f64) -> KinematicState {
         match self.end {
             Some(end) if time == self.horizon => end,
             _ if time == self.horizon => self
@@ -145,7 +146,7 @@ impl Piece for ClosedForm {
         }
     }
 
-    fn bounds(&self, from: Kinematics, length: f64) -> (f64, f64) {
+    fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64) {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 

@@ -5,15 +5,16 @@
 //! scheme is here to show their cost. Within a step the acceleration is linear, so the motion is a cubic, on
 //! which overturning, impacts and the end of the fall are located.
 
+use oscillator::KinematicState;
+
 use crate::wall::Branch;
 
 use super::adaptive::Series;
-use super::event::Kinematics;
 
 /// Makes one step of `duration` \[s\] from `start`, in equilibrium, while the forcing grows by
 /// `forcing_change` \[m/s²\].
-pub(super) fn step(branch: &Branch, start: Kinematics, forcing_change: f64, duration: f64) -> Series {
-    let Kinematics { displacement, velocity, acceleration } = start;
+pub(super) fn step(branch: &Branch, start: KinematicState, forcing_change: f64, duration: f64) -> Series {
+    let KinematicState { displacement, velocity, acceleration } = start;
     let (h, c, k) = (duration, branch.damping_at(displacement), branch.stiffness);
     // per unit effective mass: k̂ = k + 3c/h + 6/h²
     let effective_stiffness = k + 3.0 * c / h + 6.0 / (h * h);

@@ -1,8 +1,10 @@
 //! Moves a state through one segment: pieces of motion, and the transitions between them.
 
+use oscillator::KinematicState;
+
 use super::adaptive::Series;
 use super::demand::Demands;
-use super::event::{self, Ending, Exit, Kinematics, Piece};
+use super::event::{self, Ending, Exit, Piece};
 use super::exact::{ClosedForm, Memo};
 use super::motion::{Method, Motion, is_constant};
 use super::newmark;
@@ -67,7 +69,7 @@ pub(super) struct Run<'a> {
     integral: bool,
     memo: &'a mut Memo,
     /// The motion at the end of the segment if nothing happens before, where it is known.
-    pub(super) first_end: Option<Kinematics>,
+    pub(super) first_end: Option<KinematicState>,
     watch: Option<Watch<'a>>,
     report: Report,
 }
@@ -154,7 +156,7 @@ impl<'a> Run<'a> {
         let State { displacement, velocity, branch: index, .. } = self.state;
         let branch = &motion.wall.branches()[index];
         let forcing = self.forcing_now();
-        let start = Kinematics {
+        let start = KinematicState {
             displacement,
             velocity,
             acceleration: branch.acceleration(displacement, velocity, forcing),
@@ -181,7 +183,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn closed_form(&mut self, index: usize, start: Kinematics, remaining: f64) -> ClosedForm {
+    fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm {
         let branch = &self.motion.wall.branches()[index];
         let (oscillator, rate, peaks) = (self.motion.oscillators[index], self.rate, &self.state.peaks);
         let piece = ClosedForm::new(oscillator, start, rate, remaining, [branch.lower, branch.upper], peaks);
@@ -270,7 +272,7 @@ impl<'a> Run<'a> {
         let forcing = [forcing, self.rate];
         let event = transition::pass(motion, &mut self.state, (corner, upwards), forcing, rebound);
         self.report.work.add(event.work);
-        self.report.stilled |= too_many && event.work.impacts > 0;
+        self.report.put_to_rest |= too_many && event.work.impacts > 0;
         if event.overturned {
             self.report.overturning = Some(self.time);
         }

@@ -99,7 +99,7 @@ pub struct Report {
     /// ∫u dt while on the supports \[m s\]; only where asked for.
     pub displacement_integral: f64,
     /// The bound on impacts was reached and the wall put to rest.
-    pub stilled: bool,
+    pub put_to_rest: bool,
     /// Work done.
     pub work: Work,
 }

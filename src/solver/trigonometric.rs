@@ -11,9 +11,7 @@
 use crate::wall::FullRotations;
 
 use super::adaptive::Recurrence;
-use oscillator::HIGHEST_ORDER;
-
-use super::event::Kinematics;
+use oscillator::{HIGHEST_ORDER, KinematicState};
 
 /// Coefficients of one quantity.
 type Terms = [f64; HIGHEST_ORDER + 1];
@@ -77,7 +75,7 @@ impl Turning {
 
 impl<'a> Rotation<'a> {
     /// The motion from `start` on the side of `sign` under the forcing p₀ + p₁ t.
-    pub(super) fn new(wall: &'a FullRotations, sign: f64, start: Kinematics, forcing: [f64; 2]) -> Self {
+    pub(super) fn new(wall: &'a FullRotations, sign: f64, start: KinematicState, forcing: [f64; 2]) -> Self {
         let zero = [0.0; HIGHEST_ORDER + 1];
         let s = wall.place(start.displacement);
         let t = wall.tangents(s);

@@ -4,10 +4,12 @@
 //! so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed the
 //! extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
 
+use oscillator::KinematicState;
+
 use crate::wall::{Ends, Support, Wall};
 
 use super::demand::{Demands, Extremes, Instant};
-use super::event::{self, Ending, Kinematics, Piece, SearchExhausted};
+use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
 /// Error of an extreme, relative to the terms it is the sum of. Its time is then good to about 1e-6 of the
@@ -73,13 +75,14 @@ impl Watch<'_> {
         let (acceleration, jerk) = piece.bounds(search.seen[0].1, length);
         let snap = piece.snap((acceleration, jerk));
         let demands = &mut *self.demands;
-        let [u, v, a]: [fn(&Kinematics) -> f64; 3] = [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
+        let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
+            [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
         for (extremes, pick, curvature) in [
             (&mut demands.displacement, u, acceleration),
             (&mut demands.velocity, v, jerk),
             (&mut demands.acceleration, a, snap),
         ] {
-            let value = |_: f64, motion: &Kinematics| pick(motion);
+            let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: search.largest(pick) })?;
         }
         self.forces(&search, acceleration, snap)?;
@@ -104,7 +107,7 @@ impl Watch<'_> {
         let picks: [fn(Ends) -> f64; 2] = [|ends| ends.bottom, |ends| ends.top];
         let Demands { reaction_bottom, reaction_top, .. } = &mut *self.demands;
         for (extremes, pick) in [reaction_bottom, reaction_top].into_iter().zip(picks) {
-            let value = |offset: f64, motion: &Kinematics| {
+            let value = |offset: f64, motion: &KinematicState| {
                 let support = segment.support(search.from + offset);
                 pick(body.reactions(support, motion.acceleration, motion.displacement, drift))
             };
@@ -183,7 +186,7 @@ struct ExtremeSearch<'a, P> {
     piece: &'a P,
     time: f64,
     from: f64,
-    seen: [(f64, Kinematics); FIRST],
+    seen: [(f64, KinematicState); FIRST],
 }
 
 #[derive(Clone, Copy)]
@@ -205,12 +208,12 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         Self { piece, time, from, seen }
     }
 
-    fn largest(&self, pick: fn(&Kinematics) -> f64) -> f64 {
+    fn largest(&self, pick: fn(&KinematicState) -> f64) -> f64 {
         self.seen.iter().map(|(_, motion)| pick(motion).abs()).fold(0.0, f64::max)
     }
 
     /// Raises the extremes to those of a quantity.
-    fn raise<F: Fn(f64, &Kinematics) -> f64>(
+    fn raise<F: Fn(f64, &KinematicState) -> f64>(
         &self,
         extremes: &mut Extremes,
         quantity: &Quantity<F>,
@@ -225,13 +228,13 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
     }
 
     /// Returns the highest value of `sign` times a quantity, if it exceeds `best`.
-    fn highest<F: Fn(f64, &Kinematics) -> f64>(
+    fn highest<F: Fn(f64, &KinematicState) -> f64>(
         &self,
         sign: f64,
         best: f64,
         quantity: &Quantity<F>,
     ) -> Result<Option<Instant>, SearchExhausted> {
-        let node = |offset: f64, motion: &Kinematics| Node {
+        let node = |offset: f64, motion: &KinematicState| Node {
             offset,
             value: sign * (quantity.value)(offset, motion),
         };

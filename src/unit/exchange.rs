@@ -12,12 +12,12 @@ pub(super) struct Exchange {
     pub(super) rising: bool,
     /// `a_g` as it was set last; it takes effect at events \[m/s²\].
     pub(super) ground: f64,
-    pub(super) stretch: Stretch,
+    pub(super) own_motion: OwnMotion,
 }
 
 /// The scene's own motion between two samples, continued linearly beyond them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Stretch {
+pub(super) struct OwnMotion {
     /// Seconds from the start of the simulation to its start.
     pub(super) from: f64,
     /// The supports there.
@@ -28,7 +28,7 @@ pub(super) struct Stretch {
     pub(super) end: Option<f64>,
 }
 
-impl Stretch {
+impl OwnMotion {
     /// Returns the motion from `elapsed` seconds after the start to the next sample.
     pub(super) fn new(motion: &Excitation, elapsed: f64) -> Self {
         let segment = motion.segment(elapsed, f64::INFINITY);

@@ -72,7 +72,7 @@ impl Unit {
     fn own_support(&self) -> Support {
         let elapsed = self.simulation.progress().time - self.experiment.start;
         if let (Some(exchange), true) = (&self.exchange, self.running) {
-            return exchange.stretch.at(elapsed);
+            return exchange.own_motion.at(elapsed);
         }
         segment_of(self.excitation.as_deref(), elapsed, 0.0).from
     }
@@ -139,7 +139,7 @@ impl Unit {
         };
         let done = self.simulation.advance_through(next, None).map_err(|error| error.to_string())?;
         let end = step.from + step.duration;
-        if done.stilled {
+        if done.put_to_rest {
             log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
         }
         if done.overturned {

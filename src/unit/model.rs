@@ -177,7 +177,7 @@ impl Model for Unit {
         self.prepare()?;
         self.running = true;
         if self.exchange.is_some() {
-            self.begin_stretch();
+            self.begin_own_motion();
         }
         for warning in self.wall().warnings() {
             log.warning(format_args!("{warning}"));

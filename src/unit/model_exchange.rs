@@ -4,7 +4,7 @@ use fmi2_export::{Failure, Log, ModelExchange, Update};
 
 use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, RealVariable};
 
-use super::exchange::{Exchange, Stretch};
+use super::exchange::{Exchange, OwnMotion};
 use super::instance::Unit;
 
 // the description says how many indicators the motion has
@@ -20,10 +20,10 @@ impl Unit {
     }
 
     /// Takes up the scene's own motion from now to the next sample.
-    pub(super) fn begin_stretch(&mut self) {
+    pub(super) fn begin_own_motion(&mut self) {
         let elapsed = self.elapsed();
-        let stretch = self.excitation.as_ref().map(|motion| Stretch::new(motion, elapsed));
-        self.exchange_mut().stretch = stretch.unwrap_or_default();
+        let own_motion = self.excitation.as_ref().map(|motion| OwnMotion::new(motion, elapsed));
+        self.exchange_mut().own_motion = own_motion.unwrap_or_default();
     }
 
     /// Sets `a_g`: at once in Event Mode and before, at the next event in Continuous-Time Mode.
@@ -91,8 +91,8 @@ impl ModelExchange for Unit {
         self.warn_of_unused_top(log);
         let time = self.simulation.progress().time;
         let ended = |end: f64| self.elapsed() >= end - TIME_ROUNDING * time.abs().max(1.0);
-        if self.exchange.is_some_and(|exchange| exchange.stretch.end.is_some_and(ended)) {
-            self.begin_stretch();
+        if self.exchange.is_some_and(|exchange| exchange.own_motion.end.is_some_and(ended)) {
+            self.begin_own_motion();
         }
         let support = self.support();
         let mut exchange = self.exchange.unwrap_or_default();
@@ -115,7 +115,7 @@ impl ModelExchange for Unit {
         }
         Ok(Update {
             states_changed: handled.jumped,
-            next_event: exchange.stretch.end.map(|end| self.experiment.start + end),
+            next_event: exchange.own_motion.end.map(|end| self.experiment.start + end),
             ..Update::default()
         })
     }

@@ -6,7 +6,7 @@ use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};
 use crate::wall::{Ends, Support};
 
-use super::exchange::{Exchange, Stretch};
+use super::exchange::{Exchange, OwnMotion};
 use super::inputs::{Input, Inputs};
 use super::instance::Unit;
 
@@ -72,8 +72,8 @@ fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Res
 
 /// What Model Exchange adds; the layer keeps the two kinds of instances apart.
 fn transfer_exchange(exchange: &mut Exchange, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-    let Exchange { continuous, rising, ground, stretch } = exchange;
-    let Stretch { from, support, rate, end } = stretch;
+    let Exchange { continuous, rising, ground, own_motion } = exchange;
+    let OwnMotion { from, support, rate, end } = own_motion;
     codec.bool(continuous)?;
     codec.bool(rising)?;
     codec.f64s([ground, from])?;

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<()> {
     for warning in &response.warnings {
         output::note(&warning.to_string());
     }
-    if response.summary.stilled {
+    if response.summary.put_to_rest {
         output::note("impacts accumulated beyond their bound: the wall was put to rest");
     }
     if let Some(path) = &arguments.csv {

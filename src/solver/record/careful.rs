@@ -143,11 +143,11 @@ impl<'a, F: Forcing> Lane<'a, F> {
         let mut run = Run::new(motion, self.state, step, p, false, &mut self.memo);
         run.first_end = known_end;
         let (state, report) = run.finish()?;
-        let Report { overturning, work, stilled, .. } = report;
+        let Report { overturning, work, put_to_rest, .. } = report;
         self.state = state;
         self.work.add(work);
         self.searched += 1;
-        self.stilled |= stilled;
+        self.stilled |= put_to_rest;
         if let (Some(offset), None) = (overturning, self.overturning) {
             self.overturning = Some(self.index as f64 * step + offset);
             self.overturned();
