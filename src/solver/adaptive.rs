@@ -44,7 +44,7 @@ pub(super) trait Recurrence {
 }
 
 /// Work arrays for a branch.
-struct Damped<'a> {
+pub(super) struct Damped<'a> {
     branch: &'a Branch,
     /// p₀ and p₁.
     forcing: [f64; 2],
@@ -55,7 +55,15 @@ struct Damped<'a> {
     frequency: [f64; HIGHEST_ORDER + 1],
 }
 
-impl Damped<'_> {
+impl<'a> Damped<'a> {
+    /// The motion from `start` under the forcing p₀ + p₁ t.
+    pub(super) fn new(branch: &'a Branch, start: KinematicState, forcing: [f64; 2]) -> Self {
+        let zero = [0.0; HIGHEST_ORDER + 1];
+        let mut displacement = zero;
+        [displacement[0], displacement[1]] = [start.displacement, start.velocity];
+        Self { branch, forcing, displacement, secant: zero, frequency: zero }
+    }
+
     /// (F/m)ₙ
     fn restoring(&self, n: usize) -> f64 {
         if n == 0 {
@@ -122,30 +130,9 @@ impl Recurrence for Damped<'_> {
 }
 
 impl Series {
-    /// The motion from `start` under the forcing p₀ + p₁ t, over `remaining` or as much of it as the highest
-    /// order reaches within the tolerance.
-    pub(super) fn new(
-        branch: &Branch,
-        start: KinematicState,
-        forcing: [f64; 2],
-        remaining: f64,
-        tolerances: Tolerances,
-    ) -> Self {
-        let mut work = Damped {
-            branch,
-            forcing,
-            displacement: [0.0; HIGHEST_ORDER + 1],
-            secant: [0.0; HIGHEST_ORDER + 1],
-            frequency: [0.0; HIGHEST_ORDER + 1],
-        };
-        work.displacement[0] = start.displacement;
-        work.displacement[1] = start.velocity;
-        Self::of(work, remaining, tolerances)
-    }
-
     /// The motion of a recurrence, over `remaining` or as much of it as the highest order reaches within the
     /// tolerance.
-    pub(super) fn of(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
+    pub(super) fn new(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
         let mut power = remaining;
         let mut small_before = false;
         for n in 0..=HIGHEST_ORDER - 2 {

@@ -2,7 +2,7 @@
 
 use oscillator::KinematicState;
 
-use super::adaptive::Series;
+use super::adaptive::{Damped, Series};
 use super::demand::Demands;
 use super::event::{self, Ending, Exit, Piece};
 use super::exact::{ClosedForm, Memo};
@@ -161,20 +161,20 @@ impl<'a> Run<'a> {
             velocity,
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
-        let remaining = self.duration - self.time;
-        if let (Method::Adaptive { .. }, Some(rotations)) = (&motion.method, motion.wall.rotations()) {
-            let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
-            return self.follow(&Series::of(rotation, remaining, motion.tolerances));
-        }
-        match motion.method {
-            Method::Adaptive { .. } if branch.stiffness <= 0.0 || !is_constant(branch.damping) => {
-                self.follow(&Series::new(branch, start, [forcing, self.rate], remaining, motion.tolerances))
+        let (remaining, forcing) = (self.duration - self.time, [forcing, self.rate]);
+        match (&motion.method, motion.wall.rotations()) {
+            (Method::Adaptive { .. }, Some(rotations)) => {
+                let rotation = Rotation::new(rotations, branch.side(), start, forcing);
+                self.follow(&Series::new(rotation, remaining, motion.tolerances))
             }
-            Method::Exact | Method::Adaptive { .. } => {
+            (Method::Adaptive { .. }, None) if branch.stiffness <= 0.0 || !is_constant(branch.damping) => {
+                self.follow(&Series::new(Damped::new(branch, start, forcing), remaining, motion.tolerances))
+            }
+            (Method::Exact | Method::Adaptive { .. }, _) => {
                 let piece = self.closed_form(index, start, remaining);
                 self.follow(&piece)
             }
-            Method::Newmark { step } => {
+            (Method::Newmark { step }, _) => {
                 // equal steps, none longer than asked for
                 let steps = (remaining / step - 1e-9).ceil().max(1.0);
                 let step = remaining / steps;
@@ -202,15 +202,13 @@ impl<'a> Run<'a> {
         let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
         let ending = event::follow(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
         self.state.peaks = peaks;
-        let length = match ending {
-            Ending::Horizon(_) => piece.horizon(),
-            Ending::Exit(exit) => exit.time,
+        let (length, displacement, velocity, exit) = match ending {
+            Ending::Horizon(end) => (piece.horizon(), end.displacement, end.velocity, None),
+            Ending::Exit(Exit { time, velocity, upwards }) => {
+                (time, places[usize::from(upwards)], velocity, Some(upwards))
+            }
         };
         if let (Some(watch), false) = (&mut self.watch, self.state.overturned) {
-            let displacement = match ending {
-                Ending::Horizon(end) => end.displacement,
-                Ending::Exit(exit) => places[usize::from(exit.upwards)],
-            };
             let branch = self.state.branch;
             let followed = Followed { piece, branch, from: self.time, length, displacement };
             watch.piece(&followed).map_err(|_| self.exhausted())?;
@@ -218,23 +216,18 @@ impl<'a> Run<'a> {
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
         }
-        match ending {
-            Ending::Horizon(end) => {
-                let finished = self.time + length >= self.duration || length >= self.duration - self.time;
-                self.time = if finished { self.duration } else { self.time + length };
-                if length <= 0.0 {
-                    return Err(self.exhausted());
-                }
-                self.state.displacement = end.displacement;
-                self.state.velocity = end.velocity;
-                if let Method::Newmark { .. } = self.motion.method {
-                    self.state.branch = self.motion.wall.branch_of(end.displacement, end.velocity);
-                }
+        (self.state.displacement, self.state.velocity) = (displacement, velocity);
+        if let Some(upwards) = exit {
+            self.time += length;
+            self.reach(bounds[usize::from(upwards)], upwards);
+        } else {
+            let finished = self.time + length >= self.duration || length >= self.duration - self.time;
+            self.time = if finished { self.duration } else { self.time + length };
+            if length <= 0.0 {
+                return Err(self.exhausted());
             }
-            Ending::Exit(Exit { time, velocity, upwards }) => {
-                self.time += time;
-                self.state.velocity = velocity;
-                self.reach(bounds[usize::from(upwards)], upwards);
+            if let Method::Newmark { .. } = self.motion.method {
+                self.state.branch = self.motion.wall.branch_of(displacement, velocity);
             }
         }
         self.check()
@@ -255,10 +248,9 @@ impl<'a> Run<'a> {
         [lower, upper]
     }
 
-    /// Arrives at a corner and passes it.
+    /// Passes the corner reached.
     fn reach(&mut self, corner: usize, upwards: bool) {
         let (motion, forcing) = (self.motion, self.forcing_now());
-        self.state.displacement = motion.wall.corners()[corner].displacement;
         self.state.peaks.include(self.state.displacement);
         let velocity = self.state.velocity;
         let [lowest, highest] = motion.rest_band;
