@@ -91,7 +91,9 @@ pub(super) fn periods() -> Result<Figure, AccuracyError> {
         number: 3,
         title: "Period of a free-standing parapet",
         notes: vec![
-            "Lines: Eq. (5); marks: Eq. (1). Which α were drawn is lost; a) has α = 0.1, b) shows what α does.".into(),
+            "Lines: Eq. (5); marks: Eq. (1). Which α were drawn is lost; a) has α = 0.1, b) shows what \
+             α does."
+                .into(),
             format!("The ratio is √cos α whatever p and θ₀: {} at α = 0.1, 0.2, 0.3.", shown.join(", ")),
         ],
         charts: vec![

@@ -81,10 +81,13 @@ pub fn table_4() -> Table {
         name: "Table 4",
         title: "Tested parapets: F₀ = 1.24 kN, u_ins = 115 mm, a₃ = 0.95",
         notes: vec![
-            "Parameters from tests are given, not computed. 0.0298 is printed as 0.029: cut off, not rounded.".into(),
+            "Parameters from tests are given, not computed. 0.0298 is printed as 0.029: cut off, not \
+             rounded."
+                .into(),
         ],
         columns: columns(
-            "specimen | CR: a₁ | e | CDR: a₁ | ξ from tests | ξ, Eq. (21) | SDR: a₁ | ξ₁ from tests | ξ₁, Eq. (22)",
+            "specimen | CR: a₁ | e | CDR: a₁ | ξ from tests | ξ, Eq. (21) | SDR: a₁ | \
+             ξ₁ from tests | ξ₁, Eq. (22)",
         ),
         rows: rows.collect(),
     }
@@ -151,10 +154,13 @@ pub fn table_5() -> Result<Table, ParameterError> {
             "e_exp = 0.9359 is printed as 0.935, cut off. CDC and SDR deviate by up to 0.01, where print was \
              made from rounded numbers."
                 .into(),
-            "a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) were fitted over.".into(),
+            "a₁ of walls 1, 2 and 5 lies below 0.005, outside the range that Eqs. (20) to (22) \
+             were fitted over."
+                .into(),
         ],
         columns: columns(
-            "wall | type | h (m) | b (m) | a₁ | e_an | e_exp | ξ CDC (%) | ξ CDR (%) | ξ₁ SDR (%) | ξ Eq. (14) (%)",
+            "wall | type | h (m) | b (m) | a₁ | e_an | e_exp | ξ CDC (%) | ξ CDR (%) | \
+             ξ₁ SDR (%) | ξ Eq. (14) (%)",
         ),
         rows,
     })
