@@ -127,7 +127,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
     fs::remove_file(at("two").join("fragilities.csv")).unwrap();
     let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
     assert!(
-        text(&output.stderr).contains("20 of 24 combinations are there already"),
+        text(&output.stderr).contains("20 of 24 combinations are done already"),
         "{}",
         text(&output.stderr)
     );

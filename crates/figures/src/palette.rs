@@ -7,29 +7,25 @@
 //! assert_eq!(mixed(&[[0.0, 0.0, 0.0], [200.0, 100.0, 0.0]], 0.5), "rgb(100,50,0)");
 //! ```
 
+#![allow(missing_docs, reason = "a colour's name says it")]
+
 pub use kuva::plot::scatter::MarkerShape as Mark;
 
 /// The response, and whatever comes first.
 pub const BLUE: &str = "#1f5fa8";
 /// Limits, and what is compared with the response.
 pub const RED: &str = "#b3371e";
-#[allow(missing_docs, reason = "a colour")]
 pub const GREEN: &str = "#2e7d32";
-#[allow(missing_docs, reason = "a colour")]
 pub const PURPLE: &str = "#8e5bb5";
-#[allow(missing_docs, reason = "a colour")]
 pub const AMBER: &str = "#c98a00";
 /// Ground motions.
 pub const DARK_GREY: &str = "#4d4d4d";
-#[allow(missing_docs, reason = "a colour")]
 pub const TEAL: &str = "#00838f";
-#[allow(missing_docs, reason = "a colour")]
 pub const BROWN: &str = "#6d4c41";
 /// References in the background.
 pub const GREY: &str = "#777777";
 /// One of many.
 pub const PALE: &str = "#b5b5b5";
-#[allow(missing_docs, reason = "a colour")]
 pub const BLACK: &str = "#000000";
 
 /// Colour, mark, and the mark as a character, of the series of a chart in turn.

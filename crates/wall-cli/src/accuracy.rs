@@ -1,16 +1,41 @@
 //! `wall accuracy`: error against run time, as a table, as CSV and as a page.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 use rocking_wall::scene::Scene;
 use study::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure};
 
-use crate::args::AccuracyArguments;
+use crate::args::RecordArguments;
 use crate::linearisation::Linearisation;
 use crate::{output, work_precision};
 
-pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene files (TOML); without any a set from mild to very stiff
+    scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    record: RecordArguments,
+    /// Write the measurements as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write a page with work-precision plots
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Measurements of other tools to show on the page, the CSV of `cargo xtask bench --peers`
+    #[arg(long, value_name = "FILE", requires = "html")]
+    peers: Option<PathBuf>,
+    /// Write the periods of small and of full rotations against slenderness as CSV
+    #[arg(long, value_name = "FILE")]
+    linearisation: Option<PathBuf>,
+    /// Time to spend on timing each setting in s
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.05)]
+    budget: f64,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if !(0.0..=3600.0).contains(&arguments.budget) {
         bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
     }
@@ -20,18 +45,17 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
     } else {
         if arguments.record.record.is_some() || arguments.record.synthetic {
             bail!(
-                "--record and --synthetic replace the motion of the built-in scenes; a scene file states its own in [motion]"
+                "--record and --synthetic replace the motion of the built-in scenes; a scene file states its \
+                 own in [motion]"
             );
         }
-        let read = |path: &std::path::PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
+        let read = |path: &PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
         arguments.scenes.iter().map(read).collect::<Result<_>>()?
     };
-    let peers = match &arguments.peers {
-        Some(path) => Some(
-            std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?,
-        ),
-        None => None,
+    let read = |path: &PathBuf| {
+        std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))
     };
+    let peers = arguments.peers.as_ref().map(read).transpose()?;
     let mut studies = Vec::with_capacity(problems.len());
     for problem in &problems {
         let study = measure(problem, arguments.budget)?;
@@ -39,21 +63,15 @@ pub(crate) fn run(arguments: &AccuracyArguments) -> Result<()> {
         studies.push(study);
     }
     let rotations = Linearisation::measure()?;
-    // it is of walls of its own, not of the scenes given
+    // its walls are not those of the scenes given
     if arguments.scenes.is_empty() || arguments.linearisation.is_some() {
         output::to_stdout(&rotations.table())?;
     }
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, csv(&studies).as_bytes())?;
-    }
-    if let Some(path) = &arguments.linearisation {
-        output::to_file(path, rotations.csv().as_bytes())?;
-    }
-    if let Some(path) = &arguments.html {
-        let page = work_precision::page(&studies, &rotations.section(), peers.as_deref());
-        output::to_file(path, page.as_bytes())?;
-    }
-    Ok(())
+    output::save(arguments.csv.as_ref(), || csv(&studies))?;
+    output::save(arguments.linearisation.as_ref(), || rotations.csv())?;
+    output::save(arguments.html.as_ref(), || {
+        work_precision::page(&studies, &rotations.section(), peers.as_deref())
+    })
 }
 
 fn table(study: &WorkPrecision) -> String {
@@ -65,7 +83,8 @@ fn table(study: &WorkPrecision) -> String {
     let reference = if study.exact { "exact" } else { "adaptive at 1e-13" };
     let _ = writeln!(
         text,
-        "  {fate}; reference {reference}; a change of the motion comes back {:.1e} times, rounding alone may do {:.0e}",
+        "  {fate}; reference {reference}; a change of the motion is amplified {:.1e} times, rounding alone \
+         may cause {:.0e}",
         study.amplification,
         study.rounding()
     );
@@ -104,8 +123,8 @@ fn table(study: &WorkPrecision) -> String {
 }
 
 /// Columns of the CSV; errors over `u_ins`, times in s.
-const COLUMNS: &str = "scene,solver,setting,seconds,error_max,error_rms,error_peak,error_overturn_time,pieces,corners,\
-                       impacts,amplification";
+const COLUMNS: &str = "scene,solver,setting,seconds,error_max,error_rms,error_peak,error_overturn_time,\
+                       pieces,corners,impacts,amplification";
 
 fn csv(studies: &[WorkPrecision]) -> String {
     let mut text = format!("{COLUMNS}\n");

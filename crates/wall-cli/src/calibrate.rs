@@ -21,40 +21,40 @@ use crate::output;
 use crate::template::filled;
 
 #[derive(Debug, Args)]
-pub(crate) struct CalibrateArguments {
+pub(crate) struct Arguments {
     #[command(flatten)]
-    pub(crate) scene: SceneArguments,
-    /// Damping models: `constant_coefficient`, `free_standing_block`, `constant_ratio`, `stiffness_proportional`; without it all
-    /// that the force law allows
+    scene: SceneArguments,
+    /// Damping models: `constant_coefficient`, `free_standing_block`, `constant_ratio`,
+    /// `stiffness_proportional` [default: all that the force law allows]
     #[arg(long, value_delimiter = ',')]
-    pub(crate) models: Vec<String>,
+    models: Vec<String>,
     /// Coefficients of restitution
     #[arg(long, value_name = "E", value_delimiter = ',', default_values_t = Grid::default().restitution)]
-    pub(crate) restitution: Vec<f64>,
+    restitution: Vec<f64>,
     /// Ends of the elastic branch over `u_ins`; a multilinear or rigid-linear law has its own
     #[arg(long, value_name = "A1", value_delimiter = ',', default_values_t = Grid::default().a1)]
-    pub(crate) a1: Vec<f64>,
+    a1: Vec<f64>,
     /// Initial displacements over `u_ins`
     #[arg(long, value_name = "RATIO", value_delimiter = ',', default_values_t = Grid::default().start)]
-    pub(crate) start: Vec<f64>,
+    start: Vec<f64>,
     /// Time between the samples compared in s
     #[arg(long, value_name = "SECONDS", default_value_t = STEP)]
-    pub(crate) step: f64,
+    step: f64,
     /// Write every fit as CSV
     #[arg(long, value_name = "FILE")]
-    pub(crate) csv: Option<PathBuf>,
+    csv: Option<PathBuf>,
     /// Write a page with charts
     #[arg(long, value_name = "FILE")]
-    pub(crate) html: Option<PathBuf>,
-    /// Number of threads; without it one for each core
+    html: Option<PathBuf>,
+    /// Number of threads [default: one for each core]
     #[arg(long, value_name = "COUNT")]
-    pub(crate) threads: Option<NonZeroUsize>,
+    threads: Option<NonZeroUsize>,
 }
 
 /// Series that a chart holds without repeating a colour.
 const MOST_SERIES: usize = 6;
 
-pub(crate) fn run(arguments: &CalibrateArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let grid = Grid {
@@ -71,13 +71,8 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<()> {
         output::to_stdout(&table(&calibration))?;
         found.push(calibration);
     }
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, csv(&found).as_bytes())?;
-    }
-    if let Some(path) = &arguments.html {
-        output::to_file(path, page(&scene.title, &found).as_bytes())?;
-    }
-    Ok(())
+    output::save(arguments.csv.as_ref(), || csv(&found))?;
+    output::save(arguments.html.as_ref(), || page(&scene.title, &found))
 }
 
 /// The models named, or all that the wall can have.
@@ -171,10 +166,7 @@ fn csv(found: &[Calibration]) -> String {
 }
 
 fn page(title: &str, found: &[Calibration]) -> String {
-    let mut charts = Vec::new();
-    for calibration in found {
-        charts.push(over_restitution(calibration));
-    }
+    let mut charts: Vec<_> = found.iter().map(over_restitution).collect();
     charts.push(least_errors(found));
     if found.iter().any(|calibration| !calibration.laws.is_empty()) {
         charts.push(over_stiffness(found));
@@ -192,7 +184,7 @@ fn page(title: &str, found: &[Calibration]) -> String {
     )
 }
 
-/// ξ over e for some of the a₁ and u₀.
+/// Draws ξ over e for some of the a₁ and u₀.
 fn over_restitution(found: &Calibration) -> Chart {
     let every = found.coefficients.len().div_ceil(MOST_SERIES);
     let mut series = Vec::new();
@@ -217,7 +209,7 @@ fn over_restitution(found: &Calibration) -> Chart {
     }
 }
 
-/// √Err over e at the middle a₁ and u₀.
+/// Draws √Err over e at the middle a₁ and u₀.
 fn least_errors(found: &[Calibration]) -> Chart {
     let mut title = String::new();
     let mut series = Vec::new();
@@ -231,7 +223,7 @@ fn least_errors(found: &[Calibration]) -> Chart {
     Chart { title, x: Axis::new("e"), y: Axis::new("√Err"), series }
 }
 
-/// x over a₁, fitted and as printed.
+/// Draws x over a₁, fitted and as printed.
 fn over_stiffness(found: &[Calibration]) -> Chart {
     let mut series = Vec::new();
     let with_laws = found.iter().filter(|calibration| !calibration.laws.is_empty());

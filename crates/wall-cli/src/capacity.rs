@@ -7,7 +7,7 @@ use figures::plot::Picture;
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
-use crate::describe::significant;
+use crate::csv::optional;
 
 /// The curve of one side.
 struct Side {
@@ -45,14 +45,14 @@ impl Capacity {
                 "u [m]", "F [N]", "u/u_ins", "F/F0", "d* [m]", "a* [m/s2]"
             );
             for point in corners {
-                let _ = writeln!(text, "{:22}{}", "", columns(point));
+                let _ = writeln!(text, "{:22}{}", "", values(point).map(significant).join(" "));
             }
             if !limits.is_empty() {
                 let _ = writeln!(text, "limit states{:10}{:83} {:>13}", "", "", "T_sec [s]");
             }
             for point in limits {
                 let period = point.secant_period.map_or_else(|| format!("{:>13}", "-"), significant);
-                let _ = writeln!(text, "{:22}{} {period}", "", columns(point));
+                let _ = writeln!(text, "{:22}{} {period}", "", values(point).map(significant).join(" "));
             }
         }
         text
@@ -83,26 +83,15 @@ impl Capacity {
 
     pub(crate) fn csv(&self) -> String {
         let mut text = String::from(
-            "side,point,u_m,force_n,u_ratio,force_ratio,d_star_m,a_star_m_s2,secant_stiffness_n_m,secant_period_s\n",
+            "side,point,u_m,force_n,u_ratio,force_ratio,d_star_m,a_star_m_s2,secant_stiffness_n_m,\
+             secant_period_s\n",
         );
         for side in &self.sides {
             for (kind, points) in [("corner", &side.corners), ("limit_state", &side.limits)] {
                 for point in points {
-                    let optional =
-                        |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-                    let _ = writeln!(
-                        text,
-                        "{},{kind},{:?},{:?},{:?},{:?},{:?},{:?},{},{}",
-                        side.name,
-                        point.displacement,
-                        point.force,
-                        point.displacement_ratio,
-                        point.force_ratio,
-                        point.spectral_displacement,
-                        point.spectral_acceleration,
-                        optional(point.secant_stiffness),
-                        optional(point.secant_period)
-                    );
+                    let cells = values(point).map(|value| format!("{value:?}")).join(",");
+                    let [stiffness, period] = [point.secant_stiffness, point.secant_period].map(optional);
+                    let _ = writeln!(text, "{},{kind},{cells},{stiffness},{period}", side.name);
                 }
             }
         }
@@ -122,14 +111,27 @@ impl Capacity {
     }
 }
 
-fn columns(point: &CapacityPoint) -> String {
-    let values = [
+/// What the table and the CSV have in common.
+fn values(point: &CapacityPoint) -> [f64; 6] {
+    [
         point.displacement,
         point.force,
         point.displacement_ratio,
         point.force_ratio,
         point.spectral_displacement,
         point.spectral_acceleration,
-    ];
-    values.map(significant).join(" ")
+    ]
+}
+
+/// Six significant figures, right-aligned.
+pub(crate) fn significant(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || (1e-3..1e6).contains(&magnitude) {
+        let digits = if value == 0.0 { 1.0 } else { magnitude.log10().floor() };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8 decimals")]
+        let decimals = (5.0 - digits).clamp(0.0, 8.0) as usize;
+        format!("{value:>13.decimals$}")
+    } else {
+        format!("{value:>13.5e}")
+    }
 }

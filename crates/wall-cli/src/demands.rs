@@ -1,4 +1,4 @@
-//! Demands of a run in words, for the summary and the page, and as JSON.
+//! Demands of a run as text, for the summary and the page, and as JSON.
 
 use rocking_wall::response::Response;
 use rocking_wall::solver::{Crossing, Extremes, Instant};
@@ -46,11 +46,14 @@ fn figure(value: f64) -> String {
     format!("{value:+.decimals$}")
 }
 
-/// All of it in SI units; times in s.
+/// All demands in SI units; times in s.
 pub(crate) fn json(response: &Response) -> Value {
     let demands = &response.demands;
     let instant = |Instant { value, time }: &Instant| json!({ "value": value, "time": time });
-    let extremes = |extremes: &Extremes| json!({ "highest": instant(&extremes.highest), "lowest": instant(&extremes.lowest) });
+    let extremes = |extremes: &Extremes| {
+        let [highest, lowest] = [extremes.highest, extremes.lowest].map(|at| instant(&at));
+        json!({ "highest": highest, "lowest": lowest })
+    };
     let crossings: Vec<Value> = demands
         .crossings
         .iter()

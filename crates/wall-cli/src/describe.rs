@@ -1,20 +1,41 @@
 //! `wall describe`: what follows from a wall's parameters.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use anyhow::Result;
+use clap::Args;
 use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Wall, equivalence};
 
-use crate::args::DescribeArguments;
-use crate::capacity::Capacity;
+use crate::args::SceneArguments;
+use crate::capacity::{Capacity, significant};
 use crate::output;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Limit states as fractions of `u_ins` to show secant periods at, instead of the scene's
+    /// [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    thresholds: Option<Vec<f64>>,
+    /// Write the corners and limit states of the capacity curve as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw the capacity curve with its secants, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
 
 /// One derived number: name, symbol, value, unit.
 struct Fact(&'static str, &'static str, f64, &'static str);
 
-pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let parameters = &scene.parameters;
@@ -23,13 +44,11 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
-    // the plot first, which may be refused
+    // first, because its ending may be refused
     if let Some(path) = &arguments.plot {
         output::picture(path, || Ok(capacity.picture()))?;
     }
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, capacity.csv().as_bytes())?;
-    }
+    output::save(arguments.csv.as_ref(), || capacity.csv())?;
     let facts = facts(&wall);
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
@@ -66,25 +85,12 @@ pub(crate) fn run(arguments: &DescribeArguments) -> Result<()> {
     }
     text.push_str(&capacity.table());
     for warning in wall.warnings() {
-        let _ = writeln!(text, "\nnote: {warning}");
+        let _ = writeln!(text, "\nwarning: {warning}");
     }
     for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
         let _ = writeln!(text, "\nwritten {}", path.display());
     }
     output::to_stdout(&text)
-}
-
-/// Six significant figures, right-aligned.
-pub(crate) fn significant(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || (1e-3..1e6).contains(&magnitude) {
-        let digits = if value == 0.0 { 1.0 } else { magnitude.log10().floor() };
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8 decimals")]
-        let decimals = (5.0 - digits).clamp(0.0, 8.0) as usize;
-        format!("{value:>13.decimals$}")
-    } else {
-        format!("{value:>13.5e}")
-    }
 }
 
 fn facts(wall: &Wall) -> Vec<Fact> {

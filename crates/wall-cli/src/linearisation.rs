@@ -14,6 +14,8 @@ use study::accuracy::linearisation::{
     Comparison, Period, SLENDERNESS, STARTS, figure_2, figure_2_wall, figure_3, period,
 };
 
+use crate::csv::optional;
+
 /// The figures' output step \[s\].
 const STEP: f64 = 0.01;
 /// Names of the two mechanisms, and how long Figure 2 watches them \[s\].
@@ -71,7 +73,8 @@ impl Linearisation {
             let _ = writeln!(
                 text,
                 "  Figure 2, {name}, e = {restitution}: first impact at {linear:.5} s instead of {full:.5} s \
-                 ({:.2} % short);\n    over {duration} s at most {:.3} u_ins apart, amplitudes within {:.1e} u_ins",
+                 ({:.2} % short);\n    over {duration} s at most {:.3} u_ins apart, amplitudes within {:.1e} \
+                 u_ins",
                 100.0 * (1.0 - linear / full),
                 history.largest_difference(),
                 history.largest_amplitude_difference()
@@ -84,7 +87,6 @@ impl Linearisation {
         let mut text = String::from(
             "mechanism,alpha,start,period_linear,period_trigonometric,period_eq5,ratio,ratio_eq5\n",
         );
-        let optional = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
         for measured in &self.0 {
             for period in measured.periods.iter().flatten() {
                 let _ = writeln!(
@@ -107,9 +109,10 @@ impl Linearisation {
     /// The section of the page of `wall accuracy`.
     pub(crate) fn section(&self) -> String {
         let mut section = format!(
-            "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, h = 4 m, released from \
-             0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio of the two periods against slenderness, \
-             hinge of the strip at mid-height.</p>\n<p class=\"key\">{}</p>\n<main class=\"wide\">\n",
+            "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, \
+             h = 4 m, released from 0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio \
+             of the two periods against slenderness, hinge of the strip at mid-height.</p>\n\
+             <p class=\"key\">{}</p>\n<main class=\"wide\">\n",
             key(&[
                 ("full rotations", BLUE),
                 ("small rotations", RED),
@@ -119,8 +122,8 @@ impl Linearisation {
         for Measured { name, duration, restitution, history, .. } in &self.0 {
             let _ = writeln!(
                 section,
-                "<figure><figcaption><b>{name}, e = {restitution}</b><br>at most {:.3} u<sub>ins</sub> apart, amplitudes \
-                 within {:.0e} u<sub>ins</sub></figcaption>{}</figure>",
+                "<figure><figcaption><b>{name}, e = {restitution}</b><br>at most {:.3} u<sub>ins</sub> \
+                 apart, amplitudes within {:.0e} u<sub>ins</sub></figcaption>{}</figure>",
                 history.largest_difference(),
                 history.largest_amplitude_difference(),
                 histories(history, *duration)
@@ -129,8 +132,8 @@ impl Linearisation {
         for Measured { name, periods, .. } in &self.0 {
             let _ = writeln!(
                 section,
-                "<figure><figcaption><b>{name}</b><br>started at 0.1 (dotted), 0.5 (dashed) and 0.9 (solid) of \
-                 u<sub>ins</sub></figcaption>{}</figure>",
+                "<figure><figcaption><b>{name}</b><br>started at 0.1 (dotted), 0.5 (dashed) and 0.9 (solid) \
+                 of u<sub>ins</sub></figcaption>{}</figure>",
                 ratios(periods)
             );
         }
@@ -171,8 +174,9 @@ fn ratios(periods: &[Vec<Period>]) -> String {
 pub(crate) struct Counterpart {
     /// Histories of u/`u_ins` side by side.
     pub(crate) histories: Plot,
-    /// Period ratios of this wall with other thicknesses, and where it stands itself: percent from left and top.
+    /// Period ratios of this wall with other thicknesses.
     pub(crate) ratios: Plot,
+    /// This wall in that plot: parts of its width and height from left and top.
     pub(crate) place: [f64; 2],
     /// Largest distance of the histories while both stand \[-\].
     pub(crate) apart: f64,
@@ -185,7 +189,7 @@ pub(crate) struct Counterpart {
 const AMPLITUDES: [f64; 2] = [0.01, 0.99];
 
 impl Counterpart {
-    /// `None` for walls that full rotations do not know.
+    /// Runs a scene with the other kinematics; `None` for walls that full rotations do not allow.
     pub(crate) fn of(scene: &Scene, response: &Response) -> Option<Self> {
         let other = counterpart(scene)?;
         let twin = Response::of(&other).ok()?;
@@ -229,7 +233,7 @@ fn counterpart(scene: &Scene) -> Option<Scene> {
     let mut other = scene.clone();
     other.parameters.solver = Solver::Automatic;
     other.parameters.kinematics = Kinematics::Trigonometric;
-    // full rotations know rigid walls without damping only
+    // full rotations allow rigid walls without damping only
     Wall::new(&other.parameters).ok()?;
     other.check_supports().ok()?;
     if scene.parameters.kinematics == Kinematics::Trigonometric {

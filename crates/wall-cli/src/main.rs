@@ -5,6 +5,7 @@ mod args;
 mod building;
 mod calibrate;
 mod capacity;
+mod csv;
 mod demands;
 mod describe;
 mod ida;
@@ -25,8 +26,56 @@ mod work_precision;
 
 use std::process::ExitCode;
 
-use args::{Arguments, Command};
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, Parser, Subcommand};
+
+/// Out-of-plane rocking of masonry walls under earthquakes.
+#[derive(Debug, Parser)]
+#[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene, or the default wall, and write its history and its page
+    #[command(allow_negative_numbers = true)]
+    Simulate(simulate::Arguments),
+    /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
+    Package(package::Arguments),
+    /// Make a system (SSP) of storeys and walls: each wall the FMU of its scene, connected
+    Building(building::Arguments),
+    /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
+    Describe(describe::Arguments),
+    /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    #[command(allow_negative_numbers = true)]
+    Motion(motion::Arguments),
+    /// Measure the error of each solver against its run time
+    #[command(allow_negative_numbers = true)]
+    Accuracy(accuracy::Arguments),
+    /// Map the stability of each solver, and run the extremes
+    Stability(stability::Arguments),
+    /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
+    Record(record::Arguments),
+    /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
+    Ida(ida::Arguments),
+    /// Merge the shards of an incremental dynamic analysis and write its results
+    Merge(ida::MergeArguments),
+    /// Rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
+    #[command(allow_negative_numbers = true)]
+    Spectrum(spectrum::Arguments),
+    /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
+    Calibrate(calibrate::Arguments),
+    /// Compute every table and figure of the paper and compare it with print, on one page
+    Reproduce(reproduce::Arguments),
+    /// Print the JSON schema of scene files
+    Schema,
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
 
 /// Exit code for input that cannot be used; clap uses the same.
 const BAD_INPUT: u8 = 2;

@@ -1,15 +1,26 @@
 //! `wall motion`: a ground motion as CSV, in the form FMPy reads with `--input-file`.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use anyhow::{Result, bail};
+use clap::Args;
 
-use crate::args::MotionArguments;
+use crate::args::RecordArguments;
 use crate::output;
 
-pub(crate) fn run(arguments: &MotionArguments) -> Result<()> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    record: RecordArguments,
+    /// The CSV file to write, with the columns time (s) and `a_g` (m/s2)
+    #[arg(long, value_name = "FILE")]
+    csv: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let Some((motion, note)) = arguments.record.load()? else {
-        bail!("which motion? give --record FILE or --synthetic");
+        bail!("no motion is given; give --record FILE or --synthetic");
     };
     let mut csv = String::from("time,a_g\n");
     for (index, sample) in motion.samples().iter().enumerate() {

@@ -1,15 +1,15 @@
-//! What leaves the program: stdout, stderr, and files that are whole or not there.
+//! What leaves the program: stdout, stderr, and files, which are written completely or not at all.
 
 #![allow(clippy::print_stderr, reason = "messages to the user")]
 
 use std::hash::{BuildHasher, RandomState};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use figures::plot::Picture;
 
-/// Writes a file whole or not at all: beside its place first, then renamed.
+/// Writes a file completely or not at all: beside its place first, then renamed.
 pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
     let context = || format!("{}: cannot be written", path.display());
     let folder = match path.parent() {
@@ -17,15 +17,20 @@ pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
         _ => Path::new("."),
     };
     let name = path.file_name().with_context(context)?;
-    // unlike any other, also of processes with the same number on other machines
+    // unique, also among processes with the same number on other machines
     let own = RandomState::new().hash_one(std::process::id());
     let part = folder.join(format!(".{}.{own:016x}.part", name.to_string_lossy()));
     let written = std::fs::write(&part, content).and_then(|()| std::fs::rename(&part, path));
     if written.is_err() {
-        // nothing half-written stays behind; that it may never have been there is no matter
+        // leave nothing incomplete behind; the file may not exist
         let _ = std::fs::remove_file(&part);
     }
     written.with_context(context)
+}
+
+/// Writes a text to the file that an option names, if it is given.
+pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
+    path.map_or(Ok(()), |path| to_file(path, text().as_bytes()))
 }
 
 /// Writes a picture, as SVG or PNG by the file's ending; draws it only if the ending is one of them.
@@ -39,7 +44,7 @@ pub(crate) fn picture(path: &Path, draw: impl FnOnce() -> Result<Picture>) -> Re
     to_file(path, &bytes)
 }
 
-/// Prints to stdout; a reader that has closed the pipe has had enough.
+/// Prints to stdout; a closed pipe is no error.
 pub(crate) fn to_stdout(text: &str) -> Result<()> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
@@ -48,7 +53,7 @@ pub(crate) fn to_stdout(text: &str) -> Result<()> {
     }
 }
 
-/// An error with its causes, outermost first; a cause that the message before it ends with is not told twice.
+/// Joins an error and its causes, outermost first, without a cause that the text before it ends with.
 pub(crate) fn message(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -59,12 +64,12 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
     text
 }
 
-/// An error for the user.
+/// Tells the user an error.
 pub(crate) fn report(message: &str) {
     eprintln!("wall: {message}");
 }
 
-/// Something the user should know.
-pub(crate) fn note(message: &str) {
-    eprintln!("wall: note: {message}");
+/// Warns the user of something that does not stop the work.
+pub(crate) fn warn(message: &str) {
+    eprintln!("wall: warning: {message}");
 }

@@ -1,30 +1,43 @@
 //! `wall package`: an FMU of one scene.
 //!
-//! It starts from the general FMU and needs no compiler: the library stays, the description keeps the variables the scene
-//! uses, and the scene travels in `resources/`, with its motion. The guid ends in the scene's fingerprint, so that the
-//! library refuses to run without it.
+//! It starts from the general FMU and needs no compiler: the library stays, the description keeps the
+//! variables that the scene uses, and `resources/` gets the scene and its motion. The guid ends in the
+//! scene's fingerprint, so that the library refuses to run without it.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 use fmi2_export_build::archive::Archive;
 use fmi2_export_build::{DefaultExperiment, Description, Reduction};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::wall::{Kinematics, Parameters, Wall};
 
-use crate::args::PackageArguments;
 use crate::output;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// The FMU to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The general FMU to start from
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
+    base: PathBuf,
+}
 
 /// Communication steps of a scene's default experiment: FMPy records at most 1000 samples.
 const STEPS: f64 = 1000.0;
 
-pub(crate) fn run(arguments: &PackageArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     if scene.parameters.kinematics != Kinematics::Linear {
         bail!(
-            "{}: an FMU knows small rotations only; set kinematics = linear, or run the scene with `wall simulate`",
+            "{}: an FMU has small rotations only; set kinematics = linear, or run the scene with \
+             `wall simulate`",
             arguments.scene.display()
         );
     }

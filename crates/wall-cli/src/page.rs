@@ -1,4 +1,4 @@
-//! The first picture: one self-contained page with the rocking wall, its histories and its force.
+//! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
 
 use std::fmt::Write;
 
@@ -92,48 +92,35 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let line = 0.004 * h.max(half);
     // the ground goes on beyond the view box, which the window may widen
     let far = 10.0 * half;
-    let mut svg = format!(
-        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">",
+    let rect = |[x, y]: [f64; 2], [width, height]: [f64; 2], look: &str| {
+        format!("<rect {look} x=\"{x:.4}\" y=\"{y:.4}\" width=\"{width:.4}\" height=\"{height:.4}\"/>")
+    };
+    let body = |id: &str, from: f64, height: f64| {
+        let look = format!("id=\"{id}\" fill=\"#c9a183\" stroke=\"#6b4a33\"");
+        rect([-b / 2.0, from], [b, height], &look)
+    };
+    let bodies = match hinge(wall) {
+        None => body("lower", 0.0, h),
+        Some(h1) => {
+            let look = "fill=\"#e4e1dc\" stroke=\"#555\"";
+            let support = rect([-0.6 * half, h], [1.2 * half, 0.05 * h], look);
+            support + &body("lower", 0.0, h1) + &body("upper", h1, h - h1)
+        }
+    };
+    format!(
+        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
+         <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
+         <path d=\"M{:.4} 0H{far:.4}\" stroke=\"#555\"/>\
+         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{bodies}</g></svg>",
         -half,
         -(h + top),
         2.0 * half,
-        h + top + bottom
-    );
-    let _ = write!(
-        svg,
-        "<g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\"><rect x=\"{:.4}\" y=\"{:.4}\" width=\"{:.4}\" \
-         height=\"{far:.4}\" fill=\"#e4e1dc\"/><line x1=\"{:.4}\" x2=\"{far:.4}\" y1=\"0\" y2=\"0\" \
-         stroke=\"#555\"/><line x1=\"0\" x2=\"0\" y1=\"0\" y2=\"{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>",
-        -far,
-        -far,
-        2.0 * far,
+        h + top + bottom,
         -far,
         h + 0.6 * top,
-        0.02 * h
-    );
-    let body = |id: &str, from: f64, height: f64| {
-        format!(
-            "<rect id=\"{id}\" x=\"{:.4}\" y=\"{from:.4}\" width=\"{b:.4}\" height=\"{height:.4}\" fill=\"#c9a183\" \
-             stroke=\"#6b4a33\"/>",
-            -b / 2.0
-        )
-    };
-    match hinge(wall) {
-        None => svg.push_str(&body("lower", 0.0, h)),
-        Some(h1) => {
-            let _ = write!(
-                svg,
-                "<rect x=\"{:.4}\" y=\"{h:.4}\" width=\"{:.4}\" height=\"{:.4}\" fill=\"#e4e1dc\" stroke=\"#555\"/>",
-                -0.6 * half,
-                1.2 * half,
-                0.05 * h
-            );
-            svg.push_str(&body("lower", 0.0, h1));
-            svg.push_str(&body("upper", h1, h - h1));
-        }
-    }
-    svg.push_str("</g></svg>");
-    svg
+        0.02 * h,
+        ground = rect([-far, -far], [2.0 * far, far], "fill=\"#e4e1dc\"")
+    )
 }
 
 /// The choices of exaggeration, the default selected.
@@ -239,8 +226,8 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     .concat()
 }
 
-/// u/`u_ins` over time \[s\]; that of a wall which overturns leaves the plot a little beyond 1, not to be taken for a wall
-/// that comes to rest there.
+/// u/`u_ins` over time \[s\]. That of an overturned wall ends a little beyond 1, where the line leaves the
+/// plot: drawn further it would look like a wall at rest.
 fn standing(samples: &[Sample], overturned: Option<f64>) -> Vec<(f64, f64)> {
     const EDGE: f64 = 1.25;
     let fallen = |sample: &Sample| {
@@ -250,7 +237,7 @@ fn standing(samples: &[Sample], overturned: Option<f64>) -> Vec<(f64, f64)> {
     samples[..end].iter().map(|sample| (sample.time, sample.outputs.ratio.clamp(-EDGE, EDGE))).collect()
 }
 
-/// A rigid wall beside itself with the other kinematics; nothing for walls that have none.
+/// Compares a rigid wall with itself under the other kinematics; empty for walls that do not allow them.
 fn rotations(scene: &Scene, response: &Response) -> String {
     let Some(twin) = Counterpart::of(scene, response) else { return String::new() };
     let caption = format!(
@@ -260,8 +247,8 @@ fn rotations(scene: &Scene, response: &Response) -> String {
     let [x, y] = twin.place.map(|part| 100.0 * part);
     plot("rotations", &caption, &twin.histories, None)
         + &format!(
-            "<figure><figcaption>Period with small rotations over that with full ones, from {:.2} u_ins; dot: this wall, \
-             {:.2} % short</figcaption><div class=\"still\">{}<div class=\"dot\" \
+            "<figure><figcaption>Period with small rotations over that with full ones, from {:.2} u_ins; \
+             dot: this wall, {:.2} % short</figcaption><div class=\"still\">{}<div class=\"dot\" \
              style=\"left:{x:.3}%;top:{y:.3}%\"></div></div></figure>",
             twin.start,
             100.0 * (1.0 - twin.ratio),

@@ -1,16 +1,49 @@
 //! `wall record`: what record files hold, their intensity, and a quick check.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
+use clap::Args;
 use figures::plot::Picture;
 use figures::records;
+use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum, read_channels};
 use serde_json::{Value, json};
 
-use crate::args::RecordFilesArguments;
+use crate::args::RecordOptionsArguments;
+use crate::csv::quoted;
 use crate::output;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV
+    #[arg(id = "record", required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    options: RecordOptionsArguments,
+    /// Periods in s to show Sa at
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = [0.2, 0.5, 1.0, 2.0])]
+    periods: Vec<f64>,
+    /// Periods in s whose geometric mean of Sa is AvgSA
+    #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = AVERAGE_PERIODS)]
+    average: Vec<f64>,
+    /// Damping ratio of the oscillators
+    #[arg(long, value_name = "RATIO", default_value_t = DAMPING)]
+    damping: f64,
+    /// Take the maxima at the samples only, as many programs do, instead of wherever they lie
+    #[arg(long)]
+    at_samples: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Write the table as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw the histories and the spectra, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+}
 
 /// One channel of a file and what is told of it.
 struct Row {
@@ -23,7 +56,7 @@ struct Row {
     check: Check,
 }
 
-pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
@@ -50,12 +83,7 @@ pub(crate) fn run(arguments: &RecordFilesArguments) -> Result<()> {
     Ok(())
 }
 
-fn read(
-    path: &Path,
-    options: &RecordOptions,
-    arguments: &RecordFilesArguments,
-    spectrum: Spectrum,
-) -> Result<Vec<Row>> {
+fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: Spectrum) -> Result<Vec<Row>> {
     let in_g = |acceleration: f64| acceleration / STANDARD_GRAVITY;
     let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut rows = Vec::new();
@@ -74,7 +102,7 @@ fn read(
     Ok(rows)
 }
 
-fn show(rows: &[Row], arguments: &RecordFilesArguments, spectrum: Spectrum) -> Result<()> {
+fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
     let mut written = Vec::new();
     if let Some(path) = &arguments.plot {
         output::picture(path, || picture(rows, spectrum, arguments.damping))?;
@@ -136,7 +164,7 @@ impl Row {
     }
 }
 
-fn table(rows: &[Row], arguments: &RecordFilesArguments) -> String {
+fn table(rows: &[Row], arguments: &Arguments) -> String {
     let width = rows.iter().map(|row| row.name().chars().count()).max().unwrap_or(0).max("file".len());
     let mut text = format!(
         "{:width$}  {:13}  {:>7}  {:>8}  {:>10}  {:>8}  {:>8}",
@@ -231,13 +259,4 @@ fn csv(rows: &[Row], periods: &[f64]) -> String {
         let _ = writeln!(text, ",{}", quoted(&warnings.join(" | ")));
     }
     text
-}
-
-/// A cell as RFC 4180 has it.
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
 }

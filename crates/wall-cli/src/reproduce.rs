@@ -17,19 +17,19 @@ use crate::output;
 use crate::template::filled;
 
 #[derive(Debug, Args)]
-pub(crate) struct ReproduceArguments {
-    /// Records to scale for Figure 15: every file of this folder that reads without being told its unit or channel
+pub(crate) struct Arguments {
+    /// Records to scale for Figure 15: every file of this folder that can be read without unit or channel
     #[arg(long, value_name = "FOLDER")]
-    pub(crate) records: Option<PathBuf>,
+    records: Option<PathBuf>,
     /// The page to write
     #[arg(short, long, value_name = "FILE", default_value = "reproduction.html")]
-    pub(crate) output: PathBuf,
-    /// Number of threads; without it one for each core
+    output: PathBuf,
+    /// Number of threads [default: one for each core]
     #[arg(long, value_name = "COUNT")]
-    pub(crate) threads: Option<NonZeroUsize>,
+    threads: Option<NonZeroUsize>,
 }
 
-pub(crate) fn run(arguments: &ReproduceArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     // before anything is computed: a wrong folder should not cost a minute
     let records = arguments.records.as_deref().map(records).transpose()?;
     let reproduction = reproduce(threads(arguments.threads))?;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &ReproduceArguments) -> Result<()> {
     output::to_file(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
 }
 
-/// The records of a folder in the order of their names; what does not read is told.
+/// Reads the records of a folder in the order of their names; warns of the files it leaves out.
 fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
     let entries =
         std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
@@ -55,7 +55,7 @@ fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 records.push(NamedRecord { name, motion: record.motion });
             }
-            Err(error) => output::note(&format!("left out: {error}")),
+            Err(error) => output::warn(&format!("left out: {error}")),
         }
     }
     if records.is_empty() {
@@ -180,7 +180,8 @@ fn cell(cell: &Cell) -> String {
             let deviation = shown(computed - printed, finer);
             let printed = shown(printed, decimals);
             format!(
-                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {computed:.finer$}<br><i>{deviation:+.finer$}</i></td>"
+                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {computed:.finer$}<br>\
+                 <i>{deviation:+.finer$}</i></td>"
             )
         }
     }
@@ -196,7 +197,8 @@ fn shown(value: f64, decimals: usize) -> f64 {
 fn figure(figure: &Figure) -> String {
     let charts: String = figure.charts.iter().map(chart::figure).collect();
     format!(
-        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"charts{3}\">\n{charts}</div></section>\n",
+        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"charts{3}\">\n{charts}</div>\
+         </section>\n",
         figure.number,
         escaped(figure.title),
         notes(&figure.notes),

@@ -31,7 +31,8 @@ pub(crate) fn schema() -> Result<Value> {
                 json!({
                     "enum": Kinematics::ALL.map(Kinematics::name),
                     "default": Kinematics::default().name(),
-                    "description": "Small rotations, or full ones (rigid_linear without damping, not in an FMU)."
+                    "description":
+                        "Small rotations, or full ones (rigid_linear without damping, not in an FMU)."
                 }),
             );
         }

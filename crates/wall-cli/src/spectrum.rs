@@ -16,55 +16,56 @@ use study::parallel;
 use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls};
 
 use crate::args::{RecordArguments, SceneArguments};
-use crate::output;
 use crate::template::filled;
+use crate::{csv, output};
 
 #[derive(Debug, Args)]
-pub(crate) struct SpectrumArguments {
+pub(crate) struct Arguments {
     #[command(flatten)]
-    pub(crate) scene: SceneArguments,
+    scene: SceneArguments,
     #[command(flatten)]
-    pub(crate) record: RecordArguments,
-    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless spectrum over
-    /// `omega_p/p` and `a_p/a_0`
+    record: RecordArguments,
+    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless
+    /// spectrum over `omega_p/p` and `a_p/a_0`
     #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
-    pub(crate) pulse: Option<String>,
+    pulse: Option<String>,
     /// Frequency of the pulse in Hz, for a spectrum over walls
     #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
-    pub(crate) frequency: Option<f64>,
+    frequency: Option<f64>,
     /// Amplitude of the pulse in m/s2, for a spectrum over walls
     #[arg(long, value_name = "M_PER_S2", requires_all = ["pulse", "frequency"])]
-    pub(crate) amplitude: Option<f64>,
+    amplitude: Option<f64>,
     /// Heights in m [default: 0.5:8:31]
     #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "radii")]
-    pub(crate) heights: Option<String>,
+    heights: Option<String>,
     /// Semi-diagonals R of a parapet in m, instead of heights
     #[arg(long, value_name = "FROM:TO:COUNT")]
-    pub(crate) radii: Option<String>,
+    radii: Option<String>,
     /// Slenderness h/b [default: 4:20:33]
     #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "angles")]
-    pub(crate) ratios: Option<String>,
+    ratios: Option<String>,
     /// Slenderness angles alpha = atan(b/h) of a parapet in rad, instead of h/b
     #[arg(long, value_name = "FROM:TO:COUNT")]
-    pub(crate) angles: Option<String>,
+    angles: Option<String>,
     /// `omega_p/p` of the dimensionless spectrum [default: 0.5:10:39]
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
-    pub(crate) frequency_ratios: Option<String>,
-    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden [default: 0.5:10:39]
+    frequency_ratios: Option<String>,
+    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden
+    /// [default: 0.5:10:39]
     #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
-    pub(crate) amplitude_ratios: Option<String>,
-    /// Threads [default: one a core]; the result does not depend on them
+    amplitude_ratios: Option<String>,
+    /// Number of threads [default: one for each core]; the result does not depend on it
     #[arg(long, value_name = "COUNT")]
-    pub(crate) threads: Option<std::num::NonZeroUsize>,
+    threads: Option<std::num::NonZeroUsize>,
     /// Write the points as CSV
     #[arg(long, value_name = "FILE")]
-    pub(crate) csv: Option<PathBuf>,
+    csv: Option<PathBuf>,
     /// Write a page with the heat map
     #[arg(long, value_name = "FILE")]
-    pub(crate) html: Option<PathBuf>,
+    html: Option<PathBuf>,
 }
 
-/// A spectrum and the words for it.
+/// A spectrum with its texts.
 struct Shown {
     spectrum: RockingSpectrum,
     title: String,
@@ -73,14 +74,14 @@ struct Shown {
     labels: [&'static str; 2],
     /// Their names in the CSV file.
     names: [&'static str; 2],
-    /// What the axes are.
+    /// Explains the axes.
     axes: String,
 }
 
 /// The most values along an axis.
 const MOST_VALUES: usize = 500;
 
-pub(crate) fn run(arguments: &SpectrumArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let threads = parallel::threads(arguments.threads).get();
@@ -98,12 +99,8 @@ pub(crate) fn run(arguments: &SpectrumArguments) -> Result<()> {
         }
     };
     shown.notes.push(law(&scene.parameters));
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, csv(&shown).as_bytes())?;
-    }
-    if let Some(path) = &arguments.html {
-        output::to_file(path, page(&shown).as_bytes())?;
-    }
+    output::save(arguments.csv.as_ref(), || table(&shown))?;
+    output::save(arguments.html.as_ref(), || page(&shown))?;
     let mut text = summary(&shown);
     for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
         let _ = writeln!(text, "written    {}", path.display());
@@ -111,12 +108,7 @@ pub(crate) fn run(arguments: &SpectrumArguments) -> Result<()> {
     output::to_stdout(&text)
 }
 
-fn pulses(
-    arguments: &SpectrumArguments,
-    parameters: &Parameters,
-    form: PulseForm,
-    threads: usize,
-) -> Result<Shown> {
+fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {
     for (option, given) in [
         ("--heights", &arguments.heights),
         ("--radii", &arguments.radii),
@@ -125,11 +117,12 @@ fn pulses(
     ] {
         if given.is_some() {
             bail!(
-                "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too"
+                "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude \
+                 too"
             );
         }
     }
-    // a record's factors have no place here; load tells what they need
+    // refuses --scale and --pga, which need a record
     arguments.record.load()?;
     let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
     let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
@@ -148,14 +141,15 @@ fn pulses(
         )],
         labels: ["ω_p / p", "a_p / a₀"],
         names: ["frequency_ratio", "amplitude_ratio"],
-        axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ m_eff), which is \
-               g tan α for a parapet without overburden; walls of any size with the same damping and restitution have this spectrum."
+        axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ \
+               m_eff), which is g tan α for a parapet without overburden; walls of any size with the same \
+               damping and restitution have this spectrum."
             .into(),
     })
 }
 
 fn walls(
-    arguments: &SpectrumArguments,
+    arguments: &Arguments,
     parameters: &Parameters,
     motion: &GroundMotion,
     notes: Vec<String>,
@@ -167,7 +161,8 @@ fn walls(
     ] {
         if given.is_some() {
             bail!(
-                "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude"
+                "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and \
+                 --amplitude"
             );
         }
     }
@@ -192,7 +187,7 @@ fn walls(
 }
 
 /// The motion given, or the scene's own.
-fn motion(arguments: &SpectrumArguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
+fn motion(arguments: &Arguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
     if let Some((motion, note)) = arguments.record.load()? {
         let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
         return Ok((motion, vec![note, peak]));
@@ -281,8 +276,8 @@ fn summary(shown: &Shown) -> String {
         _ => String::new(),
     };
     format!(
-        "{}\nmotion     {}\nacross     {}: {}\nup         {}: {}\npoints     {}: {} do not rock, {rocked} rock up to {largest:.3} u_ins, \
-         {overturned} overturn\n",
+        "{}\nmotion     {}\nacross     {}: {}\nup         {}: {}\npoints     {}: {} do not rock, {rocked} \
+         rock up to {largest:.3} u_ins, {overturned} overturn\n",
         shown.title,
         shown.notes.join("; "),
         shown.labels[0],
@@ -294,14 +289,14 @@ fn summary(shown: &Shown) -> String {
     )
 }
 
-fn csv(shown: &Shown) -> String {
+fn table(shown: &Shown) -> String {
     let [column, row] = shown.names;
     let mut text = format!("{column},{row},u_ratio_max,rocked,overturned,overturn_time_s\n");
     for (y, points) in shown.spectrum.rows.iter().zip(&shown.spectrum.points) {
         for (x, point) in shown.spectrum.columns.iter().zip(points) {
-            let time = point.overturning.map_or_else(String::new, |time| format!("{time:?}"));
             let Point { ratio, rocked, overturning } = point;
-            let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{},{time}", overturning.is_some());
+            let (overturned, time) = (overturning.is_some(), csv::optional(*overturning));
+            let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{overturned},{time}");
         }
     }
     text

@@ -1,14 +1,29 @@
 //! `wall stability`: maps over stiffness, step and damping, and the table of extremes.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use anyhow::Result;
+use clap::{Args, value_parser};
 use study::stability::{Extreme, MAPS, Map, RowQuantity, extremes, map};
 
-use crate::args::StabilityArguments;
-use crate::{output, stability_page};
+use crate::output;
+use crate::stability_page::{axis_words, page};
 
-pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Values of a1 from 1e-6 to 0.1
+    #[arg(long, value_name = "COUNT", default_value_t = 11, value_parser = value_parser!(u32).range(2..=101))]
+    columns: u32,
+    /// Write the cells as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write a page with heat maps
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut maps = Vec::with_capacity(2 * MAPS.len());
     for quantity in [RowQuantity::Step, RowQuantity::DampingRatio] {
         for (solver, damping) in MAPS {
@@ -19,21 +34,8 @@ pub(crate) fn run(arguments: &StabilityArguments) -> Result<()> {
     }
     let extremes = extremes()?;
     output::to_stdout(&table(&extremes))?;
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, csv(&maps).as_bytes())?;
-    }
-    if let Some(path) = &arguments.html {
-        output::to_file(path, stability_page::page(&maps, &extremes).as_bytes())?;
-    }
-    Ok(())
-}
-
-/// Words for the second axis.
-pub(crate) fn axis_words(quantity: RowQuantity) -> &'static str {
-    match quantity {
-        RowQuantity::Step => "step",
-        RowQuantity::DampingRatio => "xi",
-    }
+    output::save(arguments.csv.as_ref(), || csv(&maps))?;
+    output::save(arguments.html.as_ref(), || page(&maps, &extremes))
 }
 
 fn summary(map: &Map) -> String {

@@ -1,4 +1,5 @@
-//! The page of `wall stability`: heat maps of the error, with what is unstable marked, and the table of extremes.
+//! The page of `wall stability`: heat maps of the error, with unstable cells crossed out, and the table of
+//! extremes.
 
 use std::fmt::Write;
 
@@ -7,7 +8,6 @@ use figures::heat_map::{self, HeatMap, scale};
 use figures::palette::mixed;
 use study::stability::{Extreme, Map, MapCell, RowQuantity};
 
-use crate::stability::axis_words;
 use crate::template::filled;
 
 /// Size of a cell \[px\].
@@ -22,10 +22,10 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
     };
     let mut rows = String::new();
     for extreme in extremes {
-        let (class, verdict) = if extreme.holds() { ("holds", "holds") } else { ("broken", "broken") };
+        let class = if extreme.holds() { "holds" } else { "broken" };
         let _ = writeln!(
             rows,
-            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.1e}</td><td>{:.0e}</td><td>{verdict}</td></tr>",
+            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.1e}</td><td>{:.0e}</td><td>{class}</td></tr>",
             escaped(extreme.name),
             escaped(extreme.criterion),
             extreme.value,
@@ -41,6 +41,14 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
             ("extremes", &rows),
         ],
     )
+}
+
+/// Words for the second axis.
+pub(crate) fn axis_words(quantity: RowQuantity) -> &'static str {
+    match quantity {
+        RowQuantity::Step => "step",
+        RowQuantity::DampingRatio => "xi",
+    }
 }
 
 fn figure(map: &Map) -> String {

@@ -9,7 +9,8 @@ use study::accuracy::{Measurement, WorkPrecision};
 
 use crate::template::filled;
 
-/// The page; `rotations` is its section on small rotations, `peers_csv` what `cargo xtask bench --peers` wrote.
+/// The page; `rotations` is its section on small rotations, `peers_csv` the output of
+/// `cargo xtask bench --peers`.
 pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option<&str>) -> String {
     let mut figures = String::new();
     for study in studies {

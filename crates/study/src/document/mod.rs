@@ -20,7 +20,7 @@ mod model;
 
 use std::path::PathBuf;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
@@ -90,7 +90,7 @@ pub struct RecordsEntry {
 }
 
 /// Options of a study's report.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReportOptions {
     /// Limit states to report: fractions of `u_ins`.
     pub fractions: Vec<f64>,

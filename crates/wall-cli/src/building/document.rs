@@ -1,4 +1,4 @@
-//! A building as it is written: storeys and walls, by their names.
+//! Reads the file of a building: storeys and walls, by their names.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,13 +9,14 @@ use rocking_floor::variables::{IntegerVariable, RealVariable};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use super::FLOOR_SOURCE;
+/// Where the storeys' FMU lies in the archive.
+pub(super) const FLOOR_SOURCE: &str = "resources/floor.fmu";
 
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
 /// Largest file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
-/// Bounds against a slip of the keyboard.
+/// Bounds against mistyped numbers.
 const MOST_MEMBERS: usize = 10_000;
 const LONGEST_RUN: f64 = 1e7;
 
@@ -144,7 +145,8 @@ impl Building {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
         if !(stop_time > 0.0 && stop_time <= LONGEST_RUN && step > 0.0 && step <= stop_time) {
             bail!(
-                "{}: stop_time = {stop_time} s and step = {step} s; 0 < step <= stop_time <= {LONGEST_RUN} s is needed",
+                "{}: stop_time = {stop_time} s and step = {step} s; expected 0 < step <= stop_time <= \
+                 {LONGEST_RUN} s",
                 source.file
             );
         }
@@ -164,9 +166,8 @@ impl Building {
         let mut walls = Vec::new();
         for table in wall {
             check_name(&table.name, &mut names, source)?;
-            if super::source(table.name.get_ref()) == FLOOR_SOURCE {
-                let message =
-                    "a wall's FMU bears its name, and \"floor\" is that of the storeys; choose another name";
+            if fmu_path(table.name.get_ref()) == FLOOR_SOURCE {
+                let message = "\"floor\" is the name of the storeys' FMU; choose another name";
                 return Err(source.error(table.name.span(), message));
             }
             walls.push(read_wall(table, &floors, source)?);
@@ -176,10 +177,15 @@ impl Building {
     }
 }
 
-/// Letters of a name, which with the ending of an FMU makes a file name.
+/// Where a wall's FMU lies in the archive.
+pub(super) fn fmu_path(wall: &str) -> String {
+    format!("resources/{wall}.fmu")
+}
+
+/// The most letters of a name, which becomes a file name.
 const LONGEST_NAME: usize = 100;
 
-/// A name that FMUs, connectors and files can bear, and no other member has.
+/// Checks that FMUs, connectors and files can have a name, and that no other member has it.
 fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'_>) -> Result<()> {
     let text = name.get_ref();
     let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -195,7 +201,7 @@ fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'
     }
     // Strip.fmu and strip.fmu are one file on many machines
     if let Some(other) = names.iter().find(|other| other.eq_ignore_ascii_case(text)) {
-        let message = format!("name = {text:?}: there is {other:?} already; choose another");
+        let message = format!("name = {text:?}: {other:?} exists already; choose another");
         return Err(source.error(name.span(), message));
     }
     names.push(text.clone());
@@ -242,7 +248,7 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
         let all = all.filter(|variable| variable.causality == Causality::Parameter);
         let names: Vec<_> = all.map(|variable| variable.name).collect();
         return Err(format!(
-            "{name:?} is not for a [[floor]]: it has name, on, hysteresis, {}",
+            "{name:?} is not a key of [[floor]]; its keys are name, on, hysteresis, {}",
             names.join(", ")
         ));
     };
@@ -287,7 +293,7 @@ fn support(key: &str, name: &Spanned<String>, floors: &[Floor], source: &Source<
         let mut known: Vec<_> = vec![GROUND];
         known.extend(floors.iter().map(|floor| floor.name.as_str()));
         let message = format!(
-            "{key} = {:?} is no [[floor]] before this; there are {}",
+            "{key} = {:?} is not one of {}; a storey comes after the one it stands on",
             name.get_ref(),
             known.join(", ")
         );
@@ -307,7 +313,8 @@ fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<
     if let (Some(wanted), None) = (&table.drift, drift)
         && *wanted.get_ref()
     {
-        let message = "drift = true needs a top on the storey just above the bottom: only its displacement is the drift";
+        let message = "drift = true needs a top on the storey just above the bottom: only its displacement \
+                       is the drift";
         return Err(source.error(wanted.span(), message));
     }
     let drift = drift.filter(|_| wanted);

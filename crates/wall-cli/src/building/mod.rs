@@ -1,29 +1,42 @@
 //! `wall building`: storeys and walls as a system of FMUs, an SSP 1.0 archive.
 //!
-//! Each wall becomes the FMU of its scene, so that its choices travel inside it: importers do not agree on how an enumeration is set
-//! from outside. The storeys share `floor.fmu`, and their numbers stand in the system's description.
+//! Each wall becomes the FMU of its scene, which contains its choices: importers do not agree on how an
+//! enumeration is set from outside. The storeys share `floor.fmu`; the system's description holds their
+//! numbers.
 
 mod document;
 mod ssd;
 mod wiring;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 use fmi2_export::VariableId;
 use fmi2_export_build::archive::Archive;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::Wall;
 
-use crate::args::BuildingArguments;
 use crate::{output, package};
-use document::{Building, Member};
+use document::{Building, FLOOR_SOURCE, Member, fmu_path};
 
-/// Where the storeys' FMU lies in the archive.
-const FLOOR_SOURCE: &str = "resources/floor.fmu";
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The building (TOML): its storeys, and its walls with their scenes
+    building: PathBuf,
+    /// The SSP to write
+    #[arg(short, long, value_name = "FILE", default_value = "fmu_out/building.ssp")]
+    output: PathBuf,
+    /// The general FMU of walls
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
+    wall_fmu: PathBuf,
+    /// The FMU of floors
+    #[arg(long, value_name = "FILE", default_value = "fmu_out/floor.fmu")]
+    floor_fmu: PathBuf,
+}
 
-pub(crate) fn run(arguments: &BuildingArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let building = Building::read(&arguments.building)?;
     let folder = arguments.building.parent().unwrap_or(Path::new("."));
     let mut archive = Archive::default();
@@ -32,7 +45,7 @@ pub(crate) fn run(arguments: &BuildingArguments) -> Result<()> {
         let path = folder.join(&wall.scene);
         let scene = scene(&path, wall).with_context(|| format!("wall {:?}", wall.name))?;
         let (unit, _) = package::of_scene(&scene, &arguments.wall_fmu)?;
-        archive.insert(source(&wall.name), unit.to_bytes()?);
+        archive.insert(fmu_path(&wall.name), unit.to_bytes()?);
         scenes.push(scene);
     }
     if !building.floors.is_empty() {
@@ -55,10 +68,10 @@ fn scene(path: &Path, wall: &Member) -> Result<Scene> {
     Wall::new(&scene.parameters).with_context(|| path.display().to_string())?;
     let spans = scene.parameters.mechanism == Mechanism::VerticalSpanning;
     if scene.excitation.is_some() {
-        bail!("{}: a wall in a building is moved by it; remove [motion] from the scene", path.display());
+        bail!("{}: the building moves its walls; remove [motion] from the scene", path.display());
     }
     match (&wall.top, spans) {
-        (None, true) => bail!("a vertical spanning wall leans on something: give `top`"),
+        (None, true) => bail!("a vertical spanning wall has a top support: give `top`"),
         (Some(_), false) => bail!("a parapet has no top support: remove `top`, or choose vertical_spanning"),
         _ => {}
     }
@@ -75,9 +88,10 @@ fn scene(path: &Path, wall: &Member) -> Result<Scene> {
 
 /// The general FMU of storeys.
 fn floor_unit(path: &Path) -> Result<Vec<u8>> {
-    let archive = Archive::open(path).with_context(
-        || "the FMU of storeys is missing or damaged; make it with `cargo xtask fmu`, or name it with --floor-fmu",
-    )?;
+    let archive = Archive::open(path).with_context(|| {
+        "the FMU of storeys is missing or damaged; make it with `cargo xtask fmu`, or name it with \
+            --floor-fmu"
+    })?;
     let description = archive.get("modelDescription.xml").unwrap_or_default();
     let description = fmi2_export_build::Description::parse(&String::from_utf8_lossy(description))
         .with_context(|| path.display().to_string())?;
@@ -89,9 +103,4 @@ fn floor_unit(path: &Path) -> Result<Vec<u8>> {
         );
     }
     Ok(archive.to_bytes()?)
-}
-
-/// Where a wall's FMU lies in the archive.
-fn source(wall: &str) -> String {
-    format!("resources/{wall}.fmu")
 }

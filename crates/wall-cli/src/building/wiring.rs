@@ -6,15 +6,14 @@ use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable};
 
-use super::document::{Building, Floor, Member, Parameter, Start, Support};
-use super::{FLOOR_SOURCE, source};
+use super::document::{Building, FLOOR_SOURCE, Floor, Member, Parameter, Start, Support, fmu_path};
 
 /// Inputs of a floor for what stands on it.
 const MOST_LOADS: usize = 8;
 /// Name of the system's own input, the ground's acceleration.
 pub(super) const GROUND_MOTION: &str = "a_g";
 
-/// What a tool may want to see of each member, beside what is connected.
+/// Outputs of each member that are listed even if nothing is connected to them.
 const SHOWN_OF_A_FLOOR: [&str; 3] = ["displacement", "velocity", "acceleration_absolute"];
 const SHOWN_OF_A_WALL: [&str; 4] = ["u", "u_dot", "u_ratio", "overturn_time"];
 
@@ -81,9 +80,9 @@ pub(super) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     });
     let walls = building.walls.iter().map(|wall| Component {
         name: wall.name.clone(),
-        source: source(&wall.name),
+        source: fmu_path(&wall.name),
         connectors: Vec::new(),
-        // they travel in its scene
+        // its scene has them
         parameters: Vec::new(),
     });
     let mut system = System {

@@ -1,7 +1,8 @@
-//! The folder of a study: what it is of, and one file for each finished wall, model and record.
+//! The folder of a study: its contents, and one file for each finished wall, model and record.
 //!
-//! A run's file appears whole, by renaming, so that the program can be killed at any moment; a file that is damaged counts as
-//! not there. Final results are made from these files alone, so they have the same bytes whoever ran what when.
+//! A run's file appears complete, by renaming, so that the program can be killed at any moment. A damaged
+//! file counts as missing. The final results are made from these files alone, so their bytes do not depend on
+//! which process computed what.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use study::document::ReportOptions;
 use study::ida::{Case, Curve, Run, Study};
 
-use crate::output;
+use crate::{csv, output};
 
 const STUDY: &str = "study.json";
 const RUNS: &str = "runs";
@@ -61,16 +62,8 @@ pub(crate) struct RecordNote {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Manifest {
     pub(crate) title: String,
-    pub(crate) report: ReportNote,
+    pub(crate) report: ReportOptions,
     pub(crate) contents: Contents,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ReportNote {
-    pub(crate) fractions: Vec<f64>,
-    pub(crate) reference: String,
-    pub(crate) resamples: u32,
-    pub(crate) seed: u64,
 }
 
 impl Contents {
@@ -133,13 +126,13 @@ impl Contents {
         Ok(serde_json::to_string_pretty(self)?)
     }
 
-    /// The first place where two contents differ, in words.
+    /// Describes the first line in which two contents differ.
     fn difference(&self, other: &Self) -> Result<String> {
         let (mine, theirs) = (self.text()?, other.text()?);
         let pair = mine.lines().zip(theirs.lines()).find(|(mine, theirs)| mine != theirs);
         Ok(pair.map_or_else(
-            || "one is longer than the other".to_owned(),
-            |(mine, theirs)| format!("there {}, here {}", trimmed(mine), trimmed(theirs)),
+            || "one has more lines than the other".to_owned(),
+            |(mine, theirs)| format!("found {}, expected {}", trimmed(mine), trimmed(theirs)),
         ))
     }
 }
@@ -158,33 +151,27 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    /// Takes a folder for a study: a new one, or one that holds runs of the same study.
+    /// Opens or makes the folder of a study.
     pub(super) fn of_study(path: &Path, title: &str, study: &Study, report: &ReportOptions) -> Result<Self> {
         let contents = Contents::of(study);
         if path.join(STUDY).exists() {
             let other = Self::open(path)?;
             if other.manifest.contents != contents {
                 bail!(
-                    "{}: holds results of another study ({}); give another folder with -o, or remove this one",
+                    "{}: holds results of another study ({}); give another folder with -o, or remove \
+                     this one",
                     path.display(),
                     other.manifest.contents.difference(&contents)?
                 );
             }
         }
-        let report = ReportNote {
-            fractions: report.fractions.clone(),
-            reference: report.reference.clone(),
-            resamples: report.resamples,
-            seed: report.seed,
-        };
-        Self::create(path, Manifest { title: title.to_owned(), report, contents })
+        Self::create(path, Manifest { title: title.to_owned(), report: report.clone(), contents })
     }
 
-    /// Makes a folder for a study whose runs come from elsewhere, or takes one that holds the same study.
+    /// Opens or makes the folder that a study is merged into.
     pub(super) fn like(path: &Path, manifest: &Manifest) -> Result<Self> {
         if path.join(STUDY).exists() {
-            let there = Self::open(path)?;
-            there.expect(&manifest.contents)?;
+            Self::open(path)?.expect(&manifest.contents)?;
         }
         Self::create(path, manifest.clone())
     }
@@ -212,7 +199,7 @@ impl Folder {
         Ok(Self { path: path.to_owned(), manifest, fingerprint })
     }
 
-    /// Refuses another study.
+    /// Checks that the folder holds the study of these contents.
     pub(super) fn expect(&self, contents: &Contents) -> Result<()> {
         if self.manifest.contents == *contents {
             return Ok(());
@@ -229,11 +216,11 @@ impl Folder {
     }
 
     fn run_file(&self, index: usize) -> PathBuf {
-        // a thousand files to a folder, so that none grows slow
+        // a thousand files to a folder: large folders are slow
         self.path.join(RUNS).join(format!("{:04}", index / 1000)).join(format!("{index:07}.csv"))
     }
 
-    /// The curve of a combination, if it is there whole.
+    /// Reads the curve of a combination, if its file is complete.
     pub(super) fn curve(&self, index: usize) -> Option<Curve> {
         let text = std::fs::read_to_string(self.run_file(index)).ok()?;
         let mut lines = text.lines();
@@ -249,16 +236,16 @@ impl Folder {
             };
             levels.push(Run { intensity, demand, overturning });
         }
-        // what tells a whole file from a cut one
+        // an incomplete file lacks this line
         (lines.next() == Some("end") && text.ends_with("end\n")).then(|| Curve::new(levels))
     }
 
-    /// Puts down the curve of a combination.
+    /// Writes the curve of a combination.
     pub(super) fn keep(&self, index: usize, curve: &Curve) -> Result<()> {
         let mut text = format!("{} {index} {}\n", self.fingerprint, curve.runs().len());
         for run in curve.runs() {
-            let time = run.overturning.map_or_else(String::new, |time| format!("{time:?}"));
-            let _ = writeln!(text, "{:?},{:?},{time}", run.intensity, run.demand);
+            let Run { intensity, demand, overturning } = run;
+            let _ = writeln!(text, "{intensity:?},{demand:?},{}", csv::optional(*overturning));
         }
         text.push_str("end\n");
         let file = self.run_file(index);
@@ -269,7 +256,7 @@ impl Folder {
         output::to_file(&file, text.as_bytes())
     }
 
-    /// Removes what killed runs have left half-written; only when nobody else writes any more.
+    /// Removes the incomplete files of killed runs; nobody else may still be writing.
     pub(super) fn sweep(&self) {
         let entries = |path: &Path| std::fs::read_dir(path).into_iter().flatten().flatten();
         let folders = entries(&self.path.join(RUNS)).map(|entry| entry.path());
@@ -277,7 +264,7 @@ impl Folder {
             for entry in entries(&folder) {
                 let name = entry.file_name().to_string_lossy().into_owned();
                 if name.starts_with('.') && name.strip_suffix(".part").is_some() {
-                    // another may have been faster
+                    // another process may have removed it
                     let _ = std::fs::remove_file(entry.path());
                 }
             }

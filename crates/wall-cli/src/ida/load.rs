@@ -1,4 +1,4 @@
-//! From a study file to a study: reads the scenes and records it names.
+//! Reads a study file, and the scenes and records that it names.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,8 +17,8 @@ pub(super) struct Loaded {
     pub(super) title: String,
     pub(super) study: Study,
     pub(super) report: ReportOptions,
-    /// What a quick check doubts about its records.
-    pub(super) doubts: Vec<String>,
+    /// What a quick check of the records warns of.
+    pub(super) warnings: Vec<String>,
 }
 
 pub(super) fn load(path: &Path) -> Result<Loaded> {
@@ -32,14 +32,14 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
         StudyFile::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
     let walls = walls.into_iter().map(|entry| wall(entry, folder, &name)).collect::<Result<Vec<_>>>()?;
-    let mut doubts = Vec::new();
-    let records = all_records(&records, folder, &name, &mut doubts)?;
-    unlike(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
-    unlike(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
+    let mut warnings = Vec::new();
+    let records = all_records(&records, folder, &name, &mut warnings)?;
+    check_unique(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
+    check_unique(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
     let study = Study::new(walls, records, models, measure, levels)
         .and_then(|study| study.with_tail(tail))
         .with_context(|| name.clone())?;
-    Ok(Loaded { title, study, report, doubts })
+    Ok(Loaded { title, study, report, warnings })
 }
 
 fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
@@ -59,13 +59,13 @@ fn all_records(
     entry: &RecordsEntry,
     folder: &Path,
     study: &str,
-    doubts: &mut Vec<String>,
+    warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedRecord>> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (pattern, line) in &entry.files {
         let found =
             files(&folder.join(pattern)).with_context(|| format!("{study}, line {line}: {pattern:?}"))?;
-        // a file that two patterns name is one record
+        // a file that two patterns match is one record
         paths.extend(found.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
     }
     let short =
@@ -77,10 +77,11 @@ fn all_records(
     let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
     for path in &paths {
         let record = read(path, &entry.options)?;
-        doubts.extend(record.check().warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
+        warnings
+            .extend(record.check().warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
         let motion = record.motion;
         let name = short(path);
-        // of two files with one name each goes by its whole path
+        // files with equal names go by their whole paths
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
         records.push(NamedRecord { name, motion });
     }
@@ -91,7 +92,7 @@ fn all_records(
     Ok(records)
 }
 
-/// The files of a folder, of a pattern, or the one file, in order of their names.
+/// Lists the files of a folder, of a pattern, or the one file, in order of their names.
 fn files(path: &Path) -> Result<Vec<PathBuf>> {
     let visible = |path: &Path| {
         path.is_file() && path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'))
@@ -108,17 +109,18 @@ fn files(path: &Path) -> Result<Vec<PathBuf>> {
     found.sort();
     if found.is_empty() {
         bail!(
-            "no such file, none that fits, or a folder without files; name records beside the study file, such as records/*.AT2"
+            "no such file, no match, or a folder without files; name records beside the study file, such as \
+             records/*.AT2"
         );
     }
     Ok(found)
 }
 
-fn unlike<'a>(names: impl Iterator<Item = &'a String>) -> Result<()> {
+fn check_unique<'a>(names: impl Iterator<Item = &'a String>) -> Result<()> {
     let mut seen = std::collections::BTreeSet::new();
     for name in names {
         if !seen.insert(name) {
-            bail!("the name {name:?} is there twice; give each its own");
+            bail!("the name {name:?} occurs twice; give each its own");
         }
     }
     Ok(())

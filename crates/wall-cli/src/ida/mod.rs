@@ -27,18 +27,19 @@ use progress::Progress;
 use results::{Results, in_g};
 
 #[derive(Debug, Args)]
-pub(crate) struct IdaArguments {
+pub(crate) struct Arguments {
     /// Study file (TOML): walls, records, damping models, intensity, levels
-    pub(crate) study: PathBuf,
-    /// Folder of the results; without it the study's name and `_results`. Started again, a study goes on where it stopped
+    study: PathBuf,
+    /// Folder of the results [default: the study's name and `_results`]; a study that is started again
+    /// continues where it stopped
     #[arg(short, long, value_name = "FOLDER")]
-    pub(crate) output: Option<PathBuf>,
-    /// Threads; all cores if none are given
+    output: Option<PathBuf>,
+    /// Number of threads [default: one for each core]
     #[arg(long, value_name = "COUNT")]
-    pub(crate) threads: Option<NonZeroUsize>,
-    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` puts them together
+    threads: Option<NonZeroUsize>,
+    /// Run one of n parts, such as 2/8, for the array jobs of a cluster; `wall merge` merges them
     #[arg(long, value_name = "I/N")]
-    pub(crate) shard: Option<Shard>,
+    shard: Option<Shard>,
 }
 
 #[derive(Debug, Args)]
@@ -46,7 +47,7 @@ pub(crate) struct MergeArguments {
     /// Folders of the shards, or the one they share
     #[arg(required = true, value_name = "FOLDER")]
     pub(crate) folders: Vec<PathBuf>,
-    /// Folder of the whole
+    /// Folder of the merged study
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -74,7 +75,7 @@ impl std::str::FromStr for Shard {
 /// Most missing combinations that a message names.
 const NAMED: usize = 3;
 
-pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let loaded = load(&arguments.study)?;
     let path = match (&arguments.output, arguments.study.file_stem()) {
         (Some(path), _) => path.clone(),
@@ -82,8 +83,8 @@ pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
     let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
-    for doubt in &loaded.doubts {
-        output::note(doubt);
+    for warning in &loaded.warnings {
+        output::warn(warning);
     }
     let threads = parallel::threads(arguments.threads).get();
     let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
@@ -91,7 +92,7 @@ pub(crate) fn run(arguments: &IdaArguments) -> Result<()> {
     let missing: Vec<usize> = mine.iter().copied().filter(|&index| folder.curve(index).is_none()).collect();
     let found = mine.len() - missing.len();
     if found > 0 {
-        output::note(&format!("{found} of {} combinations are there already", mine.len()));
+        output::report(&format!("{found} of {} combinations are done already", mine.len()));
     }
     let words = work(&loaded.study, &folder, &missing, threads)?;
     output::to_stdout(&words)?;
@@ -114,7 +115,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
     let target = match (&arguments.output, folders.as_slice()) {
         (Some(path), _) => Folder::like(path, first)?,
         (None, [only]) => Folder::open(only.path())?,
-        (None, _) => bail!("several folders need a place for the whole; give it with -o FOLDER"),
+        (None, _) => bail!("several folders are merged into another; give it with -o FOLDER"),
     };
     let mut missing = Vec::new();
     for index in 0..first.contents.count() {
@@ -127,13 +128,13 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
         }
     }
     if !missing.is_empty() {
-        bail!("{}", not_whole(&target, &missing));
+        bail!("{}", missing_message(&target, &missing));
     }
     finish(&target, parallel::threads(None).get())
 }
 
-/// Says what is missing.
-fn not_whole(folder: &Folder, missing: &[usize]) -> String {
+/// Says which combinations are missing.
+fn missing_message(folder: &Folder, missing: &[usize]) -> String {
     let contents = &folder.manifest.contents;
     let name = |&index: &usize| {
         let case = contents.case(index);
@@ -147,7 +148,8 @@ fn not_whole(folder: &Folder, missing: &[usize]) -> String {
     let names: Vec<_> = missing.iter().take(NAMED).map(name).collect();
     let more = if missing.len() > NAMED { " …" } else { "" };
     format!(
-        "{} of {} combinations are missing: {}{more}; run their shards again, or name the folders that hold them too",
+        "{} of {} combinations are missing: {}{more}; run their shards again, or name the folders that hold \
+         them too",
         missing.len(),
         contents.count(),
         names.join(", ")
@@ -201,7 +203,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Re
     Ok(text)
 }
 
-/// Makes the final results of a folder whose runs are all there.
+/// Makes the final results of a folder whose runs are complete.
 fn finish(folder: &Folder, threads: usize) -> Result<()> {
     let contents = &folder.manifest.contents;
     let mut curves = Vec::with_capacity(contents.count());
@@ -213,7 +215,7 @@ fn finish(folder: &Folder, threads: usize) -> Result<()> {
         }
     }
     if !missing.is_empty() {
-        bail!("{}", not_whole(folder, &missing));
+        bail!("{}", missing_message(folder, &missing));
     }
     folder.sweep();
     let results = Results::new(folder.manifest.clone(), curves, threads)?;
@@ -292,7 +294,8 @@ fn resurrections(results: &Results) -> String {
         return String::new();
     }
     format!(
-        "{resurrected} of {} curves stand again above their first overturning, which counts as the collapse\n",
+        "{resurrected} of {} curves stand again above their first overturning, which counts as the \
+         collapse\n",
         contents.count()
     )
 }

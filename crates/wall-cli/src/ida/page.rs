@@ -23,7 +23,7 @@ const SMALL: [f64; 2] = [300.0, 250.0];
 const DEMAND_END: f64 = 1.08;
 /// Intensities at which fractiles are drawn, points of a fitted curve.
 const POINTS: u32 = 100;
-/// Points of single curves on the whole page, about 12 bytes each: more records are drawn as their fractiles only, or in part.
+/// Points of single curves on the whole page, about 12 bytes each; beyond it, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
 /// Walls on a page.
 const MOST_WALLS: usize = 40;
@@ -51,8 +51,8 @@ pub(super) fn page(results: &Results) -> String {
         );
     }
     let facts = format!(
-        "{} {}, {} records, {} damping models: {} runs. Intensity: {}. A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>; \
-         the lowest level at which it does is the collapse.",
+        "{} {}, {} records, {} damping models: {} runs. Intensity: {}. A run stops when the wall overturns, \
+         |u| &gt; u<sub>ins</sub>; the lowest level at which it does is the collapse.",
         contents.walls.len(),
         if contents.walls.len() == 1 { "wall" } else { "walls" },
         contents.records.len(),
@@ -88,17 +88,19 @@ fn measure_words(results: &Results) -> String {
     }
 }
 
-/// How medians, fits and intervals came about.
+/// Explains medians, fits and intervals.
 fn reading(results: &Results) -> String {
     let report = &results.manifest.report;
-    let learnt = if results.contents().grid.is_some() {
+    let observed = if results.contents().grid.is_some() {
         "the numbers of exceedances at each level (Baker 2015, Eq. 11)"
     } else {
-        "the records' own intensities, those that stood at the highest level counted as censored (Baker 2015, Eq. 8)"
+        "the records' own intensities, those that stood at the highest level counted as censored (Baker \
+         2015, Eq. 8)"
     };
     format!(
-        "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given {learnt}. Intervals hold 95&nbsp;% of {} \
-         resamples of the records, drawn with all their results, so that ratios are paired. Ratios are to {}.",
+        "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given \
+         {observed}. Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, \
+         so that ratios are paired. Ratios are to {}.",
         report.resamples,
         escaped(&report.reference)
     )
@@ -116,7 +118,7 @@ fn color(results: &Results, model: usize) -> &'static str {
 fn section(results: &Results, wall: usize) -> String {
     let contents = results.contents();
     let note = &contents.walls[wall];
-    let top = top(results, wall);
+    let top_of_collapses = top(results, wall, 1.0);
     let mut html = format!(
         "<section><h2>Wall {}</h2><p class=\"facts\">{}; e = {:.3}</p><div class=\"pair\">",
         escaped(&note.name),
@@ -128,7 +130,7 @@ fn section(results: &Results, wall: usize) -> String {
         let _ = write!(
             html,
             "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div>{}</div>",
-            fragility(results, wall, collapse, LARGE, top),
+            fragility(results, wall, collapse, LARGE, top_of_collapses),
             table(results, wall, collapse)
         );
     }
@@ -138,7 +140,7 @@ fn section(results: &Results, wall: usize) -> String {
             html,
             "<figure><figcaption>{}</figcaption>{}</figure>",
             escaped(name),
-            curves(results, wall, model, top)
+            curves(results, wall, model, top_of_collapses)
         );
     }
     html.push_str("</div><h3>Fragilities at fractions of u<sub>ins</sub></h3><div class=\"row\">");
@@ -146,7 +148,7 @@ fn section(results: &Results, wall: usize) -> String {
         let _ = write!(
             html,
             "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
-            fragility(results, wall, place, SMALL, top_at(results, wall, *fraction))
+            fragility(results, wall, place, SMALL, top(results, wall, *fraction))
         );
     }
     html.push_str("</div></section>\n");
@@ -177,13 +179,8 @@ fn shape(parameters: &[String]) -> String {
     words
 }
 
-/// Intensity at the end of a wall's axes \[g\]: nearly all collapses of all models.
-fn top(results: &Results, wall: usize) -> f64 {
-    top_at(results, wall, 1.0)
-}
-
-/// The same for exceedances of a fraction of `u_ins`.
-fn top_at(results: &Results, wall: usize, fraction: f64) -> f64 {
+/// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a fraction of `u_ins`.
+fn top(results: &Results, wall: usize, fraction: f64) -> f64 {
     let models = results.contents().models.len();
     let largest = |model: usize| {
         let mut intensities: Vec<f64> = results
@@ -262,7 +259,7 @@ fn fractile_path(curves: &[Curve], part: f64, top: f64) -> Vec<[f64; 2]> {
     for k in 1..=POINTS {
         let intensity = top * f64::from(k) / f64::from(POINTS);
         let si = intensity * ground_motion::STANDARD_GRAVITY;
-        // beyond the levels of a record that stood nothing is known
+        // unknown above the highest level of a record that stood
         let Some(mut demands) = curves.iter().map(|curve| curve.demand(si)).collect::<Option<Vec<f64>>>()
         else {
             break;
@@ -284,8 +281,8 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
     let contents = results.contents();
     let report = &results.manifest.report;
     let mut html = format!(
-        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th><th>median / {0}</th><th>θ / {0}</th>\
-         <th>censored</th><th>stands again</th></tr></thead><tbody>",
+        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
+         <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
     for (model, summary) in results.summaries(wall, collapse).iter().enumerate() {
@@ -296,7 +293,8 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
         let gravity = ground_motion::STANDARD_GRAVITY;
         let _ = write!(
             html,
-            "<tr><td><i style=\"background:{}\"></i>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
+            "<tr><td><i style=\"background:{}\"></i>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
             color(results, model),
             escaped(&contents.models[model].name),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },

@@ -1,4 +1,4 @@
-//! What the runs of a study say together, and its tables.
+//! The results of a study, and its tables.
 
 use std::fmt::Write;
 
@@ -8,9 +8,11 @@ use study::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare};
 use study::ida::{Curve, Exceedance};
 use study::parallel;
 
+use crate::csv::quoted;
+
 use super::folder::{Contents, Manifest};
 
-/// A study whose runs are all there.
+/// A study whose runs are complete.
 pub(crate) struct Results {
     pub(crate) manifest: Manifest,
     curves: Vec<Curve>,
@@ -125,9 +127,9 @@ impl Results {
 
     /// The fragilities of every wall, model and fraction.
     pub(super) fn fragilities_csv(&self) -> String {
-        let mut text = "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,median_high_g,theta_g,theta_low_g,\
-                        theta_high_g,beta,median_ratio,median_ratio_low,median_ratio_high,theta_ratio,theta_ratio_low,\
-                        theta_ratio_high\n"
+        let mut text = "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,\
+                        median_high_g,theta_g,theta_low_g,theta_high_g,beta,median_ratio,median_ratio_low,\
+                        median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high\n"
             .to_owned();
         let interval = |interval: &Interval, unit: f64| {
             let [low, high] = interval.range;
@@ -166,13 +168,4 @@ pub(crate) fn in_g(acceleration: f64) -> f64 {
 /// A number, `inf` for what lies above the levels, nothing for what is not known.
 fn cell(value: f64) -> String {
     if value.is_nan() { String::new() } else { value.to_string() }
-}
-
-/// A name as a field of CSV.
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
-    }
 }

@@ -65,7 +65,8 @@ fn an_empty_response_is_refused() {
     assert!(render(&scene, &wall, &response).unwrap_err().to_string().contains("empty"));
 }
 
-/// The cursor's place is computed from margins that kuva was told: the first and last points of a line must lie there.
+/// The cursor's place is computed from the margins given to kuva: the first and last points of a line must
+/// lie there.
 #[test]
 fn the_cursor_lines_up_with_the_time_axis() {
     let points: Vec<_> = (0..=10).map(|index| (f64::from(index), 0.1 * f64::from(index))).collect();
