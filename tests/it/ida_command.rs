@@ -249,7 +249,7 @@ fn other_studies_and_bad_ones_are_refused() {
         ("a1 = 0.009", "xi = 0.009", &["xi", "[damping]"]),
         ("name = \"strip\"", "name = \"parapet, low\"", &["parapet, low", "twice"]),
         ("name = \"strip\"", "colour = \"red\"", &["colour", "geometry"]),
-        ("records/*.csv", "records/*.AT2", &["line 13", "records/*.AT2", "none that fits"]),
+        ("records/*.csv", "records/*.AT2", &["line 13", "records/*.AT2", "no match"]),
         ("unit = \"g\"", "unit = \"feet\"", &["line 14", "feet", "cm/s2"]),
         ("count = 3", "count = 0", &["line 15", "count = 0", "10000"]),
         ("[levels]", "[intensity]\nmeasure = \"Sa\"\n\n[levels]", &["line 5", "period = 0.5"]),
