@@ -10,6 +10,11 @@ use crate::python::Environment;
 /// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";
 
+/// Python environments by name, with their locks.
+const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
+const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");
+const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
+
 /// One part of the tests.
 type Part = fn() -> Result<()>;
 
@@ -18,22 +23,27 @@ type Part = fn() -> Result<()>;
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, Part); 5] = [
+    let parts: [(&str, Part); 6] = [
         ("Rust tests", rust),
+        ("the examples", examples),
         ("the FMU through FMPy", python),
         ("systems in other masters", masters),
         ("the portable FMU", portable),
         ("the C boundary", conformance),
     ];
-    // linking the program takes one core for minutes, so it runs beside the first parts; who needs the
-    // program builds it again and gets any error
-    let program = std::thread::spawn(|| output(&mut build_of_wall(), "").is_ok());
+    // the network and the linker take their time beside the Rust tests; who needs this asks again, and
+    // hears of errors
+    let mut prepared = Some(std::thread::spawn(prepare));
     let mut lines = Vec::new();
     let (mut passed, mut failed) = (0, 0);
     for (name, part) in parts {
         println!("\n== {name}");
         let start = Instant::now();
         let outcome = part();
+        // only the Rust tests need nothing of it
+        if let Some(prepared) = prepared.take() {
+            let _ = prepared.join();
+        }
         let seconds = start.elapsed().as_secs();
         match outcome {
             Ok(()) => {
@@ -46,7 +56,6 @@ pub(crate) fn run() -> Result<()> {
             }
         }
     }
-    let _ = program.join();
     println!("\n== summary");
     for line in lines {
         println!("{line}");
@@ -84,6 +93,17 @@ fn browser() -> Option<PathBuf> {
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find_map(find)
 }
 
+/// Installs and builds what the later parts need.
+fn prepare() {
+    for (name, lock) in [TESTS, MASTERS, CLANG] {
+        let _ = Environment::of(name, lock);
+    }
+    for unit in fmu::UNITS {
+        let _ = fmu::build(unit, Linker::System);
+        let _ = fmu::portable_library(unit);
+    }
+}
+
 fn rust() -> Result<()> {
     run_tests(cargo().args(["test", "--locked"]))
 }
@@ -92,23 +112,25 @@ fn run_tests(command: &mut std::process::Command) -> Result<()> {
     succeed(command, "see the failures above")
 }
 
-fn build_of_wall() -> std::process::Command {
-    let mut build = cargo();
-    build.args(["build", "--release", "--locked", "--bin", "wall"]);
-    build
+fn examples() -> Result<()> {
+    for name in ["wall_under_record", "step_by_step", "incremental_dynamic_analysis"] {
+        succeed(cargo().args(["run", "--quiet", "--locked", "--example", name]), "see its message above")?;
+    }
+    Ok(())
 }
 
-/// Builds the program `wall` and returns its path.
+/// Builds the program `wall`, without the optimisation of a release, and returns its path.
 pub(crate) fn wall_binary() -> Result<PathBuf> {
-    succeed(&mut build_of_wall(), "see the compiler's message above")?;
-    Ok(target().join("release").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
+    let build = ["build", "--locked", "--package", "rocking-wall-cli", "--bin", "wall"];
+    succeed(cargo().args(build), "see the compiler's message above")?;
+    Ok(target().join("debug").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
 }
 
 fn python() -> Result<()> {
     let unit = fmu::build(fmu::WALL, Linker::System)?;
     let floor = fmu::build(fmu::FLOOR, Linker::System)?;
     let wall = wall_binary()?;
-    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let python = Environment::of(TESTS.0, TESTS.1)?;
     let mut pytest = python.program("python");
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
@@ -123,7 +145,7 @@ fn masters() -> Result<()> {
     let floor = fmu::build(fmu::FLOOR, Linker::System)?;
     let wall = wall_binary()?;
     let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
-    let python = Environment::of("masters", "xtask/locks/masters.lock").map_err(missing)?;
+    let python = Environment::of(MASTERS.0, MASTERS.1).map_err(missing)?;
     let mut pytest = python.program("python");
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/masters"]);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
@@ -136,7 +158,7 @@ fn portable() -> Result<()> {
         println!("not run: the portable FMU is made on x86-64 Linux");
         return Ok(());
     }
-    let python = Environment::of("tests", "tests/python/requirements.lock")?;
+    let python = Environment::of(TESTS.0, TESTS.1)?;
     for unit in fmu::UNITS {
         let library = fmu::portable_library(unit)?;
         let mut check = python.program("python");
@@ -148,7 +170,7 @@ fn portable() -> Result<()> {
 
 fn conformance() -> Result<()> {
     let unit = fmu::build(fmu::WALL, Linker::System)?;
-    let clang = Environment::of("clang", "xtask/locks/clang.lock")?;
+    let clang = Environment::of(CLANG.0, CLANG.1)?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let folder = target().join("conformance");

@@ -1,0 +1,43 @@
+//! An incremental dynamic analysis of one wall: records scaled until it overturns, and the fragility of collapse.
+//!
+//! ```text
+//! cargo run --release --example incremental_dynamic_analysis
+//! ```
+
+use std::error::Error;
+
+use ground_motion::SyntheticMotion;
+use rocking_wall::wall::Parameters;
+use study::fragility::{ObservationKind, fit};
+use study::ida::{Damping, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, RatioSource, Study};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let parameters = Parameters { height: 3.0, thickness: 0.3, a1: 0.01, ..Parameters::default() };
+    let walls = vec![NamedWall { name: "parapet".into(), parameters }];
+
+    // Twenty synthetic motions stand for records.
+    let record = |seed| -> Result<NamedRecord, Box<dyn Error>> {
+        let motion = SyntheticMotion { seed, duration: 15.0, ..SyntheticMotion::default() }.motion()?;
+        Ok(NamedRecord { name: format!("motion {seed}"), motion })
+    };
+    let records = (1..=20).map(record).collect::<Result<Vec<_>, _>>()?;
+
+    let models = vec![
+        Model::new(Damping::Restitution),
+        Model::new(Damping::ConstantCoefficient(RatioSource::Predicted)),
+    ];
+    let levels = Levels::HuntAndFill { first: 1.0, increase: 0.5, top: 60.0, resolution: 0.02, gap: 0.25 };
+    let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;
+    let curves = study.run(2)?;
+
+    for (index, model) in study.models().iter().enumerate() {
+        let of_model = (0..study.count()).filter(|&case| study.case(case).model == index);
+        let collapses: Vec<_> = of_model.map(|case| curves[case].collapse()).collect();
+        let fragility = fit(&ObservationKind::Records.observations(&collapses))?;
+        println!(
+            "{}: median PGA {:.2} m/s², dispersion {:.2}",
+            model.name, fragility.median, fragility.dispersion
+        );
+    }
+    Ok(())
+}
