@@ -1,4 +1,5 @@
-//! An incremental dynamic analysis of one wall: records scaled until it overturns, and the fragility of collapse.
+//! An incremental dynamic analysis of one wall: records scaled until it overturns, and the fragility of
+//! collapse.
 //!
 //! ```text
 //! cargo run --release --example incremental_dynamic_analysis

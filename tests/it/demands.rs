@@ -144,8 +144,7 @@ proptest! {
             .iter()
             .map(|&(bottom, top, drift)| Support { bottom: onset * bottom, top: onset * top, drift })
             .collect();
-        // the watched simulation includes the drift from the start, the other one from its first small step
-        // on
+        // the watched one includes the drift from the start, the other one from its first small step on
         let mut demands = simulation.demands(supports[0], &[0.01, 0.1]);
         let mut dense = simulation.clone();
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 5];

@@ -1,7 +1,9 @@
-//! Imports point one way: no file names what is defined in a file that, directly or through others, names it back.
+//! Imports point one way: no file names what is defined in a file that, directly or through others, names it
+//! back.
 //!
-//! A name is followed through `pub use` to the file that defines it. A parent that only declares and re-exports its
-//! children is therefore in no circle with them; one that defines what they use is. Modules of tests do not count.
+//! A name is followed through `pub use` to the file that defines it. A parent that only declares and
+//! re-exports its children is therefore in no circle with them; one that defines what they use is. Modules of
+//! tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -19,6 +19,7 @@ mod fragility;
 mod ground_motion;
 mod ida;
 mod ida_command;
+mod imports;
 mod manifest;
 mod measure_command;
 mod notices;
@@ -29,6 +30,7 @@ mod record_command;
 mod record_path;
 mod reproduce;
 mod rocking_spectrum;
+mod tidy;
 mod trigonometric;
 mod wiring;
 

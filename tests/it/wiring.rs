@@ -8,8 +8,8 @@ use rocking_wall::variables::{BooleanVariable, IntegerVariable, RealVariable};
 
 const XML: &str = "modelDescription/modelDescription.xml";
 
-/// Variables are named in the matches of the unit, which have no `_` arm for what is left over; parameters are
-/// fields.
+/// Variables are named in the matches of the unit, which have no `_` arm for what is left over; parameters
+/// are fields.
 #[test]
 fn every_variable_is_named_where_it_is_wired() {
     let read = |file: &str| std::fs::read_to_string(crate::root().join(file)).unwrap();

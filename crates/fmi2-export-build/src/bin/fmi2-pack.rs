@@ -10,7 +10,8 @@ use std::process::ExitCode;
 const HELP: &str = "\
 Puts an FMU together; the same files give the same bytes.
 
-fmi2-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR [--resources DIR] --output FILE
+fmi2-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR [--resources DIR]
+          --output FILE
 
   --description FILE    the modelDescription.xml; its guid is filled in, and a model.png beside it goes in too
   --binary LIBRARY      the shared library; may be repeated, each followed by its

@@ -37,7 +37,8 @@ fn value_references_are_unique_over_all_types() {
     refused(
         "valueReference=\"60\"",
         "valueReference=\"10\"",
-        "`surface` has value reference 10, which `force` on line 20 has already; take a free one, 0 for example",
+        "`surface` has value reference 10, which `force` on line 20 has already; take a free one, \
+         0 for example",
     );
     refused(
         "valueReference=\"60\"",
@@ -266,7 +267,8 @@ fn dependencies() {
     refused(
         "dependenciesKind=\"dependent constant\"",
         "dependenciesKind=\"dependent fixed\"",
-        "in InitialUnknowns, the dependenciesKind of `weight` cannot contain \"fixed\", only dependent, constant",
+        "in InitialUnknowns, the dependenciesKind of `weight` cannot contain \"fixed\", only dependent, \
+         constant",
     );
 }
 

@@ -35,8 +35,14 @@ fn null_is_refused_where_something_is_needed() {
         |c| unsafe { fmi2GetRealOutputDerivatives(c, &Real::X.reference(), 1, &1, null_mut()) },
         |c| unsafe { fmi2GetDirectionalDerivative(c, null(), 1, &Real::X.reference(), 1, &1.0, &mut 0.0) },
         |c| unsafe { fmi2GetDirectionalDerivative(c, &Real::X.reference(), 1, null(), 1, &1.0, &mut 0.0) },
-        |c| unsafe { fmi2GetDirectionalDerivative(c, &Real::X.reference(), 1, &Real::X.reference(), 1, null(), &mut 0.0) },
-        |c| unsafe { fmi2GetDirectionalDerivative(c, &Real::X.reference(), 1, &Real::X.reference(), 1, &1.0, null_mut()) },
+        |c| unsafe {
+            let x = Real::X.reference();
+            fmi2GetDirectionalDerivative(c, &x, 1, &x, 1, null(), &mut 0.0)
+        },
+        |c| unsafe {
+            let x = Real::X.reference();
+            fmi2GetDirectionalDerivative(c, &x, 1, &x, 1, &1.0, null_mut())
+        },
         |c| unsafe { fmi2GetStatus(c, 0, null_mut()) },
         |c| unsafe { fmi2GetRealStatus(c, 2, null_mut()) },
         |c| unsafe { fmi2GetIntegerStatus(c, 0, null_mut()) },

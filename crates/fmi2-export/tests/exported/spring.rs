@@ -19,7 +19,10 @@ pub const TALK_IN_STEP: i32 = 3;
 pub const PANIC_IN_GET: i32 = 4;
 
 macro_rules! variables {
-    ($id:ident: $($variant:ident $reference:literal $name:literal $causality:ident $variability:ident $unit:expr, $kind:expr;)*) => {
+    ($id:ident: $(
+        $variant:ident $reference:literal $name:literal $causality:ident $variability:ident $unit:expr,
+        $kind:expr;
+    )*) => {
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
         pub enum $id { $($variant,)* }
 
@@ -46,10 +49,12 @@ macro_rules! variables {
 const FREE: Kind = Kind::Real { start: Some(0.0), min: None, max: None };
 
 variables! { Real:
-    Stiffness 1 "stiffness" Parameter Fixed Some("N/m"), Kind::Real { start: Some(4.0), min: Some(0.5), max: Some(100.0) };
+    Stiffness 1 "stiffness" Parameter Fixed Some("N/m"),
+        Kind::Real { start: Some(4.0), min: Some(0.5), max: Some(100.0) };
     XStart 2 "x_start" Parameter Fixed Some("m"), FREE;
     Period 3 "period" CalculatedParameter Fixed Some("s"), Kind::Real { start: None, min: None, max: None };
-    Force 4 "force" Input Continuous Some("N"), Kind::Real { start: Some(0.0), min: Some(-50.0), max: Some(50.0) };
+    Force 4 "force" Input Continuous Some("N"),
+        Kind::Real { start: Some(0.0), min: Some(-50.0), max: Some(50.0) };
     Push 5 "push" Input Discrete Some("N"), FREE;
     X 6 "x" Output Continuous Some("m"), FREE;
     V 7 "v" Output Continuous Some("m/s"), FREE;
@@ -62,8 +67,10 @@ variables! { Real:
 }
 variables! { Integer:
     Law 20 "law" Parameter Fixed None, Kind::Enumeration { start: Some(1), items: &[
-        Item { name: "linear", value: 1, description: "" }, Item { name: "cubic", value: 2, description: "" }] };
-    Substeps 21 "substeps" Parameter Fixed None, Kind::Integer { start: Some(8), min: Some(1), max: Some(100) };
+        Item { name: "linear", value: 1, description: "" },
+        Item { name: "cubic", value: 2, description: "" }] };
+    Substeps 21 "substeps" Parameter Fixed None,
+        Kind::Integer { start: Some(8), min: Some(1), max: Some(100) };
     Fault 22 "fault" Input Discrete None, Kind::Integer { start: Some(0), min: None, max: None };
     Count 23 "count" Output Discrete None, Kind::Integer { start: None, min: None, max: None };
 }
