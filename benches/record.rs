@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{RecordSolver, RunStart, Samples};
 use rocking_wall::solver::{Motion, Segment};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support};
@@ -65,33 +65,33 @@ fn wall(
     let count = samples.len() - 1;
     let solver = RecordSolver::new(&motion, record.step());
     let state = motion.start(0.0, 0.0, Support::default());
-    let start = |factor: f64| Start { state, factor: factor * participation };
+    let start = |factor: f64| RunStart { state, factor: factor * participation };
     let run = |factor: f64| {
         let forcing = Samples(black_box(samples));
         solver.run(start(factor), &forcing, false, |_, _, _| {}).expect("a bounded motion")
     };
-    let passage = run(scale);
+    let outcome = run(scale);
     let one = least(count, || run(scale).state.displacement);
     let batch = batch(scale, start);
     let side_by_side = solver.batch(&Samples(samples)).is_side_by_side();
     let way = if side_by_side { "side by side" } else { "one by one  " };
     let many = least(count * BATCH, || {
-        let passages = solver.batch(&Samples(black_box(samples))).run(&batch, false);
-        passages.expect("bounded motions")[0].state.displacement
+        let outcomes = solver.batch(&Samples(black_box(samples))).run(&batch, false);
+        outcomes.expect("bounded motions")[0].state.displacement
     });
     println!(
         "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
          {:>4} corners, u_max/u_ins {:.3}{}",
         model.name(),
         one / bare,
-        passage.work.corners,
-        passage.state.peaks.largest() / motion.wall().displacement_scale(),
-        if passage.overturning.is_some() { ", overturned" } else { "" },
+        outcome.work.corners,
+        outcome.state.peaks.largest() / motion.wall().displacement_scale(),
+        if outcome.overturning.is_some() { ", overturned" } else { "" },
     );
 }
 
 /// Runs whose factors go from 0.65 of a scale to the scale.
-fn batch(scale: f64, start: impl Fn(f64) -> Start) -> Vec<Start> {
+fn batch(scale: f64, start: impl Fn(f64) -> RunStart) -> Vec<RunStart> {
     (0..BATCH).map(|i| start(scale * (0.65 + 0.35 * i as f64 / (BATCH - 1) as f64))).collect()
 }
 
@@ -139,7 +139,7 @@ fn count(path: &str, runs: u32) -> u64 {
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let solver = RecordSolver::new(&motion, record.step());
     let state = motion.start(0.0, 0.0, Support::default());
-    let start = |factor: f64| Start { state, factor: factor * participation };
+    let start = |factor: f64| RunStart { state, factor: factor * participation };
     for _ in 0..runs {
         let samples = black_box(record.samples());
         match path {
@@ -154,12 +154,12 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(simulation.progress().state);
             }
             "record" | "adaptive" => {
-                let passage = solver.run(start(1.0), &Samples(samples), false, |_, _, _| {});
-                black_box(passage.expect("a bounded motion"));
+                let outcome = solver.run(start(1.0), &Samples(samples), false, |_, _, _| {});
+                black_box(outcome.expect("a bounded motion"));
             }
             "batch" => {
-                let passages = solver.batch(&Samples(samples)).run(&batch(1.0, start), false);
-                black_box(passages.expect("bounded motions"));
+                let outcomes = solver.batch(&Samples(samples)).run(&batch(1.0, start), false);
+                black_box(outcomes.expect("bounded motions"));
             }
             other => panic!("no path {other}: segments, record, batch, adaptive"),
         }

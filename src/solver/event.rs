@@ -1,6 +1,5 @@
 //! Events inside a piece of motion: leaving the branch, and turning points.
 
-pub(super) use oscillator::KinematicState as Kinematics;
 use oscillator::KinematicState;
 
 use super::state::Peaks;

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{RecordSolver, RunStart, Samples};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
 use rocking_wall::variables::{
     DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
@@ -51,7 +51,7 @@ fn end_of_run(
     let motion = Motion::new(wall, method);
     let state = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
     let solver = RecordSolver::new(&motion, step);
-    let start = Start { state, factor: 1.0 };
+    let start = RunStart { state, factor: 1.0 };
     let passage = solver.run(start, &Samples(&forcing), false, |_, _, _| {}).unwrap();
     passage.state.displacement / motion.wall().displacement_scale()
 }
@@ -225,7 +225,7 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let motion_of = Motion::new(wall, method);
     let forcing: Vec<f64> = motion.iter().map(|p| factor * onset * p).collect();
     let solver = RecordSolver::new(&motion_of, step);
-    let start = Start { state: motion_of.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
+    let start = RunStart { state: motion_of.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut history = vec![0.0];
     let scale = motion_of.wall().displacement_scale();
     solver.run(start, &Samples(&forcing), false, |_, u, _| history.push(u / scale)).unwrap();

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use rocking_wall::simulation::{Progress, Simulation};
-use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -10,17 +10,17 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 use crate::properties::{configuration, motions, walls};
 
 /// A wall's motion and the start of a run under a forcing.
-fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, Start) {
+fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, RunStart) {
     let wall = Wall::new(parameters).unwrap();
     let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
     let motion = Motion::new(wall, method);
     let Parameters { u_start, u_dot_start, .. } = *parameters;
     let state = motion.start_under(u_start, u_dot_start, factor * forcing[0]);
-    (motion, Start { state, factor })
+    (motion, RunStart { state, factor })
 }
 
 /// Returns the history of u and the outcome of the run.
-fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Passage) {
+fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Outcome) {
     let (motion, start) = prepared(parameters, forcing, factor);
     let mut history = vec![start.state.displacement];
     let solver = RecordSolver::new(&motion, step);
@@ -29,9 +29,9 @@ fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (V
         assert_eq!(index, history.len());
         history.push(u);
     };
-    let passage = solver.run(start, &samples, false, observe).unwrap();
+    let outcome = solver.run(start, &samples, false, observe).unwrap();
     assert_eq!(history.len(), forcing.len());
-    (history, passage)
+    (history, outcome)
 }
 
 proptest! {
@@ -60,11 +60,11 @@ proptest! {
         let batch = solver.batch(&samples);
         let together = batch.run(&starts, until).unwrap();
         prop_assert_eq!(together.len(), count);
-        for (start, passage) in starts.iter().zip(together) {
+        for (start, outcome) in starts.iter().zip(together) {
             let one = batch.run(&[*start], until).unwrap()[0];
-            prop_assert_eq!(one, passage);
-            prop_assert_eq!(one.state.displacement.to_bits(), passage.state.displacement.to_bits());
-            passages_agree(&wall, &solver, &samples, *start, until, &passage)?;
+            prop_assert_eq!(one, outcome);
+            prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
+            outcomes_agree(&wall, &solver, &samples, *start, until, &outcome)?;
         }
     }
 
@@ -93,24 +93,24 @@ proptest! {
 }
 
 /// Compares a run of a batch with a single run, unless slightly more forcing changes the events.
-fn passages_agree(
+fn outcomes_agree(
     wall: &Wall,
     solver: &RecordSolver<'_>,
     samples: &Samples<'_>,
-    start: Start,
+    start: RunStart,
     until: bool,
-    passage: &Passage,
+    outcome: &Outcome,
 ) -> Result<(), TestCaseError> {
     let run = |factor: f64, probe: f64| {
         let mut state = start.state;
         state.displacement *= 1.0 + probe;
         state.velocity *= 1.0 + probe;
-        solver.run(Start { state, factor }, samples, until, |_, _, _| {}).unwrap()
+        solver.run(RunStart { state, factor }, samples, until, |_, _, _| {}).unwrap()
     };
     let (scale, rate) = (wall.displacement_scale(), wall.rocking_rate());
     let one = run(start.factor, 0.0);
-    let apart = |a: &Passage, b: &Passage| {
-        let of = |f: &dyn Fn(&Passage) -> f64| (f(a) - f(b)).abs();
+    let apart = |a: &Outcome, b: &Outcome| {
+        let of = |f: &dyn Fn(&Outcome) -> f64| (f(a) - f(b)).abs();
         of(&|p| p.state.displacement)
             .max(of(&|p| p.state.velocity) / rate)
             .max(of(&|p| p.state.peaks.positive))
@@ -131,9 +131,9 @@ fn passages_agree(
     }
     // as of `agree`
     let allowed = amplification * (32.0 * f64::EPSILON * (one.work.pieces + 1) as f64 + 1e-13);
-    let difference = apart(&one, passage);
+    let difference = apart(&one, outcome);
     prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
-    prop_assert_eq!(one.overturning.is_some(), passage.overturning.is_some());
+    prop_assert_eq!(one.overturning.is_some(), outcome.overturning.is_some());
     Ok(())
 }
 
@@ -152,7 +152,7 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     let wall = Wall::new(parameters).unwrap();
     let body = wall.body();
     let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
-    let (history, passage) = alone(parameters, &forcing, step, 1.0);
+    let (history, outcome) = alone(parameters, &forcing, step, 1.0);
     let reference = segments(parameters, accelerations, step);
     let probe = 1e-8;
     let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
@@ -176,9 +176,9 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     let difference = apart(&|i| history[i]);
     prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
     if standing == reference.len() {
-        let peaks = passage.state.peaks.largest() - end.state.peaks.largest();
+        let peaks = outcome.state.peaks.largest() - end.state.peaks.largest();
         prop_assert!(peaks.abs() / scale <= allowed, "peaks differ by {peaks:e} m");
-        prop_assert_eq!(passage.overturning, None);
+        prop_assert_eq!(outcome.overturning, None);
     }
     Ok(())
 }
@@ -240,13 +240,13 @@ fn a_run_counts_what_happened() {
     let onset = wall.body().strength.positive / wall.body().effective_mass;
     let forcing: Vec<f64> =
         (0..2000_u32).map(|i| onset * (f64::from(i) / 1500.0) * libm::sin(0.02 * f64::from(i))).collect();
-    let (_, passage) = alone(&parameters, &forcing, 0.01, 1.0);
+    let (_, outcome) = alone(&parameters, &forcing, 0.01, 1.0);
     let accelerations: Vec<f64> =
         forcing.iter().map(|p| p / wall.body().forcing(Support::rigid(1.0))).collect();
     let reference = segments(&parameters, &accelerations, 0.01);
     let end = reference.last().unwrap();
-    assert!(passage.state.overturned && end.state.overturned);
-    assert_eq!((passage.work.corners, passage.work.impacts), (end.work.corners, end.work.impacts));
-    let (ours, theirs) = (passage.overturning.unwrap(), end.overturn_time.unwrap());
+    assert!(outcome.state.overturned && end.state.overturned);
+    assert_eq!((outcome.work.corners, outcome.work.impacts), (end.work.corners, end.work.impacts));
+    let (ours, theirs) = (outcome.overturning.unwrap(), end.overturn_time.unwrap());
     assert!((ours - theirs).abs() < 1e-10, "{ours} {theirs}");
 }

@@ -1,12 +1,13 @@
 //! Many runs of one wall through one record.
 //!
-//! Where the wall and the step allow it, eight runs go side by side, each number of theirs in one place of a vector: the response
-//! of the branches to the record is taken once for all (module `responses`), plain steps go four at once and corners are passed
-//! several at once (`lanes`, `rounds`, `corners`). Where a step is long beside the wall's shortest period runs go one by one: there four
-//! steps would reach a corner too often. Without AVX2 they go one by one too: there that is measured to be faster.
+//! Where the wall and the step allow it, eight runs go side by side, each number of theirs in one place of a
+//! vector: the response of the branches to the record is taken once for all (module `responses`), plain steps
+//! go four at once and corners are passed several at once (`lanes`, `rounds`, `corners`). Where a step is
+//! long beside the wall's shortest period runs go one by one: there four steps would reach a corner too
+//! often. Without AVX2 they go one by one too: there that is measured to be faster.
 //!
-//! What becomes of a run depends on the wall, the record, the step and its start, never on the other runs or on the processor.
-//! It agrees with [`RecordSolver::run`] to rounding.
+//! What becomes of a run depends on the wall, the record, the step and its start, never on the other runs or
+//! on the processor. It agrees with [`RecordSolver::run`] to rounding.
 
 mod corners;
 mod lanes;
@@ -17,7 +18,9 @@ mod vector;
 
 use fearless_simd::{Level, dispatch};
 
-use super::{Forcing, Passage, RecordSolver, SolverError, Start, stretches};
+use super::super::SolverError;
+use super::forcing::{Blocks, Forcing};
+use super::solver::{Outcome, RecordSolver, RunStart};
 use lanes::Lanes;
 use responses::Responses;
 
@@ -28,8 +31,7 @@ pub const LANES: usize = vector::WIDTH;
 #[derive(Debug)]
 pub struct Batch<'a, F> {
     solver: &'a RecordSolver<'a>,
-    forcing: &'a F,
-    largest: Vec<f64>,
+    record: Blocks<'a, F>,
     side_by_side: Option<(Level, Responses)>,
 }
 
@@ -42,7 +44,7 @@ impl RecordSolver<'_> {
     /// The same on a processor with such vectors, or with none that are worth it.
     fn batch_on<'a, F: Forcing>(&'a self, forcing: &'a F, level: Option<Level>) -> Batch<'a, F> {
         let side_by_side = level.and_then(|level| Some((level, Responses::new(self, forcing)?)));
-        Batch { solver: self, forcing, largest: stretches::largest_forcing(forcing), side_by_side }
+        Batch { solver: self, record: Blocks::new(forcing), side_by_side }
     }
 }
 
@@ -53,20 +55,20 @@ impl<F: Forcing> Batch<'_, F> {
         self.side_by_side.is_some()
     }
 
-    /// Moves walls through the record, each as if it were alone; `until_overturning` stops those that overturn.
+    /// Moves walls through the record, each as if it were alone; `until_overturning` stops those that
+    /// overturn.
     ///
     /// # Errors
     /// [`SolverError`] of the first run that could not be followed.
-    pub fn run(&self, starts: &[Start], until_overturning: bool) -> Result<Vec<Passage>, SolverError> {
+    pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
+        let Self { solver, record, .. } = self;
         let Some((level, responses)) = &self.side_by_side else {
-            let Self { solver, forcing, largest, .. } = self;
-            let run =
-                |&start| solver.run_with(start, *forcing, largest, until_overturning, &mut |_, _, _| {});
+            let run = |&start| solver.run_through(start, record, until_overturning, &mut |_, _, _| {});
             return starts.iter().map(run).collect();
         };
-        let mut lanes = Lanes::new(self, responses, starts, until_overturning);
+        let mut lanes = Lanes::new(solver, record, responses, starts, until_overturning);
         dispatch!(*level, simd => lanes.follow(simd));
-        lanes.passages()
+        lanes.outcomes()
     }
 }
 
@@ -81,7 +83,7 @@ fn wide_level() -> Option<Level> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Samples;
+    use super::super::forcing::Samples;
     use super::*;
     use crate::choices::DampingModel;
     use crate::solver::{Method, Motion};
@@ -107,9 +109,9 @@ mod tests {
     }
 
     /// Factors of the forcing, more than there are lanes.
-    fn starts(motion: &Motion) -> Vec<Start> {
+    fn starts(motion: &Motion) -> Vec<RunStart> {
         let state = motion.start(0.0, 0.0, Support::default());
-        (0..21).map(|i| Start { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
+        (0..21).map(|i| RunStart { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
     }
 
     /// Side by side, with many corners passed, and the same bits whatever vectors the processor has.
@@ -128,13 +130,13 @@ mod tests {
         for wider in by_level {
             assert_eq!(wider, portable);
         }
-        let corners: u64 = portable.iter().map(|passage| passage.work.corners).sum();
-        let overturned = portable.iter().filter(|passage| passage.overturning.is_some()).count();
+        let corners: u64 = portable.iter().map(|outcome| outcome.work.corners).sum();
+        let overturned = portable.iter().filter(|outcome| outcome.overturning.is_some()).count();
         assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
     }
 
-    /// Walls that turn shortly before a corner, within what four steps keep away from it but not one: the turning point is found,
-    /// alone as beside others.
+    /// Walls that turn shortly before a corner, within what four steps keep away from it but not one: the
+    /// turning point is found, alone as beside others.
     #[test]
     fn extremes_before_a_corner_are_found() {
         let (motion, step) = (motion(0.018), 5e-3);
@@ -146,7 +148,7 @@ mod tests {
             let mut state = motion.start(u, v, Support::default());
             // it has been further out on the other side: nothing there asks for a second look
             state.peaks.negative = corner;
-            Start { state, factor: 1.0 }
+            RunStart { state, factor: 1.0 }
         };
         let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
         let still = Samples(&still);
@@ -186,8 +188,8 @@ mod tests {
         let solver = RecordSolver::new(&stiff, 5e-3);
         let starts = starts(&stiff);
         let together = solver.batch(&all).run(&starts, false).expect("bounded motions");
-        for (start, passage) in starts.iter().zip(together) {
-            assert_eq!(solver.run(*start, &all, false, |_, _, _| {}).expect("a bounded motion"), passage);
+        for (start, outcome) in starts.iter().zip(together) {
+            assert_eq!(solver.run(*start, &all, false, |_, _, _| {}).expect("a bounded motion"), outcome);
         }
         assert_eq!(solver.batch(&Samples(&[])).run(&starts, false).expect("no motion").len(), starts.len());
     }

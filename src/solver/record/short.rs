@@ -1,12 +1,11 @@
 //! Green's functions of a branch as polynomials, for times up to one step.
 
-use super::super::event::Kinematics;
-use oscillator::Oscillator;
+use oscillator::{KinematicState, Oscillator};
 
 /// Coefficients taken together: four chains run side by side.
 const WIDTH: usize = 4;
-/// Most blocks of coefficients, enough for c h + √|k| h ≤ 0.55.
-const MOST_BLOCKS: usize = 4;
+/// Most groups of coefficients, enough for c h + √|k| h ≤ 0.55.
+const MOST_GROUPS: usize = 4;
 /// Largest share of the leading term that may be left out.
 const NEGLIGIBLE: f64 = 1e-18;
 
@@ -19,8 +18,8 @@ const NEGLIGIBLE: f64 = 1e-18;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Short {
     /// γₙ over (n+1)!, (n+2)! and (n+3)!; the fourth place stays 0.
-    coefficients: [[f64; 4]; WIDTH * MOST_BLOCKS],
-    blocks: usize,
+    coefficients: [[f64; 4]; WIDTH * MOST_GROUPS],
+    groups: usize,
     damping: f64,
     stiffness: f64,
 }
@@ -31,30 +30,30 @@ impl Short {
         let (c, k) = (oscillator.damping(), oscillator.stiffness());
         // |γₙ| ≤ (c + √|k|)ⁿ
         let reach = (c + k.abs().sqrt()) * step;
-        let left_out = |blocks: usize| {
-            let terms = (WIDTH * blocks) as f64;
-            (1..=WIDTH * blocks + 1).fold(reach.powf(terms), |share, n| share / n as f64)
+        let left_out = |groups: usize| {
+            let terms = (WIDTH * groups) as f64;
+            (1..=WIDTH * groups + 1).fold(reach.powf(terms), |share, n| share / n as f64)
         };
-        let blocks = (2..=MOST_BLOCKS).find(|&blocks| left_out(blocks) < NEGLIGIBLE)?;
-        let mut coefficients = [[0.0; 4]; WIDTH * MOST_BLOCKS];
+        let groups = (2..=MOST_GROUPS).find(|&groups| left_out(groups) < NEGLIGIBLE)?;
+        let mut coefficients = [[0.0; 4]; WIDTH * MOST_GROUPS];
         let (mut before, mut gamma, mut factorial) = (0.0, 1.0, 1.0);
-        for (n, weights) in coefficients.iter_mut().enumerate().take(WIDTH * blocks) {
+        for (n, weights) in coefficients.iter_mut().enumerate().take(WIDTH * groups) {
             let n = n as f64;
             factorial *= n + 1.0;
             let [second, third] = [n + 2.0, (n + 2.0) * (n + 3.0)];
             *weights = [gamma / factorial, gamma / (factorial * second), gamma / (factorial * third), 0.0];
             (before, gamma) = (gamma, -(c * gamma + k * before));
         }
-        Some(Self { coefficients, blocks, damping: c, stiffness: k })
+        Some(Self { coefficients, groups, damping: c, stiffness: k })
     }
 
     /// The motion `time` after `start` under a forcing that changes at `rate` \[m/s³\].
     #[inline(always)]
-    pub(super) fn after(&self, time: f64, start: Kinematics, rate: f64) -> Kinematics {
+    pub(super) fn after(&self, time: f64, start: KinematicState, rate: f64) -> KinematicState {
         let [g, h, j] = self.green(time);
         let (c, k) = (self.damping, self.stiffness);
-        let Kinematics { displacement, velocity, acceleration } = start;
-        Kinematics {
+        let KinematicState { displacement, velocity, acceleration } = start;
+        KinematicState {
             displacement: displacement + ((g + c * h) * velocity + (h * acceleration + j * rate)),
             velocity: velocity + ((g * acceleration + h * rate) - k * h * velocity),
             acceleration: acceleration
@@ -64,24 +63,24 @@ impl Short {
 
     #[inline(always)]
     fn green(&self, time: f64) -> [f64; 3] {
-        match self.blocks {
+        match self.groups {
             2 => self.summed::<2>(time),
             3 => self.summed::<3>(time),
-            _ => self.summed::<MOST_BLOCKS>(time),
+            _ => self.summed::<MOST_GROUPS>(time),
         }
     }
 
     /// G, H and J: every fourth coefficient by Horner's rule in t⁴, then the four sums together.
     #[inline(always)]
-    fn summed<const BLOCKS: usize>(&self, time: f64) -> [f64; 3] {
+    fn summed<const GROUPS: usize>(&self, time: f64) -> [f64; 3] {
         let square = time * time;
         let fourth = square * square;
         let mut sums: [[f64; 4]; WIDTH] =
-            std::array::from_fn(|j| self.coefficients[WIDTH * (BLOCKS - 1) + j]);
-        for block in (0..BLOCKS - 1).rev() {
+            std::array::from_fn(|j| self.coefficients[WIDTH * (GROUPS - 1) + j]);
+        for group in (0..GROUPS - 1).rev() {
             for (j, sum) in sums.iter_mut().enumerate() {
                 for (place, value) in sum.iter_mut().enumerate() {
-                    *value = *value * fourth + self.coefficients[WIDTH * block + j][place];
+                    *value = *value * fourth + self.coefficients[WIDTH * group + j][place];
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The project's own solvers: over the whole record, several runs together, and step by step as in
 //! co-simulation.
 
-use rocking_wall::solver::record::{RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{RecordSolver, Samples, RunStart};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
@@ -56,19 +56,19 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
         history.resize(length, 0.0);
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
         let samples = Samples(problem.motion.samples());
-        let passage = solver.run(starts[0], &samples, false, |index, u, _| history[index] = u);
-        passage.map(|_| ()).map_err(|error| error.to_string())
+        let outcome = solver.run(starts[0], &samples, false, |index, u, _| history[index] = u);
+        outcome.map(|_| ()).map_err(|error| error.to_string())
     };
     let alone = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
-        let passage = solver.run(starts[0], &Samples(problem.motion.samples()), false, |_, _, _| {});
-        std::hint::black_box(passage.map_err(|error| error.to_string())?);
+        let outcome = solver.run(starts[0], &Samples(problem.motion.samples()), false, |_, _, _| {});
+        std::hint::black_box(outcome.map_err(|error| error.to_string())?);
         Ok(())
     };
     let at_once = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
-        let passages = solver.batch(&Samples(problem.motion.samples())).run(&starts, false);
-        passages.map_err(|error| error.to_string())
+        let outcomes = solver.batch(&Samples(problem.motion.samples())).run(&starts, false);
+        outcomes.map_err(|error| error.to_string())
     };
     if count == 1 {
         rows.measure_many(problem, "rocking-wall", setting, 1, record, alone);
@@ -95,11 +95,11 @@ fn prepared<'a>(
     problem: &Problem,
     motion: Result<&'a Motion, &ParameterError>,
     count: usize,
-) -> Result<(RecordSolver<'a>, Vec<Start>), String> {
+) -> Result<(RecordSolver<'a>, Vec<RunStart>), String> {
     let motion = motion.map_err(ToString::to_string)?;
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let state = motion.start(0.0, 0.0, Support::default());
-    let start = |run| Start { state, factor: participation * (1.0 - 0.35 * run as f64 / BATCH as f64) };
+    let start = |run| RunStart { state, factor: participation * (1.0 - 0.35 * run as f64 / BATCH as f64) };
     Ok((RecordSolver::new(motion, problem.motion.step()), (0..count).map(start).collect()))
 }
 

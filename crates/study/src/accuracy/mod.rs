@@ -23,7 +23,7 @@ use std::time::Instant;
 pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
-use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
 use rocking_wall::wall::Wall;
 
@@ -118,7 +118,7 @@ impl WorkPrecision {
 /// Displacements at the samples, NaN after overturning, and the result of the run.
 struct History {
     displacements: Vec<f64>,
-    passage: Passage,
+    outcome: Outcome,
 }
 
 /// Measures a problem at every setting of the default set; each is timed for about `budget` \[s\].
@@ -170,8 +170,8 @@ pub fn measure_at(
     Ok(WorkPrecision {
         name: problem.name.clone(),
         step: problem.step,
-        peak: reference.passage.state.peaks.largest() / scale,
-        overturning: reference.passage.overturning,
+        peak: reference.outcome.state.peaks.largest() / scale,
+        overturning: reference.outcome.overturning,
         amplification,
         exact,
         measurements,
@@ -200,9 +200,9 @@ fn compare(
     let count = compared(history, reference);
     let pairs = || history.displacements.iter().zip(&reference.displacements).take(count);
     let squares: f64 = pairs().map(|(a, b)| ((a - b) / scale).powi(2)).sum();
-    let peak = reference.passage.state.peaks.largest();
-    let stands = history.passage.overturning.or(reference.passage.overturning).is_none();
-    let error_overturning = match (history.passage.overturning, reference.passage.overturning) {
+    let peak = reference.outcome.state.peaks.largest();
+    let stands = history.outcome.overturning.or(reference.outcome.overturning).is_none();
+    let error_overturning = match (history.outcome.overturning, reference.outcome.overturning) {
         (Some(a), Some(b)) => Some((a - b).abs()),
         (None, None) => None,
         _ => Some(f64::INFINITY),
@@ -212,9 +212,9 @@ fn compare(
         seconds,
         error_max: largest_difference(history, reference, scale),
         error_rms: (squares / count.max(1) as f64).sqrt(),
-        error_peak: stands.then(|| (history.passage.state.peaks.largest() - peak).abs() / peak),
+        error_peak: stands.then(|| (history.outcome.state.peaks.largest() - peak).abs() / peak),
         error_overturning,
-        work: history.passage.work,
+        work: history.outcome.work,
     }
 }
 
@@ -238,31 +238,31 @@ impl<'a> Trial<'a> {
         Self { problem, motion, forcing, parts: parts as usize }
     }
 
-    fn run(&self, factor: f64, mut observe: impl FnMut(usize, f64)) -> Result<Passage, SolverError> {
+    fn run(&self, factor: f64, mut observe: impl FnMut(usize, f64)) -> Result<Outcome, SolverError> {
         let solver = RecordSolver::new(&self.motion, self.problem.step / self.parts as f64);
         let parameters = &self.problem.parameters;
         let first = factor * self.forcing[0];
         let state = self.motion.start_under(parameters.u_start, parameters.u_dot_start, first);
         let samples = Samples(&self.forcing);
-        solver.run(Start { state, factor }, &samples, true, |index, u, _| observe(index, u))
+        solver.run(RunStart { state, factor }, &samples, true, |index, u, _| observe(index, u))
     }
 
     fn history(&self, factor: f64) -> Result<History, SolverError> {
         let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
         displacements[0] = factor * self.problem.parameters.u_start;
-        let passage = self.run(factor, |index, u| {
+        let outcome = self.run(factor, |index, u| {
             if index % self.parts == 0 {
                 displacements[index / self.parts] = u;
             }
         })?;
-        if let Some(time) = passage.overturning {
+        if let Some(time) = outcome.overturning {
             for (index, displacement) in displacements.iter_mut().enumerate() {
                 if index as f64 * self.problem.step > time {
                     *displacement = f64::NAN;
                 }
             }
         }
-        Ok(History { displacements, passage })
+        Ok(History { displacements, outcome })
     }
 
     /// Returns the shortest run time of at least three runs \[s\].

@@ -29,7 +29,7 @@ mod model;
 use crate::free_motion::peak_is_final;
 use crate::parallel;
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Batch, Passage, RecordSolver, Samples, Start, Still};
+use rocking_wall::solver::record::{Batch, Outcome, RecordSolver, RunStart, Samples, Still};
 use rocking_wall::solver::{Motion, SolverError, State};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -245,18 +245,18 @@ impl Study {
         let participation = body.forcing(Support::rigid(1.0));
         let start = |level: &f64| {
             let factor = level / self.intensities[case.record] * participation;
-            Start { state: motion.start_under(0.0, 0.0, factor * record.samples()[0]), factor }
+            RunStart { state: motion.start_under(0.0, 0.0, factor * record.samples()[0]), factor }
         };
         let starts: Vec<_> = levels.iter().map(start).collect();
-        let passages = batch.run(&starts, true)?;
-        let run = |(&intensity, passage): (&f64, &Passage)| {
-            let (state, overturning) = match passage.overturning {
-                Some(time) => (passage.state, Some(time)),
-                None => self.free_vibration(solver, motion.wall(), record, passage.state)?,
+        let outcomes = batch.run(&starts, true)?;
+        let run = |(&intensity, outcome): (&f64, &Outcome)| {
+            let (state, overturning) = match outcome.overturning {
+                Some(time) => (outcome.state, Some(time)),
+                None => self.free_vibration(solver, motion.wall(), record, outcome.state)?,
             };
             Ok(Run { intensity, demand: state.peaks.ratio(body.instability), overturning })
         };
-        levels.iter().zip(&passages).map(run).collect()
+        levels.iter().zip(&outcomes).map(run).collect()
     }
 
     /// Returns the state after the free vibration that follows a record, and the time of overturning. A wall
@@ -273,8 +273,8 @@ impl Study {
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / record.step()).ceil() as usize + 1;
-        let passage = solver.run(Start { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
-        Ok((passage.state, passage.overturning.map(|time| record.duration() + time)))
+        let outcome = solver.run(RunStart { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
+        Ok((outcome.state, outcome.overturning.map(|time| record.duration() + time)))
     }
 }
 

@@ -30,7 +30,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmi2_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Passage, RecordSolver, Samples, Start};
+use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
 use rocking_wall::solver::{Memo, Motion, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::Parameters;
@@ -216,9 +216,9 @@ impl Prepared {
     fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
         let samples = Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let passage = solver.run(self.start(factor, motion), &samples, true, |_, _, _| {});
-        passage
-            .and_then(|passage| self.followed(passage, motion.duration()))
+        let outcome = solver.run(self.start(factor, motion), &samples, true, |_, _, _| {});
+        outcome
+            .and_then(|outcome| self.followed(outcome, motion.duration()))
             .map_err(|error| self.failed(error))
     }
 
@@ -227,14 +227,14 @@ impl Prepared {
         let samples = Samples(motion.samples());
         let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let passages = solver.batch(&samples).run(&starts, true).map_err(|error| self.failed(error))?;
+        let outcomes = solver.batch(&samples).run(&starts, true).map_err(|error| self.failed(error))?;
         let followed =
-            |passage| self.followed(passage, motion.duration()).map_err(|error| self.failed(error));
-        passages.into_iter().map(followed).collect()
+            |outcome| self.followed(outcome, motion.duration()).map_err(|error| self.failed(error));
+        outcomes.into_iter().map(followed).collect()
     }
 
-    fn start(&self, factor: f64, motion: &GroundMotion) -> Start {
-        Start { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
+    fn start(&self, factor: f64, motion: &GroundMotion) -> RunStart {
+        RunStart { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
     }
 
     fn failed(&self, source: SolverError) -> SpectrumError {
@@ -242,8 +242,8 @@ impl Prepared {
     }
 
     /// Follows the free motion after a record of `duration` \[s\].
-    fn followed(&self, passage: Passage, duration: f64) -> Result<Point, SolverError> {
-        let Passage { mut state, mut overturning, .. } = passage;
+    fn followed(&self, outcome: Outcome, duration: f64) -> Result<Point, SolverError> {
+        let Outcome { mut state, mut overturning, .. } = outcome;
         let step = FREE_STEP / self.motion.wall().rocking_rate();
         let mut memo = Memo::default();
         for index in 0..MOST_FREE_STEPS {

@@ -1,7 +1,7 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
 use super::released::{Released, StabilityError};
-use rocking_wall::solver::record::{RecordSolver, Samples, Start, Still};
+use rocking_wall::solver::record::{RecordSolver, RunStart, Samples, Still};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -158,7 +158,7 @@ fn drift(parameters: &Parameters, duration: f64) -> Value {
 fn undamped_in_steps() -> Value {
     let wall = released(&free(), 0.9)?;
     let solver = RecordSolver::new(&wall.motion, 5e-3);
-    let start = Start { state: wall.state, factor: 1.0 };
+    let start = RunStart { state: wall.state, factor: 1.0 };
     let State { displacement, velocity, .. } =
         solver.run(start, &Still(20_000_001), false, |_, _, _| {})?.state;
     Ok((wall.motion.wall().energy(displacement, velocity) / wall.first_energy - 1.0).abs())
@@ -207,11 +207,11 @@ fn history(
 ) -> Result<History, StabilityError> {
     let motion = Motion::new(Wall::new(parameters)?, method);
     let solver = RecordSolver::new(&motion, step);
-    let start = Start { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
+    let start = RunStart { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut displacements = vec![0.0];
     let scale = motion.wall().displacement_scale();
-    let passage = solver.run(start, &Samples(forcing), true, |_, u, _| displacements.push(u / scale))?;
-    Ok((displacements, passage.overturning))
+    let outcome = solver.run(start, &Samples(forcing), true, |_, u, _| displacements.push(u / scale))?;
+    Ok((displacements, outcome.overturning))
 }
 
 /// Returns the histories of the exact and of the adaptive solver under a pulse.

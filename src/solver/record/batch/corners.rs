@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::super::careful::{EVEN, MOST_GUESSES, SMALL_BEND, SMALL_SHIFT};
+use super::super::step_part::{EVEN, MOST_GUESSES, SMALL_BEND, SMALL_SHIFT};
 use super::responses::Responses;
 use super::table::BranchTable;
 use super::vector::Branches;
@@ -30,10 +30,10 @@ pub(super) struct Leaving<S: Simd> {
     pub(super) to: [f64x8<S>; 2],
     /// p at both ends \[m/s²\].
     pub(super) forcing: [f64x8<S>; 2],
-    /// P over the stretch \[m/s²\].
-    pub(super) largest_forcing: f64x8<S>,
-    /// Up to where u may go by what is known \[m\].
-    pub(super) known: [f64x8<S>; 2],
+    /// P over the block \[m/s²\].
+    pub(super) forcing_bound: f64x8<S>,
+    /// Where u is known to stay \[m\].
+    pub(super) limits: [f64x8<S>; 2],
     /// h \[s\].
     pub(super) step: f64,
 }
@@ -72,8 +72,8 @@ impl<S: Simd> Law<S> {
         self.force_at_zero + self.k * u
     }
 
-    /// u, u̇ and ü `time` after an instant, under a forcing that changes at `rate`: with E₀ = ü, E₁ = t d³u/dt³ and
-    /// Eₙ = −c t Eₙ₋₁ − k t² Eₙ₋₂, u̇ grows by t Σ Eₙ/(n+1)! and u by t (u̇ + t Σ Eₙ/(n+2)!).
+    /// u, u̇ and ü `time` after an instant, under a forcing that changes at `rate`: with E₀ = ü, E₁ = t
+    /// d³u/dt³ and Eₙ = −c t Eₙ₋₁ − k t² Eₙ₋₂, u̇ grows by t Σ Eₙ/(n+1)! and u by t (u̇ + t Σ Eₙ/(n+2)!).
     #[inline(always)]
     fn after(&self, terms: usize, time: f64x8<S>, [u, v, a]: [f64x8<S>; 3], rate: f64x8<S>) -> [f64x8<S>; 3] {
         let Self { c, k, .. } = *self;
@@ -103,8 +103,8 @@ impl<S: Simd> Leaving<S> {
         self.forcing = [lanes.select(forcing[0], self.forcing[0]), lanes.select(forcing[1], self.forcing[1])];
     }
 
-    /// Passes the one corner of the step: u is monotone up to it and beyond it, and nothing but the stiffness changes there.
-    /// Other lanes are left alone.
+    /// Passes the one corner of the step: u is monotone up to it and beyond it, and nothing but the stiffness
+    /// changes there. Other lanes are left alone.
     #[inline(always)]
     pub(super) fn pass(self, responses: &Responses) -> Arrival<S> {
         let Self { from: [u, v], to: [to_u, to_v], forcing: [p0, p1], step, .. } = self;
@@ -116,7 +116,7 @@ impl<S: Simd> Leaving<S> {
         let (a0, a1) = (p0 - here.c * v - forces[0], p1 - here.c * to_v - forces[1]);
         let steady = self.keeps_its_sign(&here, [v, to_v], forces, f64x8::splat(u.simd, step));
         let upwards = u.simd_lt(to_u);
-        let corner = upwards.select(branches.of(&table.plain_upper), branches.of(&table.plain_lower));
+        let corner = upwards.select(branches.of(&table.ordinary_upper), branches.of(&table.ordinary_lower));
         let share = self.share(corner, [a0, a1]);
         let sought = self.lanes & steady & share.simd_gt(0.0) & share.simd_lt(1.0);
         let Passage { found, time, velocity, acceleration } =
@@ -129,14 +129,15 @@ impl<S: Simd> Leaving<S> {
         let [end_u, end_v, _] = ahead.after(terms, remaining, [corner, velocity, acceleration], rate);
         let within = branches.of(&table.lower).simd_lt(end_u)
             & end_u.simd_lt(branches.of(&table.upper))
-            & self.known[0].simd_le(end_u)
-            & end_u.simd_le(self.known[1]);
+            & self.limits[0].simd_le(end_u)
+            & end_u.simd_le(self.limits[1]);
         let forces = [ahead.force(corner), ahead.force(end_u)];
         let lanes = found & within & self.keeps_its_sign(&ahead, [velocity, end_v], forces, remaining);
         Arrival { lanes, end: [end_u, end_v], branch }
     }
 
-    /// When lanes reach the corner, and how: from a guess by the derivatives there, again from where that leads.
+    /// When lanes reach the corner, and how: from a guess by the derivatives there, again from where that
+    /// leads.
     #[inline(always)]
     fn find(
         &self,
@@ -182,8 +183,9 @@ impl<S: Simd> Leaving<S> {
         passage
     }
 
-    /// Lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between values of one sign that are
-    /// larger together than A times the time between; A as of the module `record`, with |u̇| and |f| at both ends for V and f̂.
+    /// Lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between values of
+    /// one sign that are larger together than A times the time between; A as of the module `record`, with
+    /// |u̇| and |f| at both ends for V and f̂.
     #[inline(always)]
     fn keeps_its_sign(
         &self,
@@ -192,13 +194,13 @@ impl<S: Simd> Leaving<S> {
         [f0, f1]: [f64x8<S>; 2],
         time: f64x8<S>,
     ) -> mask64x8<S> {
-        let driving = self.largest_forcing + law.c * v0.abs().max(v1.abs()) + f0.abs().max(f1.abs());
+        let driving = self.forcing_bound + law.c * v0.abs().max(v1.abs()) + f0.abs().max(f1.abs());
         let most = law.growth * driving;
         (v0 * v1).simd_gt(0.0) & (most * time).simd_lt(v0.abs() + v1.abs())
     }
 
-    /// The fraction of the step after which u passes a corner: by the quintic t(u) through the ends, where the velocity does not
-    /// change much.
+    /// The fraction of the step after which u passes a corner: by the quintic t(u) through the ends, where
+    /// the velocity does not change much.
     #[inline(always)]
     fn share(&self, corner: f64x8<S>, [a0, a1]: [f64x8<S>; 2]) -> f64x8<S> {
         let Self { from: [u, v], to: [to_u, to_v], step, .. } = *self;

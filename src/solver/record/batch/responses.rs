@@ -1,15 +1,18 @@
-//! What a wall's branches and a record give for all runs: the response of each branch to the record, taken once.
+//! What a wall's branches and a record give for all runs: the response of each branch to the record, taken
+//! once.
 //!
-//! Over four steps a branch is an affine map of (u, u̇) and of the forcing. The forcing's part, for a run's factor s, is s times
-//! that of the record itself: a table of it, from each sample on, leaves a run two products for each of u and u̇.
+//! Over four steps a branch is an affine map of (u, u̇) and of the forcing. The forcing's part, for a run's
+//! factor s, is s times that of the record itself: a table of it, from each sample on, leaves a run two
+//! products for each of u and u̇.
 
-use super::super::stretches::{AT_ONCE, STRETCH};
-use super::super::{Affine, Forcing, RecordSolver, StepMap};
+use super::super::forcing::{AT_ONCE, BLOCK, Forcing};
+use super::super::solver::RecordSolver;
+use super::super::step_map::{Affine, StepMap};
 use super::table::BranchTable;
 use super::vector::WIDTH;
 
-/// Rows a lane may read on, from wherever it is: those of a stretch, and one.
-pub(super) const ROWS_AHEAD: usize = STRETCH / AT_ONCE + 1;
+/// Rows a lane may read on, from wherever it is: those of a block, and one.
+pub(super) const ROWS_AHEAD: usize = BLOCK / AT_ONCE + 1;
 /// (c + √|k|) h of the longest steps; beyond, four at once reach a corner too often to be worth it.
 const LONGEST: f64 = 0.25;
 /// Samples of a record up to which tables are made: 1 MB for each oscillator.
@@ -32,8 +35,8 @@ pub(super) struct Responses {
 }
 
 impl Responses {
-    /// Of a wall to a record; `None` where that does not serve: few or very many samples, many branches, steps without an affine
-    /// map, or long beside the wall's period.
+    /// Of a wall to a record; `None` where that does not serve: few or very many samples, many branches,
+    /// steps without an affine map, or long beside the wall's period.
     pub(super) fn new<F: Forcing>(solver: &RecordSolver<'_>, forcing: &F) -> Option<Self> {
         let count = forcing.count();
         if !(4 * AT_ONCE..=MOST_SAMPLES).contains(&count) || solver.maps.len() > WIDTH {

@@ -1,17 +1,20 @@
 //! What lanes do side by side: plain steps, four at once, and the steps of those that wait.
+//!
+//! Lanes go on by four plain steps at once until all but one of them wait: at a corner, at the end of a
+//! block, near an extreme in the search for those. Lanes at a corner pass it side by side; what is not
+//! ordinary is left to the run by itself. What a lane does never depends on the others.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::super::Forcing;
-use super::super::stretches::AT_ONCE;
+use super::super::forcing::{AT_ONCE, Forcing};
 use super::corners::{Arrival, Leaving};
 use super::lanes::{Lanes, Rows};
 use super::responses::{ROWS_AHEAD, Responses};
 use super::vector::{Branches, Row, WIDTH, indices, unzip};
 
-/// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much as some thirty of
-/// plain steps, however few they are.
+/// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much
+/// as some thirty of plain steps, however few they are.
 const FEW: u32 = 1;
 
 /// The numbers of a row.
@@ -48,19 +51,19 @@ fn change<S: Simd>(
 struct Range<S: Simd> {
     low: f64x8<S>,
     high: f64x8<S>,
-    fastest: f64x8<S>,
+    speed: f64x8<S>,
 }
 
 impl<S: Simd> Range<S> {
     #[inline(always)]
-    fn load(simd: S, [low, high]: &[Row; 2], fastest: &Row) -> Self {
-        Self { low: load(simd, low), high: load(simd, high), fastest: load(simd, fastest) }
+    fn load(simd: S, [low, high]: &[Row; 2], speed: &Row) -> Self {
+        Self { low: load(simd, low), high: load(simd, high), speed: load(simd, speed) }
     }
 
     /// Lanes whose plain steps may start or end so.
     #[inline(always)]
     fn holds(&self, [u, v]: [f64x8<S>; 2]) -> mask64x8<S> {
-        self.low.simd_le(u) & u.simd_le(self.high) & v.abs().simd_le(self.fastest)
+        self.low.simd_le(u) & u.simd_le(self.high) & v.abs().simd_le(self.speed)
     }
 }
 
@@ -109,58 +112,96 @@ impl<S: Simd> Reached<S> {
     }
 }
 
+/// What lanes wait for, by their bits.
+#[derive(Clone, Copy)]
+struct Waiting {
+    /// Lanes that may take plain steps.
+    ready: u8,
+    /// Lanes at the end of a block.
+    ended: u8,
+    /// Lanes whose u has grown beyond half the reach of f̂.
+    grown: u8,
+}
+
+/// Lanes by their bits.
+fn each(bits: u8) -> impl Iterator<Item = usize> {
+    (0..WIDTH).filter(move |i| bits >> i & 1 == 1)
+}
+
 impl<F: Forcing> Lanes<'_, F> {
+    /// Follows all runs to their ends.
+    #[inline(always)]
+    pub(super) fn follow<S: Simd>(&mut self, simd: S) {
+        (0..WIDTH).for_each(|i| self.fill(i));
+        while self.busy != 0 {
+            let mut lanes = self.measure_ranges(simd);
+            if lanes.ready.count_ones() > self.few() {
+                lanes = self.plain(simd, lanes.ready);
+            }
+            let Waiting { ready, ended, grown } = lanes;
+            each(ended).for_each(|i| self.go_alone(i, false));
+            let waiting = self.busy & !(ready | ended);
+            each(waiting & grown).for_each(|i| self.bound_force(i));
+            let waiting = waiting & !grown;
+            if waiting != 0 {
+                let none = self.step(simd, waiting);
+                each(none).for_each(|i| self.go_alone(i, true));
+            }
+        }
+    }
+
     /// Lanes that are not worth going on for, of those that have a run.
-    pub(super) fn few(&self) -> u32 {
+    fn few(&self) -> u32 {
         FEW.min(self.busy.count_ones().saturating_sub(1))
     }
 
     /// Where the lanes may go, and which of them may take plain steps.
     #[inline(always)]
-    pub(super) fn measure_ranges<S: Simd>(&mut self, simd: S) {
-        let step = self.batch.solver.step;
+    fn measure_ranges<S: Simd>(&mut self, simd: S) -> Waiting {
+        let step = self.solver.step;
         let rows = &mut self.rows;
         let table = &self.responses.table;
         let branches = Branches::new(load(simd, &rows.branch));
         let driving = load(simd, &rows.driving);
-        let braked = driving + branches.of(&table.braking) * driving;
-        let [most, most4] = [branches.of(&table.growth) * braked, branches.of(&table.growth4) * braked];
+        let bounded = driving + branches.of(&table.damping_share) * driving;
+        let [most, most4] = [branches.of(&table.growth) * bounded, branches.of(&table.growth4) * bounded];
         let step4 = AT_ONCE as f64 * step;
         let (margin, margin4) = (0.125 * step * step * most, 0.125 * step4 * step4 * most4);
-        let lower = branches.of(&table.lower).max(load(simd, &rows.known[0]));
-        let upper = branches.of(&table.upper).min(load(simd, &rows.known[1]));
-        let fastest = branches.of(&table.speed) * driving;
-        let range4 = Range { low: lower + margin4, high: upper - margin4, fastest };
+        let lower = branches.of(&table.lower).max(load(simd, &rows.limits[0]));
+        let upper = branches.of(&table.upper).min(load(simd, &rows.limits[1]));
+        let speed = branches.of(&table.speed_share) * driving;
+        let range4 = Range { low: lower + margin4, high: upper - margin4, speed };
         (lower + margin).store_array(&mut rows.range[0]);
         (upper - margin).store_array(&mut rows.range[1]);
         range4.low.store_array(&mut rows.range4[0]);
         range4.high.store_array(&mut rows.range4[1]);
-        fastest.store_array(&mut rows.fastest);
-        (step * most).store_array(&mut rows.slow);
+        speed.store_array(&mut rows.speed);
+        (step * most).store_array(&mut rows.velocity_change);
         let (u, v) = (load(simd, &rows.u), load(simd, &rows.v));
-        let speed = v.abs();
         // as fast as that, u̇ keeps its sign over four steps: then u is between its values at their ends
         let steady =
-            speed.simd_ge(step4 * most4) & speed.simd_le(fastest) & lower.simd_le(u) & u.simd_le(upper);
+            v.abs().simd_ge(step4 * most4) & v.abs().simd_le(speed) & lower.simd_le(u) & u.simd_le(upper);
         let ready = range4.holds([u, v]) | steady;
         let index = load(simd, &rows.index);
-        self.sort(u, index, ready);
+        self.sort(u, index, ready)
     }
 
-    /// Finds out which lanes may go on, and which wait for what.
+    /// Tells which lanes may go on, and which wait for what.
     #[inline(always)]
-    fn sort<S: Simd>(&mut self, u: f64x8<S>, index: f64x8<S>, ready: mask64x8<S>) {
+    fn sort<S: Simd>(&self, u: f64x8<S>, index: f64x8<S>, ready: mask64x8<S>) -> Waiting {
         let open = index.simd_lt(load(u.simd, &self.rows.limit));
-        self.ready = bits(ready & open) & self.busy;
-        self.ended = bits(!open) & self.busy;
-        self.grown = bits(load(u.simd, &self.rows.half_reach).simd_lt(u.abs()));
+        Waiting {
+            ready: bits(ready & open) & self.busy,
+            ended: bits(!open) & self.busy,
+            grown: bits(load(u.simd, &self.rows.half_reach).simd_lt(u.abs())),
+        }
     }
 
     /// Plain steps, four at once, until all lanes but a few wait.
     ///
     /// Lanes that wait are taken along, and what they come to is not kept: so no step waits for a comparison.
     #[inline(always)]
-    pub(super) fn plain<S: Simd>(&mut self, simd: S) {
+    fn plain<S: Simd>(&mut self, simd: S, ready: u8) -> Waiting {
         let few = self.few();
         let Responses { table, .. } = self.responses;
         let rows = &mut self.rows;
@@ -173,8 +214,8 @@ impl<F: Forcing> Lanes<'_, F> {
         let [[uu, uv, u_force], [vu, vv, v_force]] =
             [branches.of_each(&table.four_steps[0]), branches.of_each(&table.four_steps[1])];
         let factor = load(simd, &rows.factor);
-        let range = Range::load(simd, &rows.range4, &rows.fastest);
-        let started = mask64x8::from_bitmask(simd, self.ready.into());
+        let range = Range::load(simd, &rows.range4, &rows.speed);
+        let started = mask64x8::from_bitmask(simd, ready.into());
         let mut goes = started;
         let mut reached = Reached::start(simd, rows);
         let [mut u, mut v] = reached.now;
@@ -194,12 +235,13 @@ impl<F: Forcing> Lanes<'_, F> {
             }
         }
         let index = reached.store(started, rows);
-        self.sort(reached.now[0], index, goes);
+        self.sort(reached.now[0], index, goes)
     }
 
-    /// One to four steps of lanes that wait, plain ones and at last one that passes a corner; tells which made none.
+    /// One to four steps of lanes that wait, plain ones and at last one that passes a corner; tells which
+    /// made none.
     #[inline(always)]
-    pub(super) fn step<S: Simd>(&mut self, simd: S, waiting: u8) -> u8 {
+    fn step<S: Simd>(&mut self, simd: S, waiting: u8) -> u8 {
         let waits = mask64x8::from_bitmask(simd, waiting.into());
         let mut reached = Reached::start(simd, &self.rows);
         let leaving = self.stay(waits, &mut reached);
@@ -216,8 +258,8 @@ impl<F: Forcing> Lanes<'_, F> {
         bits(reached.steps.simd_lt(1.0)) & waiting
     }
 
-    /// Up to four steps on which these lanes stay on their branch and pass no extreme that counts; tells which would leave it in
-    /// the next one.
+    /// Up to four steps on which these lanes stay on their branch and pass no extreme that counts; tells
+    /// which would leave it in the next one.
     #[inline(always)]
     fn stay<S: Simd>(&self, mut goes: mask64x8<S>, reached: &mut Reached<S>) -> Leaving<S> {
         let simd = reached.steps.simd;
@@ -227,13 +269,13 @@ impl<F: Forcing> Lanes<'_, F> {
         let [u_by, v_by] = [branches.of_each(&table.one_step[0]), branches.of_each(&table.one_step[1])];
         let (lower, upper) = (branches.of(&table.lower), branches.of(&table.upper));
         let force = branches.of(&table.force_at_zero);
-        let known = [load(simd, &rows.known[0]), load(simd, &rows.known[1])];
-        let range = Range::load(simd, &rows.range, &rows.fastest);
-        let slow = load(simd, &rows.slow);
+        let limits = [load(simd, &rows.limits[0]), load(simd, &rows.limits[1])];
+        let range = Range::load(simd, &rows.range, &rows.speed);
+        let velocity_change = load(simd, &rows.velocity_change);
         // lanes that do not wait may be near the end
-        let furthest = self.batch.forcing.count() - 1 - AT_ONCE;
+        let furthest = self.record.forcing.count() - 1 - AT_ONCE;
         let samples = indices(load(simd, &rows.index))
-            .map(|index| self.batch.forcing.from(index.min(furthest), AT_ONCE + 1));
+            .map(|index| self.record.forcing.from(index.min(furthest), AT_ONCE + 1));
         let factor = load(simd, &rows.factor);
         let (mut from, mut p0) = (reached.now, factor * nth(simd, samples, 0));
         let mut from_holds = range.holds(from);
@@ -243,9 +285,9 @@ impl<F: Forcing> Lanes<'_, F> {
             from,
             to: from,
             forcing: [p0; 2],
-            largest_forcing: load(simd, &rows.largest_forcing),
-            known,
-            step: self.batch.solver.step,
+            forcing_bound: load(simd, &rows.forcing),
+            limits,
+            step: self.solver.step,
         };
         for n in 1..=AT_ONCE {
             let p1 = factor * nth(simd, samples, n);
@@ -255,10 +297,10 @@ impl<F: Forcing> Lanes<'_, F> {
             let inside = lower.simd_lt(to[0]) & to[0].simd_lt(upper);
             let (speed0, speed1) = (from[1].abs(), to[1].abs());
             let steady = (from[1] * to[1]).simd_gt(0.0)
-                & slow.simd_lt(speed0 + speed1)
-                & speed0.max(speed1).simd_le(range.fastest)
-                & known[0].simd_le(from[0].min(to[0]))
-                & from[0].max(to[0]).simd_le(known[1]);
+                & velocity_change.simd_lt(speed0 + speed1)
+                & speed0.max(speed1).simd_le(range.speed)
+                & limits[0].simd_le(from[0].min(to[0]))
+                & from[0].max(to[0]).simd_le(limits[1]);
             let stays = goes & ((from_holds & to_holds) | (inside & steady));
             let leaves = goes & !stays & !inside;
             leaving.take(leaves, to, [p0, p1]);

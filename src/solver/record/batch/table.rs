@@ -1,8 +1,8 @@
 //! What the steps of a lane need of the branch it is on, to be looked up for all lanes at once.
 
-use super::super::lane::BRAKING;
-use super::super::stretches::AT_ONCE;
-use super::super::{Affine, RecordSolver, StepMap, growth};
+use super::super::forcing::AT_ONCE;
+use super::super::solver::RecordSolver;
+use super::super::step_map::{Affine, StepMap, growth};
 use super::vector::Row;
 
 /// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
@@ -21,14 +21,14 @@ pub(super) struct BranchTable {
     pub(super) lower: Row,
     pub(super) upper: Row,
     /// The same where nothing but the stiffness changes there, else not a number.
-    pub(super) plain_lower: Row,
-    pub(super) plain_upper: Row,
+    pub(super) ordinary_lower: Row,
+    pub(super) ordinary_upper: Row,
     /// A over P + c V + f̂, over one step and over four.
     pub(super) growth: Row,
     pub(super) growth4: Row,
     /// V over P + f̂ \[s\], and c V over P + f̂.
-    pub(super) speed: Row,
-    pub(super) braking: Row,
+    pub(super) speed_share: Row,
+    pub(super) damping_share: Row,
     /// The first row of the branch's response.
     pub(super) response: Row,
 }
@@ -61,16 +61,16 @@ impl BranchTable {
         self.stiffness[branch] = k;
         self.force_at_zero[branch] = map.force_at_zero;
         [self.lower[branch], self.upper[branch]] = map.corners;
-        let plain = |corner: usize, next: Option<usize>| {
+        let ordinary = |corner: usize, next: Option<usize>| {
             let corner = solver.motion.wall.corners().get(corner)?;
             let ahead = solver.maps.get(next?)?.as_ref()?;
             (!corner.is_marked() && ahead.oscillator.damping() == c).then_some(corner.displacement)
         };
-        self.plain_lower[branch] = plain(branch, branch.checked_sub(1)).unwrap_or(f64::NAN);
-        self.plain_upper[branch] = plain(branch + 1, Some(branch + 1)).unwrap_or(f64::NAN);
+        self.ordinary_lower[branch] = ordinary(branch, branch.checked_sub(1)).unwrap_or(f64::NAN);
+        self.ordinary_upper[branch] = ordinary(branch + 1, Some(branch + 1)).unwrap_or(f64::NAN);
         self.growth[branch] = map.growth[0];
         self.growth4[branch] = growth(&map.oscillator, four_steps);
-        self.speed[branch] = BRAKING * map.inverse_damping;
-        self.braking[branch] = if c > 0.0 { BRAKING } else { 0.0 };
+        self.speed_share[branch] = map.speed_share;
+        self.damping_share[branch] = map.damping_share();
     }
 }

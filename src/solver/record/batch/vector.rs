@@ -1,7 +1,7 @@
 //! Eight numbers side by side, one for each lane: what `f64x8` of `fearless_simd` lacks.
 //!
-//! Every operation used here rounds as it does on one number, on every processor. `mul_add` does not: it is fused on some
-//! processors only, so it is never used.
+//! Every operation used here rounds as it does on one number, on every processor. `mul_add` does not: it is
+//! fused on some processors only, so it is never used.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x2, f64x8, i64x8, u8x64};

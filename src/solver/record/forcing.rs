@@ -1,0 +1,107 @@
+//! The forcing of a run: samples of a record, in blocks that share a bound.
+
+use std::ops::Range;
+
+/// Samples of a block.
+pub(super) const BLOCK: usize = 256;
+/// Plain steps that lanes of a batch take at once; the last ones of a block may go as far beyond it, less
+/// one.
+pub(super) const AT_ONCE: usize = 4;
+
+/// Forcing p at the samples of a record \[m/s²\], before a run's factor.
+pub trait Forcing {
+    /// Number of samples.
+    fn count(&self) -> usize;
+    /// The forcing at a sample.
+    fn at(&self, index: usize) -> f64;
+    /// The forcing at `count` samples from `index` on.
+    fn from(&self, index: usize, count: usize) -> &[f64];
+    /// Largest |p| over a range of samples.
+    fn largest(&self, range: Range<usize>) -> f64;
+}
+
+/// Samples of forcing \[m/s²\].
+#[derive(Clone, Copy, Debug)]
+pub struct Samples<'a>(
+    /// One after another.
+    pub &'a [f64],
+);
+
+impl Forcing for Samples<'_> {
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn at(&self, index: usize) -> f64 {
+        self.0[index]
+    }
+
+    #[inline(always)]
+    fn from(&self, index: usize, count: usize) -> &[f64] {
+        &self.0[index..][..count]
+    }
+
+    fn largest(&self, range: Range<usize>) -> f64 {
+        // eight side by side: one maximum after another would take longer than the steps
+        let (rows, rest) = self.0[range].as_chunks::<8>();
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        let mut columns = [0.0; 8];
+        for row in rows {
+            columns = std::array::from_fn(|i| larger(columns[i], row[i].abs()));
+        }
+        columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()))
+    }
+}
+
+/// As many samples of no motion as are asked for at once.
+static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
+
+/// No motion at all.
+#[derive(Clone, Copy, Debug)]
+pub struct Still(
+    /// Number of samples.
+    pub usize,
+);
+
+impl Forcing for Still {
+    fn count(&self) -> usize {
+        self.0
+    }
+
+    #[inline(always)]
+    fn at(&self, _index: usize) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn from(&self, _index: usize, count: usize) -> &[f64] {
+        &STILL[..count]
+    }
+
+    fn largest(&self, _range: Range<usize>) -> f64 {
+        0.0
+    }
+}
+
+/// A forcing and its bounds, block by block.
+#[derive(Debug)]
+pub(super) struct Blocks<'a, F> {
+    pub(super) forcing: &'a F,
+    /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
+    largest: Vec<f64>,
+}
+
+impl<'a, F: Forcing> Blocks<'a, F> {
+    pub(super) fn new(forcing: &'a F) -> Self {
+        let last = forcing.count().saturating_sub(1);
+        let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + AT_ONCE - 1).min(last) + 1;
+        let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
+        Self { forcing, largest }
+    }
+
+    /// The bound on |p| in the block of a sample \[m/s²\].
+    pub(super) fn largest(&self, index: usize) -> f64 {
+        self.largest.get(index / BLOCK).copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,228 @@
+//! A part of a step on one branch: whether it stays there, its turning point, and its passage of a corner.
+
+use super::super::Peaks;
+use super::super::event::{Verdict, crossing, settle};
+use super::short::Short;
+use super::step_map::StepMap;
+use oscillator::KinematicState;
+
+/// Largest correction δ of a first guess, over the step h: beyond, the general search takes over
+/// (docs/record-path.md, §4).
+pub(super) const SMALL_SHIFT: f64 = 1e-4;
+/// Largest ü δ/(2 u̇) of a correction on the way to a corner. Only where u all but turns at the corner is it
+/// larger.
+pub(super) const SMALL_BEND: f64 = 1e-4;
+/// Evaluations of the motion on the way to a corner.
+pub(super) const MOST_GUESSES: u32 = 4;
+/// Ratios of the mean velocity of a passage to those at its ends for which time is well told from u.
+pub(super) const EVEN: std::ops::Range<f64> = 0.3..3.0;
+
+/// The part of a step that lies on one branch.
+#[derive(Clone, Copy)]
+pub(super) struct StepPart {
+    pub(super) from: KinematicState,
+    pub(super) to: KinematicState,
+    /// \[s\]
+    pub(super) length: f64,
+    /// Rate of the forcing \[m/s³\].
+    pub(super) rate: f64,
+}
+
+/// How a part of a step ends.
+pub(super) enum Course {
+    /// It ends on its branch.
+    Stays,
+    /// It leaves its branch, u being monotone.
+    Leaves,
+    /// More may happen than is looked for here.
+    Unclear,
+}
+
+impl StepPart {
+    /// Tells how the part ends, and takes the extreme at a turning point inside it into the peaks.
+    #[inline(always)]
+    pub(super) fn course(&self, map: &StepMap, peaks: &mut Peaks) -> Course {
+        let Self { from, to, length, rate } = *self;
+        let within = to.displacement > map.corners[0] && to.displacement < map.corners[1];
+        let bounds = map.oscillator.bounds(from, rate, length);
+        match settle([from, to], length, bounds, map.corners, peaks) {
+            Verdict::Quiet => Course::Stays,
+            Verdict::Monotone if within => Course::Stays,
+            Verdict::Monotone => Course::Leaves,
+            Verdict::Turning if within && self.turn(map, peaks) => Course::Stays,
+            Verdict::Turning | Verdict::Split => Course::Unclear,
+        }
+    }
+
+    /// Takes the extreme at the one turning point of a part that ends on its branch into the peaks; tells
+    /// whether it was an ordinary one, inside the branch.
+    #[inline(always)]
+    fn turn(&self, map: &StepMap, peaks: &mut Peaks) -> bool {
+        let Self { from, to, length, rate } = *self;
+        let Some(short) = &map.short else { return false };
+        let near = short.after(self.turning_time(), from, rate);
+        let shift = -near.velocity / near.acceleration;
+        if !(shift.abs() <= SMALL_SHIFT * length && from.velocity * to.velocity < 0.0) {
+            return false;
+        }
+        let jerk = map.oscillator.jerk(near, rate);
+        let extreme = near.displacement
+            + shift * (near.velocity + shift * (near.acceleration / 2.0 + shift * jerk / 6.0));
+        if extreme <= map.corners[0] || extreme >= map.corners[1] {
+            return false;
+        }
+        peaks.include(extreme);
+        true
+    }
+
+    /// The time of the one zero of u̇, by the cubic through u̇ and ü at the ends.
+    #[inline(always)]
+    fn turning_time(&self) -> f64 {
+        let Self { from, to, length, .. } = *self;
+        let (v0, v1) = (from.velocity, to.velocity);
+        let (a0, a1) = (from.acceleration * length, to.acceleration * length);
+        let (c2, c3) = (3.0 * (v1 - v0) - 2.0 * a0 - a1, 2.0 * (v0 - v1) + a0 + a1);
+        let mut x = v0 / (v0 - v1);
+        for _ in 0..2 {
+            let value = v0 + x * (a0 + x * (c2 + x * c3));
+            let slope = a0 + x * (2.0 * c2 + x * 3.0 * c3);
+            x = (x - value / slope).clamp(0.0, 1.0);
+        }
+        x * length
+    }
+
+    /// Finds when u, monotone, passes `corner`, beyond which the stiffness is greater by `change`, and the
+    /// motion there; `None` where that is not found at once. docs/record-path.md, §4, has the error.
+    #[inline(always)]
+    pub(super) fn passage(
+        &self,
+        map: &StepMap,
+        short: &Short,
+        corner: f64,
+        change: f64,
+    ) -> Option<(f64, KinematicState)> {
+        let Self { from, length, rate, .. } = *self;
+        let mut guess = length * self.share(corner);
+        for _ in 0..MOST_GUESSES {
+            let near = short.after(guess, from, rate);
+            let KinematicState { displacement, velocity, acceleration } = near;
+            let beyond = displacement - corner;
+            // close enough to change branches there, with ü for the branch ahead
+            if change.abs() * beyond * beyond <= 0.5 * f64::EPSILON * velocity * velocity {
+                let acceleration = acceleration - change * beyond;
+                return (0.0..length)
+                    .contains(&guess)
+                    .then_some((guess, KinematicState { acceleration, ..near }));
+            }
+            let jerk = map.oscillator.jerk(near, rate);
+            // u(δ) = corner, from the value on by the derivatives there
+            let pace = 1.0 / velocity;
+            let first = -beyond * pace;
+            let bend = 0.5 * acceleration * first * pace;
+            let shift = first * (1.0 - bend * (1.0 - 2.0 * bend) - jerk * first * first * pace / 6.0);
+            let time = guess + shift;
+            if !(0.0..length).contains(&time) {
+                return None;
+            }
+            if shift.abs() > SMALL_SHIFT * length || bend.abs() > SMALL_BEND {
+                guess = time;
+                continue;
+            }
+            // d⁴u/dt⁴ = −c d³u/dt³ − k ü
+            let snap = -map.oscillator.damping() * jerk - map.oscillator.stiffness() * acceleration;
+            let velocity = velocity + shift * (acceleration + shift * (jerk / 2.0 + shift * snap / 6.0));
+            let acceleration = acceleration + shift * (jerk + shift * snap / 2.0);
+            return Some((time, KinematicState { displacement: corner, velocity, acceleration }));
+        }
+        None
+    }
+
+    /// The fraction of the part after which u, monotone, passes `bound`: by the quintic t(u) through the
+    /// ends, where the velocity does not change much, else by the quintic u(t).
+    #[inline(always)]
+    fn share(&self, bound: f64) -> f64 {
+        let Self { from, to, length, .. } = *self;
+        let rise = to.displacement - from.displacement;
+        // dt/du and d²t/du² = −ü/u̇³, for t over the length and u over the rise
+        let (w0, w1) = (rise / (from.velocity * length), rise / (to.velocity * length));
+        if !(EVEN.contains(&w0) && EVEN.contains(&w1)) {
+            return crossing([from, to], length, bound, 2);
+        }
+        let bend = -0.5 * length * length / rise;
+        let (b0, b1) = (bend * from.acceleration * w0 * w0 * w0, bend * to.acceleration * w1 * w1 * w1);
+        let (d, dv, db) = (1.0 - w0 - b0, w1 - w0 - 2.0 * b0, b1 - b0);
+        let c3 = 10.0 * d - 4.0 * dv + db;
+        let c4 = -15.0 * d + 7.0 * dv - 2.0 * db;
+        let c5 = 6.0 * d - 3.0 * dv + db;
+        let s = (bound - from.displacement) / rise;
+        let square = s * s;
+        s * ((w0 + s * b0) + square * ((c3 + s * c4) + square * c5))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wall::{Branch, BranchDamping};
+    use oscillator::Oscillator;
+
+    /// Corners passed shortly before u turns, beyond which the force stays the same: at the end of the step
+    /// the motion is that from the corner found by halving, to the rounding of u.
+    #[test]
+    fn slow_passages_are_as_exact_as_fast_ones() {
+        let (damping, stiffness, step) = (0.05, 1.0, 0.5);
+        let oscillator = Oscillator::new(damping, stiffness);
+        let branch = |upper| Branch {
+            lower: 0.0,
+            upper,
+            anchor: 0.0,
+            force: 0.0,
+            stiffness,
+            damping: BranchDamping::Constant(damping),
+        };
+        let ahead = StepMap::new(Oscillator::new(damping, 0.0), step);
+        let Some(short_ahead) = &ahead.short else { panic!("a short step") };
+        let (mut found, mut worst) = (0, 0.0_f64);
+        for slowness in 0..400 {
+            // u̇ at the end of the step from 0.1 to 1e-5
+            let last = 10.0_f64.powf(-1.0 - 0.01 * f64::from(slowness));
+            let back = StepMap::new(Oscillator::new(-damping, stiffness), step).on(&branch(2.0));
+            let Some(short) = &back.short else { panic!("a short step") };
+            // the motion back in time from there
+            let start = short.after(
+                step,
+                KinematicState { displacement: 1.0, velocity: -last, acceleration: -1.0 - damping * last },
+                0.0,
+            );
+            let velocity = -start.velocity;
+            let displacement = start.displacement;
+            let from =
+                KinematicState { displacement, velocity, acceleration: -displacement - damping * velocity };
+            for depth in 1..40 {
+                let corner = 1.0 - 10.0_f64.powf(-0.2 * f64::from(depth) - 1.5);
+                let map = StepMap::new(oscillator, step).on(&branch(corner));
+                let Some(short) = &map.short else { panic!("a short step") };
+                let part = StepPart { from, to: short.after(step, from, 0.0), length: step, rate: 0.0 };
+                let Some((time, there)) = part.passage(&map, short, corner, -stiffness) else {
+                    continue;
+                };
+                found += 1;
+                let (mut low, mut high) = (0.0, step);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    let beyond = short.after(middle, from, 0.0).displacement > corner;
+                    (low, high) = if beyond { (low, middle) } else { (middle, high) };
+                }
+                let exact = KinematicState { displacement: corner, ..short.after(low, from, 0.0) };
+                let [ours, theirs] = [(time, there), (low, exact)]
+                    .map(|(time, start)| short_ahead.after(step - time, start, 0.0));
+                worst = worst
+                    .max((ours.displacement - theirs.displacement).abs())
+                    .max((ours.velocity - theirs.velocity).abs());
+            }
+        }
+        assert!(found > 10_000, "{found}");
+        // u and u̇, of order 1, at the corner and at the end round by a few units each
+        assert!(worst <= 8.0 * f64::EPSILON, "{worst:e}");
+    }
+}
