@@ -5,6 +5,8 @@
 //! cargo run --release --example incremental_dynamic_analysis
 //! ```
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use std::error::Error;
 
 use ground_motion::SyntheticMotion;

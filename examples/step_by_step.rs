@@ -4,6 +4,8 @@
 //! cargo run --example step_by_step
 //! ```
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use std::error::Error;
 
 use rocking_wall::simulation::Simulation;

@@ -4,6 +4,8 @@
 //! cargo run --example wall_under_record
 //! ```
 
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use std::error::Error;
 
 use ground_motion::SyntheticMotion;
