@@ -173,6 +173,10 @@ fn a_killed_study_goes_on() {
             killed += 1;
         }
         child.wait().unwrap();
+        // killed before it had made its folder
+        if !folder.join("broken").is_dir() {
+            continue;
+        }
         for file in run_files(&folder.join("broken"))
             .iter()
             .filter(|file| file.extension().is_some_and(|e| e == "csv"))

@@ -41,7 +41,8 @@ fn no_file_imports_in_a_circle() {
 /// The layers of the unit, from the ground up: none knows a later one.
 #[test]
 fn the_layers_of_the_unit_are_in_order() {
-    const LAYERS: [&str; 7] = ["variables", "wall", "solver", "simulation", "scene", "response", "unit"];
+    const LAYERS: [&str; 8] =
+        ["choices", "wall", "variables", "solver", "simulation", "scene", "response", "unit"];
     let mut modules = Modules::new();
     read(&crate::root().join("src"), &[], &mut modules);
     let layer = |name: &str| LAYERS.iter().position(|layer| name.split("::").next() == Some(layer));

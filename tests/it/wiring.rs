@@ -54,7 +54,7 @@ fn copy(from: &Path, to: &Path) {
 
 fn workspace_copy() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wiring");
-    for part in ["src", "crates", "modelDescription", "xtask", "tests/conformance"] {
+    for part in ["src", "crates", "examples", "modelDescription", "xtask", "tests/conformance"] {
         copy(&crate::root().join(part), &folder.join(part));
     }
     // the manifest names these; empty ones suffice
