@@ -19,7 +19,7 @@
 //!
 //! # Modules
 //!
-//! This crate is what is inside `wall.fmu`. Data flows down; nothing flows up.
+//! This crate is what is inside `wall.fmu`. Data flows from left to right; nothing flows back.
 //!
 //! ```text
 //! scene.toml ─► Scene ─► Parameters ─► Wall ─┐

@@ -1,4 +1,4 @@
-//! The jobs of the project: `cargo xtask fmu | demo | test | bench`.
+//! The jobs of the project: `cargo xtask fmu | demo | test | bench | figures | coupling`.
 //!
 //! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
 //! packages that a job needs under the target folder, pinned by hash.

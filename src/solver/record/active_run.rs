@@ -54,7 +54,7 @@ struct Cursor {
     forcing: f64,
     /// The first sample at which no plain steps begin.
     limit: usize,
-    /// The samples at which this block and this passage through the record end.
+    /// The samples at which this block and this pass through the record end.
     block_end: usize,
     last: usize,
 }
@@ -241,7 +241,7 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         let Cursor { index, last, .. } = self.cursor;
         let end = if self.seeks_extremes() { last } else { ((index / BLOCK + 1) * BLOCK).min(last) };
         self.cursor.block_end = end;
-        // the last plain steps may go beyond the block, but not beyond the passage
+        // the last plain steps may go beyond the block, but not beyond the pass
         self.cursor.limit = end.min((last + 1).saturating_sub(self.plain.at_once));
         let forcing = self.record.largest(index) * self.factor.abs();
         self.block = Block::enter(state, index, forcing, self.plain.growth);

@@ -184,7 +184,7 @@ impl<S: Simd> Leaving<S> {
     }
 
     /// Lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between values of
-    /// one sign that are larger together than A times the time between; A as of the module `record`, with
+    /// one sign that are larger together than A times the time between; A of docs/record-path.md, §3, with
     /// |u̇| and |f| at both ends for V and f̂.
     #[inline(always)]
     fn keeps_its_sign(
