@@ -13,6 +13,7 @@ mod closed_forms;
 mod command_line;
 mod demands;
 mod description;
+mod documents;
 mod extremes;
 mod figure_15;
 mod fragility;

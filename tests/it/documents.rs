@@ -1,0 +1,53 @@
+//! Tests that documents name files and functions that exist, and keep within 110 columns.
+
+use crate::root;
+
+const DOCUMENTS: [&str; 8] = [
+    "README.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "docs/accuracy.md",
+    "docs/architecture.md",
+    "docs/coupling.md",
+    "docs/model.md",
+    "docs/paper.md",
+];
+const ENDINGS: [&str; 7] = [".rs", ".py", ".c", ".toml", ".xml", ".html", ".md"];
+
+/// Tells whether a word in backquotes is the path of a committed file.
+fn is_path(word: &str) -> bool {
+    let is_made = word.starts_with("fmu_out/") || word.contains('*') || word.contains(' ');
+    word.contains('/') && !is_made && ENDINGS.iter().any(|ending| word.ends_with(ending))
+}
+
+/// Returns the words in backquotes.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+#[test]
+fn documents_name_what_exists() {
+    for document in DOCUMENTS {
+        let path = root().join(document);
+        let text = std::fs::read_to_string(&path).unwrap();
+        for (index, line) in text.lines().enumerate() {
+            let place = format!("{document}:{}", index + 1);
+            assert!(line.chars().count() <= 110, "{place}: beyond 110 columns");
+            for word in quoted(line).filter(|word| is_path(word)) {
+                assert!(root().join(word).is_file(), "{place}: there is no {word}");
+            }
+            for link in line.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+                let is_here = link.is_empty() || link.contains("://") || path.with_file_name(link).exists();
+                assert!(is_here, "{place}: there is no {link}");
+            }
+            // a row of a table: a file, and what it holds
+            let mut cells = line.split('|').skip(1);
+            let (Some(first), Some(second)) = (cells.next(), cells.next()) else { continue };
+            let Some(file) = quoted(first).find(|word| is_path(word)) else { continue };
+            let source = std::fs::read_to_string(root().join(file)).unwrap();
+            for name in quoted(second) {
+                assert!(source.contains(name), "{place}: {file} has no {name}");
+            }
+        }
+    }
+}
