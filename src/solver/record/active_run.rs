@@ -5,7 +5,7 @@ mod follow;
 
 use super::super::{Memo, Phase, State, Work};
 use super::block::{Block, Nodes};
-use super::bounds::{Bounds, Over, Range};
+use super::bounds::{Bounds, Range};
 use super::forcing::{BLOCK, Blocks, Forcing};
 use super::solver::{Outcome, RecordSolver, RunStart};
 use super::step_map::StepMap;
@@ -46,7 +46,7 @@ impl PlainSteps {
     pub(super) const PAIRS: Self = Self { at_once: 2, growth: 0.0 };
 }
 
-/// Where a run is in its record.
+/// The place of a run in its record.
 #[derive(Clone, Copy, Default)]
 struct Cursor {
     /// The sample, and the forcing there \[m/s²\].
@@ -125,19 +125,19 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         run
     }
 
-    /// Whether the run is over but for its extremes.
+    /// Tells whether the run is over but for its extremes.
     #[inline(always)]
     fn seeks_extremes(&self) -> bool {
         self.search.outcome.is_some()
     }
 
-    /// The state as a whole.
+    /// Returns the state with u and u̇ as they are now.
     fn full_state(&self) -> State {
         let [displacement, velocity] = self.now;
         State { displacement, velocity, ..self.state }
     }
 
-    /// Takes up the state: u, u̇ and the map of its branch.
+    /// Takes u, u̇ and the map of the branch from the state.
     #[inline(always)]
     fn load_state(&mut self) {
         let State { displacement, velocity, phase, branch, .. } = self.state;
@@ -178,7 +178,8 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         self.block.nodes.add_to(&mut self.state.peaks);
     }
 
-    /// Where u is known to stay: within the reach of f̂, and in the search for extremes within those known.
+    /// Returns where u is known to stay: within the reach of f̂, and in the search for extremes within those
+    /// known.
     #[inline(always)]
     fn limits(&self) -> [f64; 2] {
         let reach = self.bounds.reach();
@@ -191,11 +192,11 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
     }
 
     #[inline(always)]
-    fn range(&self, map: &StepMap, over: Over) -> Range {
-        self.bounds.range(map, self.limits(), over)
+    fn range(&self, map: &StepMap, steps: usize) -> Range {
+        self.bounds.range(map, self.limits(), steps)
     }
 
-    /// What lanes need to go on with the run; `None` where it cannot go side by side.
+    /// Returns what lanes need to go on with the run; `None` where it cannot go side by side.
     pub(super) fn lane_values(&self) -> Option<LaneValues> {
         self.map.filter(|_| self.cursor.index < self.cursor.limit)?;
         let Cursor { index, limit, .. } = self.cursor;
@@ -213,7 +214,7 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         })
     }
 
-    /// Goes on from where lanes have taken the run, past so many corners.
+    /// Goes on from where lanes have taken the run, past `corners` corners.
     pub(super) fn resume(&mut self, index: usize, now: [f64; 2], branch: usize, nodes: Nodes, corners: u64) {
         self.tally.work.add(Work { pieces: 2 * corners, corners, impacts: 0 });
         self.tally.steps += corners;
@@ -267,7 +268,7 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         }
     }
 
-    /// Whether u may have gone beyond the extremes known in a block, |f| being up to `force`.
+    /// Tells whether u may have gone beyond the extremes known in a block, |f| being up to `force`.
     fn may_exceed(&self, block: &Block, force: f64) -> bool {
         let length = self.plain.at_once as f64 * self.solver.step;
         block.may_exceed(&self.state.peaks, force, length)

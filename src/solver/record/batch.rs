@@ -1,13 +1,13 @@
 //! Many runs of one wall through one record.
 //!
-//! Where the wall and the step allow it, eight runs go side by side, each number of theirs in one place of a
-//! vector: the response of the branches to the record is taken once for all (module `responses`), plain steps
-//! go four at once and corners are passed several at once (`lanes`, `rounds`, `corners`). Where a step is
-//! long beside the wall's shortest period runs go one by one: there four steps would reach a corner too
-//! often. Without AVX2 they go one by one too: there that is measured to be faster.
+//! Where processor, wall and step allow it, eight runs go side by side, each in one lane of a vector
+//! (docs/record-path.md, §6): the response of the branches to the record is taken once for all runs (module
+//! `responses`), plain steps go four at once and corners are passed several at once (`rounds`, `corners`).
+//! Runs go one by one without AVX2, where that is measured to be faster, and where a step is long beside the
+//! wall's shortest period, so that four steps reach a corner too often.
 //!
-//! What becomes of a run depends on the wall, the record, the step and its start, never on the other runs or
-//! on the processor. It agrees with [`RecordSolver::run`] to rounding.
+//! What becomes of a run never depends on the other runs. Side by side it gives the same bits with every
+//! level of vectors, and agrees with [`RecordSolver::run`] to rounding; one by one it is that run.
 
 mod corners;
 mod lanes;
@@ -41,7 +41,7 @@ impl RecordSolver<'_> {
         self.batch_on(forcing, wide_level())
     }
 
-    /// The same on a processor with such vectors, or with none that are worth it.
+    /// Prepares a record on a processor with vectors of that level; `None` lets runs go one by one.
     fn batch_on<'a, F: Forcing>(&'a self, forcing: &'a F, level: Option<Level>) -> Batch<'a, F> {
         let side_by_side = level.and_then(|level| Some((level, Responses::new(self, forcing)?)));
         Batch { solver: self, record: Blocks::new(forcing), side_by_side }
@@ -49,7 +49,7 @@ impl RecordSolver<'_> {
 }
 
 impl<F: Forcing> Batch<'_, F> {
-    /// Whether runs go side by side, not one by one.
+    /// Tells whether runs go side by side, not one by one.
     #[must_use]
     pub fn is_side_by_side(&self) -> bool {
         self.side_by_side.is_some()
@@ -72,7 +72,7 @@ impl<F: Forcing> Batch<'_, F> {
     }
 }
 
-/// The vectors of this processor, where runs go faster side by side.
+/// Returns the level of this processor's vectors if runs go faster side by side with them.
 fn wide_level() -> Option<Level> {
     #[cfg(target_arch = "x86_64")]
     if Level::new().as_avx2().is_some() {

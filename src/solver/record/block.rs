@@ -59,8 +59,8 @@ impl Block {
         self.growth = self.growth.max(growth);
     }
 
-    /// Whether u may have gone beyond the peaks between the ends of plain steps of a length \[s\], |f| being
-    /// up to `force`.
+    /// Tells whether u may have gone beyond the peaks between the ends of plain steps of a length \[s\], |f|
+    /// being up to `force`.
     pub(super) fn may_exceed(&self, peaks: &Peaks, force: f64, length: f64) -> bool {
         // A L²/8, docs/record-path.md, §5
         let most = self.growth * (self.forcing + force + DAMPING_SHARE * self.driving);

@@ -14,9 +14,9 @@ const MOST_ROOM: f64 = 16.0;
 pub(super) struct Bounds {
     /// P, over the block \[m/s²\].
     forcing: f64,
-    /// f̂, for |u| up to `reach` \[m/s²\].
+    /// f̂, for |u| up to r \[m/s²\].
     force: f64,
-    /// \[m\]
+    /// r \[m\].
     reach: f64,
     /// V \[m/s\].
     speed: f64,
@@ -26,33 +26,24 @@ pub(super) struct Bounds {
     velocity_change: f64,
 }
 
-/// Steps to which a bound applies.
-#[derive(Clone, Copy)]
-pub(super) enum Over {
-    /// One step.
-    Step = 0,
-    /// Two steps.
-    Pair = 1,
-}
-
 impl Bounds {
-    /// P \[m/s²\].
+    /// Returns P \[m/s²\].
     pub(super) fn forcing(&self) -> f64 {
         self.forcing
     }
 
-    /// f̂ \[m/s²\].
+    /// Returns f̂ \[m/s²\].
     pub(super) fn force(&self) -> f64 {
         self.force
     }
 
-    /// D = P + f̂ \[m/s²\].
+    /// Returns D = P + f̂ \[m/s²\].
     #[inline(always)]
     pub(super) fn driving(&self) -> f64 {
         self.forcing + self.force
     }
 
-    /// The |u| up to which f̂ holds \[m\].
+    /// Returns the |u| up to which f̂ holds \[m\].
     #[inline(always)]
     pub(super) fn reach(&self) -> f64 {
         self.reach
@@ -84,11 +75,11 @@ impl Bounds {
         self.velocity_change = most[0] * step;
     }
 
-    /// The range of u in which plain steps on a branch may start and end, u being known to stay within
+    /// Returns where plain steps on a branch, one or two at once, may start and end while u stays within
     /// `limits`.
     #[inline(always)]
-    pub(super) fn range(&self, map: &StepMap, limits: [f64; 2], over: Over) -> Range {
-        let margin = self.margins[over as usize];
+    pub(super) fn range(&self, map: &StepMap, limits: [f64; 2], steps: usize) -> Range {
+        let margin = self.margins[steps - 1];
         let [lowest, highest] = limits;
         Range {
             low: map.corners[0].max(lowest) + margin,
@@ -97,8 +88,7 @@ impl Bounds {
         }
     }
 
-    /// Whether u̇ keeps its sign over a step, by what |ü| can be at most: so it does between two velocities
-    /// of one sign that are larger together than A h.
+    /// Tells whether u̇ keeps its sign over a step, by docs/record-path.md, §3.
     #[inline(always)]
     pub(super) fn keep_sign(&self, v0: f64, [u1, v1]: [f64; 2]) -> bool {
         u1.abs() <= self.reach

@@ -10,13 +10,16 @@ pub(super) const AT_ONCE: usize = 4;
 
 /// Forcing p at the samples of a record \[m/s²\], before a run's factor.
 pub trait Forcing {
-    /// Number of samples.
+    /// Returns the number of samples.
     fn count(&self) -> usize;
-    /// The forcing at a sample.
-    fn at(&self, index: usize) -> f64;
-    /// The forcing at `count` samples from `index` on.
+    /// Returns the forcing at `count` samples from `index` on.
     fn from(&self, index: usize, count: usize) -> &[f64];
-    /// Largest |p| over a range of samples.
+    /// Returns the forcing at a sample.
+    #[inline(always)]
+    fn at(&self, index: usize) -> f64 {
+        self.from(index, 1)[0]
+    }
+    /// Returns the largest |p| over a range of samples.
     fn largest(&self, range: Range<usize>) -> f64;
 }
 
@@ -30,11 +33,6 @@ pub struct Samples<'a>(
 impl Forcing for Samples<'_> {
     fn count(&self) -> usize {
         self.0.len()
-    }
-
-    #[inline(always)]
-    fn at(&self, index: usize) -> f64 {
-        self.0[index]
     }
 
     #[inline(always)]
@@ -70,11 +68,6 @@ impl Forcing for Still {
     }
 
     #[inline(always)]
-    fn at(&self, _index: usize) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
     fn from(&self, _index: usize, count: usize) -> &[f64] {
         &STILL[..count]
     }
@@ -100,7 +93,7 @@ impl<'a, F: Forcing> Blocks<'a, F> {
         Self { forcing, largest }
     }
 
-    /// The bound on |p| in the block of a sample \[m/s²\].
+    /// Returns the bound on |p| in the block of a sample \[m/s²\].
     pub(super) fn largest(&self, index: usize) -> f64 {
         self.largest.get(index / BLOCK).copied().unwrap_or(0.0)
     }

@@ -25,7 +25,7 @@ pub(super) struct Short {
 }
 
 impl Short {
-    /// For times up to `step` \[s\]; `None` where the polynomials would be long.
+    /// Prepares the polynomials for times up to `step` \[s\]; `None` where they would be long.
     pub(super) fn new(oscillator: &Oscillator, step: f64) -> Option<Self> {
         let (c, k) = (oscillator.damping(), oscillator.stiffness());
         // |γₙ| ≤ (c + √|k|)ⁿ
@@ -47,7 +47,7 @@ impl Short {
         Some(Self { coefficients, groups, damping: c, stiffness: k })
     }
 
-    /// The motion `time` after `start` under a forcing that changes at `rate` \[m/s³\].
+    /// Returns the motion `time` after `start` under a forcing that changes at `rate` \[m/s³\].
     #[inline(always)]
     pub(super) fn after(&self, time: f64, start: KinematicState, rate: f64) -> KinematicState {
         let [g, h, j] = self.green(time);
@@ -70,7 +70,7 @@ impl Short {
         }
     }
 
-    /// G, H and J: every fourth coefficient by Horner's rule in t⁴, then the four sums together.
+    /// Sums G, H and J: every fourth coefficient by Horner's rule in t⁴, then the four sums together.
     #[inline(always)]
     fn summed<const GROUPS: usize>(&self, time: f64) -> [f64; 3] {
         let square = time * time;

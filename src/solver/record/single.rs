@@ -21,7 +21,7 @@ impl RecordSolver<'_> {
         self.run_through(start, &Blocks::new(forcing), until_overturning, &mut observe)
     }
 
-    /// The same through a record whose blocks are known.
+    /// Moves a wall through a record whose blocks are known.
     pub(super) fn run_through<F: Forcing>(
         &self,
         start: RunStart,

@@ -56,7 +56,8 @@ impl<'a> RecordSolver<'a> {
         Self { motion, step, maps }
     }
 
-    /// Largest |f| between the corners of the branches that have maps, for |u| up to `reach` \[m/s²\].
+    /// Returns the largest |f| between the corners of the branches that have maps, for |u| up to `reach`
+    /// \[m/s²\].
     pub(super) fn largest_force(&self, reach: f64) -> f64 {
         let mut largest = 0.0_f64;
         for map in self.maps.iter().flatten() {

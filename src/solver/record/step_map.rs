@@ -24,7 +24,7 @@ pub(super) struct Affine {
 }
 
 impl Affine {
-    /// One step h: q₂ does not count.
+    /// Makes the map of one step h: q₂ does not count.
     pub(super) fn single(oscillator: &Oscillator, step: f64) -> Self {
         let (c, k) = (oscillator.damping(), oscillator.stiffness());
         let green = oscillator.green(step);
@@ -33,7 +33,7 @@ impl Affine {
         Self { terms: [of_u, of_v, [h - j, g - h / step], [j, h / step], [0.0; 2]] }
     }
 
-    /// Two steps h: the closed form over 2h, and the forcing of both, each as in `one`.
+    /// Makes the map of two steps h: the closed form over 2h, and the forcing of both, each as in `one`.
     fn double(one: &Self, oscillator: &Oscillator, step: f64) -> Self {
         let [one_u, one_v, first, second, _] = one.terms;
         let [two_u, two_v, ..] = Self::single(oscillator, 2.0 * step).terms;
@@ -51,7 +51,7 @@ impl Affine {
         }
     }
 
-    /// u and u̇ after one step.
+    /// Returns u and u̇ after one step.
     #[inline(always)]
     pub(super) fn one_step(&self, [u, v]: [f64; 2], q: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|part| {
@@ -61,7 +61,7 @@ impl Affine {
         })
     }
 
-    /// u and u̇ after two steps.
+    /// Returns u and u̇ after two steps.
     #[inline(always)]
     pub(super) fn two_steps(&self, [u, v]: [f64; 2], q: [f64; 3]) -> [f64; 2] {
         [0, 1].map(|part| {
@@ -89,7 +89,7 @@ pub(super) struct StepMap {
 }
 
 impl StepMap {
-    /// The map on a branch through u = 0 without ends.
+    /// Makes the maps on a branch through u = 0 without ends.
     pub(super) fn new(oscillator: Oscillator, step: f64) -> Self {
         let single = Affine::single(&oscillator, step);
         Self {
@@ -104,19 +104,19 @@ impl StepMap {
         }
     }
 
-    /// The same on a branch with that oscillator.
+    /// Moves the maps to a branch with that oscillator.
     pub(super) fn on(mut self, branch: &Branch) -> Self {
         self.corners = [branch.lower, branch.upper];
         self.force_at_zero = branch.restoring(0.0);
         self
     }
 
-    /// c V over P + f̂: none without damping.
+    /// Returns c V over P + f̂: none without damping.
     pub(super) fn damping_share(&self) -> f64 {
         if self.oscillator.damping() > 0.0 { DAMPING_SHARE } else { 0.0 }
     }
 
-    /// f at u on the branch's line \[m/s²\].
+    /// Returns f at u on the branch's line \[m/s²\].
     pub(super) fn force(&self, displacement: f64) -> f64 {
         self.force_at_zero + self.oscillator.stiffness() * displacement
     }

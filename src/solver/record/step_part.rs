@@ -75,7 +75,7 @@ impl StepPart {
         true
     }
 
-    /// The time of the one zero of u̇, by the cubic through u̇ and ü at the ends.
+    /// Returns the time of the one zero of u̇, by the cubic through u̇ and ü at the ends.
     #[inline(always)]
     fn turning_time(&self) -> f64 {
         let Self { from, to, length, .. } = *self;
@@ -137,8 +137,8 @@ impl StepPart {
         None
     }
 
-    /// The fraction of the part after which u, monotone, passes `bound`: by the quintic t(u) through the
-    /// ends, where the velocity does not change much, else by the quintic u(t).
+    /// Returns the fraction of the part after which u, monotone, passes `bound`: by the quintic t(u) through
+    /// the ends, where the velocity does not change much, else by the quintic u(t).
     #[inline(always)]
     fn share(&self, bound: f64) -> f64 {
         let Self { from, to, length, .. } = *self;

@@ -98,7 +98,7 @@ impl<'a, F: Forcing> ActiveRun<'a, F> {
         false
     }
 
-    /// The maps of a branch, if it has those for parts of a step.
+    /// Returns the maps of a branch over a step and over parts of one.
     #[inline(always)]
     fn short_map(&self, branch: usize) -> Option<(&'a StepMap, &'a Short)> {
         let map = self.solver.maps.get(branch)?.as_ref()?;

@@ -1,7 +1,6 @@
 //! Following a run: plain steps by pairs, and one by one what is not plain.
 
 use super::super::super::SolverError;
-use super::super::bounds::Over;
 use super::super::forcing::Forcing;
 use super::super::solver::Outcome;
 use super::ActiveRun;
@@ -52,7 +51,7 @@ impl<F: Forcing> ActiveRun<'_, F> {
             }
             if let Some(map) = self.map
                 && self.cursor.index < self.cursor.limit
-                && self.range(map, Over::Pair).holds(self.now)
+                && self.range(map, 2).holds(self.now)
             {
                 self.block.nodes.include(self.now[0]);
                 return Ok(None);
@@ -69,7 +68,7 @@ impl<F: Forcing> ActiveRun<'_, F> {
         let pairs = self.cursor.limit.saturating_sub(first).div_ceil(2);
         let ahead = self.record.forcing.from(first + 1, 2 * pairs).as_chunks().0;
         let shows = !self.seeks_extremes();
-        let range = self.range(map, Over::Pair);
+        let range = self.range(map, 2);
         // apart from the rest, so that they stay in registers
         let (single, double, force_at_zero) = (map.single, map.double, map.force_at_zero);
         let (factor, mut now, mut nodes) = (self.factor, self.now, self.block.nodes);
@@ -122,7 +121,7 @@ impl<F: Forcing> ActiveRun<'_, F> {
         let Some(map) = self.map else { return self.search_step(p, None) };
         let start = self.now;
         let end = map.single.one_step(start, p.map(|p| p - map.force_at_zero));
-        let range = self.range(map, Over::Step);
+        let range = self.range(map, 1);
         if range.holds(start) && range.holds(end) {
             self.now = end;
             self.block.nodes.include(start[0]);

@@ -72,8 +72,8 @@ impl<S: Simd> Law<S> {
         self.force_at_zero + self.k * u
     }
 
-    /// u, u̇ and ü `time` after an instant, under a forcing that changes at `rate`: with E₀ = ü, E₁ = t
-    /// d³u/dt³ and Eₙ = −c t Eₙ₋₁ − k t² Eₙ₋₂, u̇ grows by t Σ Eₙ/(n+1)! and u by t (u̇ + t Σ Eₙ/(n+2)!).
+    /// Returns u, u̇ and ü `time` after an instant, under a forcing that changes at `rate`: with E₀ = ü, E₁ =
+    /// t d³u/dt³ and Eₙ = −c t Eₙ₋₁ − k t² Eₙ₋₂, u̇ grows by t Σ Eₙ/(n+1)! and u by t (u̇ + t Σ Eₙ/(n+2)!).
     #[inline(always)]
     fn after(&self, terms: usize, time: f64x8<S>, [u, v, a]: [f64x8<S>; 3], rate: f64x8<S>) -> [f64x8<S>; 3] {
         let Self { c, k, .. } = *self;
@@ -136,8 +136,8 @@ impl<S: Simd> Leaving<S> {
         Arrival { lanes, end: [end_u, end_v], branch }
     }
 
-    /// When lanes reach the corner, and how: from a guess by the derivatives there, again from where that
-    /// leads.
+    /// Finds when lanes reach the corner, and how: from a guess by the derivatives there, again from where
+    /// that leads.
     #[inline(always)]
     fn find(
         &self,
@@ -183,8 +183,9 @@ impl<S: Simd> Leaving<S> {
         passage
     }
 
-    /// Lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between values of
-    /// one sign that are larger together than A times the time between; A of docs/record-path.md, §3, with
+    /// Tells the lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between
+    /// values of one sign that are larger together than A times the time between; A of docs/record-path.md,
+    /// §3, with
     /// |u̇| and |f| at both ends for V and f̂.
     #[inline(always)]
     fn keeps_its_sign(
@@ -199,8 +200,8 @@ impl<S: Simd> Leaving<S> {
         (v0 * v1).simd_gt(0.0) & (most * time).simd_lt(v0.abs() + v1.abs())
     }
 
-    /// The fraction of the step after which u passes a corner: by the quintic t(u) through the ends, where
-    /// the velocity does not change much.
+    /// Returns the fraction of the step after which u passes a corner: by the quintic t(u) through the ends,
+    /// where the velocity does not change much.
     #[inline(always)]
     fn share(&self, corner: f64x8<S>, [a0, a1]: [f64x8<S>; 2]) -> f64x8<S> {
         let Self { from: [u, v], to: [to_u, to_v], step, .. } = *self;

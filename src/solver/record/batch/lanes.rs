@@ -95,7 +95,7 @@ impl<'a, F: Forcing> Lanes<'a, F> {
         }
     }
 
-    /// What became of the runs.
+    /// Returns what became of the runs.
     ///
     /// # Errors
     /// Of the first run that could not be followed.

@@ -35,8 +35,8 @@ pub(super) struct Responses {
 }
 
 impl Responses {
-    /// Of a wall to a record; `None` where that does not serve: few or very many samples, many branches,
-    /// steps without an affine map, or long beside the wall's period.
+    /// Prepares the responses of a wall to a record; `None` where runs do not go side by side: few or very
+    /// many samples, many branches, steps without an affine map, or long beside the wall's period.
     pub(super) fn new<F: Forcing>(solver: &RecordSolver<'_>, forcing: &F) -> Option<Self> {
         let count = forcing.count();
         if !(4 * AT_ONCE..=MOST_SAMPLES).contains(&count) || solver.maps.len() > WIDTH {
@@ -87,14 +87,14 @@ impl Responses {
         }
     }
 
-    /// The rows from a sample on, of the response that starts at a row.
+    /// Returns the rows from a sample on, of the response that starts at a row.
     #[inline(always)]
     pub(super) fn ahead(&self, start: usize, sample: usize) -> &[[f64; 2]] {
         &self.rows[start + (sample % AT_ONCE) * self.stride + sample / AT_ONCE..][..ROWS_AHEAD]
     }
 }
 
-/// Terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
+/// Counts the terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
 fn terms(reach: f64) -> usize {
     let (mut terms, mut share) = (0, 1.0);
     while share > NEGLIGIBLE {

@@ -17,26 +17,26 @@ use super::vector::{Branches, Row, WIDTH, indices, unzip};
 /// as some thirty of plain steps, however few they are.
 const FEW: u32 = 1;
 
-/// The numbers of a row.
+/// Loads the numbers of a row.
 #[inline(always)]
 fn load<S: Simd>(simd: S, row: &Row) -> f64x8<S> {
     f64x8::load_array_ref(simd, row)
 }
 
-/// The lanes set in a mask, by bits.
+/// Returns a mask as bits, one for each lane.
 #[inline(always)]
 #[allow(clippy::cast_possible_truncation, reason = "eight bits")]
 fn bits<S: Simd>(mask: mask64x8<S>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// The forcing at so many samples from those the lanes are at.
+/// Returns the forcing `n` samples after those the lanes are at.
 #[inline(always)]
 fn nth<S: Simd>(simd: S, samples: [&[f64]; WIDTH], n: usize) -> f64x8<S> {
     f64x8::from_fn(simd, |i| samples[i][n])
 }
 
-/// The change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
+/// Returns the change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
 #[inline(always)]
 fn change<S: Simd>(
     [by_u, by_v, by_q0, by_q1]: [f64x8<S>; 4],
@@ -60,7 +60,7 @@ impl<S: Simd> Range<S> {
         Self { low: load(simd, low), high: load(simd, high), speed: load(simd, speed) }
     }
 
-    /// Lanes whose plain steps may start or end so.
+    /// Tells the lanes whose plain steps may start or end so.
     #[inline(always)]
     fn holds(&self, [u, v]: [f64x8<S>; 2]) -> mask64x8<S> {
         self.low.simd_le(u) & u.simd_le(self.high) & v.abs().simd_le(self.speed)
@@ -123,7 +123,7 @@ struct Waiting {
     grown: u8,
 }
 
-/// Lanes by their bits.
+/// Lists lanes by their bits.
 fn each(bits: u8) -> impl Iterator<Item = usize> {
     (0..WIDTH).filter(move |i| bits >> i & 1 == 1)
 }
@@ -150,12 +150,12 @@ impl<F: Forcing> Lanes<'_, F> {
         }
     }
 
-    /// Lanes that are not worth going on for, of those that have a run.
+    /// Returns the number of lanes that are not worth going on for.
     fn few(&self) -> u32 {
         FEW.min(self.busy.count_ones().saturating_sub(1))
     }
 
-    /// Where the lanes may go, and which of them may take plain steps.
+    /// Finds where lanes may go, and which of them may take plain steps.
     #[inline(always)]
     fn measure_ranges<S: Simd>(&mut self, simd: S) -> Waiting {
         let step = self.solver.step;
@@ -197,7 +197,7 @@ impl<F: Forcing> Lanes<'_, F> {
         }
     }
 
-    /// Plain steps, four at once, until all lanes but a few wait.
+    /// Takes plain steps, four at once, until all lanes but a few wait.
     ///
     /// Lanes that wait are taken along, and what they come to is not kept: so no step waits for a comparison.
     #[inline(always)]
@@ -238,7 +238,7 @@ impl<F: Forcing> Lanes<'_, F> {
         self.sort(reached.now[0], index, goes)
     }
 
-    /// One to four steps of lanes that wait, plain ones and at last one that passes a corner; tells which
+    /// Takes one to four steps of lanes that wait, the last of them past a corner if need be; tells which
     /// made none.
     #[inline(always)]
     fn step<S: Simd>(&mut self, simd: S, waiting: u8) -> u8 {
@@ -258,7 +258,7 @@ impl<F: Forcing> Lanes<'_, F> {
         bits(reached.steps.simd_lt(1.0)) & waiting
     }
 
-    /// Up to four steps on which these lanes stay on their branch and pass no extreme that counts; tells
+    /// Takes up to four steps on which lanes stay on their branch and pass no extreme that counts; tells
     /// which would leave it in the next one.
     #[inline(always)]
     fn stay<S: Simd>(&self, mut goes: mask64x8<S>, reached: &mut Reached<S>) -> Leaving<S> {

@@ -12,7 +12,7 @@ pub(super) const WIDTH: usize = 8;
 /// A number for each lane, or for each branch of a wall, in memory.
 pub(super) type Row = [f64; WIDTH];
 
-/// Whole numbers, none negative, as indices.
+/// Returns whole numbers, none negative, as indices.
 #[inline(always)]
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers, none negative")]
 pub(super) fn indices<S: Simd>(numbers: f64x8<S>) -> [usize; WIDTH] {
@@ -20,7 +20,7 @@ pub(super) fn indices<S: Simd>(numbers: f64x8<S>) -> [usize; WIDTH] {
     whole.to_array().map(|number| number as usize)
 }
 
-/// The first and the second numbers of eight pairs.
+/// Returns the first and the second numbers of eight pairs.
 #[inline(always)]
 pub(super) fn unzip<S: Simd>(simd: S, pairs: [&[f64; 2]; WIDTH]) -> [f64x8<S>; 2] {
     let [a, b, c, d, e, f, g, h] = pairs;
@@ -53,7 +53,7 @@ impl<S: Simd> Branches<S> {
         Self { simd: branches.simd, indices: indices(branches), bytes }
     }
 
-    /// The number of a row that belongs to the branch of each lane.
+    /// Looks up the number of a row that belongs to the branch of each lane.
     #[inline(always)]
     pub(super) fn of(&self, row: &Row) -> f64x8<S> {
         if S::f64s::LEN == WIDTH {
@@ -64,7 +64,7 @@ impl<S: Simd> Branches<S> {
         }
     }
 
-    /// The same of several rows.
+    /// Looks up those of several rows.
     #[inline(always)]
     pub(super) fn of_each<const ROWS: usize>(&self, rows: &[Row; ROWS]) -> [f64x8<S>; ROWS] {
         let mut found = [f64x8::splat(self.simd, 0.0); ROWS];
@@ -81,7 +81,7 @@ pub(super) mod tests {
 
     use super::*;
 
-    /// The levels this processor has, from none of the wide vectors to the widest.
+    /// Lists the levels this processor has, from its narrowest vectors to its widest.
     pub(in super::super) fn levels() -> Vec<Level> {
         let mut levels = vec![Level::baseline()];
         #[cfg(target_arch = "x86_64")]
