@@ -85,15 +85,11 @@ impl<S: Simd> Reached<S> {
         Self { now, steps: f64x8::splat(simd, 0.0), highest, lowest }
     }
 
-    /// Goes to the ends of steps where lanes took them.
+    /// Goes to the ends of steps where lanes took them, and notes the extremes there.
     #[inline(always)]
     fn take(&mut self, lanes: mask64x8<S>, [u, v]: [f64x8<S>; 2], steps: f64x8<S>) {
         self.now = [lanes.select(u, self.now[0]), lanes.select(v, self.now[1])];
         self.steps = lanes.select(steps, self.steps);
-    }
-
-    #[inline(always)]
-    fn take_in(&mut self) {
         self.highest = self.highest.max(self.now[0]);
         self.lowest = self.lowest.min(self.now[0]);
     }
@@ -229,7 +225,6 @@ impl<F: Forcing> Lanes<'_, F> {
             goes = goes & range.holds([u, v]) & steps.simd_lt(room);
             steps += AT_ONCE as f64;
             reached.take(goes, [u, v], steps);
-            reached.take_in();
             if bits(goes).count_ones() <= few {
                 break;
             }
@@ -248,7 +243,6 @@ impl<F: Forcing> Lanes<'_, F> {
         if leaving.lanes.any_true() {
             let Arrival { lanes, end, branch } = leaving.pass(self.responses);
             reached.take(lanes, end, reached.steps + 1.0);
-            reached.take_in();
             let rows = &mut self.rows;
             lanes.select(branch, leaving.branch).store_array(&mut rows.branch);
             let corners = load(simd, &rows.corners);
@@ -305,7 +299,6 @@ impl<F: Forcing> Lanes<'_, F> {
             let leaves = goes & !stays & !inside;
             leaving.take(leaves, to, [p0, p1]);
             reached.take(stays, to, reached.steps + 1.0);
-            reached.take_in();
             goes = stays;
             if !goes.any_true() {
                 break;
