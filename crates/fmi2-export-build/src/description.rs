@@ -3,7 +3,7 @@
 use crate::check;
 use crate::element::Element;
 use crate::error::{Fault, Problem};
-use crate::fingerprint::{fingerprint, with_guid};
+use crate::fingerprint::{fingerprint, with_guid, without_annotations};
 use crate::variable::{Causality, EnumerationType, Variable};
 
 /// A description that has passed every check.
@@ -100,10 +100,10 @@ impl Description {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
-    /// The text as it was read, with `guid` as its guid and everything else as it was.
+    /// The text as it was read, with `guid` as its guid and without the annotations of variables.
     #[must_use]
     pub fn text_with_guid(&self, guid: &str) -> String {
-        with_guid(&self.text, guid)
+        with_guid(&without_annotations(&self.text), guid)
     }
 
     /// The description in canonical form: no comments, two blanks per level.

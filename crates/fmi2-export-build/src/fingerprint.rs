@@ -10,12 +10,26 @@ pub fn fnv1a_128(bytes: impl IntoIterator<Item = u8>) -> u128 {
 
 /// The guid of the description `xml`: 32 hexadecimal digits in braces.
 ///
-/// Line ends count as `\n` and the guid's own value as empty, so that writing the guid into the text, or
-/// checking the text out elsewhere, does not change it.
+/// Line ends count as `\n`, the guid's own value as empty and annotations of variables as not there, so that
+/// writing the text into an FMU, or checking it out elsewhere, does not change it.
 #[must_use]
 pub fn fingerprint(xml: &str) -> String {
-    let text = xml.replace("\r\n", "\n");
+    let text = without_annotations(&xml.replace("\r\n", "\n"));
     format!("{{{:032x}}}", fnv1a_128(with_guid(&text, "").bytes()))
+}
+
+/// The text `xml` without the annotations of its variables: the build alone needs them, and some importers refuse
+/// them.
+pub(crate) fn without_annotations(xml: &str) -> String {
+    const END: &str = "</Annotations>";
+    let mut text = String::with_capacity(xml.len());
+    let mut rest = xml;
+    while let Some((before, annotation)) = rest.split_once("<Annotations>") {
+        let Some((_, after)) = annotation.split_once(END) else { break };
+        text.push_str(before.trim_end());
+        rest = after;
+    }
+    text + rest
 }
 
 /// The text `xml` with `guid` as the value of its first guid attribute; the rest stays as it is.
@@ -68,5 +82,14 @@ mod tests {
         assert_eq!(fingerprint(&packaged), guid);
         assert_eq!(fingerprint(&packaged.replace('\n', "\r\n")), guid);
         assert_ne!(fingerprint(&packaged.replace("description", "descriptiom")), guid);
+    }
+
+    #[test]
+    fn annotations_change_no_guid_and_reach_no_importer() {
+        let plain = "<fmiModelDescription guid=\"\"><A>\n  <Real/>\n</A></fmiModelDescription>";
+        let note = "<Real/>\n  <Annotations><Tool name=\"t\"/></Annotations>";
+        let annotated = plain.replace("<Real/>", note);
+        assert_eq!(without_annotations(&annotated), plain);
+        assert_eq!(fingerprint(&annotated), fingerprint(plain));
     }
 }
