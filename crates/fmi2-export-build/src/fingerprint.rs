@@ -18,8 +18,8 @@ pub fn fingerprint(xml: &str) -> String {
     format!("{{{:032x}}}", fnv1a_128(with_guid(&text, "").bytes()))
 }
 
-/// The text `xml` without the annotations of its variables: the build alone needs them, and some importers refuse
-/// them.
+/// The text `xml` without the annotations of its variables: the build alone needs them, and some importers
+/// refuse them.
 pub(crate) fn without_annotations(xml: &str) -> String {
     const END: &str = "</Annotations>";
     let mut text = String::with_capacity(xml.len());
