@@ -26,6 +26,18 @@ CLOSED = 1e-8
 MOST_SWEEPS = 60
 
 
+# FMPy passes the messages of all units in the process to one logger, the last it was given. This one lives to
+# the end, and finds the receiver by the environment of the unit: its place in the list, counted from 1.
+_logs = []
+
+
+@fmi2CallbackLoggerTYPE
+def _logger(environment, name, _status, category, message):
+    log = _logs[environment - 1] if environment else None
+    if log is not None:
+        log(name.decode(), category.decode(), message.decode())
+
+
 class Archive:
     """An unpacked FMU, from which any number of units can be made."""
 
@@ -68,14 +80,11 @@ class Unit:
         self.slave.enterInitializationMode()
 
     def _callbacks(self, log):
-        def logger(_environment, name, _status, category, message):
-            if log is not None:
-                log(name.decode(), category.decode(), message.decode())
-
+        _logs.append(log)
         # the unit calls these throughout its life, so they must not be freed
-        self._logger = fmi2CallbackLoggerTYPE(logger)
         self._functions = fmi2CallbackFunctions()
-        self._functions.logger = self._logger
+        self._functions.logger = _logger
+        self._functions.componentEnvironment = len(_logs)
         addLoggerProxy(byref(self._functions))
         return self._functions
 

@@ -65,6 +65,21 @@ def test_a_wrong_guid_is_refused(unpacked):
         slave.instantiate()
 
 
+def test_messages_reach_their_own_instance_alone(unpacked):
+    with Unit(unpacked) as unit, Unit(unpacked):
+        refused(unit, lambda: unit.set(height=-1.0), "height")
+
+
+def test_logging_outlives_an_instance(unpacked):
+    """FMPy's logger proxy goes on calling the last logger it was given, whose unit may be gone."""
+    with Unit(unpacked) as unit:
+        messages = unit.messages
+    slave = FMU2Slave(guid="{0}", unzipDirectory=unpacked.folder, modelIdentifier="wall", instanceName="wall")
+    with pytest.raises(Exception, match="instantiate"):
+        slave.instantiate()
+    assert messages == [], "a freed instance gets no messages"
+
+
 # --- limits and relations -----------------------------------------------------------------------------------
 
 

@@ -1,12 +1,26 @@
 """Wraps FMPy's FMU2Slave, so that variables have names instead of value references."""
 
 import contextlib
+import itertools
 import shutil
+import weakref
 from ctypes import byref
 
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.logging import addLoggerProxy
+
+
+# The unit logs with printf formats, which FMPy's proxy turns into plain text. The proxy knows one logger in a
+# process, the last it was given. It gets this one, which lives to the end and tells units by their environment.
+_units = weakref.WeakValueDictionary()
+_environments = itertools.count(1)
+
+
+@fmi2CallbackLoggerTYPE
+def _logger(environment, _name, status, category, message):
+    if environment in _units:
+        _units[environment].messages.append((status, category.decode(), message.decode()))
 
 
 class Unpacked:
@@ -29,10 +43,10 @@ class Unit:
             if kind.items
         }
         self.messages = []
-        self._logger = fmi2CallbackLoggerTYPE(self._log)
         self.callbacks = fmi2CallbackFunctions()
-        self.callbacks.logger = self._logger
-        # the unit logs with printf formats; the proxy turns them into plain text
+        self.callbacks.logger = _logger
+        self.callbacks.componentEnvironment = next(_environments)
+        _units[self.callbacks.componentEnvironment] = self
         addLoggerProxy(byref(self.callbacks))
         self.slave = self.KIND(
             guid=self.description.guid,
@@ -57,9 +71,6 @@ class Unit:
 
     def __exit__(self, *_):
         self.slave.freeInstance()
-
-    def _log(self, _environment, _name, status, category, message):
-        self.messages.append((status, category.decode(), message.decode()))
 
     def reference(self, name):
         return self.variables[name].valueReference
