@@ -1,7 +1,10 @@
 //! Fragilities: fits, medians, bootstrap.
 
+use proptest::prelude::*;
+
 use study::fragility::{
-    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, cumulative, fit, median, steps,
+    Bootstrap, FitError, Interval, Lognormal, Observation, ObservationKind, compare, cumulative, fit,
+    fit_jointly, median, steps,
 };
 use study::ida::Exceedance;
 
@@ -191,7 +194,9 @@ fn ratios_are_paired() {
     let bootstrap = Bootstrap::new(30, 500, 7);
     for medians in [
         |b: &Bootstrap, o: &[Exceedance]| b.medians(o),
-        |b: &Bootstrap, o: &[Exceedance]| b.fitted_medians(o, &ObservationKind::Records),
+        |b: &Bootstrap, o: &[Exceedance]| {
+            b.fitted_medians(&[o.to_vec()], &ObservationKind::Records).remove(0).most
+        },
     ] {
         let (a, b) = (medians(&bootstrap, &one), medians(&bootstrap, &other));
         assert!(a.iter().any(|median| (median / TRUTH.median - 1.0).abs() > 0.05), "resamples differ");
@@ -201,4 +206,108 @@ fn ratios_are_paired() {
     }
     let again = Bootstrap::new(30, 500, 7).medians(&one);
     assert_eq!(again, bootstrap.medians(&one), "the same seed draws the same");
+}
+
+/// On a grid of four stripes, separate fits place the median of the lower limit state above that of the higher
+/// one. The joint fit keeps their order.
+#[test]
+fn curves_of_growing_limit_states_do_not_cross() {
+    let states = [[3, 3, 4, 4], [0, 0, 4, 4]].map(|counts| {
+        let stripe = |(intensity, exceeded)| Observation::Stripe { intensity, runs: 10, exceeded };
+        [1.0, 2.0, 3.0, 4.0].into_iter().zip(counts).map(stripe).collect::<Vec<_>>()
+    });
+    let [lower, higher] = [0, 1].map(|state| fit(&states[state]).unwrap());
+    assert!(lower.median > 1.5 * higher.median, "{lower:?} {higher:?}");
+    let joint: Vec<Lognormal> = fit_jointly(&states).into_iter().map(Result::unwrap).collect();
+    assert_eq!(joint[0].dispersion, joint[1].dispersion);
+    assert!(joint[0].median < joint[1].median, "{joint:?}");
+}
+
+/// For exact intensities, θ are the geometric means, and β pools the squares of all limit states.
+#[test]
+fn exact_limit_states_pool_their_dispersion() {
+    let states = [vec![1.0, 2.0, 4.0], vec![3.0, 9.0, 27.0]];
+    let observed = states.map(|state| state.into_iter().map(Observation::At).collect::<Vec<_>>());
+    let joint: Vec<Lognormal> = fit_jointly(&observed).into_iter().map(Result::unwrap).collect();
+    let variance = (2.0_f64.ln().powi(2) + 3.0_f64.ln().powi(2)) / 3.0;
+    for (found, median) in joint.iter().zip([2.0, 9.0]) {
+        near(found.median, median, 1e-14 * median);
+        near(found.dispersion, variance.sqrt(), 1e-14);
+    }
+    // Newton's method finds the same, and a limit state without a curve leaves the others alone
+    let censored = [observed[0].clone(), vec![Observation::Above(1.0)], observed[1].clone()];
+    let with_one = |state: &[Observation]| [state, &[Observation::Above(1e-9)]].concat();
+    let searched = fit_jointly(&[with_one(&censored[0]), censored[1].clone(), with_one(&censored[2])]);
+    assert_eq!(searched[1], Err(FitError::OneSided));
+    for (found, exact) in [searched[0], searched[2]].into_iter().zip(joint) {
+        near(found.unwrap().median, exact.median, 1e-12);
+        near(found.unwrap().dispersion, exact.dispersion, 1e-13);
+    }
+}
+
+proptest! {
+    /// A run that exceeds a limit state exceeds those below it: the medians of the joint fit rise.
+    #[test]
+    fn medians_rise_with_the_limit_states(
+        records in prop::collection::vec([0.1..4.0_f64, 0.0..2.0, 0.0..2.0], 2..30),
+        striped in any::<bool>(),
+    ) {
+        let step = 0.25;
+        let state = |number: usize| -> Vec<Exceedance> {
+            let reach = |increments: &[f64; 3]| increments[..=number].iter().sum::<f64>();
+            let exceedance = |intensity: f64| match intensity {
+                intensity if intensity > 5.0 => Exceedance::Above(5.0),
+                intensity if striped => Exceedance::At((intensity / step).ceil() * step),
+                intensity => Exceedance::At(intensity),
+            };
+            records.iter().map(reach).map(exceedance).collect()
+        };
+        let levels = (1..=20).map(|k| step * f64::from(k)).collect();
+        let kind = if striped { ObservationKind::Stripes(levels) } else { ObservationKind::Records };
+        let states: Vec<_> = (0..3).map(|number| kind.observations(&state(number))).collect();
+        let medians: Vec<f64> = fit_jointly(&states).into_iter().flatten().map(|fit| fit.median).collect();
+        for pair in medians.windows(2) {
+            // Newton's last step leaves 1e-14
+            prop_assert!(pair[0] <= pair[1] * (1.0 + 1e-12), "{medians:?}");
+        }
+    }
+}
+
+/// Limit states whose own dispersions are 0.45 and 0.15 contradict a common one; equal ones do not.
+#[test]
+fn a_common_dispersion_can_be_contradicted() {
+    let sample = stratified(40);
+    let exceed = |intensity: &f64, power: f64| Exceedance::At(intensity.powf(power));
+    let state = |power: f64| sample.iter().map(|x| exceed(x, power)).collect::<Vec<_>>();
+    let bootstrap = Bootstrap::new(40, 100, 1);
+    for (power, contradicted) in [(1.0 / 3.0, true), (1.0, false)] {
+        let models = [vec![state(1.0), state(power)]];
+        for summaries in compare(&models, 0, &ObservationKind::Records, &bootstrap) {
+            assert_eq!(summaries[0].contradicted, contradicted, "{summaries:?}");
+        }
+    }
+}
+
+/// Where the levels leave a number open, its bound is stated instead of ∞, and ratios have theirs.
+#[test]
+fn open_numbers_have_their_bounds() {
+    use Exceedance::{Above, At};
+    let known: Vec<Exceedance> = [1.0, 2.0, 3.0, 4.0, 5.0].map(At).to_vec();
+    let open = vec![At(2.0), Above(5.0), Above(5.0), Above(5.0), Above(5.0)];
+    let never = vec![Above(5.0); 5];
+    let bootstrap = Bootstrap::new(5, 200, 1);
+    let models = [known, open, never].map(|model| vec![model]);
+    let summaries = compare(&models, 0, &ObservationKind::Records, &bootstrap).remove(0);
+    let texts = |interval: &Interval| interval.texts(1.0, Some(2));
+    assert_eq!(texts(&summaries[0].median)[0], "3.00");
+    assert_eq!(texts(&summaries[1].median), ["open >5.00", "2.00", "open >5.00"]);
+    // 5 over the median 3 of the reference
+    assert_eq!(texts(&summaries[1].median_ratio)[0], "open >1.67");
+    assert_eq!(texts(&summaries[2].theta), ["open >5.00", "open >5.00", "open >5.00"]);
+    assert_eq!(summaries[2].fitted, Err(FitError::OneSided));
+    // over an open reference, a known median has an upper bound, and an open one none
+    let summaries = compare(&models, 2, &ObservationKind::Records, &bootstrap).remove(0);
+    assert_eq!(texts(&summaries[0].median_ratio)[0], "open <0.60");
+    assert_eq!(texts(&summaries[1].median_ratio)[0], "open");
+    assert_eq!(texts(&summaries[2].median_ratio), ["1.00", "1.00", "1.00"]);
 }

@@ -276,6 +276,24 @@ fn the_example_is_a_study() {
     assert_eq!(run_files(&folder.join("out")).len(), 1);
 }
 
+/// Walls that stand at every level leave medians open. Tables state the bound, neither `inf` nor `NaN`.
+#[test]
+fn open_medians_have_their_bound() {
+    let folder = study("ida_open");
+    let from = STUDY.find("method").unwrap();
+    let to = STUDY.find("[records]").unwrap();
+    let grid = "method = \"grid\"\nvalues = [0.05, 0.1, 0.15, 0.2]\n\n";
+    let text_of = format!("{}{grid}{}", &STUDY[..from], &STUDY[to..]);
+    fs::write(folder.join("study.toml"), text_of).unwrap();
+    let printed = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let table = fs::read_to_string(folder.join("out/fragilities.csv")).unwrap();
+    let page = fs::read_to_string(folder.join("out/study.html")).unwrap();
+    for (text, bound) in [(&printed, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
+        assert!(text.contains(bound), "{text}");
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+    }
+}
+
 #[cfg(feature = "parquet")]
 #[test]
 fn parquet_holds_what_the_csv_holds() {

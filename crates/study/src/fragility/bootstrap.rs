@@ -1,8 +1,8 @@
 //! Uncertainty of medians and their ratios due to the choice of records.
 
-use super::fit::{fit, fit_from};
-use super::observation::ObservationKind;
-use super::sample::{fractile, sample_median};
+use super::fit::{FitError, Lognormal, fit_from, open_bounds};
+use super::observation::{Observation, ObservationKind};
+use super::sample::{fractile, median, sample_median};
 use crate::ida::Exceedance;
 use crate::random::Pcg;
 
@@ -18,12 +18,27 @@ pub struct Bootstrap {
 }
 
 /// An estimate and its bootstrap interval.
+///
+/// Where the levels leave a number open, only bounds of it are known; this is where it is largest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Estimate from all records.
     pub estimate: f64,
     /// Lower and upper percentile of the resamples; infinite where it lies above the levels.
     pub range: [f64; 2],
+    /// The least that the estimate and the two percentiles can be.
+    pub least: [f64; 3],
+}
+
+/// An estimate and those of its resamples, each as the least and the most that it can be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resampled {
+    /// Least and most of the estimate from all records.
+    pub estimate: [f64; 2],
+    /// Least of each resample.
+    pub least: Vec<f64>,
+    /// Most of each resample.
+    pub most: Vec<f64>,
 }
 
 impl Bootstrap {
@@ -33,13 +48,13 @@ impl Bootstrap {
         Self { records, samples, seed }
     }
 
-    /// Computes a number of each resample, from the indices of the records drawn.
-    fn each(&self, mut number: impl FnMut(&[usize]) -> f64) -> Vec<f64> {
+    /// Computes something of each resample, from the indices of the records drawn.
+    fn each<T>(&self, mut result: impl FnMut(&[usize]) -> T) -> Vec<T> {
         let mut random = Pcg::new(self.seed);
         let mut drawn = vec![0; self.records];
         let resample = |_| {
             drawn.fill_with(|| random.below(self.records));
-            number(&drawn)
+            result(&drawn)
         };
         (0..self.samples).map(resample).collect()
     }
@@ -59,28 +74,97 @@ impl Bootstrap {
         })
     }
 
-    /// Returns θ of the fit to each resample; NaN where one has no fit.
+    /// Returns θ of each limit state in the joint fit to each resample, with the bounds of those that have
+    /// no fit. A limit state is given by its exceedances, record by record.
     ///
     /// # Panics
     /// As [`medians`](Self::medians).
     #[must_use]
-    pub fn fitted_medians(&self, exceedances: &[Exceedance], kind: &ObservationKind) -> Vec<f64> {
-        let near = fit(&kind.observations(exceedances)).ok();
-        self.each(|drawn| {
-            let resampled: Vec<Exceedance> = drawn.iter().map(|&index| exceedances[index]).collect();
-            fit_from(&kind.observations(&resampled), near).map_or(f64::NAN, |fit| fit.median)
-        })
+    pub fn fitted_medians(&self, states: &[Vec<Exceedance>], kind: &ObservationKind) -> Vec<Resampled> {
+        let observed = |state: &Vec<Exceedance>| kind.observations(state);
+        let bounds = |(fitted, observations): (Result<Lognormal, FitError>, &Vec<Observation>)| {
+            fitted.map_or_else(|_| open_bounds(observations), |fit| [fit.median; 2])
+        };
+        let all: Vec<_> = states.iter().map(observed).collect();
+        let near = fit_from(&all, &[]);
+        let samples = self.each(|drawn| -> Vec<[f64; 2]> {
+            let resample = |state: &Vec<Exceedance>| drawn.iter().map(|&index| state[index]).collect();
+            let drawn: Vec<_> = states.iter().map(|state| observed(&resample(state))).collect();
+            fit_from(&drawn, &near).into_iter().zip(&drawn).map(bounds).collect()
+        });
+        let estimates = near.into_iter().zip(&all).map(bounds).enumerate();
+        let resampled = |(state, estimate): (usize, [f64; 2])| {
+            let side = |side: usize| samples.iter().map(|sample| sample[state][side]).collect();
+            Resampled { estimate, least: side(0), most: side(1) }
+        };
+        estimates.map(resampled).collect()
+    }
+}
+
+impl Resampled {
+    /// Takes the sample median of exceedances, and those of its resamples.
+    pub(super) fn medians(exceedances: &[Exceedance], bootstrap: &Bootstrap) -> Self {
+        // a censored record exceeds at least above its levels
+        let least = |exceedance: &Exceedance| match *exceedance {
+            Exceedance::At(intensity) | Exceedance::Above(intensity) => Exceedance::At(intensity),
+        };
+        let least: Vec<_> = exceedances.iter().map(least).collect();
+        Self {
+            estimate: [median(&least), median(exceedances)],
+            least: bootstrap.medians(&least),
+            most: bootstrap.medians(exceedances),
+        }
+    }
+
+    /// Divides by another estimate, resample by resample.
+    pub(super) fn over(&self, other: &Self) -> Self {
+        let quotients = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a / b).collect();
+        let ([least, most], [other_least, other_most]) = (self.estimate, other.estimate);
+        Self {
+            estimate: [least / other_most, most / other_least],
+            least: quotients(&self.least, &other.most),
+            most: quotients(&self.most, &other.least),
+        }
+    }
+
+    /// Encloses the central `part` of the resamples.
+    pub(super) fn interval(&self, part: f64) -> Interval {
+        let [least, most] = self.estimate;
+        let Interval { range: [low, high], .. } = Interval::new(least, self.least.iter().copied(), part);
+        let interval = Interval::new(most, self.most.iter().copied(), part);
+        Interval { least: [least, low, high], ..interval }
     }
 }
 
 impl Interval {
-    /// Encloses the central `part` of the resamples' values. Values that are not numbers (a ratio of two
-    /// medians above the levels) are left out.
+    /// Encloses the central `part` of the resamples' values. Values that are not numbers are left out.
     #[must_use]
     pub fn new(estimate: f64, resampled: impl IntoIterator<Item = f64>, part: f64) -> Self {
         let mut values: Vec<f64> = resampled.into_iter().filter(|value| !value.is_nan()).collect();
         values.sort_by(f64::total_cmp);
         let tail = 0.5 * (1.0 - part);
-        Self { estimate, range: [tail, 1.0 - tail].map(|part| fractile(&values, part).unwrap_or(f64::NAN)) }
+        let [low, high] = [tail, 1.0 - tail].map(|part| fractile(&values, part).unwrap_or(f64::NAN));
+        Self { estimate, range: [low, high], least: [estimate, low, high] }
+    }
+
+    /// Formats the estimate and the ends of its interval in a unit, to three decimals or in full: `1.25`,
+    /// `open >2.00` above the levels, `open <0.50` below, `–` where nothing is known.
+    #[must_use]
+    pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
+        let [low, high] = self.range;
+        let number = |value: f64| match decimals {
+            Some(decimals) => format!("{:.decimals$}", value / unit),
+            None => (value / unit).to_string(),
+        };
+        let text = |(least, most): (f64, f64)| match (least > 0.0, most < f64::INFINITY) {
+            _ if most.is_nan() || least.is_nan() => "–".to_owned(),
+            _ if least == most => number(most),
+            (true, true) => format!("open {} to {}", number(least), number(most)),
+            (true, false) => format!("open >{}", number(least)),
+            (false, true) => format!("open <{}", number(most)),
+            (false, false) => "open".to_owned(),
+        };
+        let [estimate, least_low, least_high] = self.least;
+        [(estimate, self.estimate), (least_low, low), (least_high, high)].map(text)
     }
 }

@@ -8,6 +8,8 @@
 //! J. W. Baker: Efficient analytical fragility function fitting using dynamic structural analysis. Earthquake
 //! Spectra 31(1), 2015, 579–599.
 //!
+//! Limit states of the same runs share one β, so that their curves do not cross.
+//!
 //! ```
 //! use study::fragility::{Observation, fit};
 //!
@@ -24,9 +26,9 @@ mod normal;
 mod observation;
 mod sample;
 
-pub use bootstrap::{Bootstrap, Interval};
+pub use bootstrap::{Bootstrap, Interval, Resampled};
 pub use compare::{CONFIDENCE, Summary, compare};
-pub use fit::{FitError, Lognormal, fit};
+pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;
 pub use observation::{Observation, ObservationKind};
 pub use sample::{fractile, median, steps};

@@ -58,7 +58,9 @@ pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Col
             (0..count).map(|record| curve(record).collapse()).collect()
         };
         let collapses: Vec<_> = (0..study.models().len()).map(collapses).collect();
-        let summaries = compare(&collapses, 0, &ObservationKind::Records, &bootstrap);
+        // overturning is the only limit state
+        let states: Vec<_> = collapses.iter().map(|model| vec![model.clone()]).collect();
+        let summaries = compare(&states, 0, &ObservationKind::Records, &bootstrap).concat();
         charts.push(chart(row, study.models(), &collapses));
         rows.push(table_row(row, &summaries));
         walls.push(summaries);
@@ -125,16 +127,16 @@ fn table_row(row: &Table5, summaries: &[Summary]) -> Vec<Cell> {
     let mut cells = vec![
         Cell::text(row.number.to_string()),
         Cell::text(mechanism(row)),
-        Cell::text(interval(summaries[0].median, 1.0 / STANDARD_GRAVITY)),
+        Cell::text(interval(&summaries[0].median, STANDARD_GRAVITY)),
     ];
-    cells.extend(summaries[1..].iter().map(|summary| Cell::text(interval(summary.median_ratio, 1.0))));
+    cells.extend(summaries[1..].iter().map(|summary| Cell::text(interval(&summary.median_ratio, 1.0))));
     cells.push(Cell::text(summaries.iter().map(|summary| summary.censored).sum::<usize>().to_string()));
     cells
 }
 
-fn interval(value: Interval, factor: f64) -> String {
-    let [low, high] = value.range.map(|bound| factor * bound);
-    format!("{:.3} [{low:.3}, {high:.3}]", factor * value.estimate)
+fn interval(value: &Interval, unit: f64) -> String {
+    let [estimate, low, high] = value.texts(unit, Some(3));
+    format!("{estimate} [{low}, {high}]")
 }
 
 fn table(count: usize, rows: Vec<Vec<Cell>>) -> Table {

@@ -16,6 +16,7 @@ use std::time::Instant;
 
 use anyhow::{Result, bail};
 use clap::Args;
+use ground_motion::STANDARD_GRAVITY;
 use study::ida::{Exceedance, Study};
 use study::parallel;
 
@@ -24,7 +25,7 @@ use crate::output;
 use folder::Folder;
 use load::load;
 use progress::Progress;
-use results::{Results, in_g};
+use results::Results;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -227,6 +228,9 @@ fn finish(folder: &Folder, threads: usize) -> Result<()> {
     ];
     #[cfg(feature = "parquet")]
     files.push(("levels.parquet", columns::levels(&results)?));
+    if let Some(warning) = contradictions(&results) {
+        output::warn(&warning);
+    }
     let mut text = summary(&results);
     for (name, bytes) in &mut files {
         let path = folder.path().join(*name);
@@ -258,29 +262,51 @@ fn summary(results: &Results) -> String {
     let ratio_name = format!("median/{}", report.reference);
     let _ = writeln!(
         text,
-        "{:<wall_width$}{:<model_width$}{:>8}{:>18}{:>8}{:>8}{:>10}{ratio_name:>26}",
+        "{:<wall_width$}{:<model_width$}{:>12}{:>26}{:>12}{:>7}{:>10}{ratio_name:>36}",
         "wall", "model", "median", "", "theta", "beta", "censored"
     );
     for (w, wall) in contents.walls.iter().enumerate() {
         for (model, summary) in contents.models.iter().zip(results.summaries(w, collapse)) {
-            let (theta, beta) =
-                summary.fitted.map_or((f64::NAN, f64::NAN), |fit| (fit.median, fit.dispersion));
-            let [low, high] = summary.median.range;
-            let ratio = &summary.median_ratio;
+            let beta = summary.fitted.map_or("–".to_owned(), |fit| format!("{:.3}", fit.dispersion));
+            let [median, low, high] = summary.median.texts(STANDARD_GRAVITY, Some(3));
+            let [theta, ..] = summary.theta.texts(STANDARD_GRAVITY, Some(3));
+            let [ratio, ratio_low, ratio_high] = summary.median_ratio.texts(1.0, Some(3));
             let _ = writeln!(
                 text,
-                "{:<wall_width$}{:<model_width$}{:>8.3}{:>18}{:>8.3}{beta:>8.3}{:>10}{:>26}",
+                "{:<wall_width$}{:<model_width$}{median:>12}{:>26}{theta:>12}{beta:>7}{:>10}{:>36}",
                 wall.name,
                 model.name,
-                in_g(summary.median.estimate),
-                format!("{:.3} … {:.3}", in_g(low), in_g(high)),
-                in_g(theta),
+                format!("{low} … {high}"),
                 summary.censored,
-                format!("{:.3} ({:.3} … {:.3})", ratio.estimate, ratio.range[0], ratio.range[1])
+                format!("{ratio} ({ratio_low} … {ratio_high})")
             );
         }
     }
     text + &resurrections(results)
+}
+
+/// Warns of walls and models whose limit states contradict a common β.
+fn contradictions(results: &Results) -> Option<String> {
+    let contents = results.contents();
+    let found = results.contradicted();
+    let name = |&[w, m]: &[usize; 2]| {
+        let states = results.manifest.report.fractions.len();
+        let alone = (0..states).filter_map(|state| results.summaries(w, state)[m].alone.ok());
+        let alone: Vec<_> = alone.map(|fit| format!("{:.2}", fit.dispersion)).collect();
+        let (wall, model) = (&contents.walls[w].name, &contents.models[m].name);
+        format!("wall {wall:?} with {model} ({})", alone.join(", "))
+    };
+    let names: Vec<_> = found.iter().take(NAMED).map(name).collect();
+    let more = if found.len() > NAMED { " …" } else { "" };
+    (!found.is_empty()).then(|| {
+        format!(
+            "limit states contradict a common beta in {} of {} fits: {}{more}; their fitted curves are rough, \
+             see the steps on the page and beta_alone in fragilities.csv",
+            found.len(),
+            contents.walls.len() * contents.models.len(),
+            names.join(", ")
+        )
+    })
 }
 
 /// How many curves are not monotonic, if any.

@@ -99,8 +99,10 @@ fn reading(results: &Results) -> String {
     };
     format!(
         "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given \
-         {observed}. Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, \
-         so that ratios are paired. Ratios are to {}.",
+         {observed}, with one β for all limit states of a wall and model, so that their curves do not cross \
+         (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of likelihoods, 5&nbsp;%). \
+         Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, so that ratios \
+         are paired. Ratios are to {}. What the levels leave open has its bound.",
         report.resamples,
         escaped(&report.reference)
     )
@@ -299,11 +301,12 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
             escaped(&contents.models[model].name),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
             words(&summary.median, gravity),
+            words(&summary.theta, gravity),
             match summary.fitted {
-                Ok(_) => words(&summary.theta, gravity),
+                Ok(fit) if summary.contradicted => format!("{:.2} *", fit.dispersion),
+                Ok(fit) => format!("{:.2}", fit.dispersion),
                 Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
             },
-            summary.fitted.map_or_else(|_| "–".to_owned(), |fit| format!("{:.2}", fit.dispersion)),
             ratio(&summary.median_ratio),
             ratio(&summary.theta_ratio),
             summary.censored,
@@ -315,16 +318,6 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
 
 /// An estimate over its interval.
 fn words(interval: &Interval, unit: f64) -> String {
-    let number = |value: f64| {
-        if value.is_nan() {
-            "–".to_owned()
-        } else if value.is_infinite() || value == 0.0 {
-            // a median of the sample or of a resample lies above the levels
-            "open".to_owned()
-        } else {
-            format!("{:.3}", value / unit)
-        }
-    };
-    let [low, high] = interval.range;
-    format!("{}<br><small>{} … {}</small>", number(interval.estimate), number(low), number(high))
+    let [estimate, low, high] = interval.texts(unit, Some(3)).map(|text| escaped(&text));
+    format!("{estimate}<br><small>{low} … {high}</small>")
 }

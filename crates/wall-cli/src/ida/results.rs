@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use anyhow::Result;
 use ground_motion::STANDARD_GRAVITY;
-use study::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare};
+use study::fragility::{Bootstrap, FitError, Interval, Lognormal, ObservationKind, Summary, compare};
 use study::ida::{Curve, Exceedance};
 use study::parallel;
 
-use crate::csv::quoted;
+use crate::csv::{self, quoted};
 
 use super::folder::{Contents, Manifest};
 
@@ -22,7 +22,7 @@ pub(crate) struct Results {
 
 impl Results {
     pub(super) fn new(manifest: Manifest, curves: Vec<Curve>, threads: usize) -> Result<Self> {
-        let (walls, fractions) = (manifest.contents.walls.len(), manifest.report.fractions.len());
+        let walls = manifest.contents.walls.len();
         let mut results = Self { manifest, curves, summaries: Vec::new() };
         let report = &results.manifest.report;
         let bootstrap =
@@ -30,13 +30,15 @@ impl Results {
         let kind = results.observation_kind();
         let models = &results.contents().models;
         let reference = models.iter().position(|model| model.name == report.reference).unwrap_or(0);
-        let summaries = parallel::map(walls * fractions, threads, |index| -> Result<_> {
-            let (wall, fraction) = (index / fractions, report.fractions[index % fractions]);
-            let exceedances: Vec<_> =
-                (0..models.len()).map(|model| results.exceedances(wall, model, fraction)).collect();
+        let summaries = parallel::map(walls, threads, |wall| -> Result<_> {
+            let exceedances = |model: usize| {
+                let at = |&fraction: &f64| results.exceedances(wall, model, fraction);
+                report.fractions.iter().map(at).collect()
+            };
+            let exceedances: Vec<Vec<_>> = (0..models.len()).map(exceedances).collect();
             Ok(compare(&exceedances, reference, &kind, &bootstrap))
         })?;
-        results.summaries = summaries;
+        results.summaries = summaries.concat();
         Ok(results)
     }
 
@@ -65,6 +67,13 @@ impl Results {
     /// The fragilities of a wall at the fraction of a place, one for each model.
     pub(crate) fn summaries(&self, wall: usize, fraction: usize) -> &[Summary] {
         &self.summaries[wall * self.manifest.report.fractions.len() + fraction]
+    }
+
+    /// The walls and models, by index, whose limit states contradict a common β.
+    pub(super) fn contradicted(&self) -> Vec<[usize; 2]> {
+        let models = self.contents().models.len();
+        let pairs = (0..self.contents().walls.len() * models).map(|pair| [pair / models, pair % models]);
+        pairs.filter(|&[wall, model]| self.summaries(wall, 0)[model].contradicted).collect()
     }
 
     /// Number of runs.
@@ -128,28 +137,27 @@ impl Results {
     /// The fragilities of every wall, model and fraction.
     pub(super) fn fragilities_csv(&self) -> String {
         let mut text = "wall,model,u_max_over_u_ins,records,censored,median_g,median_low_g,\
-                        median_high_g,theta_g,theta_low_g,theta_high_g,beta,median_ratio,median_ratio_low,\
-                        median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high\n"
+                        median_high_g,theta_g,theta_low_g,theta_high_g,beta,beta_alone,median_ratio,\
+                        median_ratio_low,median_ratio_high,theta_ratio,theta_ratio_low,theta_ratio_high\n"
             .to_owned();
-        let interval = |interval: &Interval, unit: f64| {
-            let [low, high] = interval.range;
-            format!("{},{},{}", cell(interval.estimate / unit), cell(low / unit), cell(high / unit))
-        };
+        // nothing for what is not known
+        let interval = |interval: &Interval, unit: f64| interval.texts(unit, None).join(",").replace('–', "");
+        let beta = |fit: Result<Lognormal, FitError>| csv::optional(fit.ok().map(|fit| fit.dispersion));
         for (w, wall) in self.contents().walls.iter().enumerate() {
             for (m, model) in self.contents().models.iter().enumerate() {
                 for (f, fraction) in self.manifest.report.fractions.iter().enumerate() {
                     let summary = &self.summaries(w, f)[m];
-                    let beta = summary.fitted.map_or(f64::NAN, |fit| fit.dispersion);
                     let _ = writeln!(
                         text,
-                        "{},{},{fraction},{},{},{},{},{},{},{}",
+                        "{},{},{fraction},{},{},{},{},{},{},{},{}",
                         quoted(&wall.name),
                         quoted(&model.name),
                         summary.records,
                         summary.censored,
                         interval(&summary.median, STANDARD_GRAVITY),
                         interval(&summary.theta, STANDARD_GRAVITY),
-                        cell(beta),
+                        beta(summary.fitted),
+                        beta(summary.alone),
                         interval(&summary.median_ratio, 1.0),
                         interval(&summary.theta_ratio, 1.0)
                     );
@@ -163,9 +171,4 @@ impl Results {
 /// An acceleration in g.
 pub(crate) fn in_g(acceleration: f64) -> f64 {
     acceleration / STANDARD_GRAVITY
-}
-
-/// A number, `inf` for what lies above the levels, nothing for what is not known.
-fn cell(value: f64) -> String {
-    if value.is_nan() { String::new() } else { value.to_string() }
 }
