@@ -78,8 +78,8 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
 /// Stripe:     k ln Φ(z) + (n − k) ln Φ(−z)                                             Eq. (11)
 /// ```
 ///
-/// For exact intensities alone the maximum has a closed form: their means and their pooled standard deviation.
-/// A limit state whose observations determine no median has an error and leaves the others alone.
+/// For exact intensities alone the maximum has a closed form: their means and their pooled standard
+/// deviation. A limit state whose observations determine no median has an error and leaves the others alone.
 #[must_use]
 pub fn fit_jointly(states: &[Vec<Observation>]) -> Vec<Result<Lognormal, FitError>> {
     fit_from(states, &[])
@@ -163,8 +163,8 @@ fn climb(states: &[&mut State], from: &Point, step: &Point, value: f64) -> Optio
     None
 }
 
-/// Bounds of the θ that observations leave open: `[0, x]` if all exceed from x on, `[x, ∞]` if none exceeds up
-/// to x, and the gap between the two where one intensity parts them.
+/// Bounds of the θ that observations leave open: `[0, x]` if all exceed from x on, `[x, ∞]` if none exceeds
+/// up to x, and the gap between the two where one intensity parts them.
 pub(super) fn open_bounds(observations: &[Observation]) -> [f64; 2] {
     let [mut least, mut most] = [0.0, f64::INFINITY];
     for term in observations.iter().filter_map(|observation| Term::new(observation).ok()) {

@@ -300,8 +300,8 @@ fn contradictions(results: &Results) -> Option<String> {
     let more = if found.len() > NAMED { " …" } else { "" };
     (!found.is_empty()).then(|| {
         format!(
-            "limit states contradict a common beta in {} of {} fits: {}{more}; their fitted curves are rough, \
-             see the steps on the page and beta_alone in fragilities.csv",
+            "limit states contradict a common beta in {} of {} fits: {}{more}; their fitted curves are \
+             rough, see the steps on the page and beta_alone in fragilities.csv",
             found.len(),
             contents.walls.len() * contents.models.len(),
             names.join(", ")
