@@ -208,8 +208,8 @@ fn ratios_are_paired() {
     assert_eq!(again, bootstrap.medians(&one), "the same seed draws the same");
 }
 
-/// On a grid of four stripes, separate fits place the median of the lower limit state above that of the higher
-/// one. The joint fit keeps their order.
+/// On a grid of four stripes, separate fits place the median of the lower limit state above that of the
+/// higher one. The joint fit keeps their order.
 #[test]
 fn curves_of_growing_limit_states_do_not_cross() {
     let states = [[3, 3, 4, 4], [0, 0, 4, 4]].map(|counts| {

@@ -100,9 +100,9 @@ fn reading(results: &Results) -> String {
     format!(
         "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given \
          {observed}, with one β for all limit states of a wall and model, so that their curves do not cross \
-         (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of likelihoods, 5&nbsp;%). \
-         Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, so that ratios \
-         are paired. Ratios are to {}. What the levels leave open has its bound.",
+         (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of likelihoods, \
+         5&nbsp;%). Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, \
+         so that ratios are paired. Ratios are to {}. What the levels leave open has its bound.",
         report.resamples,
         escaped(&report.reference)
     )
