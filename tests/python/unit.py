@@ -12,7 +12,7 @@ from fmpy.logging import addLoggerProxy
 
 
 # The unit logs with printf formats, which FMPy's proxy turns into plain text. The proxy knows one logger in a
-# process, the last it was given. It gets this one, which lives to the end and tells units by their environment.
+# process, the last it was given. It gets this one, which lives to the end and tells units by environment.
 _units = weakref.WeakValueDictionary()
 _environments = itertools.count(1)
 

@@ -88,6 +88,9 @@
 //! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even
 //!   formatted.
 //! - Panics: caught, logged with their place, returned as `fmi2Error`, not printed.
+//! - Calls from inside a call, such as from the importer's logger: refused with `fmi2Error`, without a
+//!   message. `fmi2FreeInstance` there takes effect at the end of the call that logs. The logger must return:
+//!   after a `longjmp` out of it the instance refuses every call, and a C++ exception ends the process.
 //! - Guids: description and library belong together, and a payload in `resources/` to its description.
 //!
 //! Instances share nothing. Nothing here allocates in a step, a get or a set of numbers that succeeds.

@@ -1,7 +1,7 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
 use super::arguments::{array, array_mut, text, to_get, to_set};
-use super::guard::{self, functions};
+use super::guard::{self, Slot, functions};
 use super::kinds::Kinds;
 use super::types::{
     Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
@@ -74,7 +74,7 @@ pub unsafe fn instantiate<M: Model>(
         }
     });
     match instance {
-        Ok(Some(instance)) => Box::into_raw(Box::new(instance)).cast(),
+        Ok(Some(instance)) => Slot::component(instance),
         Ok(None) => ptr::null_mut(),
         Err(panic) => {
             logger().log().error(format_args!("fmi2Instantiate: internal error, please report it: {panic}"));
@@ -116,16 +116,13 @@ fn sink(callbacks: CallbackFunctions, name: CString) -> Option<Box<Sink>> {
 
 /// `fmi2FreeInstance`
 ///
+/// From inside a call, that is from the logger, the instance is freed at the end of that call.
+///
 /// # Safety
 /// `component` is NULL or an instance of this model that was not freed; it is afterwards.
 pub unsafe fn free_instance<M: Model>(component: Component) {
-    let instance = component.cast::<Instance<M>>();
-    if instance.is_null() {
-        return;
-    }
-    // A model that panics when it is dropped has nobody left to tell.
     // SAFETY: as the caller promises.
-    let _ = guard::catch(|| drop(unsafe { Box::from_raw(instance) }));
+    unsafe { guard::free::<M>(component) };
 }
 
 functions! {

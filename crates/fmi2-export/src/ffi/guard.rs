@@ -1,4 +1,4 @@
-//! Calls of an instance: no panic leaves the library, and none is printed.
+//! Calls of an instance: one at a time; no panic leaves the library, and none is printed.
 
 use super::types::{self, Component, ERROR, Status};
 use crate::call::Call;
@@ -6,9 +6,11 @@ use crate::failure::Failure;
 use crate::instance::Instance;
 use crate::model::Model;
 use std::any::Any;
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, RefCell, UnsafeCell};
 use std::panic::{self, AssertUnwindSafe};
+use std::ptr::NonNull;
 use std::sync::Once;
+use std::sync::atomic::{AtomicU8, Ordering};
 
 thread_local! {
     /// Whether this thread is inside a call from C.
@@ -36,27 +38,86 @@ pub fn install_panic_hook() {
     });
 }
 
-/// Returns the instance behind `component`; `None` for NULL.
-///
-/// # Safety
-/// `component` is NULL or what `instantiate` of the same model returned and `free_instance` has not taken,
-/// and no other thread uses it.
-pub(super) unsafe fn instance<'a, M: Model>(component: Component) -> Option<&'a mut Instance<M>> {
-    // SAFETY: as the caller promises.
-    unsafe { component.cast::<Instance<M>>().as_mut() }
+/// What an `fmi2Component` points to. One call at a time has the instance; a logger that calls back is
+/// refused.
+pub(super) struct Slot<M: Model> {
+    instance: UnsafeCell<Instance<M>>,
+    use_now: AtomicU8,
 }
 
-/// Lets the instance do `body`, if it is the turn of `call`.
+/// Nobody uses the instance.
+const IDLE: u8 = 0;
+/// A call is under way.
+const BUSY: u8 = 1;
+/// The importer has freed the instance; a call that is under way drops it at its end.
+const FREED: u8 = 2;
+
+impl<M: Model> Slot<M> {
+    pub(super) fn component(instance: Instance<M>) -> Component {
+        let slot = Self { instance: UnsafeCell::new(instance), use_now: AtomicU8::new(IDLE) };
+        Box::into_raw(Box::new(slot)).cast()
+    }
+
+    fn change(&self, from: u8, to: u8) -> bool {
+        self.use_now.compare_exchange(from, to, Ordering::AcqRel, Ordering::Relaxed).is_ok()
+    }
+}
+
+/// Frees an instance: at once, or at the end of the call that is under way.
+///
+/// # Safety
+/// `component` is NULL or what [`Slot::component`] of the same model returned and that has not been dropped.
+pub(super) unsafe fn free<M: Model>(component: Component) {
+    let slot = component.cast::<Slot<M>>();
+    // SAFETY: as the caller promises.
+    if unsafe { slot.as_ref() }.is_some_and(|slot| slot.use_now.swap(FREED, Ordering::AcqRel) == IDLE) {
+        // SAFETY: no call is under way, and none begins.
+        unsafe { drop_slot(slot) };
+    }
+}
+
+/// # Safety
+/// `slot` lives, and nobody uses it any more.
+unsafe fn drop_slot<M: Model>(slot: *mut Slot<M>) {
+    // A model that panics when it is dropped has nobody left to tell.
+    // SAFETY: as the caller promises.
+    let _ = catch(|| drop(unsafe { Box::from_raw(slot) }));
+}
+
+/// An instance that lives until it is freed; `None` for NULL.
+pub(super) struct Handle<M: Model>(Option<NonNull<Slot<M>>>);
+
+/// Returns the instance behind `component`.
+///
+/// # Safety
+/// `component` is NULL or what [`Slot::component`] of the same model returned and that has not been dropped.
+/// It is not freed before the handle is used.
+pub(super) unsafe fn instance<M: Model>(component: Component) -> Handle<M> {
+    Handle(NonNull::new(component.cast()))
+}
+
+/// Lets the instance do `body`, if no other call is under way and it is the turn of `call`.
 pub(super) fn run<M: Model>(
-    instance: Option<&mut Instance<M>>,
+    Handle(slot): Handle<M>,
     call: Call,
     body: impl FnOnce(&mut Instance<M>) -> Result<(), Failure>,
 ) -> Status {
-    let Some(instance) = instance else { return ERROR };
+    let Some(pointer) = slot else { return ERROR };
+    // SAFETY: the instance lives, as whoever made the handle promised.
+    let slot = unsafe { pointer.as_ref() };
+    if !slot.change(IDLE, BUSY) {
+        return ERROR;
+    }
+    // SAFETY: whoever has changed the slot to busy has the instance alone.
+    let instance = unsafe { &mut *slot.instance.get() };
     let status = match catch(|| instance.call(call, body)) {
         Ok(status) => status,
         Err(panic) => instance.panicked(call, &panic),
     };
+    if !slot.change(BUSY, IDLE) {
+        // SAFETY: freed meanwhile, so that no other call begins.
+        unsafe { drop_slot(pointer.as_ptr()) };
+    }
     types::status(status)
 }
 

@@ -37,7 +37,7 @@ impl Journal {
 
     pub fn callbacks(&self) -> CallbackFunctions {
         CallbackFunctions {
-            logger: Some(logger()),
+            logger: Some(as_logger(write_down)),
             allocate_memory: None,
             free_memory: None,
             step_finished: None,
@@ -46,14 +46,15 @@ impl Journal {
     }
 }
 
+/// A logger that takes the one pointer after the format.
+pub type FixedLogger = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text, *const c_char);
+
 /// Rust cannot define a variadic function, but it can define one with the one pointer that follows the format
 /// "%s". On the platforms these tests run on (System V on x86-64, AAPCS on 64-bit Arm Linux) a pointer after
 /// the format is passed to a variadic function like to any other. Only tests do this.
-fn logger() -> CallbackLogger {
-    type Fixed = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text, *const c_char);
-    let fixed: Fixed = write_down;
+pub fn as_logger(fixed: FixedLogger) -> CallbackLogger {
     // SAFETY: both are pointers to C functions; see above for how they are called.
-    unsafe { std::mem::transmute::<Fixed, CallbackLogger>(fixed) }
+    unsafe { std::mem::transmute::<FixedLogger, CallbackLogger>(fixed) }
 }
 
 unsafe extern "C" fn write_down(

@@ -18,6 +18,7 @@ mod logs;
 mod nulls;
 mod order;
 mod panics;
+mod reentry;
 mod resources;
 mod spring;
 mod states;
