@@ -47,25 +47,21 @@ pub struct Place<'a> {
 
 impl<'a> Place<'a> {
     /// The text of a file, or of a part of one, under its name.
-    #[must_use]
     pub fn new(name: &'a str, text: &'a str) -> Self {
         Self { name, text }
     }
 
     /// The file's name.
-    #[must_use]
     pub fn name(&self) -> &'a str {
         self.name
     }
 
     /// Its text.
-    #[must_use]
     pub fn text(&self) -> &'a str {
         self.text
     }
 
     /// The 1-based line of a byte range.
-    #[must_use]
     pub fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         before.split(|&byte| byte == b'\n').count()

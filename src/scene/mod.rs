@@ -229,7 +229,6 @@ fn name_of(file: &str) -> String {
 }
 
 /// A scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
-#[must_use]
 pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let mut text = String::new();
     // writing to a String cannot fail

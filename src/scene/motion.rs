@@ -264,7 +264,6 @@ fn read_record(
 }
 
 /// The fingerprint of a record file as a scene states it.
-#[must_use]
 pub fn fingerprint(bytes: &[u8]) -> String {
     format!("{:032x}", fmi2_export::fnv1a_128(bytes.iter().copied()))
 }

@@ -31,7 +31,6 @@ pub fn input_names() -> impl Iterator<Item = &'static str> {
 
 /// Returns the value of a parameter as text that a scene or an XML start attribute can hold; `None` for other
 /// variables.
-#[must_use]
 pub fn parameter_text(parameters: &Parameters, name: &str) -> Option<String> {
     if let Some(variable) = RealVariable::from_name(name) {
         return parameters.real(variable).map(|value| format!("{value:?}"));

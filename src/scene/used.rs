@@ -9,7 +9,6 @@ use super::Scene;
 
 impl Scene {
     /// Whether this scene's FMU lists the variable called `name`.
-    #[must_use]
     pub fn uses(&self, name: &str) -> bool {
         let boolean = |variable| match variable {
             BooleanVariable::Overturned => true,

@@ -28,7 +28,6 @@ impl Simulation {
     }
 
     /// Returns the event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
-    #[must_use]
     pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
         self.motion.indicators(&self.progress.state, rising, self.wall().body().forcing(support))
     }

@@ -15,39 +15,33 @@ pub struct Excitation {
 
 impl Excitation {
     /// One motion for both supports, or `top` for the top support of a wall in an upper storey.
-    #[must_use]
     pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
         Self { bottom, top, held: false }
     }
 
     /// Holds each sample until the next, as most importers do with an input, instead of going linearly
     /// between.
-    #[must_use]
     pub fn held(self) -> Self {
         Self { held: true, ..self }
     }
 
     /// Motion of the bottom support, or of both.
-    #[must_use]
     pub fn bottom(&self) -> &GroundMotion {
         &self.bottom
     }
 
     /// Motion of the top support where it has its own.
-    #[must_use]
     pub fn top(&self) -> Option<&GroundMotion> {
         self.top.as_ref()
     }
 
     /// Length of the longer record \[s\].
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.top.as_ref().map_or(0.0, GroundMotion::duration).max(self.bottom.duration())
     }
 
     /// Returns the segment that begins `elapsed` seconds after the start, and lasts `remaining` \[s\] or to
     /// the next sample.
-    #[must_use]
     pub fn segment(&self, elapsed: f64, remaining: f64) -> Segment {
         let mut duration = remaining;
         for record in [Some(&self.bottom), self.top.as_ref()].into_iter().flatten() {
@@ -107,7 +101,6 @@ fn ends(record: &GroundMotion, elapsed: f64, duration: f64) -> [f64; 2] {
 
 /// Returns the segment of a motion that may be absent, as [`Excitation::segment`]; without one the supports
 /// stand still.
-#[must_use]
 pub fn segment_of(motion: Option<&Excitation>, elapsed: f64, remaining: f64) -> Segment {
     match motion {
         Some(motion) => motion.segment(elapsed, remaining),

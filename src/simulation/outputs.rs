@@ -25,7 +25,6 @@ pub struct Outputs {
 
 impl Simulation {
     /// Returns the outputs under the supports' present motion.
-    #[must_use]
     pub fn outputs(&self, support: Support) -> Outputs {
         let wall = self.motion.wall();
         let body = wall.body();
@@ -66,7 +65,6 @@ impl Simulation {
 
     /// Returns the demands of a motion that starts now, under the supports' present motion. `fractions` of
     /// `u_ins`, each above 0 and at most 1, are the limit states whose first crossings are wanted.
-    #[must_use]
     pub fn demands(&self, support: Support, fractions: &[f64]) -> Demands {
         let Outputs { displacement, velocity, acceleration, reactions, .. } = self.outputs(support);
         let motion = [displacement, velocity, acceleration];
@@ -78,7 +76,6 @@ impl Simulation {
     ///
     /// # Panics
     /// If the wall moves in full rotations.
-    #[must_use]
     pub fn derivative(&self, support: Support, [du, dv]: [f64; 2], change: Support) -> Outputs {
         let wall = self.motion.wall();
         assert!(wall.rotations().is_none(), "derivatives are those of small rotations");

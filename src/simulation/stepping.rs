@@ -89,19 +89,16 @@ impl Simulation {
     }
 
     /// The wall.
-    #[must_use]
     pub fn wall(&self) -> &Wall {
         self.motion.wall()
     }
 
     /// The method in use.
-    #[must_use]
     pub fn method(&self) -> &Method {
         self.motion.method()
     }
 
     /// What the simulation has come to.
-    #[must_use]
     pub fn progress(&self) -> &Progress {
         &self.progress
     }

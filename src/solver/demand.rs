@@ -27,7 +27,6 @@ impl Extremes {
     }
 
     /// Returns the extreme of the larger size, the highest where both are equal.
-    #[must_use]
     pub fn largest(&self) -> Instant {
         if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
     }

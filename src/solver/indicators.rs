@@ -23,7 +23,6 @@ const REST_MARGINS: f64 = 4.0;
 
 impl Motion {
     /// Returns the event indicators under the forcing p \[m/s²\]; `rising` as [`event`](Self::event) left it.
-    #[must_use]
     pub fn indicators(&self, state: &State, rising: bool, forcing: f64) -> [f64; INDICATORS] {
         let State { displacement, velocity, branch, phase, .. } = *state;
         let scale = self.wall.displacement_scale();

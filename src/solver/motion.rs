@@ -72,7 +72,6 @@ impl Motion {
     ///
     /// # Panics
     /// If a wall in full rotations is to move by another method than the adaptive one.
-    #[must_use]
     pub fn new(wall: Wall, method: Method) -> Self {
         let adaptive = matches!(method, Method::Adaptive { .. });
         assert!(adaptive || wall.rotations().is_none(), "full rotations need the adaptive method");
@@ -93,13 +92,11 @@ impl Motion {
     }
 
     /// The wall.
-    #[must_use]
     pub fn wall(&self) -> &Wall {
         &self.wall
     }
 
     /// The method.
-    #[must_use]
     pub fn method(&self) -> &Method {
         &self.method
     }

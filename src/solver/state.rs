@@ -42,19 +42,16 @@ pub struct Peaks {
 
 impl Peaks {
     /// Returns the peaks of a wall that stands at `displacement`.
-    #[must_use]
     pub fn at(displacement: f64) -> Self {
         Self { positive: displacement.max(0.0), negative: (-displacement).max(0.0) }
     }
 
     /// Returns the largest |u|/`u_ins`, each side by its own \[-\].
-    #[must_use]
     pub fn ratio(&self, u_ins: Sides) -> f64 {
         (self.positive / u_ins.positive).max(self.negative / u_ins.negative)
     }
 
     /// Returns the largest |u| \[m\].
-    #[must_use]
     pub fn largest(&self) -> f64 {
         self.positive.max(self.negative)
     }

@@ -41,13 +41,11 @@ impl Event {
 
 impl Motion {
     /// Returns the state at the start, under the supports' motion at that instant.
-    #[must_use]
     pub fn start(&self, displacement: f64, velocity: f64, support: Support) -> State {
         self.start_under(displacement, velocity, self.wall.body().forcing(support))
     }
 
     /// Returns the state at the start, under a forcing p \[m/s²\].
-    #[must_use]
     pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
         let overturned = displacement.abs() > wall.body().instability.of(displacement);
@@ -76,7 +74,6 @@ impl Motion {
 
     /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to
     /// under the forcing p \[m/s²\]. Marks and peaks stay.
-    #[must_use]
     pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
         let anew = self.start_under(displacement, velocity, forcing);
         State { displacement, velocity, branch: anew.branch, phase: anew.phase, ..*state }

@@ -21,19 +21,16 @@ pub struct Branch {
 
 impl Branch {
     /// F/`m_eff` \[m/s²\].
-    #[must_use]
     pub fn restoring(&self, displacement: f64) -> f64 {
         self.force + self.stiffness * (displacement - self.anchor)
     }
 
     /// 1 for u > 0, −1 for u < 0.
-    #[must_use]
     pub fn side(&self) -> f64 {
         if self.upper > 0.0 { 1.0 } else { -1.0 }
     }
 
     /// C/`m_eff` \[1/s\].
-    #[must_use]
     pub fn damping_at(&self, displacement: f64) -> f64 {
         match self.damping {
             BranchDamping::Constant(c) => c,
@@ -43,7 +40,6 @@ impl Branch {
     }
 
     /// d(C/`m_eff`)/du \[1/(m s)\].
-    #[must_use]
     pub fn damping_slope(&self, displacement: f64) -> f64 {
         if let BranchDamping::Constant(_) = self.damping {
             return 0.0;
@@ -54,7 +50,6 @@ impl Branch {
     }
 
     /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
-    #[must_use]
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64) -> f64 {
         forcing - self.damping_at(displacement) * velocity - self.restoring(displacement)
     }
@@ -78,7 +73,6 @@ pub struct Corner {
 
 impl Corner {
     /// Whether anything but a change of branch happens here.
-    #[must_use]
     pub fn is_marked(&self) -> bool {
         self.passage || self.overturning || self.departure || self.landing
     }

@@ -32,13 +32,11 @@ pub struct CapacityPoint {
 
 impl Wall {
     /// The capacity curve of the side of `sign` at a fraction of its `u_ins`.
-    #[must_use]
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
         self.capacity_point(sign, fraction * self.body().instability.of(sign))
     }
 
     /// The corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
-    #[must_use]
     pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
         let u_ins = self.body().instability.of(sign);
         let side = self.side(sign);

@@ -9,7 +9,6 @@ impl Branch {
     /// Between the ends it is [`damping_at`](Self::damping_at). Towards u = 0, where F/u grows without bound,
     /// it keeps its slope and curvature at the end and stays bounded. Beyond u₃ a stiffness-proportional
     /// coefficient changes its sign, and that of a constant ratio is 0.
-    #[must_use]
     pub fn continued_damping(&self, displacement: f64) -> (f64, f64) {
         if let BranchDamping::Constant(c) = self.damping {
             return (c, 0.0);

@@ -21,7 +21,6 @@ pub enum BranchDamping {
 
 impl BranchDamping {
     /// c \[1/s\] where the secant stiffness per unit mass is ω² \[1/s²\]; none for ω² ≤ 0.
-    #[must_use]
     pub fn coefficient(self, omega_squared: f64) -> f64 {
         match self {
             Self::Constant(c) => c,
@@ -31,7 +30,6 @@ impl BranchDamping {
     }
 
     /// dc/d(ω²) \[s\]; zero for a constant coefficient and where there is no damping.
-    #[must_use]
     pub fn sensitivity(self, omega_squared: f64) -> f64 {
         match self {
             Self::Constant(_) => 0.0,

@@ -57,55 +57,46 @@ impl Wall {
     }
 
     /// Masses, geometry and the rigid force.
-    #[must_use]
     pub fn body(&self) -> &Body {
         &self.body
     }
 
     /// Branches in order of displacement; branch `i` lies between corners `i` and `i + 1`.
-    #[must_use]
     pub fn branches(&self) -> &[Branch] {
         &self.branches
     }
 
     /// Corners in order of displacement, the two landings first and last.
-    #[must_use]
     pub fn corners(&self) -> &[Corner] {
         &self.corners
     }
 
     /// Warnings about a valid choice of parameters.
-    #[must_use]
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
     /// Whether the force is rigid-linear: it jumps at u = 0, and the wall can rest.
-    #[must_use]
     pub fn is_rigid(&self) -> bool {
         self.force.elastic_stiffness.is_none()
     }
 
     /// The wall in full rotations; `None` where they are taken as small.
-    #[must_use]
     pub fn rotations(&self) -> Option<&FullRotations> {
         self.rotations.as_ref()
     }
 
     /// Whether C is constant on every branch.
-    #[must_use]
     pub fn has_constant_damping(&self) -> bool {
         self.damping.is_constant()
     }
 
     /// Whether the motion on each branch has a closed form: C is constant there, and rotations are small.
-    #[must_use]
     pub fn has_closed_form(&self) -> bool {
         self.rotations.is_none() && self.has_constant_damping()
     }
 
     /// F/`m_eff` on a branch \[m/s²\].
-    #[must_use]
     pub fn restoring(&self, branch: usize, displacement: f64) -> f64 {
         let branch = &self.branches[branch];
         match &self.rotations {
@@ -115,7 +106,6 @@ impl Wall {
     }
 
     /// ü on a branch under the forcing p \[m/s²\].
-    #[must_use]
     pub fn acceleration(&self, branch: usize, displacement: f64, velocity: f64, forcing: f64) -> f64 {
         let branch = &self.branches[branch];
         match &self.rotations {
@@ -125,63 +115,53 @@ impl Wall {
     }
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
-    #[must_use]
     pub fn omega1(&self) -> f64 {
         self.force.elastic_stiffness.map_or(0.0, |k1| (k1 / self.body.effective_mass).sqrt())
     }
 
     /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.
-    #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         self.damping.ratio
     }
 
     /// Damping coefficient on the elastic branch C \[N s/m\].
-    #[must_use]
     pub fn elastic_damping(&self) -> f64 {
         self.damping.elastic * self.body.effective_mass
     }
 
     /// Coefficient of restitution in use, at impacts or behind predicted damping \[-\].
-    #[must_use]
     pub fn restitution(&self) -> f64 {
         self.restitution
     }
 
     /// Factor on u̇ at a passage of u = 0: e, or 1 without impact.
-    #[must_use]
     pub fn passage_factor(&self) -> f64 {
         if self.impact { self.restitution } else { 1.0 }
     }
 
     /// Displacements at which the force falls to zero, u₃ of each side \[m\].
-    #[must_use]
     pub fn force_end(&self) -> Sides {
         Sides { positive: self.force.positive.end, negative: self.force.negative.end }
     }
 
     /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
-    #[must_use]
     pub fn rest_band(&self) -> [f64; 2] {
         // from the branches, so that a wall beyond the band is accelerated away from it bit for bit
         [-1.0, 1.0].map(|direction| self.restoring(self.branch_of(0.0, direction), 0.0))
     }
 
     /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
-    #[must_use]
     pub fn rest_speed(&self) -> f64 {
         1e-13 * self.displacement_scale() * self.rocking_rate()
     }
 
     /// √(k₀/`m_eff`), the rate at which a tilted wall falls \[1/s\].
-    #[must_use]
     pub fn rocking_rate(&self) -> f64 {
         (self.body.geometric_stiffness / self.body.effective_mass).sqrt()
     }
 
     /// Energy per unit effective mass, ½ u̇² + ∫F du/`m_eff` from 0 \[m²/s²\]. For a strip it is twice the
     /// physical one, as Eq. (12) is.
-    #[must_use]
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
         if let Some(rotations) = &self.rotations {
             return rotations.energy(displacement, velocity);
@@ -197,14 +177,12 @@ impl Wall {
     }
 
     /// The larger `u_ins`, to which errors and tolerances refer \[m\].
-    #[must_use]
     pub fn displacement_scale(&self) -> f64 {
         self.body.instability.positive.max(self.body.instability.negative)
     }
 
     /// Returns the branch of a displacement. At a corner it is the one ahead of a motion of the given
     /// `direction`, at rest the outer one.
-    #[must_use]
     pub fn branch_of(&self, displacement: f64, direction: f64) -> usize {
         let last = self.branches.len() - 1;
         let outward = if direction == 0.0 { displacement } else { direction };
@@ -217,7 +195,6 @@ impl Wall {
     }
 
     /// Corners (u, F) of the restoring force from landing to landing, for drawing \[m, N\].
-    #[must_use]
     pub fn backbone(&self) -> Vec<(f64, f64)> {
         let m = self.body.effective_mass;
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * self.branches.len());

@@ -8,31 +8,26 @@ use crate::choices::DampingModel;
 pub const FITTED_A1: std::ops::RangeInclusive<f64> = 0.005..=0.1;
 
 /// Damping ratio of a constant damping coefficient, ξ = −0.667 a₁^0.450 ln e. Eq. (20).
-#[must_use]
 pub fn constant_coefficient(a1: f64, restitution: f64) -> f64 {
     -0.667 * a1.powf(0.450) * restitution.ln()
 }
 
 /// Constant damping ratio, ξ = −0.350 a₁^0.074 ln e. Eq. (21).
-#[must_use]
 pub fn constant_ratio(a1: f64, restitution: f64) -> f64 {
     -0.350 * a1.powf(0.074) * restitution.ln()
 }
 
 /// Stiffness-proportional damping ratio at ω₁, ξ₁ = −0.218 a₁^−0.195 ln e. Eq. (22).
-#[must_use]
 pub fn stiffness_proportional(a1: f64, restitution: f64) -> f64 {
     -0.218 * a1.powf(-0.195) * restitution.ln()
 }
 
 /// Damping coefficient ratio of an unloaded free-standing parapet, c̄ = −1.55 ln e. Eq. (23).
-#[must_use]
 pub fn free_standing_block(restitution: f64) -> f64 {
     -1.55 * restitution.ln()
 }
 
 /// ξ, ξ₁ or c̄ of a damping model; 0 without one. Eqs. (20)–(23).
-#[must_use]
 pub fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
     match model {
         DampingModel::None => 0.0,
@@ -45,7 +40,6 @@ pub fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
 
 /// Damping ratio of an elastic oscillator that decays like a rocking block over `impacts` impacts from the
 /// rotation ratio θ₀/α. Priestley et al., Eq. (13).
-#[must_use]
 pub fn priestley(restitution: f64, rotation_ratio: f64, impacts: u32) -> f64 {
     let n = f64::from(impacts);
     let energy = 1.0 - (1.0 - rotation_ratio).powi(2);
@@ -55,13 +49,11 @@ pub fn priestley(restitution: f64, rotation_ratio: f64, impacts: u32) -> f64 {
 }
 
 /// Damping ratio of an elastic oscillator, ξ = −0.68 ln e. Makris and Konstantinidis, Eq. (14).
-#[must_use]
 pub fn makris_konstantinidis(restitution: f64) -> f64 {
     -0.68 * restitution.ln()
 }
 
 /// Damping ratio from a sine-shaped half cycle, ξ = 2(1 − e)/(π(1 + e)). Giannini and Masiani, Eq. (17).
-#[must_use]
 pub fn giannini_masiani(restitution: f64) -> f64 {
     2.0 * (1.0 - restitution) / (std::f64::consts::PI * (1.0 + restitution))
 }
@@ -70,7 +62,6 @@ pub fn giannini_masiani(restitution: f64) -> f64 {
 /// (5).
 ///
 /// `frequency` is the frequency parameter p = √(3g/(4R)) \[rad/s\].
-#[must_use]
 pub fn housner_period(frequency: f64, rotation_ratio: f64) -> f64 {
     4.0 / frequency * (1.0 / (1.0 - rotation_ratio)).acosh()
 }

@@ -21,7 +21,6 @@ pub struct Line {
 
 impl Line {
     /// Force at a displacement \[N\].
-    #[must_use]
     pub fn at(&self, displacement: f64) -> f64 {
         self.force + self.slope * (displacement - self.anchor)
     }

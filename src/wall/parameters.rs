@@ -74,7 +74,6 @@ impl Kinematics {
     pub const ALL: [Self; 2] = [Self::Linear, Self::Trigonometric];
 
     /// The name in scene files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",

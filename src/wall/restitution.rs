@@ -7,20 +7,17 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 
 /// Analytic coefficient of restitution of a parapet, `e_an` = 1 − (3/2) sin²α. Eq. (2).
-#[must_use]
 pub fn analytic_parapet(slenderness: f64) -> f64 {
     1.0 - 1.5 * slenderness.sin().powi(2)
 }
 
 /// Analytic coefficient of restitution of a vertical spanning wall, `e_an` = 1 − 2 sin²α₁. Eq. (3).
-#[must_use]
 pub fn analytic_vertical_spanning(slenderness: f64) -> f64 {
     1.0 - 2.0 * slenderness.sin().powi(2)
 }
 
 /// Conservation of angular momentum about the new bottom hinge of a vertical spanning wall, for any hinge
 /// height: e = (h h₁ + h₁² − 3b²)/(h h₁ + h₁² + 3b²). Equals Eq. (3) at h₁ = h/2.
-#[must_use]
 pub fn momentum_vertical_spanning(body: &Body) -> f64 {
     let h1 = body.hinge_height;
     // b = h₁ tan α₁
@@ -31,7 +28,6 @@ pub fn momentum_vertical_spanning(body: &Body) -> f64 {
 
 /// Ratio `e_exp`/`e_an` of restitution measured on masonry: 0.95 for a parapet, 0.90 for a vertical spanning
 /// wall. Tomassetti et al., section 3.2.
-#[must_use]
 pub fn calibration(mechanism: Mechanism) -> f64 {
     match mechanism {
         Mechanism::Parapet => 0.95,

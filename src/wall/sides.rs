@@ -15,7 +15,6 @@ impl Sides {
     }
 
     /// The value of the side on which `displacement` lies; u = 0 belongs to the positive one.
-    #[must_use]
     pub fn of(self, displacement: f64) -> f64 {
         if displacement < 0.0 { self.negative } else { self.positive }
     }

@@ -18,13 +18,11 @@ pub struct Support {
 
 impl Support {
     /// Both supports move with one acceleration \[m/s²\], without drift.
-    #[must_use]
     pub fn rigid(acceleration: f64) -> Self {
         Self { bottom: acceleration, top: acceleration, drift: 0.0 }
     }
 
     /// Linear interpolation towards `other`; `fraction` from 0 to 1.
-    #[must_use]
     pub fn towards(self, other: Self, fraction: f64) -> Self {
         self.with(other, |a, b| a + (b - a) * fraction)
     }
@@ -39,7 +37,6 @@ impl Support {
     }
 
     /// Whether every component is a finite number.
-    #[must_use]
     pub fn is_finite(self) -> bool {
         self.bottom.is_finite() && self.top.is_finite() && self.drift.is_finite()
     }
@@ -58,7 +55,6 @@ impl Body {
     /// Effective forcing per unit effective mass, −λ `a_eff` + W d/(h `m_eff`) \[m/s²\].
     ///
     /// `a_eff` = `w_b` `a_b` + `w_t` `a_t`: a parapet knows its base only, and no drift.
-    #[must_use]
     pub fn forcing(&self, support: Support) -> f64 {
         let [w_b, w_t] = self.support_weights;
         match self.mechanism {
@@ -73,7 +69,6 @@ impl Body {
     /// Forces the supports exert on the wall \[N\]; `acceleration` is ü \[m/s²\].
     ///
     /// `drift` says whether a drift has been given: then the couple G = −W u/(2h) − (W/2 + O) d/h acts too.
-    #[must_use]
     pub fn reactions(&self, support: Support, acceleration: f64, displacement: f64, drift: bool) -> Ends {
         let couple = if drift { self.couple(displacement, support.drift) } else { 0.0 };
         self.exchange([support.bottom, support.top], acceleration, couple)
@@ -81,7 +76,6 @@ impl Body {
 
     /// Impulses of the supports on the wall \[N s\], from the changes of velocity, jumps at impacts included.
     /// `velocity_changes` are those of the bottom and top support \[m/s\], `couple_impulse` is ∫G dt.
-    #[must_use]
     pub fn impulses(&self, velocity_changes: [f64; 2], velocity_change: f64, couple_impulse: f64) -> Ends {
         self.exchange(velocity_changes, velocity_change, couple_impulse)
     }

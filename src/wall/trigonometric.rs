@@ -103,19 +103,16 @@ impl FullRotations {
 
     /// Displacements of the unstable equilibrium on both sides, which without overburden are `u_ins` of Table
     /// 2 \[m\].
-    #[must_use]
     pub fn instability(&self) -> Sides {
         Sides { positive: self.equilibrium(1.0), negative: self.equilibrium(-1.0) }
     }
 
     /// Displacement at which the first body lies flat, the end of the fall \[m\].
-    #[must_use]
     pub fn landing(&self) -> f64 {
         (self.shorter + self.thickness) / self.lever
     }
 
     /// Rotation θ or θ₁ at a displacement, of its sign \[rad\].
-    #[must_use]
     pub fn rotation(&self, displacement: f64) -> f64 {
         let diagonal = self.diagonals[0].sqrt();
         let turn = |s: f64| libm::asin(s / diagonal);
@@ -123,7 +120,6 @@ impl FullRotations {
     }
 
     /// Displacement at a rotation θ or θ₁, of its sign \[m\].
-    #[must_use]
     pub fn displacement(&self, rotation: f64) -> f64 {
         let slenderness = libm::asin(self.thickness / self.diagonals[0].sqrt());
         let s = self.diagonals[0].sqrt() * libm::sin(rotation.abs() - slenderness);
@@ -131,13 +127,11 @@ impl FullRotations {
     }
 
     /// f, the restoring force over `m_eff`, on the side of `sign` \[m/s²\].
-    #[must_use]
     pub fn restoring(&self, displacement: f64, sign: f64) -> f64 {
         sign * self.force(self.tangents(self.place(displacement)), sign)
     }
 
     /// ü under the forcing p, on the side of `sign` \[m/s²\].
-    #[must_use]
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64, sign: f64) -> f64 {
         let s = self.place(displacement);
         let t = self.tangents(s);
@@ -154,7 +148,6 @@ impl FullRotations {
 
     /// Energy over `m_eff`, ½ μ u̇² + ∫f du from 0 \[m²/s²\]; for a strip twice the physical one, as Eq. (12)
     /// is.
-    #[must_use]
     pub fn energy(&self, displacement: f64, velocity: f64) -> f64 {
         let s = self.place(displacement);
         let [g0, g1, g2] = self.forces_of(displacement);

@@ -26,7 +26,6 @@ pub struct Curve {
 
 /// Draws the curve of each side, and secants from the origin: a name and the point they go to, |u| \[m\] and
 /// |F| \[N\].
-#[must_use]
 pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
     let shown = |&(u, force): &(f64, f64)| (1000.0 * u, force / 1000.0);
     let points = || curves.iter().flat_map(|curve| &curve.points).map(shown);

@@ -26,7 +26,6 @@ pub const STYLE: &str = include_str!("chart.css");
 const SIZE: [f64; 2] = [460.0, 300.0];
 
 /// Draws a figure element: title, chart, legend.
-#[must_use]
 pub fn figure(chart: &Chart) -> String {
     let mut key = String::new();
     for series in chart.series.iter().filter(|series| !series.name.is_empty()) {

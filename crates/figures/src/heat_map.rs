@@ -62,7 +62,6 @@ pub struct Cell {
 
 impl Axis {
     /// An axis of evenly spaced values at the middles of its cells, marked at round numbers.
-    #[must_use]
     pub fn even(label: &str, values: &[f64]) -> Self {
         let count = values.len();
         let mut ticks = Vec::new();
@@ -76,7 +75,6 @@ impl Axis {
 
 impl HeatMap<'_> {
     /// Draws the map.
-    #[must_use]
     pub fn svg(&self) -> String {
         let [width, height] = self.size;
         let bottom = TOP + height * self.rows.count as f64;
@@ -135,7 +133,6 @@ impl HeatMap<'_> {
 }
 
 /// Draws the scale of colours: swatches side by side, some with a text below.
-#[must_use]
 pub fn scale(label: &str, swatches: &[(String, Option<String>)]) -> String {
     let width = 26.0;
     let mut svg = format!(

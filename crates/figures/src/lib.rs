@@ -35,7 +35,6 @@ pub mod work_precision;
 /// ```
 /// assert_eq!(figures::escaped("a < b"), "a &lt; b");
 /// ```
-#[must_use]
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -27,7 +27,6 @@ pub struct ManyLines {
 
 impl ManyLines {
     /// A plot of a size \[px\] over ranges of x and y.
-    #[must_use]
     pub fn new(size: [f64; 2], x: [f64; 2], y: [f64; 2]) -> Self {
         Self { size, x, y, body: String::new() }
     }
@@ -63,7 +62,6 @@ impl ManyLines {
     }
 
     /// Draws the plot with its axes and their labels; `id` is unique on the page.
-    #[must_use]
     pub fn svg(self, id: &str, [x_label, y_label]: [&str; 2]) -> String {
         let [width, height] = self.size;
         let [left, right, top, bottom] = self.area();

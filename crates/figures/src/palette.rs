@@ -39,7 +39,6 @@ pub const SERIES: [(&str, Mark, &str); 6] = [
 ];
 
 /// Mixes a colour from `stops` (red, green, blue from 0 to 255), evenly spaced over shares from 0 to 1.
-#[must_use]
 pub fn mixed(stops: &[[f64; 3]], share: f64) -> String {
     let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the last but one")]

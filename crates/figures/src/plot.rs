@@ -61,7 +61,6 @@ pub enum Look {
 
 impl Series {
     /// A solid line of a width \[px\].
-    #[must_use]
     pub fn line(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
     }
@@ -98,7 +97,6 @@ pub struct Axis {
 
 impl Axis {
     /// An axis over a range.
-    #[must_use]
     pub fn over(label: &str, range: [f64; 2]) -> Self {
         Self { label: label.into(), range: Some(range) }
     }
@@ -133,7 +131,6 @@ pub struct Plot {
 
 impl Plot {
     /// A plot without a title, of linear axes and no limits.
-    #[must_use]
     pub fn new(size: [f64; 2], axes: [Axis; 2], series: Vec<Series>) -> Self {
         Self { size, title: String::new(), axes, scale: Scale::Linear, series, limits: Vec::new() }
     }
@@ -142,7 +139,6 @@ impl Plot {
     ///
     /// # Panics
     /// If kuva writes the size of a drawing in another way.
-    #[must_use]
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGINS;
         let plots = self.drawn();
@@ -156,7 +152,6 @@ impl Plot {
     }
 
     /// Draws a picture with title and legend, for a file of its own.
-    #[must_use]
     pub fn picture(&self) -> Picture {
         let plots = self.drawn();
         let layout = self.picture_layout(&plots);
@@ -165,14 +160,12 @@ impl Plot {
 
     /// Returns the sides of the plot area of the inline SVG, as parts of its width and height: left, right,
     /// top, bottom.
-    #[must_use]
     pub fn area(&self) -> [f64; 4] {
         let ([width, height], [left, right, top, bottom]) = (self.size, MARGINS);
         [left / width, 1.0 - right / width, top / height, 1.0 - bottom / height]
     }
 
     /// Returns the ranges of the axes: x from, to, y from, to; NaN for those of the data.
-    #[must_use]
     pub fn ranges(&self) -> [f64; 4] {
         let [[x0, x1], [y0, y1]] = self.axes.each_ref().map(|axis| axis.range.unwrap_or([f64::NAN; 2]));
         [x0, x1, y0, y1]
@@ -222,7 +215,6 @@ pub struct Picture(Scene);
 
 impl Picture {
     /// Draws plots of one width, one above the other.
-    #[must_use]
     pub fn stacked(plots: &[Plot]) -> Self {
         let panels: Vec<_> = plots.iter().map(Plot::drawn).collect();
         let layouts = plots.iter().zip(&panels).map(|(plot, drawn)| plot.picture_layout(drawn)).collect();
@@ -235,7 +227,6 @@ impl Picture {
     }
 
     /// Writes it as SVG.
-    #[must_use]
     pub fn svg(&self) -> String {
         SvgBackend::new().render_scene(&self.0)
     }

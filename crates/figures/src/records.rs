@@ -33,7 +33,6 @@ pub struct Record {
 }
 
 /// Draws the histories of up to [`MOST`] records, and the spectra of all below them.
-#[must_use]
 pub fn picture(records: &[Record], damping: f64) -> Picture {
     let end = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
     let longest = records.iter().map(|record| end(&record.history)).fold(0.0, f64::max);

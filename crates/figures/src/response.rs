@@ -17,7 +17,6 @@ pub const WIDTH: f64 = 620.0;
 const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
 
 /// Draws u/`u_ins` over the time \[s\], with the limits ±1.
-#[must_use]
 pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
     let limits = [-1.0, 1.0];
     let plot = over_time(points, [0.0, end], "u / u_ins", BLUE, &limits);
@@ -25,7 +24,6 @@ pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
 }
 
 /// Draws the acceleration of a support \[m/s²\] over the time \[s\].
-#[must_use]
 pub fn motion(points: &[(f64, f64)], end: f64) -> Plot {
     over_time(points, [0.0, end], "a_g (m/s²)", DARK_GREY, &[])
 }
@@ -43,7 +41,6 @@ fn over_time(
 }
 
 /// Draws the part of the backbone that a run went through, on the whole of it: F \[kN\] over u/`u_ins`.
-#[must_use]
 pub fn path_on_backbone(backbone: &[(f64, f64)], [lowest, highest]: [f64; 2]) -> Plot {
     let reach = highest.max(-lowest).clamp(1.0, 1.1);
     let x_range = [-1.05 * reach, 1.05 * reach];
@@ -56,7 +53,6 @@ pub fn path_on_backbone(backbone: &[(f64, f64)], [lowest, highest]: [f64; 2]) ->
 }
 
 /// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.
-#[must_use]
 pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, height: f64) -> Plot {
     let y_range = padded(full.iter().chain(small).map(|point| point.1));
     let series = vec![
@@ -71,7 +67,6 @@ pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, heigh
 ///
 /// There is one curve for each start, the largest last. They lie on that of Eq. (5) of the paper, unless it
 /// is empty.
-#[must_use]
 pub fn period_ratios(curves: Vec<Vec<(f64, f64)>>, housner: Vec<(f64, f64)>, height: f64) -> Plot {
     let points = || curves.iter().flatten().chain(&housner);
     let lowest = points().map(|point| point.1).fold(1.0, f64::min);

@@ -42,7 +42,6 @@ pub struct Tool {
 }
 
 /// Draws all tools; `rounding` is the error that rounding alone may cause.
-#[must_use]
 pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
     let exponent = |error: f64| error.max(FLOOR).log10();
     let mut series = Vec::new();

@@ -82,7 +82,6 @@ pub enum Branch {
 
 impl Branch {
     /// Returns +1 or −1 while yielding, 0 otherwise.
-    #[must_use]
     pub fn sign(self) -> f64 {
         match self {
             Self::Elastic => 0.0,
@@ -154,13 +153,11 @@ impl Floor {
     }
 
     /// Returns √(k/M) before yielding \[rad/s\].
-    #[must_use]
     pub fn omega(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
 
     /// Computes the spring's force \[N\], positive towards −x.
-    #[must_use]
     pub fn spring_force(&self, displacement: f64, plastic: f64, branch: Branch) -> f64 {
         match self.yielding {
             None => self.stiffness * displacement,
@@ -176,7 +173,6 @@ impl Floor {
     }
 
     /// Returns the slope of the spring's force \[N/m\].
-    #[must_use]
     pub fn tangent(&self, branch: Branch) -> f64 {
         match branch {
             Branch::Elastic => self.stiffness,

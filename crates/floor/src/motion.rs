@@ -72,7 +72,6 @@ const MOST_CORNERS: usize = 1_000_000;
 impl State {
     /// Makes the state of a floor that has reached a displacement \[m\] by monotonic loading and has a
     /// velocity \[m/s\], under a load.
-    #[must_use]
     pub fn new(floor: &Floor, displacement: f64, velocity: f64, load: Load) -> Self {
         let plastic = floor.yielding.map_or(0.0, |yielding| {
             displacement - displacement.clamp(-yielding.displacement, yielding.displacement)
@@ -85,20 +84,17 @@ impl State {
     }
 
     /// Computes the acceleration relative to the base \[m/s²\].
-    #[must_use]
     pub fn acceleration(&self, floor: &Floor, load: f64) -> f64 {
         load - (self.spring_force(floor) + floor.damping * self.velocity) / floor.mass
     }
 
     /// Computes the rate of the acceleration \[m/s³\] under a load of this rate.
-    #[must_use]
     pub fn jerk(&self, floor: &Floor, load: Load) -> f64 {
         let acceleration = self.acceleration(floor, load.value);
         load.rate - (floor.tangent(self.branch) * self.velocity + floor.damping * acceleration) / floor.mass
     }
 
     /// Computes the force of the spring \[N\], positive towards −x.
-    #[must_use]
     pub fn spring_force(&self, floor: &Floor) -> f64 {
         floor.spring_force(self.displacement, self.plastic, self.branch)
     }

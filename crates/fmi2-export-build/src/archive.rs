@@ -106,7 +106,6 @@ impl Archive {
     }
 
     /// The content of the file at `name`.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<&[u8]> {
         self.files.get(name).map(Vec::as_slice)
     }

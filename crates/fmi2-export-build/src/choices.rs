@@ -80,33 +80,28 @@ impl @name@ {
     ];
 
     /// The number that stands for it in FMI.
-    #[must_use]
     pub fn value(self) -> i32 {
         match self {@values@
         }
     }
 
     /// The item with this number.
-    #[must_use]
     pub fn from_value(value: i32) -> Option<Self> {
         Self::ALL.iter().copied().find(|item| item.value() == value)
     }
 
     /// Its name in the description and in scenes.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {@names@
         }
     }
 
     /// The item with this name.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|item| item.name() == name)
     }
 
     /// One line on what it means.
-    #[must_use]
     pub fn description(self) -> &'static str {
         match self {@descriptions@
         }

@@ -252,7 +252,6 @@ const ACCESS: &str = "
 #[allow(unreachable_patterns, unreachable_code, reason = \"every variable may be a parameter or a choice\")]
 impl Parameters {
     /// The value of a parameter of type @base@; `None` for other variables.
-    #[must_use]
     pub fn @method@(&self, variable: @base@Variable) -> Option<@value@> {
         match variable {
 @get@            _ => None,

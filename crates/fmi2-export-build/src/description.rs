@@ -47,32 +47,27 @@ impl Description {
     }
 
     /// The guid that follows from the text: 32 hexadecimal digits in braces.
-    #[must_use]
     pub fn guid(&self) -> String {
         fingerprint(&self.text)
     }
 
     /// The guid written in the description.
-    #[must_use]
     pub fn declared_guid(&self) -> &str {
         self.root.attribute("guid").unwrap_or_default()
     }
 
     /// The model's name.
-    #[must_use]
     pub fn model_name(&self) -> &str {
         self.root.attribute("modelName").unwrap_or_default()
     }
 
     /// The name of the library, and of the functions' owner.
-    #[must_use]
     pub fn model_identifier(&self) -> &str {
         let element = self.root.child("CoSimulation").or_else(|| self.root.child("ModelExchange"));
         element.and_then(|element| element.attribute("modelIdentifier")).unwrap_or_default()
     }
 
     /// The number of event indicators; 0 for co-simulation alone.
-    #[must_use]
     pub fn event_indicators(&self) -> usize {
         let count = self.root.attribute("numberOfEventIndicators");
         count.and_then(|count| count.trim().parse().ok()).unwrap_or_default()
@@ -101,13 +96,11 @@ impl Description {
     }
 
     /// The text as it was read, with `guid` as its guid and without the annotations of variables.
-    #[must_use]
     pub fn text_with_guid(&self, guid: &str) -> String {
         with_guid(&without_annotations(&self.text), guid)
     }
 
     /// The description in canonical form: no comments, two blanks per level.
-    #[must_use]
     pub fn to_xml(&self) -> String {
         self.root.to_xml()
     }

@@ -1,7 +1,6 @@
 //! The guid of a description: a hash of its text, the same on every machine.
 
 /// FNV-1a, 128 bits: offset basis and prime from the specification by Fowler, Noll and Vo.
-#[must_use]
 pub fn fnv1a_128(bytes: impl IntoIterator<Item = u8>) -> u128 {
     const OFFSET_BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
     const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
@@ -12,7 +11,6 @@ pub fn fnv1a_128(bytes: impl IntoIterator<Item = u8>) -> u128 {
 ///
 /// Line ends count as `\n`, the guid's own value as empty and annotations of variables as not there, so that
 /// writing the text into an FMU, or checking it out elsewhere, does not change it.
-#[must_use]
 pub fn fingerprint(xml: &str) -> String {
     let text = without_annotations(&xml.replace("\r\n", "\n"));
     format!("{{{:032x}}}", fnv1a_128(with_guid(&text, "").bytes()))

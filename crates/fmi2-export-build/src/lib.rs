@@ -70,7 +70,6 @@ use std::process::ExitCode;
 ///     fmi2_export_build::build_script("modelDescription/modelDescription.xml")
 /// }
 /// ```
-#[must_use]
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 pub fn build_script(xml: &str) -> ExitCode {
     println!("cargo::rerun-if-changed={xml}");

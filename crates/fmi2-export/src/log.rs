@@ -40,7 +40,6 @@ impl Category {
         &[Self::Warning, Self::Discard, Self::Error, Self::Fatal, Self::Events, Self::All];
 
     /// Its name in the description.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Warning => "logStatusWarning",
@@ -53,7 +52,6 @@ impl Category {
     }
 
     /// The category with this name.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|category| category.name() == name)
     }
@@ -70,7 +68,6 @@ impl Filter {
     pub const EVERYTHING: Self = Self(u8::MAX);
 
     /// This and `category`, or everything if that is [`Category::All`].
-    #[must_use]
     pub const fn with(self, category: Category) -> Self {
         match category {
             Category::All => Self::EVERYTHING,
@@ -79,7 +76,6 @@ impl Filter {
     }
 
     /// Whether messages of `category` are wanted.
-    #[must_use]
     pub const fn wants(self, category: Category) -> bool {
         self.0 & 1 << category as u8 != 0
     }
@@ -101,25 +97,21 @@ impl<'a> Log<'a> {
     }
 
     /// A log that nobody reads.
-    #[must_use]
     pub fn silent() -> Self {
         Self { sink: None, filter: Filter::ERRORS }
     }
 
     /// Whether warnings are wanted.
-    #[must_use]
     pub fn wants_warnings(&self) -> bool {
         self.wants(Category::Warning)
     }
 
     /// Whether events are wanted.
-    #[must_use]
     pub fn wants_events(&self) -> bool {
         self.wants(Category::Events)
     }
 
     /// Whether information is wanted.
-    #[must_use]
     pub fn wants_info(&self) -> bool {
         self.wants(Category::All)
     }

@@ -39,7 +39,6 @@ enum Bytes<'a> {
 #[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
 impl StateCodec<'_> {
     /// Whether values are being read, so that what follows from them has to be computed.
-    #[must_use]
     pub fn is_reading(&self) -> bool {
         matches!(self.bytes, Bytes::Read(_))
     }

@@ -7,7 +7,6 @@ use std::path::PathBuf;
 /// Importers pass `file:///p`, `file:/p`, `file://localhost/p` or a plain path; percent escapes count in URIs
 /// only. None if it is empty, of another scheme, on another host, wrongly escaped, no UTF-8, or contains a
 /// NUL.
-#[must_use]
 pub fn path_from_location(location: &str) -> Option<PathBuf> {
     let text = match scheme(location) {
         None => location.to_owned(),

@@ -123,7 +123,6 @@ impl fmt::Display for Warning {
 impl Record {
     /// Checks whether the ground comes to rest, whether the peak is credible and the one that the file
     /// states, and whether the shaking has its start and its end.
-    #[must_use]
     pub fn check(&self) -> Check {
         let motion = &self.motion;
         let [peak_velocity, final_velocity] = velocities(motion);

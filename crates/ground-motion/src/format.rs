@@ -33,7 +33,6 @@ impl Format {
         [Self::At2, Self::Esm, Self::Knet, Self::Cosmos, Self::Csmip, Self::Smc, Self::Csv];
 
     /// Returns the format's short name, such as `at2`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::At2 => "at2",
@@ -47,7 +46,6 @@ impl Format {
     }
 
     /// Returns what people call the format.
-    #[must_use]
     pub fn description(self) -> &'static str {
         match self {
             Self::At2 => "PEER AT2",

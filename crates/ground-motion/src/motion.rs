@@ -44,26 +44,22 @@ impl GroundMotion {
     }
 
     /// Returns the time between samples (s).
-    #[must_use]
     pub fn step(&self) -> f64 {
         self.step
     }
 
     /// Returns the samples (m/s²).
-    #[must_use]
     pub fn samples(&self) -> &[f64] {
         &self.samples
     }
 
     /// Returns the time of the last sample (s).
-    #[must_use]
     pub fn duration(&self) -> f64 {
         (self.samples.len() - 1) as f64 * self.step
     }
 
     /// Interpolates the acceleration (m/s²) at a time (s). At the very end it is the last sample; at a time
     /// that is NaN it is zero.
-    #[must_use]
     pub fn at(&self, time: f64) -> f64 {
         if !(0.0..=self.duration()).contains(&time) {
             return 0.0;
@@ -78,7 +74,6 @@ impl GroundMotion {
     }
 
     /// Computes the peak ground acceleration, the largest absolute sample (m/s²).
-    #[must_use]
     pub fn peak(&self) -> f64 {
         self.samples.iter().fold(0.0, |peak, a| a.abs().max(peak))
     }
@@ -88,7 +83,6 @@ impl GroundMotion {
     /// # Panics
     /// If the factor or a scaled sample is not finite; [`checked_scaled`](Self::checked_scaled) is for
     /// factors from outside.
-    #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         self.checked_scaled(factor).unwrap_or_else(|error| panic!("{error}"))
     }

@@ -119,7 +119,6 @@ impl Pulse {
     }
 
     /// Returns the time after which the motion is zero (s); a harmonic may have none.
-    #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self.shape {
             Shape::Ricker { centre } => Some(centre + RICKER_HALF_LENGTH / (PI * self.frequency)),

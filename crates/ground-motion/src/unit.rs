@@ -42,7 +42,6 @@ impl Unit {
     ];
 
     /// Returns the unit's plain name, such as `cm/s2`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::MetrePerSecondSquared => "m/s2",
@@ -56,7 +55,6 @@ impl Unit {
     ///
     /// Divides where the factor is not a binary fraction but its inverse is a whole number: 1 cm/s² is then
     /// the double nearest to 0.01 m/s².
-    #[must_use]
     pub fn to_si(self, value: f64) -> f64 {
         match self {
             Self::MetrePerSecondSquared => value,

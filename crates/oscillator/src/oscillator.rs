@@ -57,7 +57,6 @@ const NEGLIGIBLE: f64 = 1e-18;
 
 impl Oscillator {
     /// Makes the oscillator with damping c \[1/s\] and stiffness k \[1/s²\], per unit mass and of any sign.
-    #[must_use]
     pub fn new(damping: f64, stiffness: f64) -> Self {
         let half = 0.5 * damping;
         let discriminant = stiffness - half * half;
@@ -75,21 +74,18 @@ impl Oscillator {
 
     /// Returns damping c \[1/s\].
     #[inline]
-    #[must_use]
     pub fn damping(&self) -> f64 {
         self.damping
     }
 
     /// Returns stiffness k \[1/s²\].
     #[inline]
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
     /// Returns the form of the free motion.
     #[inline]
-    #[must_use]
     pub fn regime(&self) -> Regime {
         self.regime
     }
@@ -97,7 +93,6 @@ impl Oscillator {
     /// Returns the time over which the closed form neither overflows nor hides an unbounded number of turning
     /// points \[s\].
     #[inline]
-    #[must_use]
     pub fn longest_piece(&self) -> f64 {
         match self.regime {
             // a little more than a period; without stiffness and damping there is no limit
@@ -119,7 +114,6 @@ impl Oscillator {
     /// assert!((softening.g - (3.0 * 0.7_f64).sinh() / 3.0).abs() < 1e-14);
     /// ```
     #[inline]
-    #[must_use]
     pub fn green(&self, time: f64) -> Green {
         let (c, k) = (self.damping, self.stiffness);
         if k.abs() * time * time + c * time <= SHORT {
@@ -192,7 +186,6 @@ impl Oscillator {
     ///
     /// From ü and the jerk on each derivative follows from the two before, u⁽ⁿ⁺²⁾ = −c u⁽ⁿ⁺¹⁾ − k u⁽ⁿ⁾.
     #[inline]
-    #[must_use]
     pub fn series_from(&self, start: KinematicState, rate: f64, time: f64) -> Option<Polynomial> {
         let (c, k) = (self.damping, self.stiffness);
         let reach = k.abs() * time * time + c * time;
@@ -220,7 +213,6 @@ impl Oscillator {
 
     /// Sums [`Self::series_from`] at `time` \[s\] at once.
     #[inline]
-    #[must_use]
     pub fn series_at(&self, start: KinematicState, rate: f64, time: f64) -> Option<KinematicState> {
         let (c, k) = (self.damping, self.stiffness);
         if k.abs() * time * time + c * time > SHORT {
@@ -254,7 +246,6 @@ impl Oscillator {
     ///
     /// The load itself enters by the acceleration at the start, ü₀ = p₀ − c u̇₀ − k u₀.
     #[inline]
-    #[must_use]
     pub fn propagate(&self, start: KinematicState, rate: f64, time: f64) -> KinematicState {
         match self.regime {
             Regime::Exponential(slow, fast) if self.is_spread(time) => {
@@ -286,7 +277,6 @@ impl Oscillator {
     ///
     /// Where [the two modes are spread](Self::is_spread), products with it lose digits to cancellation.
     #[inline]
-    #[must_use]
     pub fn propagator(&self, time: f64) -> [[f64; 3]; 3] {
         let Green { g, h, j, .. } = self.green(time);
         let (c, k) = (self.damping, self.stiffness);
@@ -298,7 +288,6 @@ impl Oscillator {
     /// ```text
     /// ∫u dt = u₀ t + (H + cJ) u̇₀ + J ü₀ + K p₁
     /// ```
-    #[must_use]
     pub fn displacement_integral(&self, start: KinematicState, rate: f64, time: f64) -> f64 {
         let Green { h, j, k, .. } = self.green(time);
         let KinematicState { displacement, velocity, acceleration } = start;
@@ -308,14 +297,12 @@ impl Oscillator {
     /// Returns whether over `time` \[s\] the two modes part so far that [`Self::propagate`] follows each on
     /// its own.
     #[inline]
-    #[must_use]
     pub fn is_spread(&self, time: f64) -> bool {
         matches!(self.regime, Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE)
     }
 
     /// Computes the jerk dü/dt = p₁ − c ü − k u̇ \[m/s³\] under a load that changes at `rate` \[m/s³\].
     #[inline]
-    #[must_use]
     pub fn jerk(&self, at: KinematicState, rate: f64) -> f64 {
         rate - self.damping * at.acceleration - self.stiffness * at.velocity
     }
@@ -323,7 +310,6 @@ impl Oscillator {
     /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] for `length` seconds after an instant, under a load
     /// that changes at `rate` \[m/s³\]. Damping must not be negative.
     #[inline]
-    #[must_use]
     pub fn bounds(&self, from: KinematicState, rate: f64, length: f64) -> (f64, f64) {
         let k = self.stiffness;
         let acceleration = from.acceleration.abs();

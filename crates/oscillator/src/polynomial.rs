@@ -21,7 +21,6 @@ impl Polynomial {
 
     /// Returns the motion at time zero.
     #[inline]
-    #[must_use]
     pub fn start(&self) -> KinematicState {
         let [displacement, velocity, half_acceleration, ..] = self.coefficients;
         KinematicState { displacement, velocity, acceleration: 2.0 * half_acceleration }
@@ -29,7 +28,6 @@ impl Polynomial {
 
     /// Evaluates the motion at a time \[s\].
     #[inline]
-    #[must_use]
     pub fn at(&self, time: f64) -> KinematicState {
         let (mut displacement, mut velocity, mut half_acceleration) = (0.0, 0.0, 0.0);
         for &coefficient in self.used().iter().rev() {
@@ -43,7 +41,6 @@ impl Polynomial {
     /// Bounds |ü| \[m/s²\] and the jerk \[m/s³\] up to the time T = `horizon` \[s\]: Σ n(n−1) |uₙ| Tⁿ⁻²
     /// and Σ n(n−1)(n−2) |uₙ| Tⁿ⁻³.
     #[inline]
-    #[must_use]
     pub fn bounds(&self, horizon: f64) -> (f64, f64) {
         let (mut acceleration, mut jerk) = (0.0, 0.0);
         for (n, coefficient) in self.used().iter().enumerate().skip(2).rev() {
@@ -59,7 +56,6 @@ impl Polynomial {
     /// Bounds the rate of the jerk \[m/s⁴\] up to the time T = `horizon` \[s\]: Σ n(n−1)(n−2)(n−3) |uₙ|
     /// Tⁿ⁻⁴.
     #[inline]
-    #[must_use]
     pub fn snap(&self, horizon: f64) -> f64 {
         let terms = self.used().iter().enumerate().skip(4).rev();
         terms.fold(0.0, |sum, (n, coefficient)| {
@@ -69,7 +65,6 @@ impl Polynomial {
 
     /// Integrates u from time zero to `time` \[m s\].
     #[inline]
-    #[must_use]
     pub fn integral(&self, time: f64) -> f64 {
         let mut sum = 0.0;
         for (n, coefficient) in self.used().iter().enumerate().rev() {

@@ -23,7 +23,6 @@ pub struct Chart {
 
 impl Chart {
     /// Creates a chart.
-    #[must_use]
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self { title: title.into(), x, y, series }
     }
@@ -40,13 +39,11 @@ pub struct Axis {
 
 impl Axis {
     /// Creates an axis that takes its range from the data.
-    #[must_use]
     pub fn new(label: &str) -> Self {
         Self { label: label.into(), range: None }
     }
 
     /// Creates an axis over a range.
-    #[must_use]
     pub fn over(label: &str, range: [f64; 2]) -> Self {
         Self { label: label.into(), range: Some(range) }
     }
@@ -76,19 +73,16 @@ pub struct Series {
 
 impl Series {
     /// Creates a line.
-    #[must_use]
     pub fn line(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), look: Look::Line, color, points }
     }
 
     /// Creates a dashed line.
-    #[must_use]
     pub fn dashed(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { look: Look::Dashed, ..Self::line(name, color, points) }
     }
 
     /// Creates marks without a line.
-    #[must_use]
     pub fn marks(name: &str, color: usize, points: Vec<(f64, f64)>) -> Self {
         Self { look: Look::Marks, ..Self::line(name, color, points) }
     }

@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const MOST_THREADS: usize = 512;
 
 /// Returns the number of threads asked for, or one for each core.
-#[must_use]
 pub fn threads(given: Option<NonZeroUsize>) -> NonZeroUsize {
     given.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
 }

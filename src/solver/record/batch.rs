@@ -50,7 +50,6 @@ impl RecordSolver<'_> {
 
 impl<F: Forcing> Batch<'_, F> {
     /// Tells whether runs go side by side, not one by one.
-    #[must_use]
     pub fn is_side_by_side(&self) -> bool {
         self.side_by_side.is_some()
     }

@@ -37,7 +37,6 @@ pub struct RecordSolver<'a> {
 
 impl<'a> RecordSolver<'a> {
     /// Prepares steps of `step` \[s\].
-    #[must_use]
     pub fn new(motion: &'a Motion, step: f64) -> Self {
         let mut maps: Vec<Option<StepMap>> = Vec::with_capacity(motion.oscillators.len());
         for (branch, &oscillator) in motion.wall.branches().iter().zip(&motion.oscillators) {

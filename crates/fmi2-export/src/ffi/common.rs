@@ -18,7 +18,6 @@ use std::ptr;
 ///
 /// # Safety
 /// None needed; unsafe like its siblings.
-#[must_use]
 pub unsafe fn get_types_platform<M: Model>() -> Text {
     c"default".as_ptr()
 }
@@ -27,7 +26,6 @@ pub unsafe fn get_types_platform<M: Model>() -> Text {
 ///
 /// # Safety
 /// None needed; unsafe like its siblings.
-#[must_use]
 pub unsafe fn get_version<M: Model>() -> Text {
     c"2.0".as_ptr()
 }
@@ -39,7 +37,6 @@ pub unsafe fn get_version<M: Model>() -> Text {
 ///
 /// # Safety
 /// The texts are NULL or end with a NUL; `functions` is NULL or points to callbacks of the stated types.
-#[must_use]
 #[allow(clippy::too_many_arguments, reason = "the standard's seven, and what the library can do")]
 pub unsafe fn instantiate<M: Model>(
     kinds: &Kinds<M>,

@@ -59,20 +59,17 @@ pub struct Comparison {
 
 impl Comparison {
     /// Returns the largest difference between the two histories \[-\].
-    #[must_use]
     pub fn largest_difference(&self) -> f64 {
         largest_difference(&self.linear.history, &self.trigonometric.history)
     }
 
     /// Returns the largest difference between the amplitudes of a half cycle, which no phase enters \[-\].
-    #[must_use]
     pub fn largest_amplitude_difference(&self) -> f64 {
         largest_difference(&self.linear.amplitudes, &self.trigonometric.amplitudes)
     }
 
     /// Returns the time of an impact in small rotations over that in full ones; `None` where either has
     /// fewer.
-    #[must_use]
     pub fn time_ratio(&self, impact: usize) -> Option<f64> {
         Some(self.linear.impacts.get(impact)? / self.trigonometric.impacts.get(impact)?)
     }
@@ -84,7 +81,6 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 
 /// Returns the walls of Figure 2: b = 0.4 m, h = 4 m, no overburden, e = 0.985 (parapet) or 0.955 (strip,
 /// hinge at mid-height).
-#[must_use]
 pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     let restitution = match mechanism {
         Mechanism::Parapet => 0.985,
@@ -143,13 +139,11 @@ pub struct Period {
 
 impl Period {
     /// Returns the period of Eq. (1) over that of full rotations \[-\].
-    #[must_use]
     pub fn ratio(&self) -> f64 {
         self.linear / self.trigonometric
     }
 
     /// Returns the period of Eq. (1) over that of Eq. (5), which is √cos α \[-\]: Figure 3.
-    #[must_use]
     pub fn over_housner(&self) -> Option<f64> {
         self.housner.map(|housner| self.linear / housner)
     }

@@ -40,7 +40,6 @@ pub enum Setting {
 
 impl Setting {
     /// Returns the name of the solver, as the parameter `solver` spells it.
-    #[must_use]
     pub fn solver(self) -> &'static str {
         match self {
             Self::Exact(_) => "exact",
@@ -50,7 +49,6 @@ impl Setting {
     }
 
     /// Describes the step or tolerance for a record of `step` \[s\].
-    #[must_use]
     pub fn describe(self, step: f64) -> String {
         match self {
             Self::Exact(parts) | Self::Newmark(parts) => format!("step {:.3e} s", step / f64::from(parts)),
@@ -109,7 +107,6 @@ pub struct WorkPrecision {
 
 impl WorkPrecision {
     /// Returns the error that rounding alone may cause, 100 ε times the amplification \[-\].
-    #[must_use]
     pub fn rounding(&self) -> f64 {
         100.0 * f64::EPSILON * self.amplification
     }

@@ -139,7 +139,6 @@ pub fn calibrate(
 }
 
 /// Returns x of ξ = −x ln e, Eq. (19), by least squares through the origin: Σ ξ (−ln e)/Σ (ln e)².
-#[must_use]
 pub fn coefficient(fits: &[Fit]) -> f64 {
     let (products, squares) = fits.iter().fold((0.0, 0.0), |(products, squares), fit| {
         let logarithm = -fit.restitution.ln();
@@ -152,7 +151,6 @@ impl PowerLaw {
     /// Fits points (a₁, x) by least squares of x itself, as the paper's nonlinear regression does. Since q is
     /// linear for any r, a scalar minimiser finds r. Returns `None` for fewer than two different a₁, or for
     /// values that are not positive.
-    #[must_use]
     pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
         let positive = |&(a1, x): &(f64, f64)| a1 > 0.0 && x > 0.0 && a1.is_finite() && x.is_finite();
         if !points.iter().any(|point| point.0 != points[0].0) || !points.iter().all(positive) {
@@ -173,7 +171,6 @@ impl PowerLaw {
     }
 
     /// Returns x at a₁.
-    #[must_use]
     pub fn at(&self, a1: f64) -> f64 {
         self.q * a1.powf(self.r)
     }

@@ -43,7 +43,6 @@ pub struct Resampled {
 
 impl Bootstrap {
     /// Prepares `samples` resamples of `records` records. The same seed gives the same draws.
-    #[must_use]
     pub fn new(records: usize, samples: usize, seed: u64) -> Self {
         Self { records, samples, seed }
     }
@@ -63,7 +62,6 @@ impl Bootstrap {
     ///
     /// # Panics
     /// If there are fewer exceedances than records.
-    #[must_use]
     pub fn medians(&self, exceedances: &[Exceedance]) -> Vec<f64> {
         let mut resampled = vec![0.0; self.records];
         self.each(|drawn| {
@@ -79,7 +77,6 @@ impl Bootstrap {
     ///
     /// # Panics
     /// As [`medians`](Self::medians).
-    #[must_use]
     pub fn fitted_medians(&self, states: &[Vec<Exceedance>], kind: &ObservationKind) -> Vec<Resampled> {
         let observed = |state: &Vec<Exceedance>| kind.observations(state);
         let bounds = |(fitted, observations): (Result<Lognormal, FitError>, &Vec<Observation>)| {
@@ -138,7 +135,6 @@ impl Resampled {
 
 impl Interval {
     /// Encloses the central `part` of the resamples' values. Values that are not numbers are left out.
-    #[must_use]
     pub fn new(estimate: f64, resampled: impl IntoIterator<Item = f64>, part: f64) -> Self {
         let mut values: Vec<f64> = resampled.into_iter().filter(|value| !value.is_nan()).collect();
         values.sort_by(f64::total_cmp);
@@ -149,7 +145,6 @@ impl Interval {
 
     /// Formats the estimate and the ends of its interval in a unit, to three decimals or in full: `1.25`,
     /// `open >2.00` above the levels, `open <0.50` below, `–` where nothing is known.
-    #[must_use]
     pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
         let [low, high] = self.range;
         let number = |value: f64| match decimals {

@@ -39,7 +39,6 @@ pub struct Summary {
 ///
 /// # Panics
 /// If there is no such model, or the models differ in their number of limit states or records.
-#[must_use]
 pub fn compare(
     models: &[Vec<Vec<Exceedance>>],
     reference: usize,

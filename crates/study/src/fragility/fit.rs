@@ -14,7 +14,6 @@ pub struct Lognormal {
 
 impl Lognormal {
     /// Returns the probability of exceedance at an intensity.
-    #[must_use]
     pub fn probability(&self, intensity: f64) -> f64 {
         cumulative(libm::log(intensity / self.median) / self.dispersion)
     }
@@ -80,7 +79,6 @@ pub fn fit(observations: &[Observation]) -> Result<Lognormal, FitError> {
 ///
 /// For exact intensities alone the maximum has a closed form: their means and their pooled standard
 /// deviation. A limit state whose observations determine no median has an error and leaves the others alone.
-#[must_use]
 pub fn fit_jointly(states: &[Vec<Observation>]) -> Vec<Result<Lognormal, FitError>> {
     fit_from(states, &[])
 }

@@ -8,7 +8,6 @@ const ASYMPTOTIC: f64 = -20.0;
 const NEAR_ONE: f64 = 8.5;
 
 /// Returns Φ(z).
-#[must_use]
 pub fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }

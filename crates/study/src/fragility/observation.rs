@@ -32,7 +32,6 @@ pub enum ObservationKind {
 
 impl ObservationKind {
     /// Makes observations of the exceedances of some records.
-    #[must_use]
     pub fn observations(&self, exceedances: &[Exceedance]) -> Vec<Observation> {
         let record = |exceedance: &Exceedance| match *exceedance {
             Exceedance::At(intensity) => Observation::At(intensity),

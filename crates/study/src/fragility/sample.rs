@@ -4,7 +4,6 @@ use crate::ida::Exceedance;
 
 /// Returns the median exceedance: the intensity that half of the records need, infinite where it is above the
 /// levels.
-#[must_use]
 pub fn median(exceedances: &[Exceedance]) -> f64 {
     let mut intensities: Vec<f64> = exceedances.iter().map(|exceedance| exceedance.or_infinity()).collect();
     sample_median(&mut intensities)
@@ -12,7 +11,6 @@ pub fn median(exceedances: &[Exceedance]) -> f64 {
 
 /// Returns the steps of the empirical fragility: intensities in rising order, each with the fraction of the
 /// records that exceed the limit state from there on. Censored records count among all records.
-#[must_use]
 pub fn steps(exceedances: &[Exceedance]) -> Vec<(f64, f64)> {
     let mut intensities: Vec<f64> = exceedances.iter().map(|exceedance| exceedance.or_infinity()).collect();
     intensities.retain(|intensity| intensity.is_finite());
@@ -23,7 +21,6 @@ pub fn steps(exceedances: &[Exceedance]) -> Vec<(f64, f64)> {
 
 /// Returns a fractile of a sorted sample: its smallest value that at least a fraction `part` of it does not
 /// exceed.
-#[must_use]
 pub fn fractile(sorted: &[f64], part: f64) -> Option<f64> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to the length")]
     let number = (part * sorted.len() as f64 - 1e-9).ceil().max(1.0) as usize;

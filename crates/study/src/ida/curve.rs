@@ -22,7 +22,6 @@ pub enum Exceedance {
 
 impl Exceedance {
     /// Returns the intensity, infinite for a censored record.
-    #[must_use]
     pub fn or_infinity(self) -> f64 {
         match self {
             Self::At(intensity) => intensity,
@@ -41,7 +40,6 @@ pub struct Curve {
 
 impl Curve {
     /// Creates a curve from its runs in any order.
-    #[must_use]
     pub fn new(mut runs: Vec<Run>) -> Self {
         runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
         let below_collapse = runs.iter().position(|run| run.overturning.is_some()).unwrap_or(runs.len());
@@ -49,13 +47,11 @@ impl Curve {
     }
 
     /// Returns the runs in the order of their levels.
-    #[must_use]
     pub fn runs(&self) -> &[Run] {
         &self.runs
     }
 
     /// Returns the collapse intensity: the lowest level at which the wall overturned.
-    #[must_use]
     pub fn collapse(&self) -> Exceedance {
         match self.runs.get(self.below_collapse) {
             Some(run) => Exceedance::At(run.intensity),
@@ -64,13 +60,11 @@ impl Curve {
     }
 
     /// Returns the highest level below the collapse, or 0 \[m/s²\]. The collapse lies between the two.
-    #[must_use]
     pub fn level_below_collapse(&self) -> f64 {
         self.runs[..self.below_collapse].last().map_or(0.0, |run| run.intensity)
     }
 
     /// Counts the levels above the collapse at which the wall did not overturn: structural resurrections.
-    #[must_use]
     pub fn resurrections(&self) -> usize {
         self.runs[self.below_collapse..].iter().filter(|run| run.overturning.is_none()).count()
     }
@@ -80,7 +74,6 @@ impl Curve {
     ///
     /// Between two levels without overturning the demand is interpolated linearly. The intensity is that of a
     /// level where the wall overturns at it, or where `at_levels` is set.
-    #[must_use]
     pub fn exceedance(&self, fraction: f64, at_levels: bool) -> Exceedance {
         let mut before = [0.0, 0.0];
         for run in &self.runs {
@@ -100,7 +93,6 @@ impl Curve {
 
     /// Returns |u|/`u_ins` at an intensity, interpolated linearly from the origin on, and infinite from the
     /// collapse on. Returns `None` above the levels of a wall that never overturned.
-    #[must_use]
     pub fn demand(&self, intensity: f64) -> Option<f64> {
         let mut before = [0.0, 0.0];
         for run in &self.runs {
@@ -117,7 +109,6 @@ impl Curve {
     }
 
     /// Returns the highest level \[m/s²\].
-    #[must_use]
     pub fn top(&self) -> f64 {
         self.runs.last().map_or(0.0, |run| run.intensity)
     }

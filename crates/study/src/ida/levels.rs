@@ -75,7 +75,6 @@ fn check_range(
 impl Levels {
     /// Returns the levels \[m/s²\] at which every record is run up to its collapse; `None` where each record
     /// has its own levels.
-    #[must_use]
     pub fn shared(&self) -> Option<Vec<f64>> {
         match self {
             Self::Grid(levels) => Some(levels.clone()),

@@ -41,7 +41,6 @@ impl IntensityMeasure {
     }
 
     /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
-    #[must_use]
     pub fn name(&self) -> String {
         match self {
             Self::Pga => "PGA".into(),

@@ -131,49 +131,41 @@ impl Study {
     }
 
     /// Returns the walls.
-    #[must_use]
     pub fn walls(&self) -> &[NamedWall] {
         &self.walls
     }
 
     /// Returns the records.
-    #[must_use]
     pub fn records(&self) -> &[NamedRecord] {
         &self.records
     }
 
     /// Returns the damping models.
-    #[must_use]
     pub fn models(&self) -> &[Model] {
         &self.models
     }
 
     /// Returns the intensity measure.
-    #[must_use]
     pub fn measure(&self) -> &IntensityMeasure {
         &self.measure
     }
 
     /// Returns the levels.
-    #[must_use]
     pub fn levels(&self) -> &Levels {
         &self.levels
     }
 
     /// Returns the free vibration after each record \[s\].
-    #[must_use]
     pub fn tail(&self) -> f64 {
         self.tail
     }
 
     /// Returns the intensity of an unscaled record \[m/s²\].
-    #[must_use]
     pub fn intensity(&self, record: usize) -> f64 {
         self.intensities[record]
     }
 
     /// Returns a wall with the damping and impact of a model.
-    #[must_use]
     pub fn wall(&self, wall: usize, model: usize) -> &Wall {
         self.motion(wall, model).wall()
     }
@@ -183,20 +175,17 @@ impl Study {
     }
 
     /// Counts the combinations.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.walls.len() * self.records.len() * self.models.len()
     }
 
     /// Returns the combination of a number: walls outermost, then models, records innermost.
-    #[must_use]
     pub fn case(&self, index: usize) -> Case {
         let (records, models) = (self.records.len(), self.models.len());
         Case { wall: index / (records * models), model: index / records % models, record: index % records }
     }
 
     /// Returns the number of a combination.
-    #[must_use]
     pub fn index(&self, case: Case) -> usize {
         (case.wall * self.models.len() + case.model) * self.records.len() + case.record
     }

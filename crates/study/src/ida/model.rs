@@ -59,7 +59,6 @@ pub struct Model {
 
 impl Model {
     /// Names a model after its damping: `CR`, `CDC`, `CDR Eq. 14` …
-    #[must_use]
     pub fn new(damping: Damping) -> Self {
         let (short, _, source) = damping.parts();
         let name = match source {
@@ -71,7 +70,6 @@ impl Model {
     }
 
     /// Returns the models of Figure 15 of the paper: CR, CDC, CDR, SDR, and CDR with the damping of Eq. (14).
-    #[must_use]
     pub fn figure_15() -> Vec<Self> {
         let dampings = [
             Damping::Restitution,

@@ -37,14 +37,12 @@ pub struct Value {
 
 impl Value {
     /// Returns the computed number minus the printed one.
-    #[must_use]
     pub fn deviation(&self) -> f64 {
         self.computed - self.printed
     }
 
     /// Returns whether the computed number rounds to the printed one: within half a unit of its last digit,
     /// and 1e-9 of it for ties.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few decimals")]
         let unit = 10.0_f64.powi(-(self.decimals as i32));
@@ -54,13 +52,11 @@ impl Value {
 
 impl Cell {
     /// Creates a cell of text.
-    #[must_use]
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 
     /// Creates a cell of a computed number beside the printed one.
-    #[must_use]
     pub fn value(computed: f64, printed: f64, decimals: usize) -> Self {
         Self::Value(Value { computed, printed, decimals })
     }

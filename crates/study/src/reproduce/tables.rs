@@ -13,7 +13,6 @@ pub(super) const RATIO_MODELS: [DampingModel; 3] =
     [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
 
 /// Returns the paper's abbreviation of a damping model.
-#[must_use]
 pub fn abbreviation(model: DampingModel) -> &'static str {
     match model {
         DampingModel::None => "CR",
@@ -30,7 +29,6 @@ pub(super) fn mechanism(row: &Table5) -> &'static str {
 }
 
 /// Computes Table 3.
-#[must_use]
 pub fn table_3() -> Table {
     let rows = TABLE_3.iter().map(|&(model, equation, walls)| {
         let mut cells = vec![Cell::text(format!("{}, Eq. ({equation})", abbreviation(model)))];
@@ -58,7 +56,6 @@ pub fn table_3() -> Table {
 }
 
 /// Computes Table 4.
-#[must_use]
 pub fn table_4() -> Table {
     let rows = TABLE_4.iter().map(|row: &Table4| {
         let [cr_a1, e] = row.restitution;
@@ -94,7 +91,6 @@ pub fn table_4() -> Table {
 }
 
 /// Returns the wall of a row of Table 5, bilinear, with default damping and impact.
-#[must_use]
 pub fn table_5_wall(row: &Table5) -> Parameters {
     let [height, thickness] = row.size;
     Parameters {

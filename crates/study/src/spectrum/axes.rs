@@ -66,7 +66,6 @@ pub enum SpectrumError {
 
 impl Size {
     /// Returns name and unit, for axes and messages.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Self::Height => "height h (m)",
@@ -77,7 +76,6 @@ impl Size {
 
 impl Slenderness {
     /// Returns name and unit, for axes and messages.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Self::Ratio => "slenderness h/b",
@@ -89,7 +87,6 @@ impl Slenderness {
 impl PulseForm {
     /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is
     /// −4e-17.
-    #[must_use]
     pub fn pulse(self, frequency: f64) -> Pulse {
         let shape = match self {
             Self::Ricker => Shape::Ricker { centre: 6.5 / (0.5 * TAU * frequency) },

@@ -21,7 +21,6 @@ pub struct Extreme {
 
 impl Extreme {
     /// Returns whether the value keeps its limit.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.value <= self.limit
     }
