@@ -158,7 +158,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Σ ∂unknown/∂known · seed over the knowns, for each unknown.
+    /// Σ ∂unknown/∂known · seed over the knowns, for each unknown. Knowns with seed 0 are not looked at, so
+    /// that importers may list parameters among them.
     pub(crate) fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -167,20 +168,17 @@ impl<M: Model> Instance<M> {
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Failure> {
         self.calculate()?;
-        for (&known, &seed) in knowns.iter().zip(seeds) {
-            let known = access::find::<M::Real>(known)?;
-            if !seed.is_finite() {
-                return Err(Failure(format!(
-                    "the seed {seed:?} of {} is not a finite number",
-                    known.variable().name
-                )));
-            }
-        }
         for (&unknown, slot) in unknowns.iter().zip(values) {
             let unknown = access::find::<M::Real>(unknown)?;
             let mut sum = 0.0;
-            for (&known, &seed) in knowns.iter().zip(seeds) {
+            for (&known, &seed) in knowns.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
                 let known = access::find::<M::Real>(known)?;
+                if !seed.is_finite() {
+                    return Err(Failure(format!(
+                        "the seed {seed:?} of {} is not a finite number",
+                        known.variable().name
+                    )));
+                }
                 let partial = self.now.model.directional_derivative(unknown, known).ok_or_else(|| {
                     let (unknown, known) = (unknown.variable().name, known.variable().name);
                     Failure(format!("there is no derivative of {unknown} by {known}"))

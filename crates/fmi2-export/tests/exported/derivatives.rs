@@ -104,6 +104,12 @@ fn directional_derivatives_are_summed_over_the_knowns() {
     assert_eq!(directional(&importer, &[v], &[x], &[-1.0]), Some(vec![4.0]));
     assert_eq!(directional(&importer, &[v], &[], &[]), Some(vec![0.0]));
     assert_eq!(directional(&importer, &[], &[x], &[1.0]), Some(vec![]));
+    // some importers give all dependencies of an unknown, and 0 as the seed of those they do not mean
+    let parameters = [Real::Stiffness.reference(), Integer::Law.reference()];
+    let knowns = [parameters[0], force, parameters[1]];
+    for importer in [&importer, &Importer::in_initialization_mode()] {
+        assert_eq!(directional(importer, &[v], &knowns, &[0.0, 2.0, -0.0]), Some(vec![2.0]));
+    }
     for (unknown, known, seed, part) in [
         (x, v, 1.0, "derivative of x by v"),
         (999, x, 1.0, "reference 999"),
