@@ -104,9 +104,8 @@ fn derivatives_and_events_allocate_nothing() {
         let mut indicators = [0.0; Unit::EVENT_INDICATORS];
         let before = COUNT.with(Cell::get);
         unit.update(&mut Log::silent()).unwrap();
-        let mut jumps = 0;
+        let mut changes = 0;
         for index in 0..20_000_u32 {
-            unit.enter_continuous_time_mode();
             unit.set_time(0.001 * f64::from(index));
             let [u, v, a] =
                 [RealVariable::U, RealVariable::UDot, RealVariable::UDdot].map(|name| unit.real(name));
@@ -114,12 +113,11 @@ fn derivatives_and_events_allocate_nothing() {
             unit.set_states(&[u + 0.001 * v, v]);
             unit.event_indicators(&mut indicators);
             unit.complete_step(&mut Log::silent()).unwrap();
-            unit.enter_event_mode();
-            jumps += u32::from(unit.update(&mut Log::silent()).unwrap().states_changed);
+            changes += u32::from(unit.update(&mut Log::silent()).unwrap().states_changed);
         }
         let allocations = COUNT.with(Cell::get) - before;
         assert!(unit.real(RealVariable::U).abs() < 0.1, "{name}: the wall has rocked");
-        assert_eq!(jumps > 10, !choices.is_empty(), "{name}: {jumps} jumps");
+        assert!(changes > 10, "{name}: {changes} changes of branch");
         assert_eq!(allocations, 0, "{name}: 20000 steps allocated {allocations} times");
     }
 }

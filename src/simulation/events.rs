@@ -1,7 +1,7 @@
 //! A wall that an importer's solver moves: it sets the state, and events are handled here.
 
 use super::stepping::Simulation;
-use crate::solver::{Event, INDICATORS};
+use crate::solver::{Event, INDICATORS, State};
 use crate::wall::{Ends, Support};
 
 /// What an event did, and the impulses of the supports on the wall at it \[N s\].
@@ -11,8 +11,8 @@ pub struct Handled {
     pub event: Event,
     /// Impulses of the impacts alone.
     pub impulses: Ends,
-    /// Displacement or velocity have jumped.
-    pub jumped: bool,
+    /// The derivatives have jumped: branch, phase, displacement or velocity is another.
+    pub changed: bool,
 }
 
 impl Simulation {
@@ -47,10 +47,9 @@ impl Simulation {
         } else {
             body.impulses([0.0, 0.0], event.velocity_jump, 0.0)
         };
-        let motion = |displacement: f64, velocity: f64| [displacement.to_bits(), velocity.to_bits()];
-        let now = self.progress.state;
-        let jumped = motion(before.displacement, before.velocity) != motion(now.displacement, now.velocity);
-        Handled { event, impulses, jumped }
+        let motion = |state: State| (state.branch, state.phase, state.displacement, state.velocity);
+        let changed = motion(before) != motion(self.progress.state);
+        Handled { event, impulses, changed }
     }
 
     /// Accepts the present time and motion as those of a completed step.

@@ -6,11 +6,9 @@ use crate::wall::Support;
 /// What an instance for Model Exchange remembers besides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Exchange {
-    /// It is in Continuous-Time Mode.
-    pub(super) continuous: bool,
     /// |u| is beyond its largest so far, and grows.
     pub(super) rising: bool,
-    /// `a_g` as it was set last; it takes effect at events \[m/s²\].
+    /// `a_g` at the last event \[m/s²\].
     pub(super) ground: f64,
     pub(super) own_motion: OwnMotion,
 }

@@ -48,7 +48,7 @@ impl Model for Unit {
         let progress = self.simulation.progress();
         let (wall, body) = (self.wall(), self.wall().body());
         match variable {
-            V::AG => self.exchange.map_or(self.inputs.ground, |exchange| exchange.ground),
+            V::AG => self.inputs.ground,
             V::ABottom => self.inputs.bottom.value,
             V::ATop => self.inputs.top.value,
             V::Drift => self.inputs.drift.value,
@@ -96,7 +96,7 @@ impl Model for Unit {
 
     fn set_real(&mut self, variable: RealVariable, value: f64) {
         if variable == RealVariable::AG {
-            self.set_ground(value);
+            self.inputs.ground = value;
         } else if matches!(variable, RealVariable::U | RealVariable::UDot) {
             self.place(variable, value);
         } else if let Some(input) = self.input(variable) {

@@ -4,7 +4,7 @@ use fmi2_export::{Failure, Log, ModelExchange, Update};
 
 use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, RealVariable};
 
-use super::exchange::{Exchange, OwnMotion};
+use super::exchange::OwnMotion;
 use super::instance::Unit;
 
 // the description says how many indicators the motion has
@@ -15,26 +15,11 @@ impl Unit {
         self.simulation.progress().time - self.experiment.start
     }
 
-    fn exchange_mut(&mut self) -> &mut Exchange {
-        self.exchange.get_or_insert_default()
-    }
-
     /// Takes up the scene's own motion from now to the next sample.
     pub(super) fn begin_own_motion(&mut self) {
         let elapsed = self.elapsed();
         let own_motion = self.excitation.as_ref().map(|motion| OwnMotion::new(motion, elapsed));
-        self.exchange_mut().own_motion = own_motion.unwrap_or_default();
-    }
-
-    /// Sets `a_g`: at once in Event Mode and before, at the next event in Continuous-Time Mode.
-    pub(super) fn set_ground(&mut self, value: f64) {
-        let waits = self.exchange.as_mut().is_some_and(|exchange| {
-            exchange.ground = value;
-            exchange.continuous
-        });
-        if !waits {
-            self.inputs.ground = value;
-        }
+        self.exchange.get_or_insert_default().own_motion = own_motion.unwrap_or_default();
     }
 
     /// Sets one state as if it were an input, and the branch with it.
@@ -80,22 +65,18 @@ impl ModelExchange for Unit {
         indicators.copy_from_slice(&self.indicators());
     }
 
-    fn enter_event_mode(&mut self) {
-        let exchange = self.exchange_mut();
-        exchange.continuous = false;
-        self.inputs.ground = exchange.ground;
-        self.refresh();
-    }
-
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
         self.warn_of_unused_top(log);
         let time = self.simulation.progress().time;
         let ended = |end: f64| self.elapsed() >= end - TIME_ROUNDING * time.abs().max(1.0);
-        if self.exchange.is_some_and(|exchange| exchange.own_motion.end.is_some_and(ended)) {
+        let next_sample = self.exchange.is_some_and(|exchange| exchange.own_motion.end.is_some_and(ended));
+        if next_sample {
             self.begin_own_motion();
         }
         let support = self.support();
         let mut exchange = self.exchange.unwrap_or_default();
+        let ground_changed = exchange.ground.to_bits() != self.inputs.ground.to_bits();
+        exchange.ground = self.inputs.ground;
         let handled = self.simulation.handle_event(&mut exchange.rising, support);
         self.exchange = Some(exchange);
         self.impulses = handled.impulses;
@@ -114,22 +95,17 @@ impl ModelExchange for Unit {
             log.event(format_args!("stands still from t = {time} s on, at u = {displacement} m"));
         }
         Ok(Update {
-            states_changed: handled.jumped,
+            // some solvers restart only where states are reported as changed
+            states_changed: handled.changed || next_sample || ground_changed,
             next_event: exchange.own_motion.end.map(|end| self.experiment.start + end),
             ..Update::default()
         })
     }
 
-    fn enter_continuous_time_mode(&mut self) {
-        self.exchange_mut().continuous = true;
-    }
-
     fn complete_step(&mut self, _log: &mut Log<'_>) -> Result<bool, Failure> {
         let support = self.support();
-        let exchange = self.exchange.unwrap_or_default();
-        self.simulation.complete_step(exchange.rising, support);
-        let waiting = exchange.ground.to_bits() != self.inputs.ground.to_bits();
-        Ok(waiting || self.indicators().iter().any(|&indicator| indicator <= 0.0))
+        self.simulation.complete_step(self.exchange.is_some_and(|exchange| exchange.rising), support);
+        Ok(self.indicators().iter().any(|&indicator| indicator <= 0.0))
     }
 }
 

@@ -72,9 +72,8 @@ fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Res
 
 /// What Model Exchange adds; the layer keeps the two kinds of instances apart.
 fn transfer_exchange(exchange: &mut Exchange, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-    let Exchange { continuous, rising, ground, own_motion } = exchange;
+    let Exchange { rising, ground, own_motion } = exchange;
     let OwnMotion { from, support, rate, end } = own_motion;
-    codec.bool(continuous)?;
     codec.bool(rising)?;
     codec.f64s([ground, from])?;
     for Support { bottom, top, drift } in [support, rate] {

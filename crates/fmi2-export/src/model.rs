@@ -105,7 +105,7 @@ pub trait Model: Clone + Send + Sized + 'static {
 /// A state may also be set with [`Model::set_real`], in Event Mode and in Continuous-Time Mode, as some
 /// importers do who only evaluate the equations: the discrete state is then chosen anew. A discrete input may
 /// be set in Continuous-Time Mode, which FMI 2.0 forbids and some importers do all the same: it takes effect
-/// at the next event.
+/// at once.
 pub trait ModelExchange: Model {
     /// The continuous states.
     const STATES: &'static [Self::Real];
@@ -126,18 +126,12 @@ pub trait ModelExchange: Model {
     /// Writes the event indicators: an event is where one changes its sign. None is zero after an update.
     fn event_indicators(&self, indicators: &mut [f64]);
 
-    /// Event Mode begins, for whatever reason.
-    fn enter_event_mode(&mut self);
-
     /// Updates the discrete state, and those states that jump, to the event at hand: to be called again while
     /// it asks for that.
     ///
     /// # Errors
     /// When the model cannot go on.
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure>;
-
-    /// Continuous-Time Mode begins.
-    fn enter_continuous_time_mode(&mut self);
 
     /// The solver has accepted a step to the present time and states. True asks for Event Mode.
     ///
@@ -151,7 +145,7 @@ pub trait ModelExchange: Model {
 pub struct Update {
     /// There is more to update, at the same time.
     pub again: bool,
-    /// States have jumped.
+    /// The solver must restart: states or derivatives have jumped (`valuesOfContinuousStatesChanged`).
     pub states_changed: bool,
     /// Nominal values of states have changed.
     pub nominals_changed: bool,

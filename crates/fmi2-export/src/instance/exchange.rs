@@ -9,7 +9,6 @@ use crate::variable::VariableId;
 impl<M: ModelExchange> Instance<M> {
     pub(crate) fn enter_event_mode(&mut self) {
         self.now.phase = Phase::EventMode;
-        self.now.model.enter_event_mode();
     }
 
     pub(crate) fn update(&mut self) -> Result<Update, Failure> {
@@ -18,7 +17,6 @@ impl<M: ModelExchange> Instance<M> {
 
     pub(crate) fn enter_continuous_time_mode(&mut self) {
         self.now.phase = Phase::ContinuousTimeMode;
-        self.now.model.enter_continuous_time_mode();
     }
 
     /// True asks for Event Mode.

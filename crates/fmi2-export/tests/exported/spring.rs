@@ -360,10 +360,6 @@ impl ModelExchange for Spring {
         indicators[0] = if self.below { -self.x } else { self.x };
     }
 
-    fn enter_event_mode(&mut self) {
-        self.held = false;
-    }
-
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
         match self.fault {
             PANIC_IN_STEP => panic!("spring snapped in an update"),
@@ -384,10 +380,6 @@ impl ModelExchange for Spring {
             nominals_changed: false,
             next_event: (self.push != 0.0).then_some(self.time + 1.0),
         })
-    }
-
-    fn enter_continuous_time_mode(&mut self) {
-        self.held = true;
     }
 
     fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure> {
