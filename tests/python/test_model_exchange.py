@@ -290,7 +290,7 @@ def test_a_scenes_record_restarts_a_solver_that_restarts_only_if_told(scenes, re
 
 
 def test_a_scenes_record_is_exact_between_events(scenes):
-    """CVODE admits an error of its tolerance at each sample; a solver of high order shows none of the unit's."""
+    """CVODE admits an error of its tolerance at each sample; a solver of high order has none to show."""
     scene = scenes("rigid_block")
     with Unit(scene) as steps, Exchange(scene) as exchange:
         steps.start()
