@@ -180,8 +180,15 @@ fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
         scale(trim(read_record(&file, folder, &mut notes)?, spec)?, top.scale, top.pga)
     });
     let top = top.transpose()?;
-    notes.push(format!("peak acceleration {:.4} m/s², {} s", bottom.peak(), bottom.duration()));
-    Ok(Loaded { excitation: Excitation::new(bottom, top), tail, notes })
+    let peak = match &top {
+        Some(top) => {
+            format!("peak accelerations {:.4} m/s² (bottom), {:.4} m/s² (top)", bottom.peak(), top.peak())
+        }
+        None => format!("peak acceleration {:.4} m/s²", bottom.peak()),
+    };
+    let excitation = Excitation::new(bottom, top);
+    notes.push(format!("{peak}, {} s", excitation.duration()));
+    Ok(Loaded { excitation, tail, notes })
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {

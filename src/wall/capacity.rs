@@ -33,7 +33,9 @@ pub struct CapacityPoint {
 impl Wall {
     /// The capacity curve of the side of `sign` at a fraction of its `u_ins`.
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
-        self.capacity_point(sign, fraction * self.body().instability.of(sign))
+        let point = self.capacity_point(sign, fraction * self.body().instability.of(sign));
+        // not its quotient, which may differ in the last digit
+        CapacityPoint { displacement_ratio: fraction, ..point }
     }
 
     /// The corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
@@ -45,6 +47,16 @@ impl Wall {
         corners.sort_by(f64::total_cmp);
         corners.dedup_by(|a, b| *a - *b <= ROUNDING * u_ins);
         corners.into_iter().map(|corner| self.capacity_point(sign, corner)).collect()
+    }
+
+    /// Acceleration of the supports at which the wall leaves the vertical for good, by its static curve: the
+    /// largest a* of the force law, on the weaker side \[m/s²\].
+    pub fn rocking_onset(&self) -> f64 {
+        let largest = |sign: f64| {
+            let corners = self.capacity_corners(sign);
+            corners.iter().map(|corner| corner.spectral_acceleration).fold(0.0, f64::max)
+        };
+        largest(1.0).min(largest(-1.0))
     }
 
     /// One side of the force law; the negative one is in signed displacements and forces.

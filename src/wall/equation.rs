@@ -46,10 +46,10 @@ impl Wall {
         let restitution = restitution::coefficient(parameters, &body)?;
         let damping = Damping::new(parameters, &body, &force, restitution)?;
         let impact = parameters.impact == Impact::Restitution;
-        let warnings = Warning::collect(parameters, &body, &force, impact);
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
         }
+        let warnings = Warning::collect(parameters, &body, &force, impact);
         check_start(parameters.u_start, &body)?;
         let corners = layout::corners(&body, &force, &damping, impact, rotations.is_some());
         let branches = layout::branches(&corners, &force, &damping, body.effective_mass);

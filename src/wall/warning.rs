@@ -19,6 +19,10 @@ pub enum Warning {
     OutsideFit { a1: f64 },
     /// e = 1 and no damping.
     NeverRests,
+    /// A start beyond the static instability displacement.
+    StartsOverturned { u_start: f64, u_ins: f64 },
+    /// A number that walls rarely have: a slip of the keyboard or another unit.
+    Unusual { name: &'static str, value: f64, unit: &'static str, usual: [f64; 2] },
 }
 
 impl std::fmt::Display for Warning {
@@ -40,6 +44,15 @@ impl std::fmt::Display for Warning {
             ),
             Self::NeverRests => f.write_str(
                 "restitution = 1 without damping: the wall loses no energy and never comes to rest",
+            ),
+            Self::StartsOverturned { u_start, u_ins } => write!(
+                f,
+                "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: the wall has overturned at the start; \
+                 set u_start = 0 or less than u_ins"
+            ),
+            Self::Unusual { name, value, unit, usual: [least, most] } => write!(
+                f,
+                "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; check value and unit"
             ),
         }
     }
@@ -73,6 +86,42 @@ impl Warning {
         if impact && undamped && parameters.restitution == 1.0 {
             warnings.push(Self::NeverRests);
         }
+        let (u_start, u_ins) = (parameters.u_start, body.instability.of(parameters.u_start));
+        if u_start.abs() > u_ins {
+            warnings.push(Self::StartsOverturned { u_start, u_ins });
+        }
+        warnings.extend(Self::unusual(parameters));
         warnings
+    }
+
+    /// Finds the numbers of a wall that walls rarely have.
+    pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> {
+        let Parameters { height, thickness: b, width, overburden, overburden_eccentricity, .. } = *parameters;
+        // without a load its eccentricity does not matter
+        let loaded = overburden > 0.0;
+        let any = [f64::NEG_INFINITY, f64::INFINITY];
+        [
+            ("density", parameters.density, " kg/m3", [400.0, 3000.0]),
+            ("height", height, " m", [0.2, 30.0]),
+            ("thickness", b, " m", [0.03, 3.0]),
+            ("height/thickness", height / b, "", [1.0, 100.0]),
+            ("gravity", parameters.gravity, " m/s2", [9.7, 9.9]),
+            // 0.1 to 1000 kN per metre of width
+            (
+                "overburden",
+                overburden,
+                " N",
+                if loaded { [100.0, 1e6].map(|load| load * width) } else { any },
+            ),
+            (
+                "overburden_eccentricity",
+                overburden_eccentricity,
+                " m",
+                if loaded { [-b / 2.0, b / 2.0] } else { any },
+            ),
+        ]
+        .into_iter()
+        .filter(|(_, value, _, usual)| !(usual[0]..=usual[1]).contains(value))
+        .map(|(name, value, unit, usual)| Self::Unusual { name, value, unit, usual })
     }
 }

@@ -31,7 +31,8 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
             &["line 4", "floor", "choose another"],
         ),
         (wall("scene = \"moved.toml\"\nbottom = \"low\""), &["moved.toml", "[motion]"]),
-        (wall("scene = \"parapet.toml\"\nbottom = \"low\""), &["cargo xtask fmu"]),
+        // the option of this command, not that of `wall package`
+        (wall("scene = \"parapet.toml\"\nbottom = \"low\""), &["cargo xtask fmu", "--wall-fmu"]),
     ];
     for (text, words) in cases {
         std::fs::write(folder.join("b.toml"), &text).unwrap();

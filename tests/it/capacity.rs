@@ -54,6 +54,26 @@ fn the_rigid_curve_starts_at_the_onset_of_rocking() {
     assert_eq!((corners[1].displacement_ratio, corners[1].force), (1.0, 0.0));
 }
 
+/// Rocking starts at the largest force of the law, on the weaker side, not at that of the rigid wall.
+#[test]
+fn the_onset_of_rocking_is_that_of_the_law() {
+    let with = |parameters: Parameters| made(&parameters).rocking_onset();
+    let onset = 9.81 * 0.1;
+    let rigid = Parameters {
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        ..Parameters::default()
+    };
+    assert_near(with(rigid), onset);
+    assert_near(with(Parameters::default()), 0.97 * onset);
+    let trilinear = Parameters { force_law: ForceLaw::Trilinear, d1: 0.6, ..Parameters::default() };
+    assert_near(with(trilinear), 0.6 * onset);
+    let loaded = Parameters { overburden: 3000.0, overburden_eccentricity: 0.05, ..Parameters::default() };
+    let wall = made(&loaded);
+    let weaker = wall.body().strength.positive.min(wall.body().strength.negative);
+    assert_near(wall.rocking_onset(), 0.97 * weaker / wall.body().mass);
+}
+
 /// Each corner of the law appears once, on both sides of an eccentric load, and the curve passes through
 /// them.
 #[test]
@@ -102,6 +122,14 @@ fn describe_writes_the_curve() {
     let kinds: Vec<_> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     assert_eq!(kinds, ["corner", "corner", "corner", "limit_state", "limit_state"]);
     assert!(std::fs::read_to_string(folder.join("c.svg")).unwrap().contains("0.4 u_ins, T = 2.675 s"));
+    // legends name the limit state as it was given: 0.1 u_ins/u_ins is 0.10000000000000002
+    let strip = crate::root().join("scenes/strip_between_floors.toml").display().to_string();
+    for thickness in ["0.1", "0.2", "0.37"] {
+        let set = format!("thickness={thickness}");
+        wall(&folder, &["describe", &strip, "--set", &set, "--plot", "d.svg"]);
+        let svg = std::fs::read_to_string(folder.join("d.svg")).unwrap();
+        assert!(svg.contains(">0.1 u_ins, T = ") && svg.contains(">0.6 u_ins, T = "), "{thickness}");
+    }
     let json: serde_json::Value =
         serde_json::from_slice(&wall(&folder, &["describe", "--json"]).stdout).unwrap();
     let limits = json["capacity"][0]["limit_states"].as_array().unwrap();

@@ -33,6 +33,7 @@ mod reproduce;
 mod rocking_spectrum;
 mod tidy;
 mod trigonometric;
+mod warnings;
 mod wiring;
 
 /// Returns the root of the workspace.

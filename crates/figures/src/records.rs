@@ -5,7 +5,7 @@
 //!
 //! let history = vec![(0.0, 0.0), (0.01, 0.2), (0.02, -0.1)];
 //! let spectrum = vec![(0.0, 0.2), (1.0, 0.5), (4.0, 0.1)];
-//! let record = Record { name: "a.AT2".into(), history, spectrum };
+//! let record = Record { name: "a.AT2".into(), history, spectrum, is_vertical: false };
 //! assert!(picture(&[record], 0.05).svg().contains("Sa (g) at 5 % damping"));
 //! ```
 
@@ -30,6 +30,8 @@ pub struct Record {
     pub history: Vec<(f64, f64)>,
     /// Sa (g) over the period (s), at the same periods for all records.
     pub spectrum: Vec<(f64, f64)>,
+    /// Whether the record is vertical: the median is that of the others.
+    pub is_vertical: bool,
 }
 
 /// Draws the histories of up to [`MOST`] records, and the spectra of all below them.
@@ -41,7 +43,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
     if records.len() <= MOST {
         let [first, second, third, fourth, fifth, last] = SERIES.map(|(color, ..)| color);
         let colors: [_; MOST] = [first, second, third, fourth, fifth, TEAL, BROWN, last];
-        for (Record { name, history, spectrum }, color) in records.iter().zip(colors) {
+        for (Record { name, history, spectrum, .. }, color) in records.iter().zip(colors) {
             let line = Series::line(color, 0.9, decimated(history, end(history)));
             let axes = [Axis::over("time (s)", [0.0, longest]), Axis { label: "a (g)".into(), range: None }];
             panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });
@@ -49,18 +51,28 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
         }
     } else {
         spectra.extend(records.iter().map(|record| Series::line(PALE, 0.8, record.spectrum.clone())));
-        let name = format!("median of {} records", records.len());
-        spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(records)) });
+        let mut level: Vec<&Record> = records.iter().filter(|record| !record.is_vertical).collect();
+        let which = if level.is_empty() || level.len() == records.len() { "" } else { "horizontal " };
+        if level.is_empty() {
+            level.extend(records);
+        }
+        let name = format!("median of {} {which}records", level.len());
+        spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(&level)) });
     }
     let longest = records.iter().map(|record| end(&record.spectrum)).fold(0.0, f64::max);
-    let label = format!("Sa (g) at {} % damping", 100.0 * damping);
+    let label = format!("Sa (g) at {} % damping", rounded(100.0 * damping));
     let axes = [Axis::over("period T (s)", [0.0, longest]), Axis { label, range: None }];
     panels.push(Plot::new([WIDTH, SPECTRA], axes, spectra));
     Picture::stacked(&panels)
 }
 
+/// A number without the last digits, which are those of its rounding.
+fn rounded(value: f64) -> f64 {
+    (1e9 * value).round() / 1e9
+}
+
 /// The median of the spectra.
-fn median(records: &[Record]) -> Vec<(f64, f64)> {
+fn median(records: &[&Record]) -> Vec<(f64, f64)> {
     let Some(first) = records.first() else { return Vec::new() };
     let at = |index: usize| {
         let mut values: Vec<f64> = records.iter().map(|record| record.spectrum[index].1).collect();

@@ -7,7 +7,7 @@
 //! assert!(plot.svg().contains("u / u_ins"));
 //! ```
 
-use crate::palette::{BLUE, DARK_GREY, GREY, RED};
+use crate::palette::{AMBER, BLUE, DARK_GREY, GREY, RED};
 use crate::plot::{Axis, Look, Plot, Series};
 use crate::points::{clipped, decimated};
 
@@ -19,25 +19,25 @@ const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
 /// Draws u/`u_ins` over the time \[s\], with the limits ±1.
 pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
     let limits = [-1.0, 1.0];
-    let plot = over_time(points, [0.0, end], "u / u_ins", BLUE, &limits);
+    let plot = over_time(&[(points, BLUE)], [0.0, end], "u / u_ins", &limits);
     Plot { size: [WIDTH, 250.0], limits: limits.map(|limit| (limit, RED)).to_vec(), ..plot }
 }
 
-/// Draws the acceleration of a support \[m/s²\] over the time \[s\].
-pub fn motion(points: &[(f64, f64)], end: f64) -> Plot {
-    over_time(points, [0.0, end], "a_g (m/s²)", DARK_GREY, &[])
+/// Draws the acceleration of the bottom support and, where it has its own, of the top one \[m/s²\] over the
+/// time \[s\].
+pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Plot {
+    let top = top.map(|points| (points, AMBER));
+    let lines: Vec<_> = [(bottom, DARK_GREY)].into_iter().chain(top).collect();
+    over_time(&lines, [0.0, end], "a_g (m/s²)", &[])
 }
 
-fn over_time(
-    points: &[(f64, f64)],
-    times: [f64; 2],
-    label: &str,
-    color: &'static str,
-    shown: &[f64],
-) -> Plot {
-    let y_range = padded(points.iter().map(|point| point.1).chain(shown.iter().copied()));
+/// Draws lines in their colours.
+fn over_time(lines: &[(&[(f64, f64)], &'static str)], times: [f64; 2], label: &str, shown: &[f64]) -> Plot {
+    let values = lines.iter().flat_map(|(points, _)| points.iter().map(|point| point.1));
+    let y_range = padded(values.chain(shown.iter().copied()));
     let axes = [Axis::over("time (s)", times), Axis::over(label, y_range)];
-    Plot::new([WIDTH, 190.0], axes, vec![Series::line(color, 1.2, decimated(points, times[1]))])
+    let series = lines.iter().map(|(points, color)| Series::line(color, 1.2, decimated(points, times[1])));
+    Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
 /// Draws the part of the backbone that a run went through, on the whole of it: F \[kN\] over u/`u_ins`.

@@ -22,14 +22,25 @@ pub(crate) struct Parsed {
     pub(crate) first_time: f64,
     pub(crate) channel: Option<String>,
     pub(crate) stated_peak: Option<f64>,
+    /// Whether the file states the direction as vertical.
+    pub(crate) is_vertical: bool,
     pub(crate) header: Vec<String>,
+}
+
+/// Tells whether a direction as files state it is vertical: one of its words says so.
+pub(crate) fn is_vertical(direction: &str) -> bool {
+    const VERTICAL: [&str; 11] =
+        ["UP", "DOWN", "DN", "DWN", "UD", "U-D", "V", "VER", "VERT", "VERTICAL", "Z"];
+    let mut words = direction.split(|c: char| !(c.is_alphanumeric() || c == '-'));
+    words.any(|word| VERTICAL.iter().any(|vertical| word.eq_ignore_ascii_case(vertical)))
 }
 
 impl Parsed {
     /// Makes a channel without a name that starts at time zero; its samples follow after line `last_line`.
     pub(crate) fn new(step: f64, unit: Unit, last_line: usize) -> Self {
         let (samples, header) = (Vec::new(), Vec::new());
-        Self { step, unit, samples, last_line, first_time: 0.0, channel: None, stated_peak: None, header }
+        let (first_time, channel, stated_peak, is_vertical) = (0.0, None, None, false);
+        Self { step, unit, samples, last_line, first_time, channel, stated_peak, is_vertical, header }
     }
 
     /// Takes the next sample, the value of a field on a line; refuses one that is not finite.

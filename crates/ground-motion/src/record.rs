@@ -29,13 +29,16 @@ pub struct Record {
     pub channel: Option<String>,
     /// Peak acceleration the file itself states (m/s²).
     pub stated_peak: Option<f64>,
+    /// Whether the file states the direction as vertical.
+    pub is_vertical: bool,
     /// First lines of the header.
     pub header: Vec<String>,
 }
 
 impl Parsed {
     fn into_record(self, format: Format) -> Result<Record, Fault> {
-        let Self { step, samples, unit, first_time, channel, stated_peak, header, last_line } = self;
+        let Self { step, samples, unit, first_time, channel, stated_peak, is_vertical, header, last_line } =
+            self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
             let remedy = "check that the file is complete";
@@ -44,7 +47,7 @@ impl Parsed {
         let motion = GroundMotion::new(step, samples).map_err(|error| {
             Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
         })?;
-        Ok(Record { motion, format, unit, first_time, channel, stated_peak, header })
+        Ok(Record { motion, format, unit, first_time, channel, stated_peak, is_vertical, header })
     }
 }
 

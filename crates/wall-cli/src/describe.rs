@@ -110,12 +110,7 @@ fn facts(wall: &Wall) -> Vec<Fact> {
         Fact("u_ins_negative", "u_ins-", body.instability.negative, "m"),
         Fact("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
         Fact("force_end", "u3+", wall.force_end().positive, "m"),
-        Fact(
-            "rocking_onset",
-            "a_g",
-            body.strength.positive / (body.participation * body.effective_mass),
-            "m/s2",
-        ),
+        Fact("rocking_onset", "a_g", wall.rocking_onset(), "m/s2"),
         Fact("omega1", "omega1", omega1, "rad/s"),
         Fact("elastic_period", "T1", period, "s"),
         Fact("restitution_used", "e", e, "-"),

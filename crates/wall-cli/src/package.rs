@@ -41,8 +41,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             arguments.scene.display()
         );
     }
-    Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
-    let (archive, counts) = of_scene(&scene, &arguments.base)?;
+    let wall = Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
+    for warning in wall.warnings() {
+        output::warn(&warning.to_string());
+    }
+    let (archive, counts) = of_scene(&scene, &arguments.base, "--base")?;
     archive.write(&arguments.output)?;
     output::to_stdout(&format!(
         "{}: {}, {} of {} variables\n",
@@ -59,11 +62,13 @@ pub(crate) struct Counts {
     all: usize,
 }
 
-/// The FMU of a scene, made from the general one at `base`.
-pub(crate) fn of_scene(scene: &Scene, path: &Path) -> Result<(Archive, Counts)> {
-    let mut archive = Archive::open(path).with_context(
-        || "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with --base",
-    )?;
+/// The FMU of a scene, made from the general one at `path`, which the user names with `option`.
+pub(crate) fn of_scene(scene: &Scene, path: &Path, option: &str) -> Result<(Archive, Counts)> {
+    let mut archive = Archive::open(path).with_context(|| {
+        format!(
+            "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with {option}"
+        )
+    })?;
     let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
     let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
     let base = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
@@ -71,7 +76,7 @@ pub(crate) fn of_scene(scene: &Scene, path: &Path) -> Result<(Archive, Counts)> 
         bail!("{}: its guid {} is not of a general FMU", path.display(), base.declared_guid());
     };
     if guid.contains('-') {
-        bail!("{}: is itself an FMU of a scene; give the general one with --base", path.display());
+        bail!("{}: is itself an FMU of a scene; give the general one with {option}", path.display());
     }
     let mut motion = String::new();
     if let Some(excitation) = &scene.excitation {

@@ -48,7 +48,8 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     });
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
-    let figures = figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response);
+    let figures =
+        figures(scene, wall, response, end) + &rotations(scene, response) + &demands(wall, response);
     let page = [
         ("title", &*escaped(&scene.title)),
         ("subtitle", &escaped(&subtitle)),
@@ -201,13 +202,20 @@ fn demands(wall: &Wall, response: &Response) -> String {
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
 }
 
-fn figures(wall: &Wall, response: &Response, end: f64) -> String {
+fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String {
     let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
         response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
     };
     let overturned = response.summary.overturn_time;
     let ratio = standing(&response.samples, overturned);
     let motion = column(&|sample| sample.support.bottom);
+    let of_top = scene.excitation.as_ref().and_then(|motion| motion.top());
+    let top_motion = of_top.map(|_| column(&|sample| sample.support.top));
+    let supports = match of_top {
+        Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
+        None if wall.body().mechanism == Mechanism::VerticalSpanning => "Acceleration of both supports",
+        None => "Acceleration of the support",
+    };
     let ratios = || response.samples.iter().map(|sample| sample.outputs.ratio);
     let range = [ratios().fold(0.0, f64::min), ratios().fold(0.0, f64::max)];
     let u_ins = wall.body().instability;
@@ -215,7 +223,7 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
     [
         plot("history", "Displacement; dashed: static instability", &plots::history(&ratio, end), overturned),
-        plot("motion", "Acceleration of the bottom support", &plots::motion(&motion, end), None),
+        plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), None),
         plot(
             "force",
             "Restoring force on its backbone (dashed)",

@@ -193,7 +193,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
         text.push('\n');
     }
     let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let percent = 100.0 * arguments.damping;
+    let percent = significant(100.0 * arguments.damping);
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
         for warning in &row.check.warnings {
@@ -222,14 +222,15 @@ fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
             let period = SHORTEST + (LONGEST - SHORTEST) * part * part;
             points.push((period, spectrum.acceleration(motion, period)? / STANDARD_GRAVITY));
         }
-        Ok(records::Record { name: row.name(), history, spectrum: points })
+        let is_vertical = row.record.is_vertical;
+        Ok(records::Record { name: row.name(), history, spectrum: points, is_vertical })
     };
     Ok(records::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
 }
 
-/// A step to six digits, without trailing zeros.
-fn significant(step: f64) -> String {
-    format!("{step:.5e}").parse::<f64>().unwrap_or(step).to_string()
+/// A number to six digits, without trailing zeros.
+fn significant(number: f64) -> String {
+    format!("{number:.5e}").parse::<f64>().unwrap_or(number).to_string()
 }
 
 fn csv(rows: &[Row], periods: &[f64]) -> String {

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use ground_motion::{Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, parse, read};
 use proptest::prelude::*;
 
+use super::specimen::{self, SAMPLES};
+
 fn stated() -> RecordOptions {
     RecordOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..RecordOptions::default() }
 }
@@ -114,5 +116,27 @@ proptest! {
         for format in [None, Some(Format::At2), Some(Format::Csv)] {
             let _ = parse("x", text.clone().into_bytes(), &RecordOptions { format, ..stated() });
         }
+    }
+}
+
+/// The direction as each format states it; specimens are horizontal.
+#[test]
+fn headers_state_vertical_directions() {
+    let is_vertical =
+        |text: &str| parse("x", text.as_bytes().to_vec(), &RecordOptions::default()).unwrap().is_vertical;
+    for (format, write, level, vertical) in [
+        (Format::At2, specimen::at2 as fn(&[f64]) -> String, "hill, 90\n", "hill, UP\n"),
+        (Format::At2, specimen::at2, "hill, 90\n", "hill, DWN (STATION 5)\n"),
+        (Format::Esm, specimen::esm, "STREAM: HNE", "STREAM: HNZ"),
+        (Format::Knet, specimen::knet, "E-W", "U-D"),
+        (Format::Knet, specimen::knet, "E-W", "6"),
+        (Format::Cosmos, specimen::cosmos, "90 Deg", "Up"),
+        (Format::Csmip, specimen::csmip, "90 Deg", "Down"),
+        (Format::Smc, specimen::smc, "*\n", "a hill component=   UP\n"),
+    ] {
+        let text = write(&SAMPLES);
+        assert!(!is_vertical(&text), "{format:?}");
+        let text = text.replacen(level, vertical, 1);
+        assert!(is_vertical(&text), "{format:?}: {text:.300}");
     }
 }

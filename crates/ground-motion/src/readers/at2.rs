@@ -16,7 +16,7 @@
 use crate::error::{Fault, excerpt};
 use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
-use crate::parsed::Parsed;
+use crate::parsed::{Parsed, is_vertical};
 use crate::unit::Unit;
 
 /// The line with NPTS is searched among this many lines that are not blank.
@@ -51,6 +51,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         }
     }
     parsed.check_count(count, &format!("NPTS on line {count_line}"))?;
+    // event, date, station, component, and in old files the station's number in brackets
+    let place = header().nth(1).and_then(|(_, line)| line.rsplit_once(", "));
+    let direction = place.and_then(|(_, component)| component.split_whitespace().next());
+    parsed.is_vertical = direction.is_some_and(is_vertical);
     parsed.keep_header(header().map(|(_, line)| line));
     Ok(parsed)
 }

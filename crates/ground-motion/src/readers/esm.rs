@@ -105,6 +105,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         parsed.push(real(line), number, line, "one finite number")?;
     }
     parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
+    // the last letter of a stream is its direction: HNZ
+    parsed.is_vertical = header.optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
     let described = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM"];
     parsed.keep_header(described.iter().filter_map(|key| Some(header.optional(key)?.1)));
     if header.optional("PGA_CM/S^2").is_some() {

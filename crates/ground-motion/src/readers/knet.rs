@@ -61,6 +61,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let mean = sum as f64 / counts.len().max(1) as f64;
     let sample = |count: i32| unit.to_si((f64::from(count) - mean) * numerator / denominator);
     parsed.samples = counts.into_iter().map(sample).collect();
+    // 3 and 6 are the vertical directions of KiK-net
+    parsed.is_vertical = field(&header, "Dir.").is_ok_and(|(_, text)| matches!(text, "U-D" | "3" | "6"));
     parsed.keep_header(header.iter().map(|(_, line)| *line));
     parsed.stated_peak =
         number(&header, "Max. Acc. (gal)").ok().map(|(_, peak)| Unit::CentimetrePerSecondSquared.to_si(peak));

@@ -15,10 +15,10 @@
 //! 30 and 32 the largest and the smallest sample.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Layout, Line, find, untrimmed_lines};
+use crate::fields::{Layout, Line, after, find, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
-use crate::parsed::Parsed;
+use crate::parsed::{Parsed, is_vertical};
 
 const TEXT_LINES: usize = 11;
 const INTEGERS: (usize, Layout) = (48, Layout { per_line: 8, width: 10 });
@@ -77,6 +77,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         }
     }
     parsed.read(DATA, &mut rest, samples, text_end + 3)?;
+    let direction = header.iter().find_map(|(_, line)| after(line, "component="));
+    parsed.is_vertical = direction.is_some_and(is_vertical);
     parsed.keep_header(header.iter().map(|(_, line)| line.trim()).filter(|line| *line != "*"));
     let extremes =
         [29, 31].iter().filter_map(|&place| reals.get(place)).filter(|value| value.abs() < UNKNOWN);

@@ -6,7 +6,7 @@ use std::iter::Peekable;
 use crate::error::{CUT_SHORT, DAMAGED, Fault, excerpt};
 use crate::fields::{Layout, Line, after, find, leading_number, leading_real, untrimmed_lines};
 use crate::options::RecordOptions;
-use crate::parsed::Parsed;
+use crate::parsed::{Parsed, is_vertical};
 use crate::unit::Unit;
 
 /// Longest name of a channel: enough for every name, short enough for a list of them.
@@ -147,6 +147,7 @@ impl<'a> Channel<'a> {
         let mut parsed = Parsed::new(step, unit, number);
         parsed.read(layout, rest, count, number)?;
         parsed.stated_peak = peak;
+        parsed.is_vertical = self.name.is_some_and(is_vertical);
         parsed.keep_header(self.text.iter().copied());
         Ok(Some(parsed))
     }

@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for wall in &building.walls {
         let path = folder.join(&wall.scene);
         let scene = scene(&path, wall).with_context(|| format!("wall {:?}", wall.name))?;
-        let (unit, _) = package::of_scene(&scene, &arguments.wall_fmu)?;
+        let (unit, _) = package::of_scene(&scene, &arguments.wall_fmu, "--wall-fmu")?;
         archive.insert(fmu_path(&wall.name), unit.to_bytes()?);
         scenes.push(scene);
     }
@@ -65,7 +65,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 /// The scene of a wall, with the inputs that its place in the building moves.
 fn scene(path: &Path, wall: &Member) -> Result<Scene> {
     let mut scene = Scene::read(path)?;
-    Wall::new(&scene.parameters).with_context(|| path.display().to_string())?;
+    let made = Wall::new(&scene.parameters).with_context(|| path.display().to_string())?;
+    for warning in made.warnings() {
+        output::warn(&format!("wall {:?}: {warning}", wall.name));
+    }
+    if scene.parameters.u_start != 0.0 {
+        let start = scene.parameters.u_start;
+        output::warn(&format!(
+            "wall {:?} is released from u_start = {start} m, as its scene says",
+            wall.name
+        ));
+    }
     let spans = scene.parameters.mechanism == Mechanism::VerticalSpanning;
     if scene.excitation.is_some() {
         bail!("{}: the building moves its walls; remove [motion] from the scene", path.display());

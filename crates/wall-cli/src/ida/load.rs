@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use ground_motion::read;
 use rocking_wall::scene::Scene;
+use rocking_wall::wall::Warning;
 use study::document::{RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource};
 use study::ida::{NamedRecord, NamedWall, Study};
 
@@ -17,7 +18,7 @@ pub(super) struct Loaded {
     pub(super) title: String,
     pub(super) study: Study,
     pub(super) report: ReportOptions,
-    /// What a quick check of the records warns of.
+    /// What the walls and a quick check of the records warn of.
     pub(super) warnings: Vec<String>,
 }
 
@@ -31,8 +32,9 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
     let StudyFile { title, walls, records, models, measure, levels, tail, report } =
         StudyFile::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
-    let walls = walls.into_iter().map(|entry| wall(entry, folder, &name)).collect::<Result<Vec<_>>>()?;
     let mut warnings = Vec::new();
+    let read = |entry| wall(entry, folder, &name, &mut warnings);
+    let walls = walls.into_iter().map(read).collect::<Result<Vec<_>>>()?;
     let records = all_records(&records, folder, &name, &mut warnings)?;
     check_unique(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
     check_unique(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
@@ -42,17 +44,25 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
     Ok(Loaded { title, study, report, warnings })
 }
 
-fn wall(entry: WallEntry, folder: &Path, study: &str) -> Result<NamedWall> {
+fn wall(entry: WallEntry, folder: &Path, study: &str, warnings: &mut Vec<String>) -> Result<NamedWall> {
+    let mut is_shaken = false;
     let (parameters, own_name) = match entry.source {
         WallSource::Inline(parameters) => (*parameters, String::new()),
         WallSource::Scene(path) => {
             let scene = Scene::read(&folder.join(&path))
                 .with_context(|| format!("{study}, line {}: a wall's scene", entry.line))?;
+            is_shaken = scene.excitation.is_some();
             let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
             (scene.parameters, stem)
         }
     };
-    Ok(NamedWall { name: entry.name.unwrap_or(own_name), parameters })
+    let name = entry.name.unwrap_or(own_name);
+    if is_shaken {
+        warnings
+            .push(format!("wall {name:?}: the study ignores the motion of its scene and uses its records"));
+    }
+    warnings.extend(Warning::unusual(&parameters).map(|warning| format!("wall {name:?}: {warning}")));
+    Ok(NamedWall { name, parameters })
 }
 
 fn all_records(
