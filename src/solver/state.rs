@@ -115,9 +115,9 @@ pub struct Work {
 impl Work {
     /// Adds further work.
     pub fn add(&mut self, other: Self) {
-        self.pieces += other.pieces;
-        self.corners += other.corners;
-        self.impacts += other.impacts;
+        self.pieces = self.pieces.saturating_add(other.pieces);
+        self.corners = self.corners.saturating_add(other.corners);
+        self.impacts = self.impacts.saturating_add(other.impacts);
     }
 }
 

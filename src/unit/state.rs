@@ -42,8 +42,16 @@ impl Unit {
     fn resume(&mut self, progress: Progress) -> Result<(), Failure> {
         let running = std::mem::take(&mut self.running);
         self.prepare()?;
-        if progress.state.branch >= self.wall().branches().len() {
-            return Err("a branch the wall does not have".into());
+        let State { displacement, branch, .. } = progress.state;
+        let Some(branch) = self.wall().branches().get(branch) else {
+            return Err("the state has a branch that the wall does not have".into());
+        };
+        // an importer's solver may go beyond the ends of a branch, a step does not
+        if self.exchange.is_none() && !(branch.lower..=branch.upper).contains(&displacement) {
+            return Err(Failure(format!(
+                "the state has u = {displacement} m on the branch from {} to {} m",
+                branch.lower, branch.upper
+            )));
         }
         self.simulation.restore(progress);
         self.running = running;

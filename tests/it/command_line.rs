@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 /// Makes an empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {
@@ -40,6 +41,31 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     }
     assert!(output.stdout.is_empty(), "{arguments:?}: {}", text(&output.stdout));
     assert_eq!(names(), before, "{arguments:?}: left something behind");
+}
+
+/// To open a pipe would be to wait for its writer, for ever.
+#[test]
+fn pipes_in_place_of_files_are_refused() {
+    let folder = folder("pipes");
+    std::fs::create_dir(folder.join("results")).unwrap();
+    for pipe in ["base.fmu", "building.toml", "results/study.json"] {
+        assert!(Command::new("mkfifo").arg(folder.join(pipe)).status().unwrap().success());
+    }
+    std::fs::write(folder.join("scene.toml"), "").unwrap();
+    for arguments in [
+        &["package", "scene.toml", "-o", "scene.fmu", "--base", "base.fmu"][..],
+        &["building", "building.toml", "-o", "building.ssp"],
+        &["merge", "results", "-o", "merged"],
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
+        let mut program = command.current_dir(&folder).args(arguments).stderr(Stdio::null()).spawn().unwrap();
+        let ended = (0..200).find_map(|_| {
+            std::thread::sleep(Duration::from_millis(50));
+            program.try_wait().unwrap()
+        });
+        program.kill().unwrap();
+        assert_eq!(ended.and_then(|status| status.code()), Some(2), "{arguments:?}");
+    }
 }
 
 /// A scene, and words that the message must contain.

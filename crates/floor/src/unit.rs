@@ -331,6 +331,9 @@ impl Model for Unit {
             &mut self.state;
         codec.f64s([displacement, velocity, plastic, damping_energy, hysteretic_energy])?;
         codec.item(branch, &[Branch::Elastic, Branch::YieldingUp, Branch::YieldingDown])?;
+        if self.floor.yielding.is_none() && *branch != Branch::Elastic {
+            return Err("the state has a yielding spring, but hysteresis = none".into());
+        }
         let Base { displacement, velocity, impulse } = &mut self.base;
         codec.f64s([displacement, velocity, impulse])?;
         codec.bool(&mut self.running)?;

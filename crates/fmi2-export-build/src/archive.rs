@@ -12,7 +12,7 @@
 //! ```
 
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{Cursor, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
@@ -81,6 +81,10 @@ impl Archive {
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let read = |source| ArchiveError::Read { path: path.to_path_buf(), source };
         let damaged = |source| ArchiveError::Damaged { path: path.to_path_buf(), source };
+        // to open a pipe in its place would wait for its writer
+        if !fs::metadata(path).map_err(read)?.is_file() {
+            return Err(read(std::io::Error::other("not a regular file")));
+        }
         let mut zip = ZipArchive::new(File::open(path).map_err(read)?).map_err(damaged)?;
         let mut archive = Self::default();
         let mut left = MAX_CONTENT;

@@ -41,14 +41,15 @@ fn transfer(code: &mut String, parameters: &[&Variable]) {
     }
     let line = |parameter: &&Variable| {
         let field = field(parameter);
-        let (method, items) = match parameter.kind {
-            Kind::Real { .. } => ("f64", String::new()),
-            Kind::Integer { .. } => ("i32", String::new()),
-            Kind::Enumeration { .. } => ("item", format!(", {}::ALL", type_name(parameter))),
-            Kind::Boolean { .. } => ("bool", String::new()),
-            Kind::String { .. } => ("text", String::new()),
+        let (name, variant) = (format!("&mut self.{field}"), camel(&parameter.name));
+        let call = match parameter.kind {
+            Kind::Real { .. } => format!("real(RealVariable::{variant}, {name})"),
+            Kind::Integer { .. } => format!("integer(IntegerVariable::{variant}, {name})"),
+            Kind::Enumeration { .. } => format!("item({name}, {}::ALL)", type_name(parameter)),
+            Kind::Boolean { .. } => format!("bool({name})"),
+            Kind::String { .. } => format!("text({name})"),
         };
-        format!("        codec.{method}(&mut self.{field}{items})?;\n")
+        format!("        codec.{call}?;\n")
     };
     let lines: String = parameters.iter().map(line).collect();
     code.push_str(&TRANSFER.replace("@lines@", &lines));
@@ -59,7 +60,7 @@ impl Parameters {
     /// Passes every parameter of the description to `codec`, which writes or reads it.
     ///
     /// # Errors
-    /// When the bytes to read end before, or are not a value of the parameter's type.
+    /// When the bytes to read end before, or are not a value that the parameter could be set to.
     pub fn transfer(
         &mut self,
         codec: &mut ::fmi2_export::StateCodec<'_>,

@@ -1,8 +1,8 @@
-//! Which variable may be set when, and to what.
+//! Which variable may be set when.
 
 use crate::call::Phase;
 use crate::failure::Failure;
-use crate::variable::{Causality, Item, Kind, Variability, Variable, VariableId};
+use crate::variable::{Causality, Variability, Variable, VariableId};
 
 /// The variable with this value reference among those of one type.
 pub(crate) fn find<V: VariableId>(reference: u32) -> Result<V, Failure> {
@@ -53,54 +53,6 @@ fn not_settable(variable: &Variable, phase: Phase) -> Failure {
         Causality::Independent => "the independent variable",
     };
     Failure(format!("{name} is {what} and cannot be set: only parameters and inputs can"))
-}
-
-/// Whether `value` is finite and within the limits of `variable`.
-pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
-    if !value.is_finite() {
-        return Err(Failure(format!("{} = {value:?} is not a finite number", variable.name)));
-    }
-    match variable.kind {
-        Kind::Real { min: Some(min), .. } if value < min => {
-            Err(beyond(variable, value, "below its minimum", min))
-        }
-        Kind::Real { max: Some(max), .. } if value > max => {
-            Err(beyond(variable, value, "above its maximum", max))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Whether `value` is within the limits of `variable`, or one of its items.
-pub(crate) fn check_integer(variable: &Variable, value: i32) -> Result<(), Failure> {
-    match variable.kind {
-        Kind::Integer { min: Some(min), .. } if value < min => {
-            Err(beyond(variable, value, "below its minimum", min))
-        }
-        Kind::Integer { max: Some(max), .. } if value > max => {
-            Err(beyond(variable, value, "above its maximum", max))
-        }
-        Kind::Enumeration { items, .. } if items.iter().all(|item| item.value != value) => {
-            Err(no_item(variable, value, items))
-        }
-        _ => Ok(()),
-    }
-}
-
-// Debug, because Display spells 1e300 out.
-#[cold]
-fn beyond<T: std::fmt::Debug>(variable: &Variable, value: T, beyond: &str, limit: T) -> Failure {
-    let unit = match variable.unit {
-        None | Some("1") => String::new(),
-        Some(unit) => format!(" {unit}"),
-    };
-    Failure(format!("{} = {value:?}{unit} is {beyond}, {limit:?}{unit}", variable.name))
-}
-
-#[cold]
-fn no_item(variable: &Variable, value: i32, items: &[Item]) -> Failure {
-    let items: Vec<_> = items.iter().map(|item| format!("{} = {}", item.name, item.value)).collect();
-    Failure(format!("{} = {value} is not one of its items: {}", variable.name, items.join(", ")))
 }
 
 /// Whether `variable` is one whose derivative can be set.

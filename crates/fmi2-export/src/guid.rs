@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::hash::fnv1a_128;
 use crate::model::Model;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -51,12 +51,12 @@ pub(crate) fn check<M: Model>(guid: &str, resources: Option<&Path>) -> Result<Op
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| {
-        // A pipe or a device in its place would be waited for.
-        if !file.metadata()?.is_file() {
+    let read = fs::metadata(path).and_then(|found| {
+        // To open a pipe in its place would wait for its writer.
+        if !found.is_file() {
             return Err(std::io::Error::other("it is not a regular file"));
         }
-        file.take(MAX_PAYLOAD + 1).read_to_end(&mut bytes)
+        File::open(path)?.take(MAX_PAYLOAD + 1).read_to_end(&mut bytes)
     });
     match read {
         Err(error) => {

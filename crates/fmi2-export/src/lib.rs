@@ -107,6 +107,7 @@ pub mod ffi;
 mod guid;
 mod hash;
 mod instance;
+mod limits;
 mod log;
 mod model;
 mod state;

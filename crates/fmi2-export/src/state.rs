@@ -12,6 +12,8 @@
 
 use crate::failure::Failure;
 use crate::hash::fnv1a_64;
+use crate::limits;
+use crate::variable::VariableId;
 
 const MAGIC: &[u8; 8] = b"FMI2stat";
 /// Changes with the format of the envelope and of what the layer writes into the payload.
@@ -35,7 +37,7 @@ enum Bytes<'a> {
 /// Each method passes over one value, or several of a kind.
 ///
 /// # Errors
-/// When the bytes to read end before, or are not a value of the type.
+/// When the bytes to read end before, or are not a value of the type that the state can have.
 #[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
 impl StateCodec<'_> {
     /// Whether values are being read, so that what follows from them has to be computed.
@@ -43,12 +45,27 @@ impl StateCodec<'_> {
         matches!(self.bytes, Bytes::Read(_))
     }
 
-    /// A number bit by bit, NaN and infinity included.
+    /// A number bit by bit. NaN and infinity are not read.
     pub fn f64(&mut self, value: &mut f64) -> Result<(), Failure> {
         let mut bits = value.to_bits();
         self.u64(&mut bits)?;
         *value = f64::from_bits(bits);
+        if self.is_reading() && !value.is_finite() {
+            return Err(Failure(format!("the state has {value:?} where a finite number belongs")));
+        }
         Ok(())
+    }
+
+    /// A Real parameter. It is read as it would be set: within its limits.
+    pub fn real(&mut self, variable: impl VariableId, value: &mut f64) -> Result<(), Failure> {
+        self.f64(value)?;
+        if self.is_reading() { limits::check_real(variable.variable(), *value) } else { Ok(()) }
+    }
+
+    /// An Integer parameter. It is read as it would be set: within its limits.
+    pub fn integer(&mut self, variable: impl VariableId, value: &mut i32) -> Result<(), Failure> {
+        self.i32(value)?;
+        if self.is_reading() { limits::check_integer(variable.variable(), *value) } else { Ok(()) }
     }
 
     /// Several numbers.

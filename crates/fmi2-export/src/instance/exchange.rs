@@ -3,6 +3,7 @@
 use super::Instance;
 use crate::call::Phase;
 use crate::failure::Failure;
+use crate::limits;
 use crate::model::{ModelExchange, Update};
 use crate::variable::VariableId;
 
@@ -37,9 +38,7 @@ impl<M: ModelExchange> Instance<M> {
     pub(crate) fn set_states(&mut self, states: &[f64]) -> Result<(), Failure> {
         check_count("continuous states", states.len(), M::STATES.len())?;
         for (value, state) in states.iter().zip(M::STATES) {
-            if !value.is_finite() {
-                return Err(Failure(format!("{} = {value:?} is not a finite number", state.variable().name)));
-            }
+            limits::finite(state.variable(), *value)?;
         }
         self.now.model.set_states(states);
         Ok(())
@@ -67,13 +66,16 @@ impl<M: ModelExchange> Instance<M> {
         check_count("event indicators", values.len(), M::EVENT_INDICATORS)?;
         self.calculate()?;
         self.now.model.event_indicators(values);
-        Ok(())
+        match values.iter().find(|value| !value.is_finite()) {
+            Some(value) => Err(Failure(format!("an event indicator, {value:?}, is not a finite number"))),
+            None => Ok(()),
+        }
     }
 
     fn read(&mut self, variables: &[M::Real], values: &mut [f64]) -> Result<(), Failure> {
         self.calculate()?;
         for (value, &variable) in values.iter_mut().zip(variables) {
-            *value = self.now.model.real(variable);
+            *value = limits::finite(variable.variable(), self.now.model.real(variable))?;
         }
         Ok(())
     }

@@ -161,19 +161,8 @@ impl<M: Model> Instance<M> {
     }
 
     pub(crate) fn setup_experiment(&mut self, experiment: Experiment) -> Result<(), Failure> {
-        let Experiment { tolerance, start, stop } = experiment;
-        if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
-            return Err(Failure(format!("tolerance = {tolerance:?} is not finite and above 0")));
-        }
-        if !start.is_finite() {
-            return Err(Failure(format!("startTime = {start:?} s is not finite")));
-        }
-        if let Some(stop) = stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
-            return Err(Failure(format!(
-                "stopTime = {stop:?} s is not finite and at or after startTime = {start:?} s"
-            )));
-        }
-        self.now.time = start;
+        check_experiment(experiment)?;
+        self.now.time = experiment.start;
         self.now.experiment = experiment;
         self.now.model.setup_experiment(experiment);
         Ok(())
@@ -210,5 +199,20 @@ impl<M: Model> Instance<M> {
             self.now.stale = false;
         }
         Ok(())
+    }
+}
+
+fn check_experiment(Experiment { tolerance, start, stop }: Experiment) -> Result<(), Failure> {
+    if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
+        return Err(Failure(format!("tolerance = {tolerance:?} is not finite and above 0")));
+    }
+    if !start.is_finite() {
+        return Err(Failure(format!("startTime = {start:?} s is not finite")));
+    }
+    match stop.filter(|stop| !(stop.is_finite() && *stop >= start)) {
+        Some(stop) => Err(Failure(format!(
+            "stopTime = {stop:?} s is not finite and at or after startTime = {start:?} s"
+        ))),
+        None => Ok(()),
     }
 }

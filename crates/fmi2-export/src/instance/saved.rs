@@ -1,6 +1,6 @@
 //! Saved states.
 
-use super::{Instance, Snapshot};
+use super::{Instance, Snapshot, check_experiment};
 use crate::call::Phase;
 use crate::failure::Failure;
 use crate::log::Status;
@@ -65,9 +65,7 @@ impl<M: Model> Snapshot<M> {
         codec.f64(start)?;
         codec.option(tolerance)?;
         codec.option(stop)?;
-        if !(self.time.is_finite() && start.is_finite()) {
-            return Err("the state has a time that is not finite".into());
-        }
+        check_experiment(self.experiment)?;
         self.model.transfer_state(codec)
     }
 }

@@ -6,9 +6,10 @@ use crate::failure::Failure;
 use crate::log::{Category, Status};
 use crate::model::{Model, Step};
 
-/// Communication points are sums of rounded steps: they may differ from the own time by this much, relative
-/// to the larger of the time and 1 s.
-const TIME_TOLERANCE: f64 = 1e-9;
+/// Communication points are sums of rounded steps: they may differ from the own time by this much of it.
+const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Importers that count time in nanoseconds round it to them \[s\].
+const CLOCK_ROUNDING: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {
     pub(crate) fn do_step(&mut self, point: f64, size: f64) -> Result<(), Failure> {
@@ -73,5 +74,5 @@ impl<M: Model> Instance<M> {
 
 /// By how much a communication point may be off near `time` [s].
 fn tolerance_at(time: f64) -> f64 {
-    TIME_TOLERANCE * time.abs().max(1.0)
+    (TIME_ROUNDING * time.abs()).max(CLOCK_ROUNDING)
 }

@@ -3,8 +3,9 @@
 use super::Instance;
 use crate::access;
 use crate::failure::Failure;
+use crate::limits;
 use crate::model::Model;
-use crate::variable::VariableId;
+use crate::variable::{Variable, VariableId};
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
 
@@ -15,7 +16,7 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Failure> {
-        self.get(references, values, M::real)
+        self.get(references, values, |model, id: M::Real| limits::finite(id.variable(), model.real(id)))
     }
 
     pub(crate) fn get_integer(
@@ -23,7 +24,7 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &mut [MaybeUninit<i32>],
     ) -> Result<(), Failure> {
-        self.get(references, values, M::integer)
+        self.get(references, values, |model, id| Ok(model.integer(id)))
     }
 
     pub(crate) fn get_boolean(
@@ -31,7 +32,7 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &mut [MaybeUninit<i32>],
     ) -> Result<(), Failure> {
-        self.get(references, values, |model, variable| i32::from(model.boolean(variable)))
+        self.get(references, values, |model, id| Ok(i32::from(model.boolean(id))))
     }
 
     /// The texts, which live until the next call of this.
@@ -49,11 +50,11 @@ impl<M: Model> Instance<M> {
         &mut self,
         references: &[u32],
         values: &mut [MaybeUninit<T>],
-        value: impl Fn(&M, V) -> T,
+        value: impl Fn(&M, V) -> Result<T, Failure>,
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, slot) in references.iter().zip(values) {
-            slot.write(value(&self.now.model, access::find(reference)?));
+            slot.write(value(&self.now.model, access::find(reference)?)?);
         }
         Ok(())
     }
@@ -66,7 +67,7 @@ impl<M: Model> Instance<M> {
             if phase.is_before_the_start() || !self.states.contains(&id) {
                 access::check_settable(variable, phase)?;
             }
-            access::check_real(variable, value)?;
+            limits::check_real(variable, value)?;
         }
         self.set(references, values, |model, variable, &value| model.set_real(variable, value))
     }
@@ -76,7 +77,7 @@ impl<M: Model> Instance<M> {
         for (&reference, &value) in references.iter().zip(values) {
             let variable = access::find::<M::Integer>(reference)?.variable();
             access::check_settable(variable, phase)?;
-            access::check_integer(variable, value)?;
+            limits::check_integer(variable, value)?;
         }
         self.set(references, values, |model, variable, &value| model.set_integer(variable, value))
     }
@@ -123,12 +124,7 @@ impl<M: Model> Instance<M> {
             let variable = access::find::<M::Real>(reference)?.variable();
             access::check_derivable_input(variable)?;
             access::check_order(variable, order)?;
-            if !value.is_finite() {
-                return Err(Failure(format!(
-                    "the derivative {value:?} of {} is not a finite number",
-                    variable.name
-                )));
-            }
+            finite_slope(variable, value)?;
         }
         for (&reference, &value) in references.iter().zip(values) {
             let variable = access::find::<M::Real>(reference)?;
@@ -148,12 +144,10 @@ impl<M: Model> Instance<M> {
         for ((&reference, &order), slot) in references.iter().zip(orders).zip(values) {
             let variable = access::find::<M::Real>(reference)?;
             access::check_order(variable.variable(), order)?;
-            slot.write(
-                self.now
-                    .model
-                    .output_derivative(variable)
-                    .ok_or_else(|| Failure(format!("{} has no derivative", variable.variable().name)))?,
-            );
+            let found = self.now.model.output_derivative(variable);
+            let variable = variable.variable();
+            let found = found.ok_or_else(|| Failure(format!("{} has no derivative", variable.name)))?;
+            slot.write(finite_slope(variable, found)?);
         }
         Ok(())
     }
@@ -185,10 +179,17 @@ impl<M: Model> Instance<M> {
                 })?;
                 sum += partial * seed;
             }
-            slot.write(sum);
+            slot.write(finite_slope(unknown.variable(), sum)?);
         }
         Ok(())
     }
+}
+
+fn finite_slope(variable: &Variable, value: f64) -> Result<f64, Failure> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(Failure(format!("the derivative {value:?} of {} is not a finite number", variable.name)))
 }
 
 /// `text` for C, which ends at the first NUL.

@@ -7,6 +7,7 @@ use fmi2_export::ffi::types::{CO_SIMULATION, CallbackFunctions, Component, ERROR
 use fmi2_export::{Model, fnv1a_128};
 use std::ffi::CStr;
 use std::path::PathBuf;
+use std::process::Command;
 use std::{fs, ptr};
 
 fn text(c: Component, variable: Text) -> String {
@@ -101,6 +102,11 @@ fn a_payload_is_what_the_guid_states() {
     fs::create_dir(folder.join(Spring::PAYLOAD)).unwrap();
     let journal = made_of(&guid, Some(path)).unwrap_err();
     expect_error(&journal, &["spring.toml", "cannot be read"]);
+    // nobody writes into this pipe: to open it would be to wait for ever
+    fs::remove_dir(folder.join(Spring::PAYLOAD)).unwrap();
+    assert!(Command::new("mkfifo").arg(folder.join(Spring::PAYLOAD)).status().unwrap().success());
+    let journal = made_of(&guid, Some(path)).unwrap_err();
+    expect_error(&journal, &["spring.toml", "cannot be read: it is not a regular file"]);
     let journal = made_of(&guid, None).unwrap_err();
     expect_error(&journal, &["needs resources/spring.toml"]);
     fs::remove_dir_all(folder).unwrap();

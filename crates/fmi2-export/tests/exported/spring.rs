@@ -321,15 +321,14 @@ impl Model for Spring {
     }
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-        codec.f64s([&mut self.stiffness, &mut self.x_start, &mut self.period, &mut self.force])?;
+        codec.real(Real::Stiffness, &mut self.stiffness)?;
+        codec.f64s([&mut self.x_start, &mut self.period, &mut self.force])?;
         codec.f64s([&mut self.force_rate, &mut self.push, &mut self.trim, &mut self.bias])?;
         codec.f64s([&mut self.x, &mut self.v, &mut self.time])?;
         for value in [&mut self.law, &mut self.substeps, &mut self.fault, &mut self.count] {
             codec.i32(value)?;
         }
-        for value in [&mut self.clamped, &mut self.held, &mut self.below] {
-            codec.bool(value)?;
-        }
+        [&mut self.clamped, &mut self.held, &mut self.below].into_iter().try_for_each(|b| codec.bool(b))?;
         codec.text(&mut self.label)?;
         if self.substeps < 1 {
             return Err(Failure(format!("the state has {} substeps", self.substeps)));

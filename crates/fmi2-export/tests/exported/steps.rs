@@ -119,6 +119,16 @@ fn importers_may_add_up_times_in_their_own_way() {
 }
 
 #[test]
+fn a_step_in_unix_time_is_not_taken_for_rounding() {
+    let importer = started(1.7e9, None);
+    assert_eq!(importer.step(1.7e9, 1.2), OK);
+    // 1.7e9 + 1.2 is rounded to 2.4e-7 s
+    assert_eq!(importer.step(1.7e9 + 1.2 - 1e-6, 1.2), OK, "{:?}", importer.journal.take());
+    assert_eq!(importer.step(1.7e9 + 1.2, 1.2), ERROR);
+    importer.expect_error(&["but the last step ended at"]);
+}
+
+#[test]
 fn a_clock_that_differs_is_made_up_for() {
     let importer = Importer::in_step_mode();
     assert_eq!(importer.step(0.0, 0.1), OK);

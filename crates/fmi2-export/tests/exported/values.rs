@@ -38,6 +38,20 @@ fn what_is_set_is_got() {
 }
 
 #[test]
+fn values_that_overflow_are_an_error() {
+    let importer = Importer::in_step_mode();
+    assert_eq!(importer.set(Real::Push, 1e308), OK);
+    assert_eq!(importer.step(0.0, 1e-3), OK);
+    let (mut value, c) = (0.0, importer.component);
+    // SAFETY: the instance lives; one reference, one value.
+    unsafe {
+        assert_eq!(fmi2GetReal(c, &Real::V.reference(), 1, &mut value), OK);
+        assert_eq!(fmi2GetReal(c, &Real::Energy.reference(), 1, &mut value), ERROR);
+    }
+    importer.expect_error(&["energy = inf is not a finite number"]);
+}
+
+#[test]
 fn a_text_lives_until_the_next_is_got() {
     let importer = Importer::in_step_mode();
     let mut texts = [ptr::null(); 2];

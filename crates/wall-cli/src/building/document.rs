@@ -129,9 +129,9 @@ impl Building {
     /// Reads the file of a building.
     pub(super) fn read(path: &Path) -> Result<Self> {
         let context = || format!("{}: cannot be read", path.display());
-        let size = std::fs::metadata(path).with_context(context)?.len();
-        if size > MAX_FILE_BYTES {
-            bail!("{}: {size} bytes; a building has at most {MAX_FILE_BYTES}", path.display());
+        let metadata = std::fs::metadata(path).with_context(context)?;
+        if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+            bail!("{}: expected a building (TOML) of at most {MAX_FILE_BYTES} bytes", path.display());
         }
         let text = std::fs::read_to_string(path).with_context(context)?;
         let source = Source { file: path.display().to_string(), text: &text };

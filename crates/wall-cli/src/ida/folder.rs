@@ -188,7 +188,12 @@ impl Folder {
     pub(super) fn open(path: &Path) -> Result<Self> {
         let file = path.join(STUDY);
         let name = file.display();
-        let text = std::fs::read_to_string(&file)
+        // to open a pipe in its place would wait for its writer
+        let found = std::fs::metadata(&file).and_then(|found| {
+            let refusal = || Err(std::io::Error::other("not a regular file"));
+            if found.is_file() { std::fs::read_to_string(&file) } else { refusal() }
+        });
+        let text = found
             .with_context(|| format!("{name}: cannot be read; expected a folder that `wall ida` has made"))?;
         let manifest: Manifest = serde_json::from_str(&text).with_context(|| {
             format!(

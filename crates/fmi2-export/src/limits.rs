@@ -1,0 +1,60 @@
+//! Which values a variable may have.
+
+use crate::failure::Failure;
+use crate::variable::{Item, Kind, Variable};
+
+/// Returns `value` if it is finite.
+pub(crate) fn finite(variable: &Variable, value: f64) -> Result<f64, Failure> {
+    if value.is_finite() { Ok(value) } else { Err(not_finite(variable, value)) }
+}
+
+#[cold]
+fn not_finite(variable: &Variable, value: f64) -> Failure {
+    Failure(format!("{} = {value:?} is not a finite number", variable.name))
+}
+
+/// Whether `value` is finite and within the limits of `variable`.
+pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
+    finite(variable, value)?;
+    match variable.kind {
+        Kind::Real { min: Some(min), .. } if value < min => {
+            Err(beyond(variable, value, "below its minimum", min))
+        }
+        Kind::Real { max: Some(max), .. } if value > max => {
+            Err(beyond(variable, value, "above its maximum", max))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether `value` is within the limits of `variable`, or one of its items.
+pub(crate) fn check_integer(variable: &Variable, value: i32) -> Result<(), Failure> {
+    match variable.kind {
+        Kind::Integer { min: Some(min), .. } if value < min => {
+            Err(beyond(variable, value, "below its minimum", min))
+        }
+        Kind::Integer { max: Some(max), .. } if value > max => {
+            Err(beyond(variable, value, "above its maximum", max))
+        }
+        Kind::Enumeration { items, .. } if items.iter().all(|item| item.value != value) => {
+            Err(no_item(variable, value, items))
+        }
+        _ => Ok(()),
+    }
+}
+
+// Debug, because Display spells 1e300 out.
+#[cold]
+fn beyond<T: std::fmt::Debug>(variable: &Variable, value: T, beyond: &str, limit: T) -> Failure {
+    let unit = match variable.unit {
+        None | Some("1") => String::new(),
+        Some(unit) => format!(" {unit}"),
+    };
+    Failure(format!("{} = {value:?}{unit} is {beyond}, {limit:?}{unit}", variable.name))
+}
+
+#[cold]
+fn no_item(variable: &Variable, value: i32, items: &[Item]) -> Failure {
+    let items: Vec<_> = items.iter().map(|item| format!("{} = {}", item.name, item.value)).collect();
+    Failure(format!("{} = {value} is not one of its items: {}", variable.name, items.join(", ")))
+}
