@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, RunStart, Samples};
+use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Motion, Segment};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support};
@@ -67,16 +67,16 @@ fn wall(
     let state = motion.start(0.0, 0.0, Support::default());
     let start = |factor: f64| RunStart { state, factor: factor * participation };
     let run = |factor: f64| {
-        let forcing = Samples(black_box(samples));
-        solver.run(start(factor), &forcing, false, |_, _, _| {}).expect("a bounded motion")
+        let forcing = Forcing::Samples(black_box(samples));
+        solver.run(start(factor), forcing, false).expect("a bounded motion")
     };
     let outcome = run(scale);
     let one = least(count, || run(scale).state.displacement);
     let batch = batch(scale, start);
-    let side_by_side = solver.batch(&Samples(samples)).is_side_by_side();
+    let side_by_side = solver.batch(Forcing::Samples(samples)).is_side_by_side();
     let way = if side_by_side { "side by side" } else { "one by one  " };
     let many = least(count * BATCH, || {
-        let outcomes = solver.batch(&Samples(black_box(samples))).run(&batch, false);
+        let outcomes = solver.batch(Forcing::Samples(black_box(samples))).run(&batch, false);
         outcomes.expect("bounded motions")[0].state.displacement
     });
     println!(
@@ -154,11 +154,11 @@ fn count(path: &str, runs: u32) -> u64 {
                 black_box(simulation.progress().state);
             }
             "record" | "adaptive" => {
-                let outcome = solver.run(start(1.0), &Samples(samples), false, |_, _, _| {});
+                let outcome = solver.run(start(1.0), Forcing::Samples(samples), false);
                 black_box(outcome.expect("a bounded motion"));
             }
             "batch" => {
-                let outcomes = solver.batch(&Samples(samples)).run(&batch(1.0, start), false);
+                let outcomes = solver.batch(Forcing::Samples(samples)).run(&batch(1.0, start), false);
                 black_box(outcomes.expect("bounded motions"));
             }
             other => panic!("no path {other}: segments, record, batch, adaptive"),

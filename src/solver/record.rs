@@ -22,5 +22,5 @@ mod step_map;
 mod step_part;
 
 pub use batch::{Batch, LANES};
-pub use forcing::{Forcing, Samples, Still};
+pub use forcing::Forcing;
 pub use solver::{Outcome, RecordSolver, RunStart};

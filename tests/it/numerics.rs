@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{RecordSolver, RunStart, Samples};
+use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
 use rocking_wall::variables::{
     DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
@@ -52,7 +52,7 @@ fn end_of_run(
     let state = motion.start_under(forced.start * motion.wall().displacement_scale(), 0.0, 0.0);
     let solver = RecordSolver::new(&motion, step);
     let start = RunStart { state, factor: 1.0 };
-    let passage = solver.run(start, &Samples(&forcing), false, |_, _, _| {}).unwrap();
+    let passage = solver.run(start, Forcing::Samples(&forcing), false).unwrap();
     passage.state.displacement / motion.wall().displacement_scale()
 }
 
@@ -228,7 +228,8 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let start = RunStart { state: motion_of.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut history = vec![0.0];
     let scale = motion_of.wall().displacement_scale();
-    solver.run(start, &Samples(&forcing), false, |_, u, _| history.push(u / scale)).unwrap();
+    let mut observe = |_, u: f64, _| history.push(u / scale);
+    solver.run_observed(start, Forcing::Samples(&forcing), false, &mut observe).unwrap();
     history
 }
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use rocking_wall::simulation::{Progress, Simulation};
-use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
+use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -24,12 +24,11 @@ fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (V
     let (motion, start) = prepared(parameters, forcing, factor);
     let mut history = vec![start.state.displacement];
     let solver = RecordSolver::new(&motion, step);
-    let samples = Samples(forcing);
-    let observe = |index: usize, u, _| {
+    let mut observe = |index: usize, u, _| {
         assert_eq!(index, history.len());
         history.push(u);
     };
-    let outcome = solver.run(start, &samples, false, observe).unwrap();
+    let outcome = solver.run_observed(start, Forcing::Samples(forcing), false, &mut observe).unwrap();
     assert_eq!(history.len(), forcing.len());
     (history, outcome)
 }
@@ -56,15 +55,15 @@ proptest! {
         let started: Vec<_> = factors.iter().map(|&factor| prepared(&parameters, &forcing, factor)).collect();
         let starts: Vec<_> = started.iter().map(|(_, start)| *start).collect();
         let solver = RecordSolver::new(&started[0].0, step);
-        let samples = Samples(&forcing);
-        let batch = solver.batch(&samples);
+        let samples = Forcing::Samples(&forcing);
+        let batch = solver.batch(samples);
         let together = batch.run(&starts, until).unwrap();
         prop_assert_eq!(together.len(), count);
         for (start, outcome) in starts.iter().zip(together) {
             let one = batch.run(&[*start], until).unwrap()[0];
             prop_assert_eq!(one, outcome);
             prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
-            outcomes_agree(&wall, &solver, &samples, *start, until, &outcome)?;
+            outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?;
         }
     }
 
@@ -96,7 +95,7 @@ proptest! {
 fn outcomes_agree(
     wall: &Wall,
     solver: &RecordSolver<'_>,
-    samples: &Samples<'_>,
+    samples: Forcing<'_>,
     start: RunStart,
     until: bool,
     outcome: &Outcome,
@@ -105,7 +104,7 @@ fn outcomes_agree(
         let mut state = start.state;
         state.displacement *= 1.0 + probe;
         state.velocity *= 1.0 + probe;
-        solver.run(RunStart { state, factor }, samples, until, |_, _, _| {}).unwrap()
+        solver.run(RunStart { state, factor }, samples, until).unwrap()
     };
     let (scale, rate) = (wall.displacement_scale(), wall.rocking_rate());
     let one = run(start.factor, 0.0);

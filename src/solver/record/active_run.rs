@@ -6,14 +6,14 @@ mod follow;
 use super::super::{Memo, Phase, State, Work};
 use super::block::{Block, Nodes};
 use super::bounds::{Bounds, Range};
-use super::forcing::{BLOCK, Blocks, Forcing};
+use super::forcing::{BLOCK, Blocks};
 use super::solver::{Outcome, RecordSolver, RunStart};
 use super::step_map::StepMap;
 
 /// A run under way.
-pub(super) struct ActiveRun<'a, F> {
+pub(super) struct ActiveRun<'a> {
     solver: &'a RecordSolver<'a>,
-    record: &'a Blocks<'a, F>,
+    record: &'a Blocks<'a>,
     until_overturning: bool,
     plain: PlainSteps,
     /// The factor of the forcing.
@@ -95,11 +95,11 @@ pub(super) struct LaneValues {
     pub(super) limits: [f64; 2],
 }
 
-impl<'a, F: Forcing> ActiveRun<'a, F> {
+impl<'a> ActiveRun<'a> {
     /// Starts a run.
     pub(super) fn new(
         solver: &'a RecordSolver<'a>,
-        record: &'a Blocks<'a, F>,
+        record: &'a Blocks<'a>,
         until_overturning: bool,
         plain: PlainSteps,
         RunStart { state, factor }: RunStart,

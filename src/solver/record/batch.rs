@@ -29,26 +29,26 @@ pub const LANES: usize = vector::WIDTH;
 
 /// A record prepared for many runs.
 #[derive(Debug)]
-pub struct Batch<'a, F> {
+pub struct Batch<'a> {
     solver: &'a RecordSolver<'a>,
-    record: Blocks<'a, F>,
+    record: Blocks<'a>,
     side_by_side: Option<(Level, Responses)>,
 }
 
 impl RecordSolver<'_> {
     /// Prepares a record for many runs.
-    pub fn batch<'a, F: Forcing>(&'a self, forcing: &'a F) -> Batch<'a, F> {
+    pub fn batch<'a>(&'a self, forcing: Forcing<'a>) -> Batch<'a> {
         self.batch_on(forcing, wide_level())
     }
 
     /// Prepares a record on a processor with vectors of that level; `None` lets runs go one by one.
-    fn batch_on<'a, F: Forcing>(&'a self, forcing: &'a F, level: Option<Level>) -> Batch<'a, F> {
+    fn batch_on<'a>(&'a self, forcing: Forcing<'a>, level: Option<Level>) -> Batch<'a> {
         let side_by_side = level.and_then(|level| Some((level, Responses::new(self, forcing)?)));
         Batch { solver: self, record: Blocks::new(forcing), side_by_side }
     }
 }
 
-impl<F: Forcing> Batch<'_, F> {
+impl Batch<'_> {
     /// Tells whether runs go side by side, not one by one.
     pub fn is_side_by_side(&self) -> bool {
         self.side_by_side.is_some()
@@ -82,7 +82,6 @@ fn wide_level() -> Option<Level> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::forcing::Samples;
     use super::*;
     use crate::choices::DampingModel;
     use crate::solver::{Method, Motion};
@@ -118,10 +117,10 @@ mod tests {
     fn runs_do_not_depend_on_the_processor() {
         let motion = motion(0.018);
         let samples = shaking();
-        let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Samples(&samples));
+        let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
         let starts = starts(&motion);
         let mut by_level = vector::tests::levels().into_iter().map(|level| {
-            let batch = solver.batch_on(&samples, Some(level));
+            let batch = solver.batch_on(samples, Some(level));
             assert!(batch.is_side_by_side());
             batch.run(&starts, false).expect("bounded motions")
         });
@@ -150,8 +149,8 @@ mod tests {
             RunStart { state, factor: 1.0 }
         };
         let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
-        let still = Samples(&still);
-        let batch = solver.batch_on(&still, Some(Level::new()));
+        let still = Forcing::Samples(&still);
+        let batch = solver.batch_on(still, Some(Level::new()));
         assert!(batch.is_side_by_side());
         let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
         for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
@@ -162,7 +161,7 @@ mod tests {
                 let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
                 let alone = batch.run(&[turning], false).expect("a bounded motion")[0];
                 assert_eq!(alone, batch.run(&starts, false).expect("bounded motions")[0]);
-                let single = solver.run(turning, &still, false, |_, _, _| {}).expect("a bounded motion");
+                let single = solver.run(turning, still, false).expect("a bounded motion");
                 let missed = single.state.peaks.positive - alone.state.peaks.positive;
                 // a few roundings of u
                 assert!(missed.abs() <= 8.0 * f64::EPSILON * corner, "{distance} {speed}: {missed:e} m");
@@ -174,22 +173,25 @@ mod tests {
     #[test]
     fn what_does_not_suit_goes_one_by_one() {
         let samples = shaking();
-        let all = Samples(&samples);
+        let all = Forcing::Samples(&samples);
         let (soft, stiff) = (motion(0.018), motion(1e-4));
-        let side_by_side = |motion: &Motion, samples: &Samples<'_>, level| {
+        let side_by_side = |motion: &Motion, samples, level| {
             RecordSolver::new(motion, 5e-3).batch_on(samples, level).is_side_by_side()
         };
         let level = Some(Level::new());
-        assert!(side_by_side(&soft, &all, level));
-        assert!(!side_by_side(&soft, &all, None));
-        assert!(!side_by_side(&stiff, &all, level));
-        assert!(!side_by_side(&soft, &Samples(&samples[..15]), level));
+        assert!(side_by_side(&soft, all, level));
+        assert!(!side_by_side(&soft, all, None));
+        assert!(!side_by_side(&stiff, all, level));
+        assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), level));
         let solver = RecordSolver::new(&stiff, 5e-3);
         let starts = starts(&stiff);
-        let together = solver.batch(&all).run(&starts, false).expect("bounded motions");
+        let together = solver.batch(all).run(&starts, false).expect("bounded motions");
         for (start, outcome) in starts.iter().zip(together) {
-            assert_eq!(solver.run(*start, &all, false, |_, _, _| {}).expect("a bounded motion"), outcome);
+            assert_eq!(solver.run(*start, all, false).expect("a bounded motion"), outcome);
         }
-        assert_eq!(solver.batch(&Samples(&[])).run(&starts, false).expect("no motion").len(), starts.len());
+        assert_eq!(
+            solver.batch(Forcing::Samples(&[])).run(&starts, false).expect("no motion").len(),
+            starts.len()
+        );
     }
 }

@@ -9,40 +9,46 @@ pub(super) const BLOCK: usize = 256;
 pub(super) const AT_ONCE: usize = 4;
 
 /// Forcing p at the samples of a record \[m/s²\], before a run's factor.
-pub trait Forcing {
-    /// Returns the number of samples.
-    fn count(&self) -> usize;
-    /// Returns the forcing at `count` samples from `index` on.
-    fn from(&self, index: usize, count: usize) -> &[f64];
-    /// Returns the forcing at a sample.
-    #[inline(always)]
-    fn at(&self, index: usize) -> f64 {
-        self.from(index, 1)[0]
-    }
-    /// Returns the largest |p| over a range of samples.
-    fn largest(&self, range: Range<usize>) -> f64;
+#[derive(Clone, Copy, Debug)]
+pub enum Forcing<'a> {
+    /// One value for each sample.
+    Samples(&'a [f64]),
+    /// A number of samples without motion.
+    Still(usize),
 }
 
-/// Samples of forcing \[m/s²\].
-#[derive(Clone, Copy, Debug)]
-pub struct Samples<'a>(
-    /// One after another.
-    pub &'a [f64],
-);
+/// As many samples without motion as are asked for at once.
+static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
 
-impl Forcing for Samples<'_> {
-    fn count(&self) -> usize {
-        self.0.len()
+impl Forcing<'_> {
+    /// Returns the number of samples.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Samples(samples) => samples.len(),
+            Self::Still(count) => *count,
+        }
     }
 
+    /// Returns the forcing at `count` samples from `index` on.
     #[inline(always)]
-    fn from(&self, index: usize, count: usize) -> &[f64] {
-        &self.0[index..][..count]
+    pub(super) fn from(&self, index: usize, count: usize) -> &[f64] {
+        match self {
+            Self::Samples(samples) => &samples[index..][..count],
+            Self::Still(_) => &STILL[..count],
+        }
     }
 
+    /// Returns the forcing at a sample.
+    #[inline(always)]
+    pub(super) fn at(&self, index: usize) -> f64 {
+        self.from(index, 1)[0]
+    }
+
+    /// Returns the largest |p| over a range of samples.
     fn largest(&self, range: Range<usize>) -> f64 {
+        let Self::Samples(samples) = self else { return 0.0 };
         // eight side by side: one maximum after another would take longer than the steps
-        let (rows, rest) = self.0[range].as_chunks::<8>();
+        let (rows, rest) = samples[range].as_chunks::<8>();
         let larger = |a: f64, b: f64| if b > a { b } else { a };
         let mut columns = [0.0; 8];
         for row in rows {
@@ -52,41 +58,16 @@ impl Forcing for Samples<'_> {
     }
 }
 
-/// As many samples of no motion as are asked for at once.
-static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
-
-/// No motion at all.
-#[derive(Clone, Copy, Debug)]
-pub struct Still(
-    /// Number of samples.
-    pub usize,
-);
-
-impl Forcing for Still {
-    fn count(&self) -> usize {
-        self.0
-    }
-
-    #[inline(always)]
-    fn from(&self, _index: usize, count: usize) -> &[f64] {
-        &STILL[..count]
-    }
-
-    fn largest(&self, _range: Range<usize>) -> f64 {
-        0.0
-    }
-}
-
 /// A forcing and its bounds, block by block.
 #[derive(Debug)]
-pub(super) struct Blocks<'a, F> {
-    pub(super) forcing: &'a F,
+pub(super) struct Blocks<'a> {
+    pub(super) forcing: Forcing<'a>,
     /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
     largest: Vec<f64>,
 }
 
-impl<'a, F: Forcing> Blocks<'a, F> {
-    pub(super) fn new(forcing: &'a F) -> Self {
+impl<'a> Blocks<'a> {
+    pub(super) fn new(forcing: Forcing<'a>) -> Self {
         let last = forcing.count().saturating_sub(1);
         let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + AT_ONCE - 1).min(last) + 1;
         let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();

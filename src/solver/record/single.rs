@@ -6,26 +6,38 @@ use super::forcing::{Blocks, Forcing};
 use super::solver::{Outcome, RecordSolver, RunStart};
 
 impl RecordSolver<'_> {
-    /// Moves a wall through a record; `until_overturning` stops it when it overturns. `observe` is shown u
-    /// and u̇ at each sample after the first.
+    /// Moves a wall through a record; `until_overturning` stops it when it overturns.
     ///
     /// # Errors
     /// [`SolverError`] if the motion could not be followed.
-    pub fn run<F: Forcing>(
+    pub fn run(
         &self,
         start: RunStart,
-        forcing: &F,
+        forcing: Forcing<'_>,
         until_overturning: bool,
-        mut observe: impl FnMut(usize, f64, f64),
+    ) -> Result<Outcome, SolverError> {
+        self.run_through(start, &Blocks::new(forcing), until_overturning, &mut |_, _, _| {})
+    }
+
+    /// Does the same, and shows `observe` the number, u and u̇ of each sample after the first.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_observed(
+        &self,
+        start: RunStart,
+        forcing: Forcing<'_>,
+        until_overturning: bool,
+        mut observe: &mut dyn FnMut(usize, f64, f64),
     ) -> Result<Outcome, SolverError> {
         self.run_through(start, &Blocks::new(forcing), until_overturning, &mut observe)
     }
 
     /// Moves a wall through a record whose blocks are known.
-    pub(super) fn run_through<F: Forcing>(
+    pub(super) fn run_through(
         &self,
         start: RunStart,
-        record: &Blocks<'_, F>,
+        record: &Blocks<'_>,
         until_overturning: bool,
         observe: &mut impl FnMut(usize, f64, f64),
     ) -> Result<Outcome, SolverError> {

@@ -1,7 +1,7 @@
 //! The project's own solvers: over the whole record, several runs together, and step by step as in
 //! co-simulation.
 
-use rocking_wall::solver::record::{RecordSolver, Samples, RunStart};
+use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};
@@ -55,19 +55,19 @@ fn over_record(problem: &Problem, rows: &mut Rows, setting: &str, parameters: &P
         history.clear();
         history.resize(length, 0.0);
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
-        let samples = Samples(problem.motion.samples());
-        let outcome = solver.run(starts[0], &samples, false, |index, u, _| history[index] = u);
+        let samples = Forcing::Samples(problem.motion.samples());
+        let outcome = solver.run_observed(starts[0], samples, false, &mut |index, u, _| history[index] = u);
         outcome.map(|_| ()).map_err(|error| error.to_string())
     };
     let alone = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), 1)?;
-        let outcome = solver.run(starts[0], &Samples(problem.motion.samples()), false, |_, _, _| {});
+        let outcome = solver.run(starts[0], Forcing::Samples(problem.motion.samples()), false);
         std::hint::black_box(outcome.map_err(|error| error.to_string())?);
         Ok(())
     };
     let at_once = || {
         let (solver, starts) = prepared(problem, motion.as_ref(), count)?;
-        let outcomes = solver.batch(&Samples(problem.motion.samples())).run(&starts, false);
+        let outcomes = solver.batch(Forcing::Samples(problem.motion.samples())).run(&starts, false);
         outcomes.map_err(|error| error.to_string())
     };
     if count == 1 {

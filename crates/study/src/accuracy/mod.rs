@@ -23,7 +23,7 @@ use std::time::Instant;
 pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
-use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
+use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
 use rocking_wall::wall::Wall;
 
@@ -235,23 +235,27 @@ impl<'a> Trial<'a> {
         Self { problem, motion, forcing, parts: parts as usize }
     }
 
-    fn run(&self, factor: f64, mut observe: impl FnMut(usize, f64)) -> Result<Outcome, SolverError> {
-        let solver = RecordSolver::new(&self.motion, self.problem.step / self.parts as f64);
+    fn solver(&self) -> RecordSolver<'_> {
+        RecordSolver::new(&self.motion, self.problem.step / self.parts as f64)
+    }
+
+    fn start(&self, factor: f64) -> RunStart {
         let parameters = &self.problem.parameters;
         let first = factor * self.forcing[0];
         let state = self.motion.start_under(parameters.u_start, parameters.u_dot_start, first);
-        let samples = Samples(&self.forcing);
-        solver.run(RunStart { state, factor }, &samples, true, |index, u, _| observe(index, u))
+        RunStart { state, factor }
     }
 
     fn history(&self, factor: f64) -> Result<History, SolverError> {
         let mut displacements = vec![f64::NAN; self.problem.forcing.len()];
         displacements[0] = factor * self.problem.parameters.u_start;
-        let outcome = self.run(factor, |index, u| {
+        let mut observe = |index, u, _| {
             if index % self.parts == 0 {
                 displacements[index / self.parts] = u;
             }
-        })?;
+        };
+        let forcing = Forcing::Samples(&self.forcing);
+        let outcome = self.solver().run_observed(self.start(factor), forcing, true, &mut observe)?;
         if let Some(time) = outcome.overturning {
             for (index, displacement) in displacements.iter_mut().enumerate() {
                 if index as f64 * self.problem.step > time {
@@ -268,7 +272,8 @@ impl<'a> Trial<'a> {
         let mut least = f64::INFINITY;
         for run in 0..10_000 {
             let start = Instant::now();
-            std::hint::black_box(self.run(1.0, |_, _| {})?);
+            let outcome = self.solver().run(self.start(1.0), Forcing::Samples(&self.forcing), true)?;
+            std::hint::black_box(outcome);
             least = least.min(start.elapsed().as_secs_f64());
             if run >= 2 && begun.elapsed().as_secs_f64() > budget {
                 break;

@@ -1,7 +1,7 @@
 //! Decay of a free vibration.
 
 use crate::free_motion::advance;
-use rocking_wall::solver::record::{RecordSolver, RunStart, Still};
+use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters};
 
@@ -53,9 +53,8 @@ impl Decay {
         let solver = RecordSolver::new(&self.motion, step);
         let mut sum = 0.0;
         let start = RunStart { state: self.state, factor: 1.0 };
-        solver.run(start, &Still(reference.len() + 1), false, |index, u, _| {
-            sum += (reference[index - 1] - u.abs() / u_ins.of(u)).powi(2);
-        })?;
+        let mut add = |index: usize, u: f64, _| sum += (reference[index - 1] - u.abs() / u_ins.of(u)).powi(2);
+        solver.run_observed(start, Forcing::Still(reference.len() + 1), false, &mut add)?;
         Ok(sum)
     }
 }

@@ -29,7 +29,7 @@ mod model;
 use crate::free_motion::peak_is_final;
 use crate::parallel;
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Batch, Outcome, RecordSolver, RunStart, Samples, Still};
+use rocking_wall::solver::record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Motion, SolverError, State};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -197,8 +197,7 @@ impl Study {
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
         let record = &self.records[case.record];
         let solver = RecordSolver::new(self.motion(case.wall, case.model), record.motion.step());
-        let samples = Samples(record.motion.samples());
-        let batch = solver.batch(&samples);
+        let batch = solver.batch(Forcing::Samples(record.motion.samples()));
         let runs = self.levels.trace(|levels| {
             self.runs(case, &solver, &batch, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
@@ -225,7 +224,7 @@ impl Study {
         &self,
         case: Case,
         solver: &RecordSolver<'_>,
-        batch: &Batch<'_, Samples<'_>>,
+        batch: &Batch<'_>,
         levels: &[f64],
     ) -> Result<Vec<Run>, SolverError> {
         let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record].motion);
@@ -262,7 +261,7 @@ impl Study {
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
         let count = (self.tail / record.step()).ceil() as usize + 1;
-        let outcome = solver.run(RunStart { state, factor: 1.0 }, &Still(count), true, |_, _, _| {})?;
+        let outcome = solver.run(RunStart { state, factor: 1.0 }, Forcing::Still(count), true)?;
         Ok((outcome.state, outcome.overturning.map(|time| record.duration() + time)))
     }
 }

@@ -30,7 +30,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmi2_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Outcome, RecordSolver, RunStart, Samples};
+use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::Parameters;
@@ -214,9 +214,9 @@ impl Prepared {
 
     /// Runs through a motion, with `factor` times its accelerations as forcing, and the free motion after it.
     fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
-        let samples = Samples(motion.samples());
+        let samples = Forcing::Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcome = solver.run(self.start(factor, motion), &samples, true, |_, _, _| {});
+        let outcome = solver.run(self.start(factor, motion), samples, true);
         outcome
             .and_then(|outcome| self.followed(outcome, motion.duration()))
             .map_err(|error| self.failed(error))
@@ -224,10 +224,10 @@ impl Prepared {
 
     /// Runs as [`point`](Self::point) does, for each of many factors.
     fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
-        let samples = Samples(motion.samples());
+        let samples = Forcing::Samples(motion.samples());
         let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcomes = solver.batch(&samples).run(&starts, true).map_err(|error| self.failed(error))?;
+        let outcomes = solver.batch(samples).run(&starts, true).map_err(|error| self.failed(error))?;
         let followed =
             |outcome| self.followed(outcome, motion.duration()).map_err(|error| self.failed(error));
         outcomes.into_iter().map(followed).collect()

@@ -1,7 +1,7 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
 use super::released::{Released, StabilityError};
-use rocking_wall::solver::record::{RecordSolver, RunStart, Samples, Still};
+use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -158,8 +158,7 @@ fn undamped_in_steps() -> Value {
     let wall = released(&free(), 0.9)?;
     let solver = RecordSolver::new(&wall.motion, 5e-3);
     let start = RunStart { state: wall.state, factor: 1.0 };
-    let State { displacement, velocity, .. } =
-        solver.run(start, &Still(20_000_001), false, |_, _, _| {})?.state;
+    let State { displacement, velocity, .. } = solver.run(start, Forcing::Still(20_000_001), false)?.state;
     Ok((wall.motion.wall().energy(displacement, velocity) / wall.first_energy - 1.0).abs())
 }
 
@@ -209,7 +208,8 @@ fn history(
     let start = RunStart { state: motion.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
     let mut displacements = vec![0.0];
     let scale = motion.wall().displacement_scale();
-    let outcome = solver.run(start, &Samples(forcing), true, |_, u, _| displacements.push(u / scale))?;
+    let mut observe = |_, u: f64, _| displacements.push(u / scale);
+    let outcome = solver.run_observed(start, Forcing::Samples(forcing), true, &mut observe)?;
     Ok((displacements, outcome.overturning))
 }
 

@@ -3,7 +3,6 @@
 use super::super::super::run::Run;
 use super::super::super::transition::branch_beyond;
 use super::super::super::{Report, SolverError, Work};
-use super::super::forcing::Forcing;
 use super::super::short::Short;
 use super::super::step_map::StepMap;
 use super::super::step_part::{Course, StepPart};
@@ -13,7 +12,7 @@ use oscillator::KinematicState;
 /// Corners crossed in one step without the general search.
 const MOST_CROSSINGS: u32 = 4;
 
-impl<'a, F: Forcing> ActiveRun<'a, F> {
+impl<'a> ActiveRun<'a> {
     /// Takes a step that may reach a corner or a new extreme, and that ends at `end` if it does not leave its
     /// branch.
     #[inline(always)]

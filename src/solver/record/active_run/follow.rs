@@ -1,11 +1,10 @@
 //! Following a run: plain steps by pairs, and one by one what is not plain.
 
 use super::super::super::SolverError;
-use super::super::forcing::Forcing;
 use super::super::solver::Outcome;
 use super::ActiveRun;
 
-impl<F: Forcing> ActiveRun<'_, F> {
+impl ActiveRun<'_> {
     /// Follows the run to its end; `observe` is shown u and u̇ at each sample after the first.
     ///
     /// # Errors

@@ -2,16 +2,16 @@
 
 use super::super::active_run::{ActiveRun, LaneValues, PlainSteps};
 use super::super::block::Nodes;
-use super::super::forcing::{AT_ONCE, Blocks, Forcing};
+use super::super::forcing::{AT_ONCE, Blocks};
 use super::super::solver::{Outcome, RecordSolver, RunStart};
 use super::responses::Responses;
 use super::vector::{Row, WIDTH};
 use crate::solver::SolverError;
 
 /// Runs side by side.
-pub(super) struct Lanes<'a, F> {
+pub(super) struct Lanes<'a> {
     pub(super) solver: &'a RecordSolver<'a>,
-    pub(super) record: &'a Blocks<'a, F>,
+    pub(super) record: &'a Blocks<'a>,
     pub(super) responses: &'a Responses,
     pub(super) rows: Rows,
     /// Lanes that have a run.
@@ -21,7 +21,7 @@ pub(super) struct Lanes<'a, F> {
     /// The next start to take up.
     next: usize,
     /// The run of each lane, and its number.
-    runs: [Option<ActiveRun<'a, F>>; WIDTH],
+    runs: [Option<ActiveRun<'a>>; WIDTH],
     numbers: [usize; WIDTH],
     outcomes: Vec<Option<Outcome>>,
     /// The first run that could not be followed.
@@ -71,10 +71,10 @@ impl Rows {
     }
 }
 
-impl<'a, F: Forcing> Lanes<'a, F> {
+impl<'a> Lanes<'a> {
     pub(super) fn new(
         solver: &'a RecordSolver<'a>,
-        record: &'a Blocks<'a, F>,
+        record: &'a Blocks<'a>,
         responses: &'a Responses,
         starts: &'a [RunStart],
         until_overturning: bool,

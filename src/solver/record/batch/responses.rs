@@ -37,7 +37,7 @@ pub(super) struct Responses {
 impl Responses {
     /// Prepares the responses of a wall to a record; `None` where runs do not go side by side: few or very
     /// many samples, many branches, steps without an affine map, or long beside the wall's period.
-    pub(super) fn new<F: Forcing>(solver: &RecordSolver<'_>, forcing: &F) -> Option<Self> {
+    pub(super) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
         let count = forcing.count();
         if !(4 * AT_ONCE..=MOST_SAMPLES).contains(&count) || solver.maps.len() > WIDTH {
             return None;
@@ -70,7 +70,7 @@ impl Responses {
     }
 
     /// Adds the response of an oscillator.
-    fn respond<F: Forcing>(&mut self, map: &StepMap, forcing: &F, step: f64) {
+    fn respond(&mut self, map: &StepMap, forcing: Forcing<'_>, step: f64) {
         let [_, _, first, second, third] = map.double.terms;
         let [of_u, of_v, ..] = Affine::single(&map.oscillator, 2.0 * step).terms;
         let start = self.rows.len();

@@ -7,7 +7,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::super::forcing::{AT_ONCE, Forcing};
+use super::super::forcing::AT_ONCE;
 use super::corners::{Arrival, Leaving};
 use super::lanes::{Lanes, Rows};
 use super::responses::{ROWS_AHEAD, Responses};
@@ -124,7 +124,7 @@ fn each(bits: u8) -> impl Iterator<Item = usize> {
     (0..WIDTH).filter(move |i| bits >> i & 1 == 1)
 }
 
-impl<F: Forcing> Lanes<'_, F> {
+impl Lanes<'_> {
     /// Follows all runs to their ends.
     #[inline(always)]
     pub(super) fn follow<S: Simd>(&mut self, simd: S) {
