@@ -5,21 +5,22 @@ use std::path::{Path, PathBuf};
 use crate::command::{Result, output, root, succeed};
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
-use crate::test::wall_binary;
 
 /// Runs the demo with the embedded motion, then with the user's record if there is one.
 ///
 /// # Errors
 /// If a step of it fails.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
-    // the three take about as long as one another, and two of them wait for a linker or the network
-    let (unit, wall, python) = std::thread::scope(|scope| {
-        let unit = scope.spawn(|| fmu::build(fmu::WALL, Linker::System));
+    // one of the three waits for a linker, one for the network
+    let (library, programs, python) = std::thread::scope(|scope| {
+        let library = scope.spawn(|| fmu::library(fmu::WALL, Linker::System));
         let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
-        let wall = wall_binary();
-        (joined(unit), wall, joined(python))
+        let programs = fmu::programs("demo", &["rocking-wall-cli", "fmi2-export-build"]);
+        (joined(library), programs, joined(python))
     });
-    let (unit, wall, python) = (unit?, wall?, python?);
+    let (programs, python) = (programs?, python?);
+    let unit = fmu::pack(fmu::WALL, &library?, &programs)?;
+    let wall = programs.join("wall");
     let out = root().join("fmu_out");
     shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;
     if let [file, rest @ ..] = record {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{Result, cargo, root, succeed, target};
+use crate::command::{Result, cargo, program, root, succeed, target};
 use crate::python::Environment;
 
 /// The linker of the library.
@@ -46,9 +46,8 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 /// If the library does not build or the archive cannot be written.
 pub(crate) fn build(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let library = library(unit, linker)?;
-    let output = root().join("fmu_out").join(unit.file);
-    pack(unit, &library, &output)?;
-    Ok(output)
+    let built = programs("dev", &["fmi2-export-build"])?;
+    pack(unit, &library, &built)
 }
 
 /// Builds every FMU and prints its path.
@@ -62,16 +61,24 @@ pub(crate) fn build_all(linker: Linker) -> Result<()> {
     Ok(())
 }
 
-/// Builds the portable library alone and returns its path.
+/// Builds the programs of some packages with a profile and returns their folder.
 ///
 /// # Errors
-/// As [`build`].
-pub(crate) fn portable_library(unit: Unit) -> Result<PathBuf> {
-    library(unit, Linker::Zig)
+/// If they do not build.
+pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
+    let mut build = cargo();
+    build.args(["build", "--locked", "--bins", "--features", "fmi2-export-build/archive"]);
+    build.args(["--profile", profile]);
+    build.args(packages.iter().flat_map(|package| ["--package", *package]));
+    succeed(&mut build, "see the compiler's message above")?;
+    Ok(target().join(if profile == "dev" { "debug" } else { profile }))
 }
 
-/// Builds the library without the command line's crates.
-fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
+/// Builds the library, without the command line's crates, and returns its path.
+///
+/// # Errors
+/// If it does not build.
+pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let mut build = cargo();
     match linker {
@@ -120,17 +127,20 @@ fn reproducible(build: &mut Command) {
     build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
 }
 
-/// Zips the FMU.
-fn pack(unit: Unit, library: &Path, output: &Path) -> Result<()> {
-    let mut pack = cargo();
-    pack.args(["run", "--quiet", "--locked", "--package", "fmi2-export-build", "--features", "archive"]);
-    pack.args(["--bin", "fmi2-pack", "--"]);
+/// Zips the FMU with `fmi2-pack` of a folder of programs, and returns its path.
+///
+/// # Errors
+/// If the archive cannot be written.
+pub(crate) fn pack(unit: Unit, library: &Path, programs: &Path) -> Result<PathBuf> {
+    let output = root().join("fmu_out").join(unit.file);
+    let mut pack = program(programs.join("fmi2-pack"));
     let description = Path::new(unit.description);
     pack.arg("--description").arg(description.join("modelDescription.xml"));
     pack.arg("--documentation").arg(description.join("documentation"));
     pack.arg("--binary").arg(library).args(["--platform", platform()]);
-    pack.arg("--output").arg(output);
-    succeed(&mut pack, "see its message above")
+    pack.arg("--output").arg(&output);
+    succeed(&mut pack, "see its message above")?;
+    Ok(output)
 }
 
 /// Returns FMI's name for this machine.

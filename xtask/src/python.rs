@@ -36,15 +36,8 @@ impl Environment {
         let remedy = "install Python 3.11 or newer with its venv module";
         succeed(program("python3").args(["-m", "venv"]).arg(&self.folder), remedy)?;
         let mut pip = self.program("python");
-        pip.args([
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-            "--require-hashes",
-            "-r",
-        ]);
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
+        pip.args(["--require-hashes", "-r"]);
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 

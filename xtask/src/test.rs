@@ -99,8 +99,8 @@ fn prepare() {
         let _ = Environment::of(name, lock);
     }
     for unit in fmu::UNITS {
-        let _ = fmu::build(unit, Linker::System);
-        let _ = fmu::portable_library(unit);
+        let _ = fmu::library(unit, Linker::System);
+        let _ = fmu::library(unit, Linker::Zig);
     }
 }
 
@@ -114,22 +114,23 @@ fn run_tests(command: &mut std::process::Command) -> Result<()> {
 
 fn examples() -> Result<()> {
     for name in ["wall_under_record", "step_by_step", "incremental_dynamic_analysis"] {
-        succeed(cargo().args(["run", "--quiet", "--locked", "--example", name]), "see its message above")?;
+        succeed(&mut program(programs().join("examples").join(name)), "see its message above")?;
     }
     Ok(())
 }
 
-/// Builds the program `wall`, without the optimisation of a release, and returns its path.
-pub(crate) fn wall_binary() -> Result<PathBuf> {
-    let build = ["build", "--locked", "--package", "rocking-wall-cli", "--bin", "wall"];
-    succeed(cargo().args(build), "see the compiler's message above")?;
-    Ok(target().join("debug").join(format!("wall{}", std::env::consts::EXE_SUFFIX)))
+/// Returns the folder of the programs and examples that `cargo test` has built.
+fn programs() -> PathBuf {
+    target().join("debug")
+}
+
+/// Packs an FMU of the release library.
+fn packed(unit: fmu::Unit) -> Result<PathBuf> {
+    fmu::pack(unit, &fmu::library(unit, Linker::System)?, &programs())
 }
 
 fn python() -> Result<()> {
-    let unit = fmu::build(fmu::WALL, Linker::System)?;
-    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
-    let wall = wall_binary()?;
+    let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of(TESTS.0, TESTS.1)?;
     let mut pytest = python.program("python");
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
@@ -141,9 +142,7 @@ fn python() -> Result<()> {
 /// Tests wall and floor in masters from `PyPI`, in an environment of their own, because not every platform
 /// has all of them.
 fn masters() -> Result<()> {
-    let unit = fmu::build(fmu::WALL, Linker::System)?;
-    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
-    let wall = wall_binary()?;
+    let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
     let python = Environment::of(MASTERS.0, MASTERS.1).map_err(missing)?;
     let mut pytest = python.program("python");
@@ -160,7 +159,7 @@ fn portable() -> Result<()> {
     }
     let python = Environment::of(TESTS.0, TESTS.1)?;
     for unit in fmu::UNITS {
-        let library = fmu::portable_library(unit)?;
+        let library = fmu::library(unit, Linker::Zig)?;
         let mut check = python.program("python");
         check.arg("tests/python/check_symbols.py").arg(library);
         succeed(&mut check, "see its message above")?;
@@ -169,16 +168,14 @@ fn portable() -> Result<()> {
 }
 
 fn conformance() -> Result<()> {
-    let unit = fmu::build(fmu::WALL, Linker::System)?;
+    let unit = packed(fmu::WALL)?;
     let clang = Environment::of(CLANG.0, CLANG.1)?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
-    let folder = target().join("conformance");
     let mut test = cargo();
     test.args(["test", "--locked", "--package", "conformance"]);
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
-        .env("CARGO_TARGET_DIR", folder)
         .env("ROCKING_WALL_FMU", absolute(&unit));
     run_tests(&mut test)
 }
