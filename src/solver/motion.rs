@@ -1,5 +1,7 @@
 //! A wall and the method that moves it.
 
+use std::fmt;
+
 use oscillator::Oscillator;
 
 use crate::choices::Solver;
@@ -26,6 +28,16 @@ pub enum Method {
         /// Step \[s\].
         step: f64,
     },
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Exact => formatter.write_str("exact"),
+            Self::Adaptive { tolerance } => write!(formatter, "adaptive, tolerance {tolerance:e}"),
+            Self::Newmark { step } => write!(formatter, "newmark, step {step} s"),
+        }
+    }
 }
 
 impl Method {

@@ -189,7 +189,9 @@ impl Model for Unit {
                 self.parameters.u_start
             ));
         }
-        log.info(format_args!("solver: {:?}", self.simulation.method()));
+        if self.exchange.is_none() {
+            log.info(format_args!("solver: {}", self.simulation.method()));
+        }
         Ok(())
     }
 

@@ -103,7 +103,7 @@ fn the_frame_is_complete() {
         "canGetAndSetFMUstate=\"true\"",
         "canSerializeFMUstate=\"true\"",
         "providesDirectionalDerivative=\"true\"",
-        "<DefaultExperiment startTime=\"0\" stopTime=\"30\" stepSize=\"0.03\" tolerance=\"1e-8\"/>",
+        "<DefaultExperiment startTime=\"0\" stopTime=\"30\" stepSize=\"0.01\" tolerance=\"1e-8\"/>",
     ] {
         assert!(XML.contains(text), "{text}");
     }
@@ -112,8 +112,15 @@ fn the_frame_is_complete() {
     {
         assert!(XML.contains(&format!("<Category name=\"{category}\"")), "{category}");
     }
-    // A date would make every build a different FMU.
-    assert!(!XML.contains("generationDateAndTime"));
+    // A date would make every build a different FMU; the comment says so.
+    assert!(XML.contains("generationDateAndTime is") && !XML.contains("generationDateAndTime="));
+}
+
+/// Importers show the first display unit where a variable states none: -1 s, not -1000 ms.
+#[test]
+fn times_are_shown_in_seconds() {
+    let time = XML.split("<SimpleType name=\"Time\"").nth(1).and_then(|rest| rest.split("</").next());
+    assert!(time.is_some_and(|time| time.contains("displayUnit=\"s\"")), "{time:?}");
 }
 
 #[test]

@@ -44,7 +44,7 @@ def test_the_frame(xml):
     assert re.fullmatch(r"\{[0-9a-f]{32}\}", xml.get("guid"))
     experiment = xml.find("DefaultExperiment").attrib
     assert {key: float(value) for key, value in experiment.items()} == {
-        "startTime": 0.0, "stopTime": 30.0, "stepSize": 0.03, "tolerance": 1e-8,
+        "startTime": 0.0, "stopTime": 30.0, "stepSize": 0.01, "tolerance": 1e-8,
     }  # fmt: skip
     categories = {category.get("name") for category in xml.findall("LogCategories/Category")}
     assert categories == {

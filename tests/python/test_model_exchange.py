@@ -173,6 +173,23 @@ def test_the_difference_is_the_solvers(unpacked):
     assert fine < 0.1 * coarse
 
 
+def test_explicit_steps_of_the_default_length_do_not_overturn_the_wall(unpacked):
+    experiment = unpacked.description.defaultExperiment
+    step, stop = float(experiment.stepSize), float(experiment.stopTime)
+    assert (1 / step).is_integer(), "it divides the stop times that people write"
+    history = simulate_fmu(
+        unpacked.folder, model_description=unpacked.description, fmi_type="ModelExchange", solver="Euler",
+        step_size=step, output_interval=step, stop_time=stop, output=OUTPUTS,
+    )  # fmt: skip
+    assert not history["overturned"][-1] and abs(history["u"][-1]) < 0.25 * history["u"][0]
+
+
+def test_the_log_names_no_solver(unpacked):
+    with Exchange(unpacked, logging=True) as exchange:
+        exchange.run()
+        assert exchange.messages and not any("solver" in text for _, _, text in exchange.messages)
+
+
 def test_corners_do_not_slow_the_solver(unpacked):
     """An event costs CVODE a restart, however sharp the corner: 100 to 180 evaluations at 1e-8."""
     for a1 in (0.1, 1e-2, 1e-3, 1e-4):
