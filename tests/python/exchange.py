@@ -12,8 +12,6 @@ from scipy.integrate import solve_ivp
 
 from unit import Unit
 
-STATES = 2
-INDICATORS = 3
 MOST_EVENTS = 10_000
 
 
@@ -22,6 +20,11 @@ class Exchange(Unit):
 
     KIND = FMU2Model
     next_event = None
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.state_count = self.description.numberOfContinuousStates
+        self.indicator_count = self.description.numberOfEventIndicators
 
     def run(self, **values):
         """Starts and enters Continuous-Time Mode."""
@@ -49,21 +52,21 @@ class Exchange(Unit):
         return list(values)
 
     def states(self):
-        return self._numbers(self.slave.getContinuousStates, STATES)
+        return self._numbers(self.slave.getContinuousStates, self.state_count)
 
     def derivatives(self):
-        return self._numbers(self.slave.getDerivatives, STATES)
+        return self._numbers(self.slave.getDerivatives, self.state_count)
 
     def indicators(self):
-        return self._numbers(self.slave.getEventIndicators, INDICATORS)
+        return self._numbers(self.slave.getEventIndicators, self.indicator_count)
 
     def nominals(self):
-        return self._numbers(self.slave.getNominalsOfContinuousStates, STATES)
+        return self._numbers(self.slave.getNominalsOfContinuousStates, self.state_count)
 
     def at(self, time, states, inputs=None):
         """Sets time, states and inputs."""
         self.slave.setTime(float(time))
-        self.slave.setContinuousStates((c_double * STATES)(*states), STATES)
+        self.slave.setContinuousStates((c_double * self.state_count)(*states), self.state_count)
         if inputs:
             self.set(**inputs(time))
         return self
@@ -76,27 +79,51 @@ class Exchange(Unit):
 
     def integrate(self, end, tolerance, inputs=None):
         """Integrates to `end` through all events; returns their number."""
-        for count in range(MOST_EVENTS):
-            if self.time >= end:
-                return count
-            stop = min(end, self.next_event or end)
-            crossings = [self._crossing(index, inputs) for index in range(INDICATORS)]
-            # the largest step is limited, so that a step cannot pass a corner and come back
-            piece = solve_ivp(
-                lambda t, x: self.at(t, x, inputs).derivatives(), (self.time, stop), self.states(),
-                method="DOP853", rtol=tolerance, atol=tolerance * np.array(self.nominals()),
-                events=crossings, max_step=0.02,
-            )  # fmt: skip
-            assert piece.status >= 0, piece.message
-            self.time = piece.t[-1]
-            asked, _ = self.at(self.time, piece.y[:, -1], inputs).slave.completedIntegratorStep()
-            if asked or piece.status == 1 or stop == self.next_event:
-                self.event()
-        raise AssertionError(f"more than {MOST_EVENTS} events")
+        return integrate([self], end, tolerance, lambda time: self.set(**inputs(time)) if inputs else None)
 
-    def _crossing(self, index, inputs):
-        def crossing(t, x):
-            return self.at(t, x, inputs).indicators()[index]
 
-        crossing.terminal = True
-        return crossing
+def integrate(units, end, tolerance, connect):
+    """Integrates units together to `end` through all events; returns the number of events.
+
+    `connect` sets their inputs at a time, for the states that have been set.
+    """
+    splits = np.cumsum([unit.state_count for unit in units])[:-1]
+
+    def place(time, states):
+        for unit, own in zip(units, np.split(states, splits), strict=True):
+            unit.at(time, own)
+        connect(time)
+
+    def rates(time, states):
+        place(time, states)
+        return np.concatenate([unit.derivatives() for unit in units])
+
+    def crossing(unit, index):
+        def event(time, states):
+            place(time, states)
+            return unit.indicators()[index]
+
+        event.terminal = True
+        return event
+
+    crossings = [crossing(unit, index) for unit in units for index in range(unit.indicator_count)]
+    for count in range(MOST_EVENTS):
+        now = units[0].time
+        if now >= end:
+            return count
+        stop = min([end, *(unit.next_event for unit in units if unit.next_event)])
+        # the largest step is limited, so that a step cannot pass a corner and come back
+        piece = solve_ivp(
+            rates, (now, stop), np.concatenate([unit.states() for unit in units]),
+            method="DOP853", rtol=tolerance, events=crossings, max_step=0.02,
+            atol=tolerance * np.concatenate([unit.nominals() for unit in units]),
+        )  # fmt: skip
+        assert piece.status >= 0, piece.message
+        place(piece.t[-1], piece.y[:, -1])
+        asked = [unit.slave.completedIntegratorStep()[0] for unit in units]
+        timed = any(unit.next_event == stop for unit in units)
+        for unit in units:
+            unit.time = piece.t[-1]
+            if any(asked) or piece.status == 1 or timed:
+                unit.event()
+    raise AssertionError(f"more than {MOST_EVENTS} events")

@@ -17,6 +17,8 @@ from scipy.integrate import solve_ivp
 
 from check_symbols import problems
 from conftest import ROOT
+from exchange import Exchange, integrate
+from monolith import Monolith, Wall
 from unit import Unit
 
 BILINEAR = {"hysteresis": "bilinear", "yield_force": 6e4, "hardening_ratio": 0.1}
@@ -81,11 +83,12 @@ def test_dependencies_are_true(unpacked_floor, floor_fmu):
         for unknown in xml.findall("ModelStructure/Outputs/Unknown")
     }
     reacts = {name: set() for name in listed}
-    for coupling in ("reactions", "impulses"):
+    states = ["displacement", "velocity", "base_displacement", "base_velocity", "energy_damping"]
+    for settings in ({}, {"coupling": "impulses"}, {**BILINEAR, "displacement_start": 0.01}):
         with Unit(unpacked_floor) as unit:
-            unit.start(coupling=coupling, velocity_start=0.1).step(0.01)
+            unit.start(velocity_start=0.1, **settings).step(0.001)
             for name in set(listed) & set(reals(unit)):
-                for known in ["displacement", "velocity", *INPUTS]:
+                for known in [*states, *INPUTS]:
                     reference = [unit.reference(known)]
                     if (
                         unit.slave.getDirectionalDerivative([unit.reference(name)], reference, [1.0])[0]
@@ -268,6 +271,98 @@ def test_output_derivatives(floor):
     after = floor.step(tiny).get(*names)
     # first order in the tiny step, plus rounding divided by it
     assert (np.array(after) - before) / tiny == pytest.approx(slopes, rel=1e-4)
+
+
+# --- Model Exchange
+
+KICKED = {"velocity_start": 0.4, "damping_ratio": 0.02, "mass": 2e4, "stiffness": 2e7}
+
+
+def compare(exchange, steps, tolerance):
+    """Compares the outputs, relative to accelerations of 10 m/s² at 30 rad/s and a mass of 20 t."""
+    scales = {"m": 0.01, "m/s": 0.3, "m/s2": 10.0, "N": 2e5, "N.s": 2e4, "J": 2e3}
+    for name in set(reals(steps, "output")) - {"impulse_bottom"}:
+        bound = tolerance * scales[steps.variables[name].unit]
+        assert exchange.get(name) == pytest.approx(steps.get(name), abs=bound), (name, steps.time)
+    assert exchange.get("yielding") == steps.get("yielding")
+
+
+@pytest.mark.parametrize("settings", [{}, BILINEAR, {**BILINEAR, "hardening_ratio": 0.0}])
+def test_model_exchange_agrees_with_co_simulation(unpacked_floor, settings):
+    def inputs(time):
+        return {"a_g": 6.0 * math.sin(40 * math.floor(time * 20) / 20), "reaction_3": 2e4 - 3e4 * time}
+
+    with Unit(unpacked_floor) as steps, Exchange(unpacked_floor) as exchange:
+        steps.start(**KICKED, **settings)
+        exchange.run(**KICKED, **settings)
+        events = 0
+        for index in range(40):
+            held = inputs(index / 20 + 0.01)["a_g"]
+            steps.set(a_g=held, reaction_3=inputs(index / 20)["reaction_3"])
+            steps.rates(reaction_3=-3e4)
+            steps.step(0.05)
+            events += exchange.integrate(
+                (index + 1) / 20, 1e-12, lambda t: {"a_g": held, "reaction_3": inputs(t)["reaction_3"]}
+            )
+            # DOP853 at 1e-12, some 10⁴ evaluations
+            compare(exchange, steps, 1e-8)
+        assert (steps.get("energy_hysteretic") > 1e3) == (events > 50) == bool(settings)
+
+
+@pytest.mark.parametrize("settings", [{}, BILINEAR])
+def test_fmpy_integrates_the_floor(unpacked_floor, settings):
+    values = {**KICKED, **settings, **({"hysteresis": 2} if settings else {})}
+    names = ["displacement", "velocity", "energy_damping", "energy_hysteretic"]
+    steps, exchange = (
+        simulate_fmu(
+            unpacked_floor.folder, model_description=unpacked_floor.description, fmi_type=kind,
+            start_values=values, stop_time=2.0, output_interval=0.01, relative_tolerance=1e-8, output=names,
+            record_events=False,
+        )
+        for kind in ("CoSimulation", "ModelExchange")
+    )  # fmt: skip
+    # CVODE admits an error of its tolerance at each of some 10³ steps
+    for name in names:
+        assert np.abs(steps[name] - exchange[name]).max() < 1e-5 * np.abs(steps[name]).max() + 1e-12, name
+
+
+def test_what_model_exchange_refuses(unpacked_floor):
+    with Exchange(unpacked_floor) as exchange:
+        with pytest.raises(Exception, match="fmi2ExitInitializationMode"):
+            exchange.start(coupling="impulses")
+        assert any("coupling" in text and "reactions" in text for _, _, text in exchange.messages)
+
+
+def test_a_wall_and_a_floor_are_integrated_together(unpacked, unpacked_floor):
+    """Agrees with the same system integrated as one, corners of the law included."""
+    parapet = {"height": 1.5, "thickness": 0.3, "a1": 0.05, "xi": 0.03, "u_start": 0.12}
+    storey = {"mass": 2e3, "stiffness": 8e5, "damping_ratio": 0.02, "displacement_start": 0.01}
+    with Exchange(unpacked) as wall, Exchange(unpacked_floor, "floor") as floor:
+        wall.run(**parapet, damping_model="constant_coefficient", damping_source="given")
+        floor.run(**storey)
+        a_bottom, reaction = wall.reference("a_bottom"), floor.reference("reaction_1")
+        reaction_bottom = wall.reference("reaction_bottom")
+        acceleration = floor.reference("acceleration_absolute")
+
+        def connect(time):
+            # the loop is linear: one step of Newton closes it
+            (by_wall,) = wall.slave.getDirectionalDerivative([reaction_bottom], [a_bottom], [1.0])
+            (by_floor,) = floor.slave.getDirectionalDerivative([acceleration], [reaction], [1.0])
+            floor.set(reaction_1=wall.get("reaction_bottom"))
+            gap = floor.get("acceleration_absolute") - wall.get("a_bottom")
+            wall.set(a_bottom=wall.get("a_bottom") + gap / (1 - by_wall * by_floor))
+            floor.set(reaction_1=wall.get("reaction_bottom"))
+
+        times = 0.05 * np.arange(1, 41)
+        truth = Monolith([storey], [Wall(parapet, 0)]).solve(times)
+        found, events = [], 0
+        for time in times:
+            events += integrate([wall, floor], time, 1e-10, connect)
+            found.append([floor.get("displacement"), wall.get("u")])
+    assert events > 20, "it rocks"
+    # DOP853 at 1e-10 through the corners
+    print(f"error {np.abs(found - truth[:, :2]).max():.1e} m, {events} events")
+    assert np.abs(found - truth[:, :2]).max() < 1e-7
 
 
 # --- states, errors

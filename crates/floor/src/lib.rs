@@ -34,6 +34,8 @@
 //! ```
 
 pub mod choices;
+mod event;
+mod exchange;
 pub mod floor;
 mod inputs;
 pub mod motion;
@@ -42,4 +44,4 @@ pub mod unit;
 pub mod variables;
 
 #[cfg(feature = "fmu")]
-fmi2_export::export_fmu!(unit::Unit);
+fmi2_export::export_fmu!(unit::Unit, co_simulation + model_exchange);

@@ -147,7 +147,7 @@ impl State {
     }
 
     /// Finds the branch on which the motion continues: at the yield force that depends on its direction.
-    fn branch_ahead(&self, floor: &Floor, load: Load) -> Branch {
+    pub(crate) fn branch_ahead(&self, floor: &Floor, load: Load) -> Branch {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Branch::Elastic };
         let deformation = self.displacement - self.plastic;
         let sign = match self.branch {

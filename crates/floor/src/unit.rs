@@ -1,6 +1,6 @@
 //! The floor as an FMI model.
 
-use fmi2_export::{Environment, Experiment, Failure, Log, Model, StateCodec, Step, VariableId};
+use fmi2_export::{Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
@@ -15,10 +15,13 @@ use crate::variables::{
 #[derive(Clone, Debug)]
 pub struct Unit {
     parameters: Parameters,
-    floor: Floor,
+    interface: Interface,
+    pub(crate) floor: Floor,
     inputs: Inputs,
-    state: State,
+    pub(crate) state: State,
     base: Base,
+    /// Time of an importer's solver, in Model Exchange \[s\].
+    pub(crate) time: f64,
     /// Initialisation is over.
     running: bool,
     ignored_told: bool,
@@ -45,10 +48,12 @@ impl Unit {
         let floor = build(&parameters)?;
         let mut unit = Self {
             parameters,
+            interface: Interface::CoSimulation,
             floor,
             inputs: Inputs::default(),
             state: State::new(&floor, 0.0, 0.0, Load::default()),
             base: Base::default(),
+            time: 0.0,
             running: false,
             ignored_told: false,
         };
@@ -62,13 +67,25 @@ impl Unit {
     }
 
     /// Acceleration by base and walls now, with its rate over the last step.
-    fn load(&self) -> Load {
+    pub(crate) fn load(&self) -> Load {
         self.inputs.present(&self.floor, self.parameters.coupling)
     }
 
     /// Acceleration by the walls alone.
     fn by_walls(&self) -> Load {
         self.inputs.by_walls(&self.floor, self.parameters.coupling)
+    }
+
+    /// Returns a continuous state of Model Exchange; `None` for other variables.
+    pub(crate) fn continuous_state(&mut self, variable: RealVariable) -> Option<&mut f64> {
+        match variable {
+            RealVariable::Displacement => Some(&mut self.state.displacement),
+            RealVariable::Velocity => Some(&mut self.state.velocity),
+            RealVariable::EnergyDamping => Some(&mut self.state.damping_energy),
+            RealVariable::BaseDisplacement => Some(&mut self.base.displacement),
+            RealVariable::BaseVelocity => Some(&mut self.base.velocity),
+            _ => None,
+        }
     }
 
     fn damping_force(&self) -> f64 {
@@ -113,7 +130,7 @@ impl Unit {
     }
 
     /// Inputs of the other coupling are set, and do nothing.
-    fn tell_about_ignored_inputs(&mut self, log: &mut Log<'_>) {
+    pub(crate) fn tell_about_ignored_inputs(&mut self, log: &mut Log<'_>) {
         let (name, other, ignored) = match self.parameters.coupling {
             Coupling::Reactions => {
                 ("reactions", "impulses", self.inputs.impulses.iter().any(|impulse| *impulse != 0.0))
@@ -152,7 +169,7 @@ impl Model for Unit {
         if environment.payload.is_some() {
             return Err("a floor is set by its parameters; it reads no resources/floor.toml".into());
         }
-        Self::new()
+        Ok(Self { interface: environment.interface, ..Self::new()? })
     }
 
     #[allow(clippy::match_same_arms, reason = "four walls to a line")]
@@ -175,9 +192,13 @@ impl Model for Unit {
             V::DampingForce => self.damping_force(),
             V::ReactionBottom => self.reaction(),
             V::ImpulseBottom => base.impulse,
-            V::DisplacementPlastic => state.plastic,
+            V::DisplacementPlastic => state.flow(&self.floor).0,
             V::EnergyDamping => state.damping_energy,
-            V::EnergyHysteretic => state.hysteretic_energy,
+            V::EnergyHysteretic => state.flow(&self.floor).1,
+            V::BaseDisplacement => base.displacement,
+            V::BaseVelocity => base.velocity,
+            V::BaseAcceleration => self.inputs.ground.value,
+            V::DampingPower => self.damping_force() * state.velocity,
             V::Omega => self.floor.omega(),
             V::DampingCoefficientUsed => self.floor.damping,
             V::YieldDisplacement => self.floor.yielding.map_or(0.0, |yielding| yielding.displacement),
@@ -206,8 +227,12 @@ impl Model for Unit {
             input.set(value);
         } else if let Some((_, wall)) = wall_of(variable) {
             self.inputs.impulses[wall] = value;
+        } else if let Some(state) = self.continuous_state(variable) {
+            *state = value;
+            let load = self.load();
+            self.state.event(&self.floor, load);
         } else {
-            // the layer sets no outputs
+            // the layer sets no other outputs
             self.parameters.set_real(variable, value);
         }
     }
@@ -252,6 +277,9 @@ impl Model for Unit {
                 Along { displacement: 1.0, spring: self.floor.tangent(self.state.branch), ..Along::default() }
             }
             V::Velocity => Along { velocity: 1.0, damping, ..Along::default() },
+            V::BaseDisplacement => Along { base_displacement: 1.0, ..Along::default() },
+            V::BaseVelocity => Along { base_velocity: 1.0, ..Along::default() },
+            V::EnergyDamping => Along { energy: 1.0, ..Along::default() },
             V::AG => Along { ground: 1.0, ..Along::default() },
             _ => {
                 let (coupling, _) = wall_of(known)?;
@@ -265,16 +293,27 @@ impl Model for Unit {
             }
         };
         let absolute = -(along.spring + along.damping + along.walls) / mass;
+        let sign = self.state.branch.sign();
+        let flow = along.displacement * sign.abs();
         match unknown {
-            V::Displacement | V::DisplacementAbsolute => Some(along.displacement),
-            V::Velocity | V::VelocityAbsolute => Some(along.velocity),
+            V::Displacement => Some(along.displacement),
+            V::Velocity => Some(along.velocity),
+            V::DisplacementAbsolute => Some(along.displacement + along.base_displacement),
+            V::VelocityAbsolute => Some(along.velocity + along.base_velocity),
+            V::BaseDisplacement => Some(along.base_displacement),
+            V::BaseVelocity => Some(along.base_velocity),
+            V::BaseAcceleration => Some(along.ground),
+            V::EnergyDamping => Some(along.energy),
+            V::DampingPower => Some(2.0 * along.damping * self.state.velocity),
+            V::DisplacementPlastic => Some(flow),
+            V::EnergyHysteretic => Some(flow * sign * self.floor.yielding.map_or(0.0, |own| own.force)),
             V::Acceleration => Some(absolute - along.ground),
             V::AccelerationAbsolute => Some(absolute),
             V::SpringForce => Some(along.spring),
             V::DampingForce => Some(along.damping),
             V::ReactionBottom => Some(-(along.spring + along.damping)),
-            // memories of the past: not functions of the present state and inputs
-            V::ImpulseBottom | V::DisplacementPlastic | V::EnergyDamping | V::EnergyHysteretic => Some(0.0),
+            // a memory of the past: not a function of the present state and inputs
+            V::ImpulseBottom => Some(0.0),
             _ => None,
         }
     }
@@ -293,6 +332,9 @@ impl Model for Unit {
 
     fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure> {
         self.calculate()?;
+        if self.interface == Interface::ModelExchange && self.parameters.coupling == Coupling::Impulses {
+            return Err("coupling = impulses needs the steps of co-simulation; set it to reactions".into());
+        }
         self.running = true;
         let Parameters { stiffness, damping_ratio, damping_coefficient, .. } = self.parameters;
         if stiffness == 0.0 && damping_ratio > 0.0 && damping_coefficient == 0.0 {
@@ -336,6 +378,7 @@ impl Model for Unit {
         }
         let Base { displacement, velocity, impulse } = &mut self.base;
         codec.f64s([displacement, velocity, impulse])?;
+        codec.f64(&mut self.time)?;
         codec.bool(&mut self.running)?;
         codec.bool(&mut self.ignored_told)
     }
@@ -346,6 +389,10 @@ impl Model for Unit {
 struct Along {
     displacement: f64,
     velocity: f64,
+    base_displacement: f64,
+    base_velocity: f64,
+    /// Energy lost by damping.
+    energy: f64,
     spring: f64,
     damping: f64,
     /// Force of the floor on the walls.
