@@ -18,7 +18,6 @@
 //! ```
 //!
 //! # Modules
-//!
 //! This crate is what is inside `wall.fmu`. Data flows from left to right; nothing flows back.
 //!
 //! ```text
@@ -45,7 +44,6 @@
 //! record, file by file, and has a glossary.
 //!
 //! # Invariants
-//!
 //! - Nothing in `wall` or `solver` opens a file, prints, reads a clock or knows FMI.
 //! - A [`wall::Wall`] that exists is valid and never changes.
 //! - A [`solver::Segment`] is a record sample or a communication step: the command line and the FMU run the

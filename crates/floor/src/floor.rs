@@ -46,27 +46,20 @@ impl Default for Parameters {
 
 /// Parameters that contradict each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum ParameterError {
     /// A bilinear spring without stiffness.
     #[error(
         "hysteresis = bilinear needs a stiffness above 0, but stiffness = {stiffness} N/m; raise it or \
          choose hysteresis = none"
     )]
-    NothingYields {
-        /// \[N/m\]
-        stiffness: f64,
-    },
+    NothingYields { stiffness: f64 },
     /// A number that is not finite.
     #[error(
         "mass = {mass} kg, stiffness = {stiffness} N/m and damping give frequencies that are not finite; \
          choose usual magnitudes"
     )]
-    NotFinite {
-        /// \[kg\]
-        mass: f64,
-        /// \[N/m\]
-        stiffness: f64,
-    },
+    NotFinite { mass: f64, stiffness: f64 },
 }
 
 /// Branch of the spring's law.

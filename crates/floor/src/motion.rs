@@ -46,24 +46,19 @@ pub struct Load {
 
 /// A step that cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum MotionError {
     /// More corners in one step than are followed.
     #[error(
         "more than {MOST_CORNERS} corners of the hysteresis in one step of {duration} s; use smaller steps"
     )]
-    Corners {
-        /// \[s\]
-        duration: f64,
-    },
+    Corners { duration: f64 },
     /// The displacement or velocity has overflowed.
     #[error(
         "the motion is no longer finite; the inputs are too large for mass = {mass} kg: \
          reduce them or the step"
     )]
-    NotFinite {
-        /// \[kg\]
-        mass: f64,
-    },
+    NotFinite { mass: f64 },
 }
 
 /// Corners of the hysteresis, and spans searched for them, in one step.

@@ -30,52 +30,29 @@ pub struct Archive {
 /// Why an archive cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum ArchiveError {
     /// The file cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
-    Read {
-        /// The archive's file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
+    Read { path: PathBuf, source: std::io::Error },
     /// The file is not an archive, or is damaged.
     #[error("{}: is not a readable zip archive: {source}", path.display())]
-    Damaged {
-        /// The archive's file.
-        path: PathBuf,
-        /// What is wrong with it.
-        source: zip::result::ZipError,
-    },
+    Damaged { path: PathBuf, source: zip::result::ZipError },
     /// A file inside has a path that leads elsewhere.
     #[error("{}: contains {name:?}, which is not a path inside an FMU", path.display())]
-    BadName {
-        /// The archive's file.
-        path: PathBuf,
-        /// The path inside it.
-        name: String,
-    },
+    BadName { path: PathBuf, name: String },
     /// The content is larger than any FMU's.
     #[error("{}: unpacks to more than {MAX_CONTENT} bytes", path.display())]
-    TooLarge {
-        /// The archive's file.
-        path: PathBuf,
-    },
+    TooLarge { path: PathBuf },
     /// The archive cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The archive's file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
+    Write { path: PathBuf, source: std::io::Error },
 }
 
 impl Archive {
     /// Reads the archive at `path`.
     ///
     /// # Errors
-    ///
     /// A file that cannot be read, is not a zip archive, fails its checksum, unpacks to more than 1 GiB, or
     /// contains paths that lead out of it.
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
@@ -117,7 +94,6 @@ impl Archive {
     /// Adds a file, or replaces it.
     ///
     /// # Panics
-    ///
     /// If `name` is not a relative path with `/` between its parts.
     pub fn insert(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
         let name = name.into();
@@ -138,7 +114,6 @@ impl Archive {
     /// Writes the archive to `path`, whole or not at all.
     ///
     /// # Errors
-    ///
     /// A folder that is not there or not writable; what was at `path` then stays as it was.
     pub fn write(&self, path: &Path) -> Result<(), ArchiveError> {
         let write = |source| ArchiveError::Write { path: path.to_path_buf(), source };
@@ -162,7 +137,6 @@ impl Archive {
     /// The archive's bytes: sorted paths, deflate, no dates, equal permissions.
     ///
     /// # Errors
-    ///
     /// Content beyond the limits of the format.
     pub fn to_bytes(&self) -> std::io::Result<Vec<u8>> {
         let options = SimpleFileOptions::default()

@@ -19,7 +19,6 @@ impl Description {
     /// Reads and checks the description `text`.
     ///
     /// # Errors
-    ///
     /// The first [`Problem`] found, with its line.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         Self::from_root(Element::parse(text)?, text.to_owned())

@@ -5,31 +5,17 @@ use std::path::PathBuf;
 /// Why [`generate`](crate::generate) gave up.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum DescriptionError {
     /// The description cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
-    Read {
-        /// The description's file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
+    Read { path: PathBuf, source: std::io::Error },
     /// The generated module cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The module's file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
+    Write { path: PathBuf, source: std::io::Error },
     /// The description contradicts itself or FMI 2.0.
     #[error("{}:{}: {}", path.display(), fault.line, fault.problem)]
-    Invalid {
-        /// The description's file.
-        path: PathBuf,
-        /// What is wrong, and where.
-        fault: Box<Fault>,
-    },
+    Invalid { path: PathBuf, fault: Box<Fault> },
 }
 
 /// A problem and the line of the description it is on.

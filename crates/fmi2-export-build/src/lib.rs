@@ -94,7 +94,6 @@ pub fn build_script(xml: &str) -> ExitCode {
 /// in scope.
 ///
 /// # Errors
-///
 /// A file that cannot be read or written, and any [`Problem`] of the description, with its line.
 pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
     let text = std::fs::read_to_string(xml)

@@ -48,52 +48,35 @@ pub struct Package {
 /// Why an FMU cannot be put together.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum PackError {
     /// The model description is not usable.
     #[error(transparent)]
     Description(#[from] DescriptionError),
     /// A file or folder cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
-    Read {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the operating system says.
-        source: io::Error,
-    },
+    Read { path: PathBuf, source: io::Error },
     /// The folder has folders inside folders without end.
     #[error("{}: more than {MAX_DEPTH} folders deep", path.display())]
-    TooDeep {
-        /// The folder.
-        path: PathBuf,
-    },
+    TooDeep { path: PathBuf },
     /// A file's name is not valid Unicode, or not usable in an archive.
     #[error("{}: this name cannot be used inside an FMU", path.display())]
-    BadName {
-        /// The file.
-        path: PathBuf,
-    },
+    BadName { path: PathBuf },
     /// The platform is not one of FMI 2.0.
     #[error(
         "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
          darwin32"
     )]
-    UnknownPlatform {
-        /// What was given.
-        platform: String,
-    },
+    UnknownPlatform { platform: String },
     /// The documentation does not have the page importers open.
     #[error("{}: has no index.html, the page that importers open", path.display())]
-    NoIndex {
-        /// The documentation's folder.
-        path: PathBuf,
-    },
+    NoIndex { path: PathBuf },
 }
 
 impl Package {
     /// Reads everything and puts it together; the description gets its guid.
     ///
     /// # Errors
-    ///
     /// A description that contradicts itself, files that cannot be read, an unknown platform, no
     /// `index.html`.
     pub fn archive(&self) -> Result<Archive, PackError> {

@@ -38,13 +38,11 @@ pub struct DefaultExperiment {
 /// Why a description cannot be reduced like this.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum ReductionError {
     /// A start value for a variable that is not there, or not kept.
     #[error("a start value is given for `{name}`, which the reduced description does not have")]
-    NoSuchVariable {
-        /// The variable's name.
-        name: String,
-    },
+    NoSuchVariable { name: String },
     /// The result breaks a rule; the line is the result's.
     #[error("the reduced description, {0}")]
     Invalid(#[from] Fault),
@@ -57,7 +55,6 @@ impl Description {
     /// types and dependencies that nothing uses any more are gone.
     ///
     /// # Errors
-    ///
     /// A start value for a variable that is not kept, or one its limits or its type refuse.
     pub fn reduced(&self, reduction: &Reduction<'_>) -> Result<Self, ReductionError> {
         let kept: Vec<bool> =

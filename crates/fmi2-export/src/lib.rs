@@ -96,7 +96,6 @@
 //! Instances share nothing. Nothing here allocates in a step, a get or a set of numbers that succeeds.
 //!
 //! # Map
-//!
 //! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's;
 //! between them one instance with its table of allowed calls.
 

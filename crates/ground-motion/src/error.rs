@@ -5,165 +5,79 @@ use std::io;
 /// Why a ground motion could not be read or made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum GroundMotionError {
     /// The time step is zero or negative, or the duration not finite.
     #[error("the time step of a ground motion must be positive and finite, found {step} s")]
-    Step {
-        /// The step given (s).
-        step: f64,
-    },
+    Step { step: f64 },
     /// Fewer than two samples.
     #[error("a ground motion needs at least two samples, found {found}")]
-    TooFewSamples {
-        /// Number of samples.
-        found: usize,
-    },
+    TooFewSamples { found: usize },
     /// A sample is NaN or infinite.
     #[error("sample {index} (counted from 0) of the ground motion is {value}; every sample must be finite")]
-    NotFinite {
-        /// Position of the sample, from 0.
-        index: usize,
-        /// Its value (m/s²).
-        value: f64,
-    },
+    NotFinite { index: usize, value: f64 },
     /// A scale factor that is not finite or makes a sample overflow.
     #[error(
         "a ground motion with the peak {peak} m/s² cannot be scaled by {factor}; give a smaller finite factor"
     )]
-    Factor {
-        /// The factor given.
-        factor: f64,
-        /// Largest absolute sample before scaling (m/s²).
-        peak: f64,
-    },
+    Factor { factor: f64, peak: f64 },
     /// A target peak that is negative or not finite.
     #[error("the target peak acceleration must be finite and not negative, found {peak} m/s²")]
-    Peak {
-        /// The peak asked for (m/s²).
-        peak: f64,
-    },
+    Peak { peak: f64 },
     /// A record of zeros has no peak to scale.
     #[error(
         "every sample of the ground motion is 0, so it cannot be scaled to the peak {peak} m/s²; \
          choose another record"
     )]
-    NoPeak {
-        /// The peak asked for (m/s²).
-        peak: f64,
-    },
+    NoPeak { peak: f64 },
     /// A trimming interval outside the record or shorter than one step.
     #[error(
         "cannot trim a ground motion of {duration} s to {from} s ... {to} s; \
          the interval must lie within the record and span at least one step"
     )]
-    Trim {
-        /// Start of the interval (s).
-        from: f64,
-        /// End of the interval (s).
-        to: f64,
-        /// Duration of the record (s).
-        duration: f64,
-    },
+    Trim { from: f64, to: f64, duration: f64 },
     /// A parameter of a pulse or of the synthetic motion is outside its limits.
     #[error("{name} of the ground motion is {value}; it must be {limit}")]
-    Parameter {
-        /// Name of the parameter, with its unit.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is allowed.
-        limit: &'static str,
-    },
+    Parameter { name: &'static str, value: f64, limit: &'static str },
     /// A harmonic motion without an end.
     #[error("a harmonic motion without an end needs a duration; state one of the two")]
     Endless,
     /// More samples than a motion may have.
     #[error("the motion would take {found:.0} samples, more than {limit}; shorten it or lower its frequency")]
-    TooManySamples {
-        /// Number of samples needed.
-        found: f64,
-        /// Number of samples allowed.
-        limit: usize,
-    },
+    TooManySamples { found: f64, limit: usize },
     /// A unit of acceleration that is not known.
     #[error("unknown unit of acceleration `{found}`; use one of m/s2, cm/s2 (or gal), mm/s2, g")]
-    Unit {
-        /// What was given.
-        found: String,
-    },
+    Unit { found: String },
     /// A record format that is not known.
     #[error("unknown record format `{found}`; use one of at2, esm, knet, cosmos, csmip, smc, csv")]
-    Format {
-        /// What was given.
-        found: String,
-    },
+    Format { found: String },
     /// The file could not be opened or read.
     #[error("{file}: cannot be read: {reason}")]
-    Io {
-        /// Name of the file.
-        file: String,
-        /// The operating system's answer.
-        reason: io::Error,
-    },
+    Io { file: String, reason: io::Error },
     /// A folder, pipe or device instead of a file.
     #[error("{file}: expected a regular file, found {found}; save the record to a file first")]
-    NotAFile {
-        /// Name of the file.
-        file: String,
-        /// What it is.
-        found: &'static str,
-    },
+    NotAFile { file: String, found: &'static str },
     /// Several channels, and none was asked for.
     #[error(
         "{file}: expected one channel, found {found}; \
          state the number of the one to read as `channel` (on the command line --channel)"
     )]
-    Channels {
-        /// Name of the file.
-        file: String,
-        /// The channels there are.
-        found: String,
-    },
+    Channels { file: String, found: String },
     /// A channel that the file does not have, or more than once.
     #[error(
         "{file}: expected one channel {wanted}, found {found}; \
          state one of these, or none if there is only one"
     )]
-    Channel {
-        /// Name of the file.
-        file: String,
-        /// The channel asked for.
-        wanted: String,
-        /// The channels there are.
-        found: String,
-    },
+    Channel { file: String, wanted: String, found: String },
     /// A file larger than any record.
     #[error(
         "{file}: expected a record of at most {limit} bytes, found {found}; \
          check that this is a record, and trim or resample it"
     )]
-    TooLarge {
-        /// Name of the file.
-        file: String,
-        /// Its size, or `more` if it grew while it was read.
-        found: String,
-        /// Number of bytes allowed.
-        limit: u64,
-    },
+    TooLarge { file: String, found: String, limit: u64 },
     /// Content that is not what the format requires.
     #[error("{file}, line {line}: expected {expected}, found {found}; {remedy}")]
-    Content {
-        /// Name of the file.
-        file: String,
-        /// Line number, from 1.
-        line: usize,
-        /// What should have been there.
-        expected: String,
-        /// What is there.
-        found: String,
-        /// What to do about it.
-        remedy: String,
-    },
+    Content { file: String, line: usize, expected: String, found: String, remedy: String },
 }
 
 /// A fault in a record's text, before the name of its file is known.
