@@ -133,3 +133,14 @@ impl Inputs {
         self.last_duration = duration;
     }
 }
+
+/// The base's motion, integrated from rest, and what it has given the floor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Base {
+    /// \[m\]
+    pub(crate) displacement: f64,
+    /// \[m/s\]
+    pub(crate) velocity: f64,
+    /// Impulse on the floor over the last step \[N s\].
+    pub(crate) impulse: f64,
+}

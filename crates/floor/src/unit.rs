@@ -4,7 +4,7 @@ use fmi2_export::{Environment, Experiment, Failure, Interface, Log, Model, State
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Input, Inputs, wall_of};
+use crate::inputs::{Base, Input, Inputs, wall_of};
 use crate::motion::{Load, State};
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
@@ -25,17 +25,6 @@ pub struct Unit {
     /// Initialisation is over.
     running: bool,
     ignored_told: bool,
-}
-
-/// The base's motion, integrated from rest, and what it has given the floor.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Base {
-    /// \[m\]
-    displacement: f64,
-    /// \[m/s\]
-    velocity: f64,
-    /// Impulse on the floor over the last step \[N s\].
-    impulse: f64,
 }
 
 impl Unit {
