@@ -70,7 +70,7 @@ fn svg(chart: &Chart) -> String {
             }),
         );
     }
-    let axes = [plot::Axis::over(&chart.x.label, ranges[0]), plot::Axis::over(&chart.y.label, ranges[1])];
+    let axes = [Axis::over(&chart.x.label, ranges[0]), Axis::over(&chart.y.label, ranges[1])];
     Plot::new(SIZE, axes, series).svg()
 }
 

@@ -27,6 +27,8 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot as Drawn;
 use kuva::render::render::{Scene, render_multiple};
 
+pub use study::chart::Axis;
+
 use crate::palette::Mark;
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
@@ -83,22 +85,6 @@ impl Series {
         let line = LinePlot::new().with_data(self.points.clone()).with_color(self.color);
         let line = line.with_stroke_width(self.width).with_line_style(style);
         Drawn::Line(if self.name.is_empty() { line } else { line.with_legend(self.name.as_str()) })
-    }
-}
-
-/// An axis.
-#[derive(Clone, Debug)]
-pub struct Axis {
-    /// Quantity, and its unit in brackets.
-    pub label: String,
-    /// From and to; of the data where `None`.
-    pub range: Option<[f64; 2]>,
-}
-
-impl Axis {
-    /// An axis over a range.
-    pub fn over(label: &str, range: [f64; 2]) -> Self {
-        Self { label: label.into(), range: Some(range) }
     }
 }
 

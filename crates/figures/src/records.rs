@@ -45,7 +45,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
         let colors: [_; MOST] = [first, second, third, fourth, fifth, TEAL, BROWN, last];
         for (Record { name, history, spectrum, .. }, color) in records.iter().zip(colors) {
             let line = Series::line(color, 0.9, decimated(history, end(history)));
-            let axes = [Axis::over("time (s)", [0.0, longest]), Axis { label: "a (g)".into(), range: None }];
+            let axes = [Axis::over("time (s)", [0.0, longest]), Axis::new("a (g)")];
             panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });
             spectra.push(Series { name: name.clone(), ..Series::line(color, 1.6, spectrum.clone()) });
         }

@@ -7,7 +7,7 @@
 //! assert!(plot.svg().contains("u / u_ins"));
 //! ```
 
-use crate::palette::{AMBER, BLUE, DARK_GREY, GREY, RED};
+use crate::palette::{AMBER, BLUE, DARK_GREY, GREY, Mark, RED};
 use crate::plot::{Axis, Look, Plot, Series};
 use crate::points::{clipped, decimated};
 
@@ -66,8 +66,13 @@ pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, heigh
 /// Draws periods with small rotations over those with full ones, against the slenderness \[rad\].
 ///
 /// There is one curve for each start, the largest last. They lie on that of Eq. (5) of the paper, unless it
-/// is empty.
-pub fn period_ratios(curves: Vec<Vec<(f64, f64)>>, housner: Vec<(f64, f64)>, height: f64) -> Plot {
+/// is empty; `wall` marks a point of its own.
+pub fn period_ratios(
+    curves: Vec<Vec<(f64, f64)>>,
+    housner: Vec<(f64, f64)>,
+    wall: Option<(f64, f64)>,
+    height: f64,
+) -> Plot {
     let points = || curves.iter().flatten().chain(&housner);
     let lowest = points().map(|point| point.1).fold(1.0, f64::min);
     let widest = points().map(|point| point.0).fold(0.0, f64::max);
@@ -87,6 +92,8 @@ pub fn period_ratios(curves: Vec<Vec<(f64, f64)>>, housner: Vec<(f64, f64)>, hei
             .zip(looks)
             .map(|(points, look)| Series { look, ..Series::line(BLUE, 1.4, points) }),
     );
+    let mark = |point| Series { look: Look::Marks(Mark::Circle), ..Series::line(RED, 4.5, vec![point]) };
+    series.extend(wall.map(mark));
     Plot::new([WIDTH, height], axes, series)
 }
 

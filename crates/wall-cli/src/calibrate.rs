@@ -7,8 +7,7 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 use clap::Args;
 use figures::{chart, escaped};
-use fmi2_export::Kind;
-use rocking_wall::variables::{DampingModel, ForceLaw, IntegerVariable};
+use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::Parameters;
 use study::calibration::{Calibration, Coefficient, Fit, Grid, STEP, calibrate};
 use study::chart::{Axis, Chart, Series};
@@ -85,20 +84,12 @@ fn models(names: &[String], parameters: &Parameters) -> Result<Vec<DampingModel>
             REGRESSIONS.map(|(model, ..)| model).to_vec()
         });
     }
-    let Kind::Enumeration { items, .. } =
-        fmi2_export::VariableId::variable(IntegerVariable::DampingModel).kind
-    else {
-        bail!("damping_model is not an enumeration");
-    };
-    let model = |name: &String| {
-        let item = items.iter().find(|item| item.name == name);
-        match item.and_then(|item| DampingModel::from_value(item.value)) {
-            Some(model) => Ok(model),
-            None => bail!(
-                "--models {name}: expected constant_coefficient, free_standing_block, constant_ratio or \
-                 stiffness_proportional"
-            ),
-        }
+    let model = |name: &String| match DampingModel::from_name(name) {
+        Some(model) => Ok(model),
+        None => bail!(
+            "--models {name}: expected constant_coefficient, free_standing_block, constant_ratio or \
+             stiffness_proportional"
+        ),
     };
     names.iter().map(model).collect()
 }

@@ -167,17 +167,15 @@ fn ratios(periods: &[Vec<Period>]) -> String {
         upright.chain(periods.iter().filter_map(|period| Some((period.slenderness, of(period)?)))).collect()
     };
     let curves = periods.iter().map(|periods| points(&|period| Some(period.ratio()), periods)).collect();
-    period_ratios(curves, points(&Period::over_housner, &periods[0]), 290.0).svg()
+    period_ratios(curves, points(&Period::over_housner, &periods[0]), None, 290.0).svg()
 }
 
 /// The same run with the other kinematics, for a rigid wall that allows it.
 pub(crate) struct Counterpart {
     /// Histories of u/`u_ins` side by side.
     pub(crate) histories: Plot,
-    /// Period ratios of this wall with other thicknesses.
+    /// Period ratios of this wall, marked, and with other thicknesses.
     pub(crate) ratios: Plot,
-    /// This wall in that plot: parts of its width and height from left and top.
-    pub(crate) place: [f64; 2],
     /// Largest distance of the histories while both stand \[-\].
     pub(crate) apart: f64,
     /// Period of small rotations over that of full ones \[-\], from the largest |u|/`u_ins` of the run.
@@ -217,14 +215,10 @@ impl Counterpart {
                 Some((*alpha, period.ratio()))
             }))
             .collect();
-        let ratios = period_ratios(vec![curve], Vec::new(), 250.0);
-        let ([left, right, top, bottom], [x0, x1, y0, y1]) = (ratios.area(), ratios.ranges());
-        let place = [
-            left + (right - left) * (wall.slenderness - x0) / (x1 - x0),
-            top + (bottom - top) * (y1 - wall.ratio()) / (y1 - y0),
-        ];
+        let mark = (wall.slenderness, wall.ratio());
+        let ratios = period_ratios(vec![curve], Vec::new(), Some(mark), 250.0);
         let histories = both_rotations(full, linear, end, 250.0);
-        Some(Self { histories, ratios, place, apart, ratio: wall.ratio(), start })
+        Some(Self { histories, ratios, apart, ratio: wall.ratio(), start })
     }
 }
 

@@ -252,12 +252,10 @@ fn rotations(scene: &Scene, response: &Response) -> String {
         "Full rotations (blue) and small ones (red, dashed): at most {:.3} u_ins apart while both stand",
         twin.apart
     );
-    let [x, y] = twin.place.map(|part| 100.0 * part);
     plot("rotations", &caption, &twin.histories, None)
         + &format!(
             "<figure><figcaption>Period with small rotations over that with full ones, from {:.2} u_ins; \
-             dot: this wall, {:.2} % short</figcaption><div class=\"still\">{}<div class=\"dot\" \
-             style=\"left:{x:.3}%;top:{y:.3}%\"></div></div></figure>",
+             dot: this wall, {:.2} % short</figcaption>{}</figure>",
             twin.start,
             100.0 * (1.0 - twin.ratio),
             twin.ratios.svg()

@@ -109,18 +109,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {
-    for (option, given) in [
-        ("--heights", &arguments.heights),
-        ("--radii", &arguments.radii),
-        ("--ratios", &arguments.ratios),
-        ("--angles", &arguments.angles),
-    ] {
-        if given.is_some() {
-            bail!(
-                "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude \
-                 too"
-            );
-        }
+    let Arguments { heights, radii, ratios, angles, .. } = arguments;
+    let given = [("--heights", heights), ("--radii", radii), ("--ratios", ratios), ("--angles", angles)];
+    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
+        bail!(
+            "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too"
+        );
     }
     // refuses --scale and --pga, which need a record
     arguments.record.load()?;
@@ -155,16 +149,12 @@ fn walls(
     notes: Vec<String>,
     threads: usize,
 ) -> Result<Shown> {
-    for (option, given) in [
-        ("--frequency-ratios", &arguments.frequency_ratios),
-        ("--amplitude-ratios", &arguments.amplitude_ratios),
-    ] {
-        if given.is_some() {
-            bail!(
-                "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and \
-                 --amplitude"
-            );
-        }
+    let Arguments { frequency_ratios, amplitude_ratios, .. } = arguments;
+    let given = [("--frequency-ratios", frequency_ratios), ("--amplitude-ratios", amplitude_ratios)];
+    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
+        bail!(
+            "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude"
+        );
     }
     let (size, sizes) = match &arguments.radii {
         Some(radii) => (Size::SemiDiagonal, values("--radii", Some(radii), [0.0; 2], 2)?),

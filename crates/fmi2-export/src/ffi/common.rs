@@ -206,56 +206,36 @@ functions! {
             unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         instance.directional_derivative(unknowns, knowns, seeds, values)
     };
-    /// `fmi2GetReal`
-    get_real<Model>(references: *const ValueReference, count: usize, values: *mut Real): GetReal, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        instance.get_real(references, values)
+}
+
+/// Defines the getter and the setter of the values of a type.
+macro_rules! values {
+    ($($type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal;)*) => {
+        functions! { $(
+            #[doc = concat!("`", $get_name, "`")]
+            $get<Model>(
+                references: *const ValueReference, count: usize, values: *mut $type
+            ): $get_call, |instance| {
+                // SAFETY: as the caller promises.
+                let (references, values) = unsafe { to_get(references, values, count) }?;
+                instance.$get(references, values)
+            };
+            #[doc = concat!("`", $set_name, "`")]
+            ///
+            /// One value that is refused leaves all as they were.
+            $set<Model>(
+                references: *const ValueReference, count: usize, values: *const $type
+            ): $set_call, |instance| {
+                // SAFETY: as the caller promises.
+                let (references, values) = unsafe { to_set(references, values, count) }?;
+                instance.$set(references, values)
+            };
+        )* }
     };
-    /// `fmi2SetReal`
-    ///
-    /// One value that is refused leaves all as they were.
-    set_real<Model>(
-        references: *const ValueReference, count: usize, values: *const Real
-    ): SetReal, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values, count) }?;
-        instance.set_real(references, values)
-    };
-    /// `fmi2GetInteger`
-    get_integer<Model>(
-        references: *const ValueReference, count: usize, values: *mut Integer
-    ): GetInteger, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        instance.get_integer(references, values)
-    };
-    /// `fmi2SetInteger`
-    ///
-    /// One value that is refused leaves all as they were.
-    set_integer<Model>(
-        references: *const ValueReference, count: usize, values: *const Integer
-    ): SetInteger, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values, count) }?;
-        instance.set_integer(references, values)
-    };
-    /// `fmi2GetBoolean`
-    get_boolean<Model>(
-        references: *const ValueReference, count: usize, values: *mut Boolean
-    ): GetBoolean, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        instance.get_boolean(references, values)
-    };
-    /// `fmi2SetBoolean`
-    ///
-    /// One value that is refused leaves all as they were.
-    set_boolean<Model>(
-        references: *const ValueReference, count: usize, values: *const Boolean
-    ): SetBoolean, |instance| {
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values, count) }?;
-        instance.set_boolean(references, values)
-    };
+}
+
+values! {
+    Real: get_real GetReal "fmi2GetReal", set_real SetReal "fmi2SetReal";
+    Integer: get_integer GetInteger "fmi2GetInteger", set_integer SetInteger "fmi2SetInteger";
+    Boolean: get_boolean GetBoolean "fmi2GetBoolean", set_boolean SetBoolean "fmi2SetBoolean";
 }
