@@ -141,15 +141,11 @@ fn with_missing(mut text: String, missing: &[String]) -> String {
 struct Row<'a> {
     scene: &'a str,
     tool: &'a str,
+    /// Of a tool that is missing, fails or does not offer the model: the reason.
     setting: &'a str,
-    /// `None` for a tool that is missing, fails or does not offer the model: the setting says which.
-    figures: Option<Figures>,
-}
-
-#[derive(Clone, Copy)]
-struct Figures {
+    /// Run time; NaN where the tool did not run.
     seconds: f64,
-    /// Largest error over `u_ins`.
+    /// Largest error over `u_ins`; NaN where the tool did not run.
     error: f64,
 }
 
@@ -157,14 +153,8 @@ impl<'a> Row<'a> {
     fn parse(line: &'a str) -> Option<Self> {
         let mut words = line.split(',');
         let (scene, tool, setting) = (words.next()?, words.next()?, words.next()?);
-        let (seconds, error) = (words.next()?, words.next()?);
-        let figures = seconds.parse().ok().zip(error.parse().ok());
-        Some(Self {
-            scene,
-            tool,
-            setting,
-            figures: figures.map(|(seconds, error)| Figures { seconds, error }),
-        })
+        let mut number = || Some(words.next()?.parse().unwrap_or(f64::NAN));
+        Some(Self { scene, tool, setting, seconds: number()?, error: number()? })
     }
 }
 
@@ -182,9 +172,10 @@ fn report(rows: &[Row<'_>], missing: &[String]) -> String {
 }
 
 fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::Result {
-    let Some((own, base)) = own_run(rows) else {
+    let Some(base) = own_run(rows) else {
         return writeln!(text, "\n{scene}: rocking-wall has no row");
     };
+    let own = format!("{OURS} {}", base.setting);
     writeln!(text, "\n{scene}; times relative to {own}, {:.3} ms", base.seconds * 1e3)?;
     writeln!(
         text,
@@ -192,80 +183,58 @@ fn write_scene(text: &mut String, scene: &str, rows: &[&Row<'_>]) -> std::fmt::R
         "tool", "setting", "time [ms]", "error/u_ins [-]", "time ratio"
     )?;
     for row in rows {
-        match row.figures {
-            Some(figures) => write_row(text, row.tool, row.setting, figures, base)?,
-            None => writeln!(text, "{:<14}{}", row.tool, row.setting)?,
-        }
+        write_row(text, row, base)?;
     }
     writeln!(text, "cheapest setting with an error of at most {GOOD:.0e} u_ins:")?;
     for tool in distinct(rows, |row| row.tool) {
-        let good = rows
-            .iter()
-            .filter(|row| row.tool == tool)
-            .filter_map(|row| row.figures.map(|figures| (row.setting, figures)))
-            .filter(|(setting, figures)| figures.error <= GOOD && is_single(setting))
-            .min_by(|(_, one), (_, other)| one.seconds.total_cmp(&other.seconds));
-        if let Some((setting, figures)) = good {
-            write_row(text, tool, setting, figures, base)?;
-        } else {
-            // a tool without figures states the reason
-            let mut of_tool = rows.iter().filter(|row| row.tool == tool);
-            let reason = of_tool.clone().all(|row| row.figures.is_none()).then(|| of_tool.next()).flatten();
-            writeln!(text, "{tool:<14}{}", reason.map_or("none", |row| row.setting))?;
+        let mut of_tool = rows.iter().copied().filter(|row| row.tool == tool);
+        match cheapest(of_tool.clone()) {
+            Some(row) => write_row(text, row, base)?,
+            None if of_tool.clone().any(|row| !row.error.is_nan()) => writeln!(text, "{tool:<14}none")?,
+            None => of_tool.next().map_or(Ok(()), |row| write_row(text, row, base))?,
         }
     }
     // its first row is at the record's step
-    let opensees = rows.iter().find(|row| row.tool == OPENSEES).and_then(|row| row.figures);
-    if let Some(figures) = opensees {
-        let (seconds, error) = (figures.seconds, figures.error);
-        writeln!(
-            text,
-            "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error \
-             {error:.1e} u_ins",
-            seconds * 1e3,
-            seconds / base.seconds
-        )?;
-        let batch = rows.iter().find(|row| row.tool == OURS && row.setting == BATCH);
-        if let Some(batch) = batch.and_then(|row| row.figures) {
-            let ratio = seconds / batch.seconds;
-            writeln!(
-                text,
-                "and {ratio:.0} times a run of rocking-wall exact in a batch of 64, {:.4} ms",
-                batch.seconds * 1e3
-            )?;
-        }
-    }
-    Ok(())
+    let Some(opensees) = rows.iter().find(|row| row.tool == OPENSEES && !row.error.is_nan()) else {
+        return Ok(());
+    };
+    writeln!(
+        text,
+        "{OPENSEES}'s step loop at the record's step: {:.2} ms, {:.1} times {own}; error {:.1e} u_ins",
+        opensees.seconds * 1e3,
+        opensees.seconds / base.seconds,
+        opensees.error
+    )?;
+    let batch = rows.iter().find(|row| row.tool == OURS && row.setting == BATCH && !row.error.is_nan());
+    let Some(batch) = batch else { return Ok(()) };
+    writeln!(
+        text,
+        "and {:.0} times a run of rocking-wall exact in a batch of 64, {:.4} ms",
+        opensees.seconds / batch.seconds,
+        batch.seconds * 1e3
+    )
 }
 
 /// Finds rocking-wall's exact run or, without a closed form, its cheapest good one.
-fn own_run(rows: &[&Row<'_>]) -> Option<(String, Figures)> {
-    let own = rows.iter().filter(|row| row.tool == OURS);
-    let own = own.filter_map(|row| row.figures.map(|figures| (row.setting, figures)));
-    let exact = own.clone().find(|(setting, _)| *setting == "exact");
-    let cheapest = || {
-        own.filter(|(setting, figures)| {
-            setting.starts_with("adaptive") && figures.error <= GOOD && is_single(setting)
-        })
-        .min_by(|(_, one), (_, other)| one.seconds.total_cmp(&other.seconds))
-    };
-    exact.or_else(cheapest).map(|(setting, figures)| (format!("{OURS} {setting}"), figures))
+fn own_run<'a>(rows: &[&'a Row<'a>]) -> Option<&'a Row<'a>> {
+    let mut own = rows.iter().copied().filter(|row| row.tool == OURS && !row.error.is_nan());
+    let exact = own.clone().find(|row| row.setting == "exact");
+    exact.or_else(|| cheapest(own.by_ref().filter(|row| row.setting.starts_with("adaptive"))))
 }
 
-/// Tells whether the time is that of a single run, not the share of a batch.
-fn is_single(setting: &str) -> bool {
-    !setting.ends_with("at once")
+/// Returns the fastest single run with a good error; the time of a run in a batch is a share.
+fn cheapest<'a>(rows: impl Iterator<Item = &'a Row<'a>>) -> Option<&'a Row<'a>> {
+    let good = rows.filter(|row| row.error <= GOOD && !row.setting.ends_with("at once"));
+    good.min_by(|one, other| one.seconds.total_cmp(&other.seconds))
 }
 
-fn write_row(
-    text: &mut String,
-    tool: &str,
-    setting: &str,
-    figures: Figures,
-    base: Figures,
-) -> std::fmt::Result {
-    let (milliseconds, ratio) = (figures.seconds * 1e3, figures.seconds / base.seconds);
-    writeln!(text, "{tool:<14}{setting:<26}{milliseconds:>12.3}{:>18.1e}{ratio:>12.2}", figures.error)
+fn write_row(text: &mut String, row: &Row<'_>, base: &Row<'_>) -> std::fmt::Result {
+    let Row { tool, setting, seconds, error, .. } = row;
+    if error.is_nan() {
+        return writeln!(text, "{tool:<14}{setting}");
+    }
+    let (milliseconds, ratio) = (seconds * 1e3, seconds / base.seconds);
+    writeln!(text, "{tool:<14}{setting:<26}{milliseconds:>12.3}{error:>18.1e}{ratio:>12.2}")
 }
 
 /// Returns the values of a column in order of appearance.
