@@ -57,7 +57,7 @@ mod variable;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
-pub use fingerprint::{fingerprint, fnv1a_128};
+pub use fingerprint::fingerprint;
 pub use reduced::{DefaultExperiment, Reduction, ReductionError};
 
 use std::path::Path;
