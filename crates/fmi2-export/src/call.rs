@@ -75,58 +75,6 @@ impl fmt::Display for Phase {
     }
 }
 
-/// The functions that the call order is about: first those of both kinds, then of co-simulation, then of
-/// Model Exchange.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Call {
-    SetDebugLogging,
-    SetupExperiment,
-    EnterInitializationMode,
-    ExitInitializationMode,
-    Terminate,
-    Reset,
-    GetReal,
-    GetInteger,
-    GetBoolean,
-    GetString,
-    SetReal,
-    SetInteger,
-    SetBoolean,
-    SetString,
-    GetFmuState,
-    SetFmuState,
-    FreeFmuState,
-    SerializedFmuStateSize,
-    SerializeFmuState,
-    DeSerializeFmuState,
-    GetDirectionalDerivative,
-    SetRealInputDerivatives,
-    GetRealOutputDerivatives,
-    DoStep,
-    CancelStep,
-    GetStatus,
-    GetRealStatus,
-    GetIntegerStatus,
-    GetBooleanStatus,
-    GetStringStatus,
-    EnterEventMode,
-    NewDiscreteStates,
-    EnterContinuousTimeMode,
-    CompletedIntegratorStep,
-    SetTime,
-    SetContinuousStates,
-    GetDerivatives,
-    GetEventIndicators,
-    GetContinuousStates,
-    GetNominalsOfContinuousStates,
-}
-
-struct Row {
-    call: Call,
-    name: &'static str,
-    allowed: u8,
-}
-
 const NEVER: u8 = 0;
 const INST: u8 = Phase::Instantiated.bit();
 const INIT: u8 = Phase::InitializationMode.bit();
@@ -142,72 +90,71 @@ const RUN: u8 = STEP | EVENT | TIME;
 /// All but a lost instance.
 const ALIVE: u8 = INST | INIT | RUN | END;
 
-#[rustfmt::skip]
-const TABLE: [Row; 40] = [
-    row(Call::SetDebugLogging,               "fmi2SetDebugLogging",               ALIVE),
-    row(Call::SetupExperiment,               "fmi2SetupExperiment",               INST),
-    row(Call::EnterInitializationMode,       "fmi2EnterInitializationMode",       INST),
-    row(Call::ExitInitializationMode,        "fmi2ExitInitializationMode",        INIT),
-    row(Call::Terminate,                     "fmi2Terminate",                     RUN),
-    row(Call::Reset,                         "fmi2Reset",                         ALIVE),
-    row(Call::GetReal,                       "fmi2GetReal",                       INIT | RUN | END),
-    row(Call::GetInteger,                    "fmi2GetInteger",                    INIT | RUN | END),
-    row(Call::GetBoolean,                    "fmi2GetBoolean",                    INIT | RUN | END),
-    row(Call::GetString,                     "fmi2GetString",                     INIT | RUN | END),
-    row(Call::SetReal,                       "fmi2SetReal",                       INST | INIT | RUN),
-    row(Call::SetInteger,                    "fmi2SetInteger",                    INST | INIT | STEP | EVENT),
-    row(Call::SetBoolean,                    "fmi2SetBoolean",                    INST | INIT | STEP | EVENT),
-    row(Call::SetString,                     "fmi2SetString",                     INST | INIT | STEP | EVENT),
-    row(Call::GetFmuState,                   "fmi2GetFMUstate",                   ALIVE),
-    row(Call::SetFmuState,                   "fmi2SetFMUstate",                   ALIVE),
-    row(Call::FreeFmuState,                  "fmi2FreeFMUstate",                  ALIVE),
-    row(Call::SerializedFmuStateSize,        "fmi2SerializedFMUstateSize",        ALIVE),
-    row(Call::SerializeFmuState,             "fmi2SerializeFMUstate",             ALIVE),
-    row(Call::DeSerializeFmuState,           "fmi2DeSerializeFMUstate",           ALIVE),
-    row(Call::GetDirectionalDerivative,      "fmi2GetDirectionalDerivative",      INIT | RUN | END),
-    row(Call::SetRealInputDerivatives,       "fmi2SetRealInputDerivatives",       INIT | STEP),
-    row(Call::GetRealOutputDerivatives,      "fmi2GetRealOutputDerivatives",      STEP | END),
-    row(Call::DoStep,                        "fmi2DoStep",                        STEP),
-    // Steps are computed while the importer waits: there is never one to cancel.
-    row(Call::CancelStep,                    "fmi2CancelStep",                    NEVER),
-    row(Call::GetStatus,                     "fmi2GetStatus",                     STEP | END),
-    row(Call::GetRealStatus,                 "fmi2GetRealStatus",                 STEP | END),
-    row(Call::GetIntegerStatus,              "fmi2GetIntegerStatus",              STEP | END),
-    row(Call::GetBooleanStatus,              "fmi2GetBooleanStatus",              STEP | END),
-    row(Call::GetStringStatus,               "fmi2GetStringStatus",               STEP | END),
-    row(Call::EnterEventMode,                "fmi2EnterEventMode",                EVENT | TIME),
-    row(Call::NewDiscreteStates,             "fmi2NewDiscreteStates",             EVENT),
-    row(Call::EnterContinuousTimeMode,       "fmi2EnterContinuousTimeMode",       EVENT),
-    row(Call::CompletedIntegratorStep,       "fmi2CompletedIntegratorStep",       TIME),
-    row(Call::SetTime,                       "fmi2SetTime",                       EVENT | TIME),
-    row(Call::SetContinuousStates,           "fmi2SetContinuousStates",           TIME),
-    row(Call::GetDerivatives,                "fmi2GetDerivatives",                EVENT | TIME | END),
-    row(Call::GetEventIndicators,            "fmi2GetEventIndicators",            INIT | EVENT | TIME | END),
-    row(Call::GetContinuousStates,           "fmi2GetContinuousStates",           INIT | EVENT | TIME | END),
-    row(Call::GetNominalsOfContinuousStates, "fmi2GetNominalsOfContinuousStates", INST | EVENT | TIME | END),
-];
+/// Declares the calls, each with the name of its C function and the phases in which it is allowed.
+macro_rules! calls {
+    ($($(#[$doc:meta])* $call:ident $name:literal $allowed:expr;)*) => {
+        /// The functions that the call order is about: first those of both kinds, then of co-simulation,
+        /// then of Model Exchange.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub(crate) enum Call { $($(#[$doc])* $call),* }
 
-const fn row(call: Call, name: &'static str, allowed: u8) -> Row {
-    Row { call, name, allowed }
+        /// Name and phases of each call, in their order.
+        const TABLE: &[(&str, u8)] = &[$(($name, $allowed)),*];
+    };
 }
 
-// The table is indexed by call, so its rows stand in the order of the enum.
-const _: () = {
-    let mut index = 0;
-    while index < TABLE.len() {
-        assert!(TABLE[index].call as usize == index);
-        index += 1;
-    }
-};
+calls! {
+    SetDebugLogging                "fmi2SetDebugLogging"                ALIVE;
+    SetupExperiment                "fmi2SetupExperiment"                INST;
+    EnterInitializationMode        "fmi2EnterInitializationMode"        INST;
+    ExitInitializationMode         "fmi2ExitInitializationMode"         INIT;
+    Terminate                      "fmi2Terminate"                      RUN;
+    Reset                          "fmi2Reset"                          ALIVE;
+    GetReal                        "fmi2GetReal"                        INIT | RUN | END;
+    GetInteger                     "fmi2GetInteger"                     INIT | RUN | END;
+    GetBoolean                     "fmi2GetBoolean"                     INIT | RUN | END;
+    GetString                      "fmi2GetString"                      INIT | RUN | END;
+    SetReal                        "fmi2SetReal"                        INST | INIT | RUN;
+    SetInteger                     "fmi2SetInteger"                     INST | INIT | STEP | EVENT;
+    SetBoolean                     "fmi2SetBoolean"                     INST | INIT | STEP | EVENT;
+    SetString                      "fmi2SetString"                      INST | INIT | STEP | EVENT;
+    GetFmuState                    "fmi2GetFMUstate"                    ALIVE;
+    SetFmuState                    "fmi2SetFMUstate"                    ALIVE;
+    FreeFmuState                   "fmi2FreeFMUstate"                   ALIVE;
+    SerializedFmuStateSize         "fmi2SerializedFMUstateSize"         ALIVE;
+    SerializeFmuState              "fmi2SerializeFMUstate"              ALIVE;
+    DeSerializeFmuState            "fmi2DeSerializeFMUstate"            ALIVE;
+    GetDirectionalDerivative       "fmi2GetDirectionalDerivative"       INIT | RUN | END;
+    SetRealInputDerivatives        "fmi2SetRealInputDerivatives"        INIT | STEP;
+    GetRealOutputDerivatives       "fmi2GetRealOutputDerivatives"       STEP | END;
+    DoStep                         "fmi2DoStep"                         STEP;
+    /// Steps are computed while the importer waits: there is never one to cancel.
+    CancelStep                     "fmi2CancelStep"                     NEVER;
+    GetStatus                      "fmi2GetStatus"                      STEP | END;
+    GetRealStatus                  "fmi2GetRealStatus"                  STEP | END;
+    GetIntegerStatus               "fmi2GetIntegerStatus"               STEP | END;
+    GetBooleanStatus               "fmi2GetBooleanStatus"               STEP | END;
+    GetStringStatus                "fmi2GetStringStatus"                STEP | END;
+    EnterEventMode                 "fmi2EnterEventMode"                 EVENT | TIME;
+    NewDiscreteStates              "fmi2NewDiscreteStates"              EVENT;
+    EnterContinuousTimeMode        "fmi2EnterContinuousTimeMode"        EVENT;
+    CompletedIntegratorStep        "fmi2CompletedIntegratorStep"        TIME;
+    SetTime                        "fmi2SetTime"                        EVENT | TIME;
+    SetContinuousStates            "fmi2SetContinuousStates"            TIME;
+    GetDerivatives                 "fmi2GetDerivatives"                 EVENT | TIME | END;
+    GetEventIndicators             "fmi2GetEventIndicators"             INIT | EVENT | TIME | END;
+    GetContinuousStates            "fmi2GetContinuousStates"            INIT | EVENT | TIME | END;
+    GetNominalsOfContinuousStates  "fmi2GetNominalsOfContinuousStates"  INST | EVENT | TIME | END;
+}
 
 impl Call {
     /// The name of the C function.
     pub(crate) const fn name(self) -> &'static str {
-        TABLE[self as usize].name
+        TABLE[self as usize].0
     }
 
     pub(crate) const fn is_allowed(self, phase: Phase) -> bool {
-        TABLE[self as usize].allowed & phase.bit() != 0
+        TABLE[self as usize].1 & phase.bit() != 0
     }
 
     /// The one kind of instance that this call is for; none if it is for both.
