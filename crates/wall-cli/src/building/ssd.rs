@@ -6,13 +6,18 @@ use std::fmt::Write;
 use super::document::Start;
 use super::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
 
-const NAMESPACES: [(&str, &str); 4] = [
+const NAMESPACES: [(&str, &str); 5] = [
     ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
     ("ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription"),
     ("ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues"),
     // the step for libcosim
     ("osp", "http://opensimulationplatform.com/SSP/OSPAnnotations"),
+    // the step for OMSimulator
+    ("oms", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"),
 ];
+
+/// The name of description and system. Some importers want identifiers, so the title is the description.
+const NAME: &str = "building";
 
 /// Units in SI base units, as in the model descriptions.
 const UNITS: [(&str, &str); 9] = [
@@ -37,12 +42,12 @@ pub(super) fn text(system: &System) -> String {
 
 fn write(xml: &mut String, system: &System) -> std::fmt::Result {
     let title = escaped(&system.title);
-    write!(xml, "<ssd:SystemStructureDescription version=\"1.0\" name=\"{title}\"")?;
+    write!(xml, "<ssd:SystemStructureDescription version=\"1.0\" name=\"{NAME}\"")?;
     writeln!(xml, " generationTool=\"rocking-wall {}\"", env!("CARGO_PKG_VERSION"))?;
     let namespaces: Vec<_> =
         NAMESPACES.iter().map(|(prefix, uri)| format!("  xmlns:{prefix}=\"{uri}\"")).collect();
     writeln!(xml, "{}>", namespaces.join("\n"))?;
-    writeln!(xml, "  <ssd:System name=\"building\" description=\"{title}\">")?;
+    writeln!(xml, "  <ssd:System name=\"{NAME}\" description=\"{title}\">")?;
     if system.expose_ground {
         writeln!(xml, "    <ssd:Connectors>")?;
         let ground = Connector {
@@ -67,7 +72,13 @@ fn write(xml: &mut String, system: &System) -> std::fmt::Result {
         let (output, input) = (connection.output, connection.input);
         writeln!(xml, " startConnector=\"{output}\" endElement=\"{to}\" endConnector=\"{input}\"/>")?;
     }
-    writeln!(xml, "    </ssd:Connections>\n  </ssd:System>")?;
+    writeln!(xml, "    </ssd:Connections>\n    <ssd:Annotations>")?;
+    writeln!(xml, "      <ssc:Annotation type=\"org.openmodelica\">\n        <oms:Annotations>")?;
+    writeln!(xml, "          <oms:SimulationInformation>")?;
+    write!(xml, "            <oms:FixedStepMaster description=\"oms-ma\"")?;
+    writeln!(xml, " stepSize=\"{:?}\" relativeTolerance=\"1e-08\"/>", system.step)?;
+    writeln!(xml, "          </oms:SimulationInformation>\n        </oms:Annotations>")?;
+    writeln!(xml, "      </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:System>")?;
     write_units(xml, system)?;
     writeln!(xml, "  <ssd:DefaultExperiment startTime=\"0\" stopTime=\"{:?}\">", system.stop_time)?;
     writeln!(xml, "    <ssd:Annotations>\n      <ssc:Annotation type=\"com.opensimulationplatform\">")?;
@@ -177,6 +188,19 @@ mod tests {
             let variable = RealVariable::from_name(name).map(VariableId::variable);
             assert!(variable.is_some_and(|variable| known(variable.unit)), "{name}");
         }
+    }
+
+    /// OMSimulator accepts identifiers alone, and takes a system for one with a master by this annotation.
+    #[test]
+    fn names_are_identifiers_and_the_system_states_its_step() {
+        let (title, components, connections) = ("A \"tall\" house".to_owned(), Vec::new(), Vec::new());
+        let system =
+            System { title, components, connections, expose_ground: false, stop_time: 2.0, step: 0.0025 };
+        let xml = text(&system);
+        let names: Vec<_> = xml.split(" name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert_eq!(names, ["building", "building", "m/s2"]);
+        assert!(xml.contains("description=\"A &quot;tall&quot; house\""));
+        assert!(xml.contains("<oms:FixedStepMaster description=\"oms-ma\" stepSize=\"0.0025\""));
     }
 
     #[test]
