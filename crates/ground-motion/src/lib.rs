@@ -54,6 +54,7 @@ pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;
 pub use pulse::{Pulse, Shape};
+pub use readers::CSV_HEADER;
 pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_channels};
 pub use spectrum::{Maxima, Spectrum};
 pub use synthetic::SyntheticMotion;

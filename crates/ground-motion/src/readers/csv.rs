@@ -9,13 +9,18 @@
 //! ```
 //!
 //! Or one column of samples, with the step stated beside it; a first line that names the column and lines
-//! that start with `#` are skipped. Neither form has a place for the unit, so the unit has to be stated.
+//! that start with `#` are skipped. The unit has to be stated, unless the first name of a table does, as
+//! [`CSV_HEADER`] does.
 
 use crate::error::{Fault, excerpt};
 use crate::fields::lines;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
+
+/// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
+/// name, and take the first column for the time under any name; so the unit stands there.
+pub const CSV_HEADER: &str = "time (a_g in m/s2),a_g";
 
 /// Largest deviation of a time from the uniform grid, in steps. Times are often written with few digits.
 const TIME_TOLERANCE: f64 = 0.01;
@@ -34,14 +39,24 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         let remedy = "separate the columns by commas and write decimal points";
         return Err(Fault::excerpt(number, "columns separated by commas", first, remedy));
     }
+    let stated = match stated_unit(first.split(',').next().unwrap_or_default()) {
+        Some(word) => Some(options.unit_of(word, number)?),
+        None => options.unit,
+    };
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
-    let unit = options.unit.unwrap_or(Unit::MetrePerSecondSquared);
+    let unit = stated.unwrap_or(Unit::MetrePerSecondSquared);
     let parsed = if first.contains(',') { table(text, options, unit)? } else { column(text, options, unit)? };
-    if options.unit.is_none() {
+    if stated.is_none() {
         let remedy = "give `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g";
         return Err(Fault::new(number, "a stated unit (a CSV file has none)", "no unit", remedy));
     }
     Ok(parsed)
+}
+
+/// Finds the unit in a first name such as `time (a_g in m/s2)`.
+fn stated_unit(name: &str) -> Option<&str> {
+    let (_, unit) = unquoted(name).strip_prefix("time (")?.strip_suffix(')')?.split_once(" in ")?;
+    Some(unit)
 }
 
 /// Reads one column of samples.
@@ -114,7 +129,7 @@ fn chosen_column(names: &[&str], line: usize, wanted: Option<&str>) -> Result<us
         |expected: String, remedy: &str| Err(Fault::excerpt(line, expected, &names.join(","), remedy));
     let is_time =
         |name: &str| ["time", "time_s", "time [s]", "time (s)", "t"].contains(&name.to_lowercase().as_str());
-    if !is_time(names[0]) {
+    if !is_time(names[0]) && stated_unit(names[0]).is_none() {
         let remedy = "the first column must be `time`, in seconds, with a header line that names the columns";
         return refused(FORMS.to_owned(), remedy);
     }

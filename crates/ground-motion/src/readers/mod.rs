@@ -12,6 +12,8 @@ mod knet;
 mod smc;
 mod volume_2;
 
+pub use csv::CSV_HEADER;
+
 use crate::error::Fault;
 use crate::fields::untrimmed_lines;
 use crate::format::Format;
