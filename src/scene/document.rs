@@ -12,6 +12,7 @@ use crate::variables::RealVariable;
 
 use super::error::{Place, SceneError};
 use super::motion::MotionTable;
+use super::nearest::suggestion;
 use super::parameter::{Group, input_names};
 
 /// Largest scene file that is read.
@@ -71,8 +72,12 @@ impl Document {
             let found = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);
             let Some(input) = found else {
                 let known: Vec<_> = input_names().collect();
-                let message =
-                    format!("{:?} is not an input; the inputs are {}", name.get_ref(), known.join(", "));
+                let meant = suggestion(name.get_ref(), known.iter().copied());
+                let message = format!(
+                    "{:?} is not an input{meant}; the inputs are {}",
+                    name.get_ref(),
+                    known.join(", ")
+                );
                 return Err(place.error(name.span(), message));
             };
             if inputs.contains(&input) {
@@ -92,9 +97,15 @@ pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T
     toml::from_str(place.text()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().replace('\n', " ");
+        // unknown field `x`, expected one of `a`, `b`, ...
+        let mut names = message.split('`').skip(1).step_by(2);
+        let meant = match names.next() {
+            Some(unknown) if message.starts_with("unknown field") => suggestion(unknown, names),
+            _ => String::new(),
+        };
         let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
         let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
-        place.error(span, format!("{message}, in `{shown}`"))
+        place.error(span, format!("{message}, in `{shown}`{meant}"))
     })
 }
 

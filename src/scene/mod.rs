@@ -7,11 +7,12 @@
 mod document;
 mod error;
 mod motion;
+mod nearest;
 mod parameter;
 mod used;
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fmi2_export::VariableId;
 
@@ -28,6 +29,7 @@ pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 
 pub use document::parse_toml;
 pub use error::Place;
+pub use nearest::nearest;
 pub use parameter::apply_group;
 
 /// A wall, its motion, and how long it is watched.
@@ -49,6 +51,8 @@ pub struct Scene {
     pub thresholds: Vec<f64>,
     /// Facts about the motion worth showing: source, scale, peak.
     pub motion_notes: Vec<String>,
+    /// Record files that the motion was read from.
+    pub records: Vec<PathBuf>,
 }
 
 impl Default for Scene {
@@ -63,6 +67,7 @@ impl Default for Scene {
             output_step: DEFAULT_OUTPUT_STEP,
             thresholds: DEFAULT_THRESHOLDS.to_vec(),
             motion_notes: Vec::new(),
+            records: Vec::new(),
         }
     }
 }
@@ -137,9 +142,9 @@ impl Scene {
         {
             return Err(place.error(table.span(), message));
         }
-        let (excitation, tail, motion_notes) = match loaded {
-            Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes),
-            None => (None, 0.0, Vec::new()),
+        let (excitation, tail, motion_notes, records) = match loaded {
+            Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes, loaded.records),
+            None => (None, 0.0, Vec::new(), Vec::new()),
         };
         let free = Self::default();
         let thresholds = match &document.thresholds {
@@ -165,6 +170,7 @@ impl Scene {
             excitation,
             thresholds,
             motion_notes,
+            records,
         })
     }
 

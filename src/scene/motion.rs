@@ -129,6 +129,8 @@ pub(super) struct Loaded {
     pub(super) excitation: Excitation,
     pub(super) tail: f64,
     pub(super) notes: Vec<String>,
+    /// Files of the records.
+    pub(super) records: Vec<PathBuf>,
 }
 
 /// A record file, and how to read it.
@@ -188,7 +190,9 @@ fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
     };
     let excitation = Excitation::new(bottom, top);
     notes.push(format!("{peak}, {} s", excitation.duration()));
-    Ok(Loaded { excitation, tail, notes })
+    let files = spec.record.iter().chain(spec.top.as_ref().map(|top| &top.record));
+    let records = files.map(|file| folder.join(file)).collect();
+    Ok(Loaded { excitation, tail, notes, records })
 }
 
 fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<GroundMotion, Problem> {

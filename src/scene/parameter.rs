@@ -9,6 +9,7 @@ use crate::variables::{GROUPS, IntegerVariable, RealVariable};
 use crate::wall::{Kinematics, Parameters};
 
 use super::error::{Place, SceneError};
+use super::nearest::suggestion;
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -95,7 +96,8 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     if !known {
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
         let all: Vec<_> = names.chain([KINEMATICS]).collect();
-        let message = format!("there is no parameter {name:?}; the parameters are {}", all.join(", "));
+        let meant = suggestion(name, all.iter().copied());
+        let message = format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "));
         return Err(SceneError::Value { message });
     }
     let value = if let Ok(number) = text.trim().parse::<f64>() {
@@ -197,7 +199,10 @@ fn unknown(name: &str, group: &str, names: &[&str]) -> String {
     }
     let elsewhere = GROUPS.iter().find(|(_, others)| others.contains(&name));
     elsewhere.map_or_else(
-        || format!("unknown key {name:?} in [{group}]; it holds {}", names.join(", ")),
+        || {
+            let meant = suggestion(name, names.iter().copied());
+            format!("unknown key {name:?} in [{group}]{meant}; it holds {}", names.join(", "))
+        },
         |(other, _)| format!("{name:?} belongs in [{other}], not in [{group}]"),
     )
 }

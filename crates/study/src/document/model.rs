@@ -3,11 +3,14 @@
 use toml::{Spanned, Value};
 
 use crate::ida::{Damping, Model, RatioSource};
-use rocking_wall::scene::{Place, SceneError};
+use rocking_wall::scene::{Place, SceneError, nearest};
 
 /// Short names, for messages.
 const MODELS: &str =
     "none, CR, \"CR rigid\", CDC, CDR, SDR, block, and CDC, CDR, SDR with \" Eq. 14\" after it";
+
+/// Keys of a model that is a table.
+const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];
 
 pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {
     let refuse = |message: String| place.error(value.span(), message);
@@ -32,11 +35,12 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
             damping.map(Model::new).ok_or_else(|| unknown(text))
         }
         Value::Table(table) => {
-            if let Some(key) =
-                table.keys().find(|key| !["name", "model", "xi", "c_bar"].contains(&key.as_str()))
-            {
+            if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+                let meant =
+                    nearest(key, KEYS).map_or_else(String::new, |name| format!("; did you mean {name:?}?"));
                 return Err(refuse(format!(
-                    "unknown key {key:?} of a model; it holds name, model, xi, c_bar"
+                    "unknown key {key:?} of a model{meant}; it holds {}",
+                    KEYS.join(", ")
                 )));
             }
             let text = |key: &str| table.get(key).and_then(Value::as_str);
