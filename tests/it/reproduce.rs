@@ -88,7 +88,7 @@ fn peak(points: &[(f64, f64)]) -> f64 {
 
 #[test]
 fn the_figures_show_what_the_paper_says() {
-    let all = reproduce(TWO).unwrap();
+    let all = reproduce(TWO, |_| ()).unwrap();
     let numbers: Vec<u8> = all.figures.iter().map(|figure| figure.number).collect();
     assert_eq!(numbers, (2..=14).collect::<Vec<_>>());
     for figure in &all.figures {

@@ -31,3 +31,7 @@ mod random;
 pub mod reproduce;
 pub mod spectrum;
 pub mod stability;
+
+/// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of
+/// other crates. Builds with equal fingerprints compute the same runs, on every machine.
+pub const SOURCES: &str = env!("SOURCES");

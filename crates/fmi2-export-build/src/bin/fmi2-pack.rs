@@ -1,9 +1,8 @@
 //! Puts an FMU together from the files of a build.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command speaks to its user")]
-
 use fmi2_export_build::pack::Package;
 use std::ffi::OsString;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -25,13 +24,13 @@ Hidden files are left out. The exit code is 0, or 2 if nothing was written.";
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
     if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
-        println!("{HELP}");
+        let _ = writeln!(std::io::stdout(), "{HELP}");
         return ExitCode::SUCCESS;
     }
     match run(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
-            eprintln!("fmi2-pack: {message}");
+            let _ = writeln!(std::io::stderr(), "fmi2-pack: {message}");
             ExitCode::from(2)
         }
     }

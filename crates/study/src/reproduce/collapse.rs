@@ -7,6 +7,7 @@ use crate::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, s
 use crate::ida::{
     Case, Exceedance, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study,
 };
+use crate::parallel;
 use ground_motion::STANDARD_GRAVITY;
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
@@ -37,11 +38,15 @@ pub struct Collapses {
 }
 
 /// Scales each record by `AvgSA` until each wall of Table 5 overturns, for CR, CDC, CDR, SDR and CDR with Eq.
-/// (14).
+/// (14). Calls `finished` after each combination, with the number of all.
 ///
 /// # Errors
 /// [`IdaError`] if there is no record, if one cannot be scaled, or if a run fails.
-pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Collapses, IdaError> {
+pub fn figure_15(
+    records: Vec<NamedRecord>,
+    threads: NonZeroUsize,
+    finished: impl Fn(usize) + Sync,
+) -> Result<Collapses, IdaError> {
     let count = records.len();
     let walls = TABLE_5.iter().map(|row| NamedWall {
         name: format!("wall {}", row.number),
@@ -49,7 +54,11 @@ pub fn figure_15(records: Vec<NamedRecord>, threads: NonZeroUsize) -> Result<Col
     });
     let models = Model::figure_15();
     let study = Study::new(walls.collect(), records, models, IntensityMeasure::default(), LEVELS)?;
-    let curves = study.run(threads.get())?;
+    let curves = parallel::map(study.count(), threads.get(), |index| {
+        let curve = study.curve(study.case(index));
+        finished(study.count());
+        curve
+    })?;
     let bootstrap = Bootstrap::new(count, RESAMPLES, SEED);
     let (mut charts, mut rows, mut walls) = (Vec::new(), Vec::new(), Vec::new());
     for (wall, row) in TABLE_5.iter().enumerate() {

@@ -21,6 +21,9 @@ const HEIGHTS: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 /// Largest ratio drawn (%).
 const TOP: f64 = 16.0;
 
+/// Number of calibrations of section 5: three models each for stiffness, amplitude and heights, and c̄.
+pub(super) const CALIBRATIONS: usize = 3 * (2 + HEIGHTS.len()) + 1;
+
 /// Calibrations of section 5.
 pub(super) struct Section5 {
     /// Over e and a₁ from 0.005 on, for each model.
@@ -38,9 +41,15 @@ fn parapet(height: f64) -> Parameters {
 }
 
 impl Section5 {
-    pub(super) fn new(threads: NonZeroUsize) -> Result<Self, CalibrationError> {
+    /// Computes them, and calls `finished` after each.
+    pub(super) fn new(threads: NonZeroUsize, finished: impl Fn()) -> Result<Self, CalibrationError> {
+        let one_of = |parameters: &Parameters, model, grid: &Grid| {
+            let calibration = calibrate(parameters, model, grid, threads);
+            finished();
+            calibration
+        };
         let each = |parameters: &Parameters, grid: &Grid| -> Result<[Calibration; 3], CalibrationError> {
-            let [cdc, cdr, sdr] = MODELS.map(|model| calibrate(parameters, model, grid, threads));
+            let [cdc, cdr, sdr] = MODELS.map(|model| one_of(parameters, model, grid));
             Ok([cdc?, cdr?, sdr?])
         };
         let wall = parapet(FIGURE_WALL[0]);
@@ -54,7 +63,7 @@ impl Section5 {
             stiffness: each(&wall, &wide)?,
             amplitude: each(&wall, &starts)?,
             shape,
-            free_standing: calibrate(&rigid, DampingModel::FreeStandingBlock, &default, threads)?,
+            free_standing: one_of(&rigid, DampingModel::FreeStandingBlock, &default)?,
         })
     }
 
