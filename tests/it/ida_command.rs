@@ -142,6 +142,72 @@ fn threads_shards_and_interruptions_change_no_byte() {
     assert_ne!(again[Path::new("fragilities.csv")], whole[Path::new("fragilities.csv")]);
 }
 
+/// No damage of a file goes unseen: a flipped bit, a value that cannot be, a damaged description.
+#[test]
+fn damaged_files_are_computed_again() {
+    let folder = study("ida_damage");
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let (out, whole) = (folder.join("out"), bytes(&folder.join("out")));
+    let runs = run_files(&out);
+    // the lowest bit of a digit, of each file another one
+    let flipped = 16;
+    for (k, file) in runs.iter().take(flipped).enumerate() {
+        let mut content = fs::read(file).unwrap();
+        let digits: Vec<usize> = (0..content.len()).filter(|&at| content[at].is_ascii_digit()).collect();
+        content[digits[digits.len() * (k + 1) / (flipped + 1)]] ^= 1;
+        fs::write(file, content).unwrap();
+    }
+    // values that cannot be, under their own checksum
+    for (file, bad) in runs[flipped..].iter().zip(["NaN", "inf", "-0.5"]) {
+        let content = fs::read_to_string(file).unwrap();
+        let (head, levels) = content.split_once('\n').unwrap();
+        let (head, _) = head.rsplit_once(' ').unwrap();
+        let (intensity, rest) = levels.split_once(',').unwrap();
+        let (_, rest) = rest.split_once(',').unwrap();
+        let levels = format!("{intensity},{bad},{}", rest.strip_suffix("end\n").unwrap());
+        let checksum = rocking_wall::scene::fingerprint(format!("{head}\n{levels}").as_bytes());
+        fs::write(file, format!("{head} {checksum}\n{levels}end\n")).unwrap();
+    }
+    let merged = wall(&folder, &["merge", "out"]);
+    let told = text(&merged.stderr);
+    assert!(
+        told.contains("19 of 24 run files are damaged") && told.contains("19 of 24 combinations"),
+        "{told}"
+    );
+    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    assert!(text(&again.stderr).contains("19 of 24 run files are damaged"), "{}", text(&again.stderr));
+    assert!(bytes(&out) == whole, "a damaged file went into the results");
+
+    let description = out.join("study.json");
+    let content = fs::read_to_string(&description).unwrap();
+    assert!(content.contains(&format!("\"sources\": \"{}\"", study::SOURCES)) && study::SOURCES.len() == 32);
+    fs::write(&description, content.replace("A small study", "A smaml study")).unwrap();
+    refused_in_words(&folder, &["merge", "out"], &["study.json", "damaged", "remove it"]);
+    fs::remove_file(&description).unwrap();
+    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(text(&again.stderr).contains("24 of 24 combinations are done already"));
+    assert!(bytes(&out) == whole);
+}
+
+/// What one process writes is not removed by another that has finished.
+#[cfg(unix)]
+#[test]
+fn processes_share_a_folder() {
+    let folder = study("ida_two_processes");
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    // another process works on the folder, and is writing this file
+    let other = fs::File::open(folder.join("out/runs")).unwrap();
+    other.lock_shared().unwrap();
+    let part = folder.join("out/runs/0000/.0123456789abcdef.part");
+    fs::write(&part, "half").unwrap();
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(part.exists(), "the part of another process was removed");
+    drop(other);
+    succeed(&folder, &["merge", "out"]);
+    assert!(!part.exists(), "the part of a killed process is left");
+}
+
 /// Like `refused`, for a message of several lines, or a command that keeps what it has merged so far.
 fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
     let output = wall(folder, arguments);

@@ -16,6 +16,7 @@ mod description;
 mod documents;
 mod extremes;
 mod figure_15;
+mod files_command;
 mod fragility;
 mod ground_motion;
 mod ida;

@@ -39,18 +39,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if !(0.0..=3600.0).contains(&arguments.budget) {
         bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
     }
-    let problems = if arguments.scenes.is_empty() {
+    if !arguments.scenes.is_empty() && (arguments.record.record.is_some() || arguments.record.synthetic) {
+        bail!(
+            "--record and --synthetic replace the motion of the built-in scenes; a scene file states its own \
+             in [motion]"
+        );
+    }
+    let scenes = arguments.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
+    output::check_distinct(
+        arguments.scenes.iter().chain(records).chain(&arguments.peers),
+        [&arguments.csv, &arguments.linearisation, &arguments.html].into_iter().flatten(),
+    )?;
+    let problems = if scenes.is_empty() {
         let record = arguments.record.load()?;
         defaults(record.as_ref().map(|(motion, _)| motion))?
     } else {
-        if arguments.record.record.is_some() || arguments.record.synthetic {
-            bail!(
-                "--record and --synthetic replace the motion of the built-in scenes; a scene file states its \
-                 own in [motion]"
-            );
-        }
-        let read = |path: &PathBuf| Ok(Problem::from_scene(&Scene::read(path)?)?);
-        arguments.scenes.iter().map(read).collect::<Result<_>>()?
+        scenes.iter().map(Problem::from_scene).collect::<Result<_, _>>()?
     };
     let read = |path: &PathBuf| {
         std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion, read};
+use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion, Unit, read};
 use rocking_wall::scene::Scene;
 
 use crate::output;
@@ -33,8 +33,8 @@ pub(crate) struct RecordArguments {
     /// Factor on the motion given here
     #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
     pub(crate) scale: Option<f64>,
-    /// Peak acceleration in m/s2 to scale the motion given here to
-    #[arg(long, value_name = "M_PER_S2")]
+    /// Peak acceleration to scale the motion given here to, in m/s2 or with its unit, such as 0.3g
+    #[arg(long, value_name = "M_PER_S2", value_parser = acceleration)]
     pub(crate) pga: Option<f64>,
 }
 
@@ -56,6 +56,25 @@ pub(crate) struct RecordOptionsArguments {
     /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
     #[arg(long, requires = "record")]
     format: Option<String>,
+}
+
+/// Reads an acceleration in m/s², or with its unit after it.
+fn acceleration(text: &str) -> Result<f64, String> {
+    let expected = || {
+        format!(
+            "{text:?} is not an acceleration; expected a number in m/s2, or one with a unit, such as 0.3g"
+        )
+    };
+    // the exponent of a number is no unit
+    let is_unit = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
+    let (number, unit) = match text.find(is_unit) {
+        Some(at) if text.parse::<f64>().is_err() => text.split_at(at),
+        _ => (text, ""),
+    };
+    let number: f64 = number.trim().parse().map_err(|_| expected())?;
+    let unit =
+        if unit.is_empty() { Unit::MetrePerSecondSquared } else { unit.parse().map_err(|_| expected())? };
+    Ok(unit.to_si(number))
 }
 
 impl RecordOptionsArguments {
@@ -84,6 +103,11 @@ impl SceneArguments {
             }),
             None => Ok(Scene::default()),
         }
+    }
+
+    /// Returns the files that the scene was read from.
+    pub(crate) fn inputs<'a>(&'a self, scene: &'a Scene) -> impl Iterator<Item = &'a PathBuf> {
+        self.scene.iter().chain(&scene.records)
     }
 
     /// Puts the scene's file before what is wrong with its parameters together.

@@ -56,6 +56,7 @@ const MOST_SERIES: usize = 6;
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
+    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
     let grid = Grid {
         restitution: arguments.restitution.clone(),
         a1: arguments.a1.clone(),

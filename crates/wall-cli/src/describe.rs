@@ -38,6 +38,7 @@ struct Fact(&'static str, &'static str, f64, &'static str);
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
+    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;

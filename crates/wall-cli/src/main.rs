@@ -14,6 +14,7 @@ mod motion;
 mod output;
 mod package;
 mod page;
+mod progress;
 mod record;
 mod reproduce;
 mod schema;

@@ -1,10 +1,13 @@
-//! `wall motion`: a ground motion as CSV, in the form FMPy reads with `--input-file`.
+//! `wall motion`: a ground motion as CSV, in the form FMPy reads with `--input-file` and `wall` with
+//! `--record`.
 
 use std::fmt::Write;
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
+
+use ground_motion::CSV_HEADER;
 
 use crate::args::RecordArguments;
 use crate::output;
@@ -22,7 +25,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let Some((motion, note)) = arguments.record.load()? else {
         bail!("no motion is given; give --record FILE or --synthetic");
     };
-    let mut csv = String::from("time,a_g\n");
+    output::check_distinct(&arguments.record.record, [&arguments.csv])?;
+    let mut csv = format!("{CSV_HEADER}\n");
     for (index, sample) in motion.samples().iter().enumerate() {
         #[allow(clippy::cast_precision_loss, reason = "far fewer than 2⁵³ samples")]
         let time = index as f64 * motion.step();
@@ -34,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         "{}: {note}, {} samples of {} s, peak {:.4} m/s²\n",
         arguments.csv.display(),
         motion.samples().len(),
-        motion.step(),
+        output::number(motion.step()),
         motion.peak()
     ))
 }

@@ -41,12 +41,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             arguments.scene.display()
         );
     }
+    output::check_distinct(
+        [&arguments.scene, &arguments.base].into_iter().chain(&scene.records),
+        [&arguments.output],
+    )?;
     let wall = Wall::new(&scene.parameters).with_context(|| arguments.scene.display().to_string())?;
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
     }
     let (archive, counts) = of_scene(&scene, &arguments.base, "--base")?;
-    archive.write(&arguments.output)?;
+    output::to_file(&arguments.output, &archive.to_bytes()?)?;
     output::to_stdout(&format!(
         "{}: {}, {} of {} variables\n",
         arguments.output.display(),

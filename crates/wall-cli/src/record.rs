@@ -60,25 +60,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
+    output::check_distinct(&arguments.files, arguments.csv.iter().chain(&arguments.plot))?;
     let mut rows = Vec::new();
     let mut failures = Vec::new();
     for path in &arguments.files {
         match read(path, &options, arguments, spectrum) {
             Ok(found) => rows.extend(found),
-            Err(error) => failures.push(error),
+            Err(error) => failures.push(output::message(&error)),
         }
     }
     if let ([failure], true) = (&failures[..], rows.is_empty()) {
-        bail!(output::message(failure));
+        bail!("{failure}");
     }
-    for failure in &failures {
-        output::report(&output::message(failure));
-    }
+    let count = failures.len();
+    output::report_all(failures);
     if !rows.is_empty() {
         show(&rows, arguments, spectrum)?;
     }
-    if !failures.is_empty() {
-        bail!("{} of {} files could not be read", failures.len(), arguments.files.len());
+    if count > 0 {
+        bail!("{} of {} files could not be read", count, arguments.files.len());
     }
     Ok(())
 }

@@ -14,6 +14,7 @@ use study::reproduce::collapse::{Collapses, figure_15};
 use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
 use crate::output;
+use crate::progress::Progress;
 use crate::template::filled;
 
 #[derive(Debug, Args)]
@@ -31,33 +32,44 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     // before anything is computed: a wrong folder should not cost a minute
-    let records = arguments.records.as_deref().map(records).transpose()?;
-    let reproduction = reproduce(threads(arguments.threads))?;
+    let records =
+        arguments.records.as_deref().map(|folder| records(folder, &arguments.output)).transpose()?;
+    let threads = threads(arguments.threads);
+    let progress = Progress::new();
+    let reproduction = reproduce(threads, |all| progress.add(all, 0));
+    progress.finish();
+    let reproduction = reproduction?;
     output::to_stdout(&summary(&reproduction))?;
-    let collapses = records.map(|records| figure_15(records, threads(arguments.threads))).transpose()?;
+    let progress = Progress::new();
+    let collapses = records.map(|records| figure_15(records, threads, |all| progress.add(all, 0)));
+    progress.finish();
+    let collapses = collapses.transpose()?;
     if let Some(collapses) = &collapses {
         output::to_stdout(&plain(&collapses.table))?;
     }
     output::to_file(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
 }
 
-/// Reads the records of a folder in the order of their names; warns of the files it leaves out.
-fn records(folder: &Path) -> Result<Vec<NamedRecord>> {
+/// Reads the records of a folder in the order of their names; warns of the files it leaves out. The page must
+/// not replace one of them.
+fn records(folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
     let entries =
         std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
     let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
     paths.retain(|path| path.is_file());
     paths.sort();
-    let mut records = Vec::new();
+    output::check_distinct(&paths, [page])?;
+    let (mut records, mut left_out) = (Vec::new(), Vec::new());
     for path in paths {
         match read(&path, &RecordOptions::default()) {
             Ok(record) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 records.push(NamedRecord { name, motion: record.motion });
             }
-            Err(error) => output::warn(&format!("left out: {error}")),
+            Err(error) => left_out.push(format!("warning: left out: {error}")),
         }
     }
+    output::report_all(left_out);
     if records.is_empty() {
         bail!(
             "{}: no record to read; give a folder with records that state their unit, such as AT2",

@@ -49,6 +49,8 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let scene = arguments.scene()?;
+    let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
+    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
     let response = arguments.scene.named(Response::of(&scene))?;
     for warning in &response.warnings {
         output::warn(&warning.to_string());
@@ -179,7 +181,7 @@ fn table(scene: &Scene, response: &Response) -> String {
         "overturned",
         summary.overturn_time.map_or_else(|| "no".to_owned(), |time| format!("at t = {time:.4} s")),
     );
-    line("run", format!("{} s", summary.end_time));
+    line("run", format!("{} s", output::number(summary.end_time)));
     line(
         "work",
         format!(

@@ -84,6 +84,8 @@ const MOST_VALUES: usize = 500;
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
+    let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
+    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {

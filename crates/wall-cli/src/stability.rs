@@ -24,6 +24,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    output::check_distinct([], arguments.csv.iter().chain(&arguments.html))?;
     let mut maps = Vec::with_capacity(2 * MAPS.len());
     for quantity in [RowQuantity::Step, RowQuantity::DampingRatio] {
         for (solver, damping) in MAPS {

@@ -39,6 +39,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let building = Building::read(&arguments.building)?;
     let folder = arguments.building.parent().unwrap_or(Path::new("."));
+    let scenes: Vec<_> = building.walls.iter().map(|wall| folder.join(&wall.scene)).collect();
+    let inputs = [&arguments.building, &arguments.wall_fmu, &arguments.floor_fmu];
+    output::check_distinct(inputs.into_iter().chain(&scenes), [&arguments.output])?;
     let mut archive = Archive::default();
     let mut scenes = Vec::with_capacity(building.walls.len());
     for wall in &building.walls {
@@ -53,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let system = wiring::system(&building, &scenes)?;
     archive.insert("SystemStructure.ssd", ssd::text(&system));
-    archive.write(&arguments.output)?;
+    output::to_file(&arguments.output, &archive.to_bytes()?)?;
     let (units, connections) = (system.components.len(), system.connections.len());
     output::to_stdout(&format!(
         "{}: {}, {units} units, {connections} connections\n",

@@ -1,10 +1,11 @@
 //! The folder of a study: its contents, and one file for each finished wall, model and record.
 //!
-//! A run's file appears complete, by renaming, so that the program can be killed at any moment. A damaged
-//! file counts as missing. The final results are made from these files alone, so their bytes do not depend on
-//! which process computed what.
+//! A run's file appears complete, by renaming, so that the program can be killed at any moment. It holds a
+//! checksum, and a damaged file counts as missing. Several processes can work on one folder. The final
+//! results are made from these files alone, so their bytes do not depend on which process computed what.
 
 use std::fmt::Write;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -22,6 +23,8 @@ const RUNS: &str = "runs";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Contents {
     pub(crate) program: String,
+    /// The sources of the program, see [`study::SOURCES`].
+    pub(crate) sources: String,
     pub(crate) measure: String,
     pub(crate) measure_details: String,
     pub(crate) levels: String,
@@ -64,6 +67,22 @@ pub(crate) struct Manifest {
     pub(crate) title: String,
     pub(crate) report: ReportOptions,
     pub(crate) contents: Contents,
+    /// Fingerprint of the rest.
+    checksum: String,
+}
+
+impl Manifest {
+    fn new(title: String, report: ReportOptions, contents: Contents) -> Result<Self> {
+        let mut manifest = Self { title, report, contents, checksum: String::new() };
+        manifest.checksum = manifest.fingerprint()?;
+        Ok(manifest)
+    }
+
+    /// The fingerprint of all but the checksum.
+    fn fingerprint(&self) -> Result<String> {
+        let text = serde_json::to_string(&(&self.title, &self.report, &self.contents))?;
+        Ok(fingerprint(text.as_bytes()))
+    }
 }
 
 impl Contents {
@@ -97,6 +116,7 @@ impl Contents {
         });
         Self {
             program: format!("rocking-wall {}", env!("CARGO_PKG_VERSION")),
+            sources: study::SOURCES.to_owned(),
             measure: study.measure().name(),
             measure_details: format!("{:?}", study.measure()),
             levels: format!("{:?}", study.levels()),
@@ -148,6 +168,9 @@ pub(crate) struct Folder {
     path: PathBuf,
     pub(crate) manifest: Manifest,
     fingerprint: String,
+    /// The folder of the runs, locked as long as this process works on it: shared with others, or alone to
+    /// remove what is incomplete. Systems that cannot lock a folder keep that.
+    lock: Option<File>,
 }
 
 impl Folder {
@@ -165,7 +188,7 @@ impl Folder {
                 );
             }
         }
-        Self::create(path, Manifest { title: title.to_owned(), report: report.clone(), contents })
+        Self::create(path, Manifest::new(title.to_owned(), report.clone(), contents)?)
     }
 
     /// Opens or makes the folder that a study is merged into.
@@ -180,8 +203,7 @@ impl Folder {
         let runs = path.join(RUNS);
         std::fs::create_dir_all(&runs).with_context(|| format!("{}: cannot be made", runs.display()))?;
         output::to_file(&path.join(STUDY), (serde_json::to_string_pretty(&manifest)? + "\n").as_bytes())?;
-        let fingerprint = fingerprint(manifest.contents.text()?.as_bytes());
-        Ok(Self { path: path.to_owned(), manifest, fingerprint })
+        Self::locked(path, manifest)
     }
 
     /// Opens a folder that holds a study.
@@ -200,8 +222,16 @@ impl Folder {
                 "{name}: not the description of a study by this version; remove the folder or give another"
             )
         })?;
+        if manifest.checksum != manifest.fingerprint()? {
+            bail!("{name}: is damaged; remove it, and `wall ida` writes it again and keeps the runs");
+        }
+        Self::locked(path, manifest)
+    }
+
+    fn locked(path: &Path, manifest: Manifest) -> Result<Self> {
         let fingerprint = fingerprint(manifest.contents.text()?.as_bytes());
-        Ok(Self { path: path.to_owned(), manifest, fingerprint })
+        let lock = File::open(path.join(RUNS)).ok().filter(|lock| lock.lock_shared().is_ok());
+        Ok(Self { path: path.to_owned(), manifest, fingerprint, lock })
     }
 
     /// Checks that the folder holds the study of these contents.
@@ -225,44 +255,65 @@ impl Folder {
         self.path.join(RUNS).join(format!("{:04}", index / 1000)).join(format!("{index:07}.csv"))
     }
 
-    /// Reads the curve of a combination, if its file is complete.
+    /// Reads the curve of a combination, if its file is there and not damaged.
     pub(super) fn curve(&self, index: usize) -> Option<Curve> {
         let text = std::fs::read_to_string(self.run_file(index)).ok()?;
-        let mut lines = text.lines();
-        let count: usize =
-            lines.next()?.strip_prefix(&format!("{} {index} ", self.fingerprint))?.parse().ok()?;
-        let mut levels = Vec::new();
-        for _ in 0..count {
-            let mut cells = lines.next()?.split(',');
-            let (intensity, demand) = (cells.next()?.parse().ok()?, cells.next()?.parse().ok()?);
-            let overturning = match cells.next()? {
-                "" => None,
-                time => Some(time.parse().ok()?),
-            };
-            levels.push(Run { intensity, demand, overturning });
-        }
-        // an incomplete file lacks this line
-        (lines.next() == Some("end") && text.ends_with("end\n")).then(|| Curve::new(levels))
+        let (_, levels) = text.split_once('\n')?;
+        let runs: Option<Vec<Run>> = levels.strip_suffix("end\n")?.lines().map(run).collect();
+        let curve = Curve::new(runs?);
+        // the same study, number, checksum and order
+        (self.text(index, &curve) == text).then_some(curve)
     }
 
     /// Writes the curve of a combination.
     pub(super) fn keep(&self, index: usize, curve: &Curve) -> Result<()> {
-        let mut text = format!("{} {index} {}\n", self.fingerprint, curve.runs().len());
-        for run in curve.runs() {
-            let Run { intensity, demand, overturning } = run;
-            let _ = writeln!(text, "{intensity:?},{demand:?},{}", csv::optional(*overturning));
-        }
-        text.push_str("end\n");
         let file = self.run_file(index);
         if let Some(folder) = file.parent() {
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("{}: cannot be made", folder.display()))?;
         }
-        output::to_file(&file, text.as_bytes())
+        // a file that a power failure damages is computed again
+        output::to_file_unsynced(&file, self.text(index, curve).as_bytes())
     }
 
-    /// Removes the incomplete files of killed runs; nobody else may still be writing.
+    /// The content of a run's file: a line with the fingerprint of the study, the number of the combination,
+    /// the number of levels and the checksum of both this and the levels; the levels; `end`.
+    fn text(&self, index: usize, curve: &Curve) -> String {
+        let mut levels = String::new();
+        for Run { intensity, demand, overturning } in curve.runs() {
+            // writing to a String cannot fail
+            let _ = writeln!(levels, "{intensity:?},{demand:?},{}", csv::optional(*overturning));
+        }
+        let head = format!("{} {index} {}", self.fingerprint, curve.runs().len());
+        let checksum = fingerprint(format!("{head}\n{levels}").as_bytes());
+        format!("{head} {checksum}\n{levels}end\n")
+    }
+
+    /// Warns of files that are there although their combinations are missing.
+    pub(super) fn warn_of_damage(&self, missing: &[usize]) {
+        let files: Vec<_> =
+            missing.iter().map(|&index| self.run_file(index)).filter(|f| f.exists()).collect();
+        if let Some(first) = files.first() {
+            output::warn(&format!(
+                "{} of {} run files are damaged or of another study and count as missing; the first is {}",
+                files.len(),
+                self.manifest.contents.count(),
+                first.display()
+            ));
+        }
+    }
+
+    /// Removes the incomplete files of killed processes, unless another process works on the folder.
     pub(super) fn sweep(&self) {
+        let Some(lock) = &self.lock else { return };
+        if lock.try_lock().is_ok() {
+            self.remove_parts();
+        }
+        // an attempt that fails may lose the shared lock too
+        let _ = lock.lock_shared();
+    }
+
+    fn remove_parts(&self) {
         let entries = |path: &Path| std::fs::read_dir(path).into_iter().flatten().flatten();
         let folders = entries(&self.path.join(RUNS)).map(|entry| entry.path());
         for folder in folders.chain([self.path.clone()]) {
@@ -275,4 +326,14 @@ impl Folder {
             }
         }
     }
+}
+
+/// Reads a line of a run's file: an intensity, a demand and, of a wall that overturned, the time.
+fn run(line: &str) -> Option<Run> {
+    let mut cells = line.split(',');
+    let mut number =
+        || cells.next()?.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    let (intensity, demand) = (number().filter(|intensity| *intensity > 0.0)?, number()?);
+    let overturning = if line.ends_with(',') { None } else { Some(number()?) };
+    Some(Run { intensity, demand, overturning })
 }

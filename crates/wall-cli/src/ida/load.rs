@@ -18,6 +18,8 @@ pub(super) struct Loaded {
     pub(super) title: String,
     pub(super) study: Study,
     pub(super) report: ReportOptions,
+    /// Files that it was read from.
+    pub(super) inputs: Vec<PathBuf>,
     /// What the walls and a quick check of the records warn of.
     pub(super) warnings: Vec<String>,
 }
@@ -32,23 +34,32 @@ pub(super) fn load(path: &Path) -> Result<Loaded> {
     let StudyFile { title, walls, records, models, measure, levels, tail, report } =
         StudyFile::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
-    let mut warnings = Vec::new();
-    let read = |entry| wall(entry, folder, &name, &mut warnings);
+    let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
+    let read = |entry| wall(entry, folder, &name, &mut inputs, &mut warnings);
     let walls = walls.into_iter().map(read).collect::<Result<Vec<_>>>()?;
-    let records = all_records(&records, folder, &name, &mut warnings)?;
+    let paths = record_files(&records, folder, &name)?;
+    let records = all_records(&records, &paths, &name, &mut warnings)?;
+    inputs.extend(paths);
     check_unique(walls.iter().map(|wall| &wall.name)).with_context(|| format!("{name}: walls"))?;
     check_unique(records.iter().map(|record| &record.name)).with_context(|| format!("{name}: records"))?;
     let study = Study::new(walls, records, models, measure, levels)
         .and_then(|study| study.with_tail(tail))
         .with_context(|| name.clone())?;
-    Ok(Loaded { title, study, report, warnings })
+    Ok(Loaded { title, study, report, inputs, warnings })
 }
 
-fn wall(entry: WallEntry, folder: &Path, study: &str, warnings: &mut Vec<String>) -> Result<NamedWall> {
+fn wall(
+    entry: WallEntry,
+    folder: &Path,
+    study: &str,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> Result<NamedWall> {
     let mut is_shaken = false;
     let (parameters, own_name) = match entry.source {
         WallSource::Inline(parameters) => (*parameters, String::new()),
         WallSource::Scene(path) => {
+            inputs.push(folder.join(&path));
             let scene = Scene::read(&folder.join(&path))
                 .with_context(|| format!("{study}, line {}: a wall's scene", entry.line))?;
             is_shaken = scene.excitation.is_some();
@@ -65,12 +76,8 @@ fn wall(entry: WallEntry, folder: &Path, study: &str, warnings: &mut Vec<String>
     Ok(NamedWall { name, parameters })
 }
 
-fn all_records(
-    entry: &RecordsEntry,
-    folder: &Path,
-    study: &str,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<NamedRecord>> {
+/// Lists the record files of a study, in the order of its patterns.
+fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<PathBuf>> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (pattern, line) in &entry.files {
         let found =
@@ -78,17 +85,25 @@ fn all_records(
         // a file that two patterns match is one record
         paths.extend(found.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
     }
+    Ok(paths)
+}
+
+fn all_records(
+    entry: &RecordsEntry,
+    paths: &[PathBuf],
+    study: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<NamedRecord>> {
     let short =
         |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
-    for path in &paths {
+    for path in paths {
         *uses.entry(short(path)).or_default() += 1;
     }
     let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
-    for path in &paths {
+    for path in paths {
         let record = read(path, &entry.options)?;
-        warnings
-            .extend(record.check().warnings.iter().map(|warning| format!("{}: {warning}", path.display())));
+        warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
         let motion = record.motion;
         let name = short(path);
         // files with equal names go by their whole paths

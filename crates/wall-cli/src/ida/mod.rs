@@ -5,7 +5,6 @@ mod columns;
 mod folder;
 mod load;
 mod page;
-mod progress;
 mod results;
 
 use std::fmt::Write;
@@ -21,10 +20,10 @@ use study::ida::{Exceedance, Study};
 use study::parallel;
 
 use crate::output;
+use crate::progress::Progress;
 
 use folder::Folder;
 use load::load;
-use progress::Progress;
 use results::Results;
 
 #[derive(Debug, Args)]
@@ -73,6 +72,10 @@ impl std::str::FromStr for Shard {
     }
 }
 
+/// Files of the results, beside one for each run.
+const FILES: [&str; 6] =
+    ["study.json", "levels.csv", "collapses.csv", "fragilities.csv", "study.html", "levels.parquet"];
+
 /// Most missing combinations that a message names.
 const NAMED: usize = 3;
 
@@ -83,20 +86,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
+    output::check_distinct(&loaded.inputs, &FILES.map(|name| path.join(name)))?;
     let folder = Folder::of_study(&path, &loaded.title, &loaded.study, &loaded.report)?;
-    for warning in &loaded.warnings {
-        output::warn(warning);
-    }
+    output::report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
     let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
     let mine: Vec<usize> = (0..loaded.study.count()).filter(|index| index % shards == shard).collect();
     let missing: Vec<usize> = mine.iter().copied().filter(|&index| folder.curve(index).is_none()).collect();
+    folder.warn_of_damage(&missing);
     let found = mine.len() - missing.len();
     if found > 0 {
         output::report(&format!("{found} of {} combinations are done already", mine.len()));
     }
     let words = work(&loaded.study, &folder, &missing, threads)?;
-    output::to_stdout(&words)?;
+    // results are worth more than words
+    let told = output::to_stdout(&words);
     if shards > 1 {
         let name = path.display();
         return output::to_stdout(&format!(
@@ -104,18 +108,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             shard + 1
         ));
     }
-    finish(&folder, threads)
+    finish(&folder, threads).and(told)
 }
 
 pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
-    let folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
-    let first = &folders[0].manifest;
+    let mut folders = arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>>>()?;
+    let first = folders[0].manifest.clone();
     for folder in &folders[1..] {
         folder.expect(&first.contents)?;
     }
-    let target = match (&arguments.output, folders.as_slice()) {
-        (Some(path), _) => Folder::like(path, first)?,
-        (None, [only]) => Folder::open(only.path())?,
+    let target = match (&arguments.output, folders.len()) {
+        (Some(path), _) => Folder::like(path, &first)?,
+        (None, 1) => folders.remove(0),
         (None, _) => bail!("several folders are merged into another; give it with -o FOLDER"),
     };
     let mut missing = Vec::new();
@@ -129,6 +133,9 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
         }
     }
     if !missing.is_empty() {
+        for folder in folders.iter().chain([&target]) {
+            folder.warn_of_damage(&missing);
+        }
         bail!("{}", missing_message(&target, &missing));
     }
     finish(&target, parallel::threads(None).get())
@@ -170,7 +177,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Re
     if missing.is_empty() {
         return Ok(String::new());
     }
-    let progress = Progress::new(missing.len());
+    let progress = Progress::new();
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
     let outcome = parallel::map(missing.len(), threads, |place| -> Result<()> {
@@ -187,7 +194,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], threads: usize) -> Re
             share.runs += runs;
             share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
         }
-        progress.add(runs);
+        progress.add(missing.len(), runs);
         Ok(())
     });
     progress.finish();

@@ -1,18 +1,16 @@
 //! A line on the terminal: how much is done, how fast, how long yet.
 
-#![allow(clippy::print_stderr, reason = "the line of progress")]
-
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
+
+use crate::output;
 
 const BAR: usize = 30;
 /// How often the line is written anew.
 const PAUSE: Duration = Duration::from_millis(200);
 
-pub(super) struct Progress {
-    /// Combinations to run.
-    total: usize,
+pub(crate) struct Progress {
     start: Instant,
     state: Mutex<State>,
     shown: bool,
@@ -25,41 +23,41 @@ struct State {
 }
 
 impl Progress {
-    pub(super) fn new(total: usize) -> Self {
+    pub(crate) fn new() -> Self {
         let now = Instant::now();
         let state = Mutex::new(State { done: 0, runs: 0, written: now });
-        Self { total, start: now, state, shown: std::io::stderr().is_terminal() }
+        Self { start: now, state, shown: std::io::stderr().is_terminal() }
     }
 
-    /// One more combination of so many runs is finished.
-    pub(super) fn add(&self, runs: usize) {
+    /// One more of all parts is finished, with a number of runs.
+    pub(crate) fn add(&self, total: usize, runs: usize) {
         let Ok(mut state) = self.state.lock() else { return };
         state.done += 1;
         state.runs += runs;
         let now = Instant::now();
-        if self.shown && (now - state.written >= PAUSE || state.done == self.total) {
+        if self.shown && (now - state.written >= PAUSE || state.done == total) {
             state.written = now;
             let seconds = (now - self.start).as_secs_f64();
-            let left = seconds / state.done as f64 * (self.total - state.done) as f64;
-            let full = BAR * state.done / self.total;
-            eprint!(
-                "\r[{}{}] {}/{}  {:.0} runs/s  {} left   ",
+            let left = seconds / state.done as f64 * (total - state.done) as f64;
+            let full = BAR * state.done / total;
+            let rate = match state.runs {
+                0 => String::new(),
+                runs => format!("  {:.0} runs/s", runs as f64 / seconds),
+            };
+            output::to_stderr(&format!(
+                "\r[{}{}] {}/{total}{rate}  {} left   ",
                 "#".repeat(full),
                 "-".repeat(BAR - full),
                 state.done,
-                self.total,
-                state.runs as f64 / seconds,
                 words(left)
-            );
-            // a terminal that is gone is no reason to stop
-            let _ = std::io::stderr().flush();
+            ));
         }
     }
 
     /// Ends the line.
-    pub(super) fn finish(&self) {
-        if self.shown && self.total > 0 {
-            eprintln!();
+    pub(crate) fn finish(&self) {
+        if self.shown && self.state.lock().is_ok_and(|state| state.done > 0) {
+            output::to_stderr("\n");
         }
     }
 }

@@ -1,0 +1,141 @@
+//! Text for people: stdout and stderr.
+
+use std::fmt::Write as _;
+use std::io::{self, ErrorKind, Write as _};
+
+use anyhow::{Context, Result};
+
+/// Most lines and characters of a message, and most messages of one kind.
+const MOST_LINES: usize = 9;
+const MOST_CHARACTERS: usize = 2000;
+const MOST_MESSAGES: usize = 7;
+
+/// Prints to stdout. A closed pipe or a lost terminal is no error: nobody reads what is missing.
+pub(crate) fn to_stdout(text: &str) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe && !is_lost_terminal(&error) => {
+            Err(error).context("stdout")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Returns whether stdout was a terminal that has gone: such a device answers with an input/output error.
+#[cfg(unix)]
+fn is_lost_terminal(error: &io::Error) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    const EIO: i32 = 5;
+    let is_device = || {
+        let metadata = std::fs::metadata("/dev/stdout");
+        // the name of a lost terminal may be gone too
+        metadata.map_or(true, |metadata| metadata.file_type().is_char_device())
+    };
+    error.raw_os_error() == Some(EIO) && is_device()
+}
+
+#[cfg(not(unix))]
+fn is_lost_terminal(_: &io::Error) -> bool {
+    false
+}
+
+/// Writes to stderr; a closed pipe or a lost terminal is no reason to stop.
+pub(crate) fn to_stderr(text: &str) {
+    let mut stderr = io::stderr().lock();
+    let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+}
+
+/// Writes out the characters that a terminal obeys, as JSON does: control characters other than line ends and
+/// tabs, and marks that reorder text.
+fn printable(text: &str) -> String {
+    let is_obeyed = |c: char| match c {
+        '\n' | '\t' => false,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        c => c.is_control(),
+    };
+    let mut printable = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_obeyed(c) {
+            // writing to a String cannot fail
+            let _ = write!(printable, "\\u{:04x}", u32::from(c));
+        } else {
+            printable.push(c);
+        }
+    }
+    printable
+}
+
+/// Joins an error and its causes, outermost first, without a cause that the text before it ends with.
+pub(crate) fn message(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if !text.ends_with(&cause) {
+            text = if text.is_empty() { cause } else { format!("{text}: {cause}") };
+        }
+    }
+    text
+}
+
+/// Writes a number as people do: without the noise of rounding, and with a power of ten where it is far
+/// from 1.
+pub(crate) fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    if rounded == 0.0 || (1e-6..1e9).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// Writes the numbers of a message that have more digits than people write as [`number`] does; words that
+/// hold digits, such as names of files, stay.
+fn with_short_numbers(message: &str) -> String {
+    const MOST_DIGITS: usize = 15;
+    let is_boundary = |c: char| !(c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | '+' | '/' | '\\'));
+    let shortened = |part: &str| {
+        let (word, boundary) = part.split_at(part.trim_end_matches(is_boundary).len());
+        let digits = word.chars().filter(char::is_ascii_digit).count();
+        let is_number = word.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-'));
+        match word.parse::<f64>() {
+            Ok(value) if is_number && digits > MOST_DIGITS => number(value) + boundary,
+            _ => part.to_owned(),
+        }
+    };
+    message.split_inclusive(is_boundary).map(shortened).collect()
+}
+
+/// Leaves out the middle of a long message, and the end of one with many lines.
+fn bounded(message: &str) -> String {
+    let lines: Vec<&str> = message.lines().collect();
+    let text = match lines.get(..MOST_LINES) {
+        Some(first) if lines.len() > MOST_LINES => first[..MOST_LINES - 1].join("\n") + "\n…",
+        _ => lines.join("\n"),
+    };
+    let characters: Vec<char> = text.chars().collect();
+    if characters.len() <= MOST_CHARACTERS {
+        return text;
+    }
+    let (head, tail) = (MOST_CHARACTERS * 2 / 3, MOST_CHARACTERS / 3 - 3);
+    let [head, tail] = [&characters[..head], &characters[characters.len() - tail..]];
+    head.iter().chain(&[' ', '…', ' ']).chain(tail).collect()
+}
+
+/// Tells the user something, such as an error.
+pub(crate) fn report(message: &str) {
+    to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
+}
+
+/// Warns the user of something that does not stop the work.
+pub(crate) fn warn(message: &str) {
+    report(&format!("warning: {message}"));
+}
+
+/// Reports messages of one kind: the first ones, and the number of the others.
+pub(crate) fn report_all(messages: impl IntoIterator<Item = String>) {
+    let mut messages = messages.into_iter();
+    messages.by_ref().take(MOST_MESSAGES).for_each(|message| report(&message));
+    let more = messages.count();
+    if more > 0 {
+        report(&format!("{more} more messages like these"));
+    }
+}

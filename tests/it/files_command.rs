@@ -1,0 +1,240 @@
+//! What the program `wall` writes: files in place of others, and text on a terminal.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use crate::command_line::{folder, refused, text, wall};
+
+const SCENE: &str = "title = \"A wall\"\nstop_time = 1\n[geometry]\nheight = 3\n";
+
+fn scene(name: &str) -> std::path::PathBuf {
+    let folder = folder(name);
+    fs::write(folder.join("s.toml"), SCENE).unwrap();
+    folder
+}
+
+fn succeed(folder: &Path, arguments: &[&str]) -> Output {
+    let output = wall(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    output
+}
+
+/// A record that leaves the ground at rest.
+const RECORD: &str = "time,a_g\n0,0\n0.1,0.1\n0.2,0\n0.3,-0.2\n0.4,0\n0.5,0.1\n0.6,0\n";
+
+#[test]
+fn an_output_is_no_input_and_no_other_output() {
+    let folder = scene("outputs_inputs");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    write("r.csv", RECORD);
+    write("shaken.toml", "[motion]\nrecord = \"r.csv\"\nunit = \"g\"\n");
+    fs::hard_link(folder.join("r.csv"), folder.join("same.csv")).unwrap();
+    let record = ["--record", "r.csv", "--unit", "g"];
+    let cases: [(&[&str], &[&str]); 8] = [
+        (&["simulate", "s.toml", "--csv", "s.toml"], &["s.toml", "the input s.toml"]),
+        (&["simulate", "s.toml", "--csv", "x", "--html", "./x"], &["./x", "the output x"]),
+        (&["simulate", "shaken.toml", "--csv", "r.csv"], &["the input", "r.csv"]),
+        (&[&["simulate", "--html", "r.csv"], &record[..]].concat(), &["the input r.csv"]),
+        (&[&["motion", "--csv", "same.csv"], &record[..]].concat(), &["same.csv", "the input r.csv"]),
+        (&["describe", "s.toml", "--csv", "y.svg", "--plot", "y.svg"], &["the output y.svg"]),
+        (&["record", "r.csv", "--unit", "g", "--csv", "r.csv"], &["the input r.csv"]),
+        (&["package", "s.toml", "-o", "s.toml", "--base", "b.fmu"], &["the input s.toml"]),
+    ];
+    for (arguments, words) in cases {
+        refused(&folder, arguments, words);
+        assert_eq!(fs::read_to_string(folder.join("s.toml")).unwrap(), SCENE, "{arguments:?}");
+        assert_eq!(fs::read_to_string(folder.join("r.csv")).unwrap(), RECORD, "{arguments:?}");
+    }
+    // the results of a study beside a record of the same name
+    write("study.toml", "[[walls]]\nscene = \"s.toml\"\n[records]\nfiles = [\"levels.csv\"]\nunit = \"g\"\n");
+    let study = fs::read_to_string(folder.join("study.toml")).unwrap();
+    write(
+        "study.toml",
+        &format!("models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [0.1] }}\n{study}"),
+    );
+    write("levels.csv", RECORD);
+    refused(&folder, &["ida", "study.toml", "-o", "."], &["levels.csv", "the input"]);
+    // devices and pipes may be shared
+    #[cfg(unix)]
+    succeed(&folder, &["simulate", "s.toml", "--csv", "/dev/null", "--html", "/dev/null"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_stands_at_the_path_of_an_output_stays() {
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+    let folder = scene("outputs_stay");
+    let at = |name: &str| folder.join(name);
+    let kind = |path: &Path| fs::symlink_metadata(path).unwrap().file_type();
+    let run = |csv: &str| succeed(&folder, &["simulate", "s.toml", "--csv", csv]);
+
+    run("plain.csv");
+    let history = fs::read(at("plain.csv")).unwrap();
+    // a file keeps its permissions, a link stays and its target is written, also one that is not there yet
+    fs::set_permissions(at("plain.csv"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("plain.csv", at("link.csv")).unwrap();
+    symlink("new.csv", at("to_new.csv")).unwrap();
+    fs::write(at("plain.csv"), "old").unwrap();
+    run("link.csv");
+    run("to_new.csv");
+    assert!(kind(&at("link.csv")).is_symlink() && kind(&at("to_new.csv")).is_symlink());
+    assert_eq!(fs::metadata(at("plain.csv")).unwrap().permissions().mode() & 0o777, 0o640);
+    assert!(fs::read(at("plain.csv")).unwrap() == history && fs::read(at("new.csv")).unwrap() == history);
+
+    // a pipe and a device take the bytes and stay
+    assert!(Command::new("mkfifo").arg(at("pipe")).status().unwrap().success());
+    let path = at("pipe");
+    let reader = std::thread::spawn(move || fs::read(path).unwrap());
+    run("pipe");
+    assert!(reader.join().unwrap() == history && kind(&at("pipe")).is_fifo());
+    run("/dev/null");
+    assert!(kind(Path::new("/dev/null")).is_char_device());
+    let output = run("/dev/stdout");
+    assert!(output.stdout.starts_with(&history), "{}", text(&output.stdout));
+
+    // a folder is no file, and a full device takes nothing
+    fs::create_dir(at("taken")).unwrap();
+    refused(&folder, &["simulate", "s.toml", "--csv", "taken"], &["taken: cannot be written"]);
+    refused(&folder, &["simulate", "s.toml", "--csv", "/dev/full"], &["/dev/full: cannot be written"]);
+    let mut left: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["link.csv", "new.csv", "pipe", "plain.csv", "s.toml", "taken", "to_new.csv"]);
+}
+
+/// A stderr that cannot be written does not change the outcome.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_lost_stderr_does_not_end_the_program() {
+    let folder = scene("lost_stderr");
+    let full = || Stdio::from(fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
+    let status = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
+        command.current_dir(&folder).args(arguments).stdout(Stdio::null()).stderr(full()).status().unwrap()
+    };
+    assert_eq!(status(&["simulate", "none.toml"]).code(), Some(2));
+    // a wall that never comes to rest brings a warning
+    let arguments = ["simulate", "s.toml", "--set", "impact=restitution", "--set", "restitution=1"];
+    let arguments = [&arguments[..], &["--set", "restitution_source=given", "--csv", "x.csv"]].concat();
+    assert!(text(&succeed(&folder, &arguments).stderr).contains("warning"));
+    fs::remove_file(folder.join("x.csv")).unwrap();
+    assert_eq!(status(&arguments).code(), Some(0));
+    assert!(folder.join("x.csv").exists());
+}
+
+#[test]
+fn no_file_controls_the_terminal() {
+    let folder = folder("control");
+    let title = "title = \"red \\u001B[31m, back \\b\\r, CSI \\u009B2J, reversed \\u202Etxt\"\n";
+    fs::write(folder.join("s.toml"), format!("{title}stop_time = 1\n")).unwrap();
+    fs::write(folder.join("bad.toml"), "[geometry]\n\"\\u001B]0;title\\u0007\" = 1\n").unwrap();
+    let is_obeyed = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+    let shown = |arguments: &[&str]| {
+        let output = wall(&folder, arguments);
+        let shown = text(&output.stdout) + &text(&output.stderr);
+        assert!(!shown.contains(is_obeyed), "{arguments:?}: {shown:?}");
+        shown
+    };
+    let summary = shown(&["simulate", "s.toml"]);
+    assert!(summary.contains("red \\u001b[31m, back \\u0008\\u000d, CSI \\u009b2J, reversed \\u202etxt"));
+    assert!(shown(&["simulate", "bad.toml"]).contains("line 2"));
+    // the title in JSON stays what it is
+    let value: serde_json::Value = serde_json::from_str(&shown(&["simulate", "s.toml", "--json"])).unwrap();
+    assert_eq!(value["title"], "red \u{1b}[31m, back \u{8}\r, CSI \u{9b}2J, reversed \u{202e}txt");
+}
+
+#[test]
+fn messages_are_short() {
+    let folder = folder("short_messages");
+    let long = "x".repeat(100_000);
+    fs::write(folder.join("key.toml"), format!("[geometry]\n{long} = 1\n")).unwrap();
+    fs::write(folder.join("lines.toml"), format!("[geometry]\n\"{}\" = 1\n", "a\\n".repeat(1000))).unwrap();
+    let message = |arguments: &[&str]| {
+        let message = text(&wall(&folder, arguments).stderr);
+        assert!(message.lines().count() < 10, "{arguments:?}: {} lines", message.lines().count());
+        assert!(message.chars().count() <= 2000, "{arguments:?}: {} characters", message.chars().count());
+        message
+    };
+    assert!(message(&["simulate", "key.toml"]).contains("overburden"), "it says what is known");
+    message(&["simulate", "lines.toml"]);
+    let names: Vec<String> = (0..30).map(|k| format!("{k}.csv")).collect();
+    for name in &names {
+        fs::write(folder.join(name), "time,a\n0,0\n1,nan\n").unwrap();
+    }
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let told = message(&[&["record", "--unit", "g"], &names[..]].concat());
+    assert!(told.contains("0.csv") && told.contains("30 of 30 files could not be read"), "{told}");
+    // numbers as people write them
+    for (arguments, number) in [
+        (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
+        (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
+        (["simulate", "--stop-time", "1e300"], "--stop-time 1e300:"),
+        (["simulate", "--thresholds", "1e22"], "1e22 is not"),
+        (["simulate", "--set", "xi=10.000000000000002"], "limit 10"),
+    ] {
+        refused(&folder, &arguments, &[number]);
+    }
+}
+
+#[test]
+fn a_peak_acceleration_may_have_a_unit() {
+    let folder = folder("pga_unit");
+    let peak = |pga: &str| {
+        let arguments = ["motion", "--synthetic", "--pga", pga, "--csv", "motion.csv"];
+        let printed = text(&succeed(&folder, &arguments).stdout);
+        printed.split("peak ").nth(1).unwrap().to_owned()
+    };
+    assert_eq!(peak("2.5"), "2.5000 m/s²\n");
+    for (pga, expected) in
+        [("0.3g", "2.9420"), ("0.3 g", "2.9420"), ("250cm/s2", "2.5000"), ("2.5e2 gal", "2.5000")]
+    {
+        assert_eq!(peak(pga), format!("{expected} m/s²\n"), "{pga}");
+    }
+    for pga in ["0.3h", "g", "0.3g0", ""] {
+        let output = wall(&folder, &["motion", "--synthetic", "--pga", pga, "--csv", "x.csv"]);
+        let message = text(&output.stderr);
+        assert!(output.status.code() == Some(2) && message.contains("such as 0.3g"), "{pga}: {message}");
+    }
+}
+
+#[test]
+fn the_csv_of_a_motion_is_a_record_with_its_unit() {
+    let folder = folder("motion_csv");
+    succeed(&folder, &["motion", "--synthetic", "--csv", "a.csv"]);
+    succeed(&folder, &["motion", "--record", "a.csv", "--csv", "b.csv"]);
+    let [first, second] = ["a.csv", "b.csv"].map(|name| fs::read_to_string(folder.join(name)).unwrap());
+    assert!(first == second, "not read back as it was written");
+    // importers look for the column of the input
+    assert_eq!(first.lines().next().unwrap().split(',').nth(1), Some("a_g"));
+    let conflict = ["motion", "--record", "a.csv", "--unit", "g", "--csv", "c.csv"];
+    refused(&folder, &conflict, &["a.csv, line 1", "the stated unit g", "m/s2"]);
+}
+
+#[test]
+fn a_mistyped_key_gets_the_nearest_name() {
+    let folder = folder("mistyped");
+    for (content, words) in [
+        ("[geometry]\nhieght = 3\n", ["line 2", "did you mean \"height\"?"]),
+        ("[geomtry]\nheight = 3\n", ["line 1", "did you mean \"geometry\"?"]),
+        ("stop_tme = 3\n", ["line 1", "did you mean \"stop_time\"?"]),
+        ("[motion]\nrecrod = \"a\"\n", ["line 2", "did you mean \"record\"?"]),
+        ("inputs = [\"a_botom\"]\n", ["line 1", "did you mean \"a_bottom\"?"]),
+    ] {
+        fs::write(folder.join("s.toml"), content).unwrap();
+        refused(&folder, &["simulate", "s.toml"], &words);
+    }
+    refused(&folder, &["simulate", "--set", "thicknes=0.3"], &["did you mean \"thickness\"?"]);
+    let study = "models = [\"CR\"]\nlevels = { method = \"grid\", values = [0.1] }\n\
+                 records = { synthetic = { count = 1 } }\n";
+    for (content, words) in [
+        ("[[wals]]\nname = \"1\"\n", ["line 4", "did you mean \"walls\"?"]),
+        (
+            "[[walls]]\nname = \"1\"\n[walls.geometry]\ntickness = 1\n",
+            ["line 7", "did you mean \"thickness\"?"],
+        ),
+        ("[reprot]\nseed = 1\n", ["line 4", "did you mean \"report\"?"]),
+    ] {
+        fs::write(folder.join("study.toml"), format!("{study}{content}")).unwrap();
+        refused(&folder, &["ida", "study.toml", "-o", "new"], &words);
+    }
+}

@@ -1,0 +1,35 @@
+"""The program on a terminal: it shows its progress, and goes on when the terminal is lost."""
+
+import os
+import pty
+import re
+import subprocess
+
+import pytest
+
+STUDY = """
+models = ["CR", "CDC"]
+levels = { method = "grid", step = 0.01, top = 3 }
+records = { synthetic = { count = 60 } }
+walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "result"),
+    [(["reproduce"], "reproduction.html"), (["ida", "study.toml"], "study_results/levels.csv")],
+)
+def test_progress_is_shown_and_a_lost_terminal_changes_nothing(wall, tmp_path, arguments, result):
+    (tmp_path / "study.toml").write_text(STUDY)
+    ours, theirs = pty.openpty()
+    with subprocess.Popen([wall, *arguments], cwd=tmp_path, stdout=theirs, stderr=theirs) as process:
+        os.close(theirs)
+        shown = ""
+        while not (found := re.search(r"\[[#-]{30}\] (\d+)/(\d+)", shown)):
+            shown += os.read(ours, 1000).decode()
+        done, total = map(int, found.groups())
+        assert 0 < done < total, shown
+        assert process.poll() is None, "the terminal goes while the program runs"
+        os.close(ours)
+        assert process.wait() == 0
+    assert (tmp_path / result).stat().st_size > 10_000
