@@ -24,12 +24,7 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
             wall("scene = \"parapet.toml\"\nbottom = \"low\"\ntop = \"ground\"\ndrift = true"),
             &["line 8", "drift"],
         ),
-        (
-            "[[floor]]\nname = \"low\"\n\
-             [[wall]]\nname = \"floor\"\nscene = \"parapet.toml\"\nbottom = \"low\"\n"
-                .into(),
-            &["line 4", "floor", "choose another"],
-        ),
+        (FLOOR.into(), &["cargo xtask fmu", "--floor-fmu"]),
         (wall("scene = \"moved.toml\"\nbottom = \"low\""), &["moved.toml", "[motion]"]),
         // the option of this command, not that of `wall package`
         (wall("scene = \"parapet.toml\"\nbottom = \"low\""), &["cargo xtask fmu", "--wall-fmu"]),

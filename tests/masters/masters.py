@@ -18,14 +18,14 @@ from pathlib import Path
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from fmpy.ssp.simulation import simulate_ssp
-from fmpy.ssp.ssd import Parameter, ParameterSet, read_ssd
+from fmpy.ssp.ssd import read_ssd
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples/coupling"))
 from master import Archive, System, Unit  # noqa: E402
 
 
 class Building:
-    """An SSP, unpacked into a folder: FMUs, start values and connections by component."""
+    """An SSP, unpacked into a folder: FMUs and connections by component."""
 
     def __init__(self, path, folder):
         self.path, self.folder = path, Path(folder)
@@ -34,15 +34,6 @@ class Building:
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
         self.fmus = {element.name: Path(folder) / element.source for element in self.elements}
-        self.starts = {
-            element.name: {
-                parameter.name: float(parameter.value)
-                for binding in element.parameterBindings
-                for values in binding.parameterValues
-                for parameter in values.parameters
-            }
-            for element in self.elements
-        }
         self.connections = [
             (c.startElement, c.startConnector, c.endElement, c.endConnector)
             for c in description.system.connections
@@ -55,7 +46,7 @@ def own(building, step, steps, watched):
     with contextlib.ExitStack() as stack:
         for archive in archives.values():
             stack.enter_context(archive)
-        units = [Unit(archives[path], name, **building.starts[name]) for name, path in building.fmus.items()]
+        units = [Unit(archives[path], name) for name, path in building.fmus.items()]
         ends = [(f"{a}.{b}", f"{c}.{d}") for a, b, c, d in building.connections]
         system = System(units, ends)
         system.initialize(loop=False)
@@ -67,27 +58,19 @@ def own(building, step, steps, watched):
 
 
 def fmpy(building, step, steps, watched):
-    """Runs FMPy's `simulate_ssp`. It reads the bindings, but the caller has to apply them."""
-    parameters = ParameterSet(name="starts")
-    for name, starts in building.starts.items():
-        for key, value in starts.items():
-            parameter = Parameter(name=f"{name}.{key}")
-            parameter.value = value
-            parameters.parameters.append(parameter)
+    """Runs FMPy's `simulate_ssp`."""
     # half a step before the end: it adds up the time and stops at or beyond the end
-    result = simulate_ssp(
-        str(building.path), stop_time=(steps - 0.5) * step, step_size=step, parameter_set=parameters
-    )
+    result = simulate_ssp(str(building.path), stop_time=(steps - 0.5) * step, step_size=step)
     return np.array([result[name] for name in watched]).T
 
 
 def ecos(building, step, steps, watched):
-    """Runs Ecos. It needs the name of the parameter set, and libtbb from the system or the package `tbb`."""
+    """Runs Ecos. It needs libtbb from the system or the package `tbb`."""
     load_tbb()
     from ecospy import EcosSimulation
 
     with EcosSimulation(ssp_path=str(building.path), step_size=step) as simulation:
-        assert simulation.init(parameter_set="initialValues")
+        assert simulation.init()
         history = []
         for _ in range(steps):
             simulation.step()
@@ -146,11 +129,6 @@ def container(building, step, steps, watched):
         "link": [[files[a], b, files[c], d] for a, b, c, d in building.connections],
         "output": [
             [files[name.split(".")[0]], name.split(".")[1], name.replace(".", "_")] for name in watched
-        ],
-        "start": [
-            [files[name], key, value]
-            for name, starts in building.starts.items()
-            for key, value in starts.items()
         ],
     }  # fmt: skip
     (folder / "building.json").write_text(json.dumps(description))

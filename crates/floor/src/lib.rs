@@ -41,6 +41,7 @@ mod inputs;
 pub mod motion;
 mod piece;
 pub mod unit;
+mod values;
 pub mod variables;
 
 #[cfg(feature = "fmu")]

@@ -6,6 +6,7 @@ use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
 use crate::inputs::{Base, Input, Inputs, wall_of};
 use crate::motion::{Load, State};
+use crate::values;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
     integer_parameter, real_parameter,
@@ -33,7 +34,11 @@ impl Unit {
     /// # Errors
     /// None for a description whose start values make a floor.
     pub fn new() -> Result<Self, Failure> {
-        let parameters = Parameters::default();
+        Self::of(Parameters::default())
+    }
+
+    /// A floor with these parameters as its start values.
+    fn of(parameters: Parameters) -> Result<Self, Failure> {
         let floor = build(&parameters)?;
         let mut unit = Self {
             parameters,
@@ -155,10 +160,8 @@ impl Model for Unit {
     const PAYLOAD: &'static str = "floor.toml";
 
     fn instantiate(environment: Environment<'_>, _log: &mut Log<'_>) -> Result<Self, Failure> {
-        if environment.payload.is_some() {
-            return Err("a floor is set by its parameters; it reads no resources/floor.toml".into());
-        }
-        Ok(Self { interface: environment.interface, ..Self::new()? })
+        let parameters = environment.payload.map_or_else(|| Ok(Parameters::default()), values::read)?;
+        Ok(Self { interface: environment.interface, ..Self::of(parameters)? })
     }
 
     #[allow(clippy::match_same_arms, reason = "four walls to a line")]

@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
     }
-    let (archive, counts) = of_scene(&scene, &arguments.base, "--base")?;
+    let (archive, counts, _) = of_scene(&scene, General::open(&arguments.base, "--base")?)?;
     output::to_file(&arguments.output, &archive.to_bytes()?)?;
     output::to_stdout(&format!(
         "{}: {}, {} of {} variables\n",
@@ -66,40 +66,63 @@ pub(crate) struct Counts {
     all: usize,
 }
 
-/// The FMU of a scene, made from the general one at `path`, which the user names with `option`.
-pub(crate) fn of_scene(scene: &Scene, path: &Path, option: &str) -> Result<(Archive, Counts)> {
-    let mut archive = Archive::open(path).with_context(|| {
-        format!(
-            "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with {option}"
-        )
-    })?;
-    let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
-    let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
-    let base = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
-    let Some(guid) = base.declared_guid().strip_prefix('{').and_then(|guid| guid.strip_suffix('}')) else {
-        bail!("{}: its guid {} is not of a general FMU", path.display(), base.declared_guid());
-    };
-    if guid.contains('-') {
-        bail!("{}: is itself an FMU of a scene; give the general one with {option}", path.display());
+/// The general FMU of a model.
+pub(crate) struct General {
+    pub(crate) archive: Archive,
+    pub(crate) description: Description,
+    /// Without braces.
+    guid: String,
+}
+
+impl General {
+    /// Opens the general FMU at `path`, which the user names with `option`.
+    pub(crate) fn open(path: &Path, option: &str) -> Result<Self> {
+        let archive = Archive::open(path).with_context(|| {
+            format!(
+                "the general FMU is missing or damaged; make it with `cargo xtask fmu`, or name it with \
+                 {option}"
+            )
+        })?;
+        let xml = archive.get("modelDescription.xml").context("the base FMU has no modelDescription.xml")?;
+        let xml = std::str::from_utf8(xml).context("modelDescription.xml of the base FMU is not UTF-8")?;
+        let description = Description::parse(xml).context("modelDescription.xml of the base FMU")?;
+        let guid = description.declared_guid();
+        let Some(guid) = guid.strip_prefix('{').and_then(|guid| guid.strip_suffix('}')) else {
+            bail!("{}: its guid {guid} is not of a general FMU", path.display());
+        };
+        if guid.contains('-') {
+            bail!("{}: is itself an FMU of a scene; give the general one with {option}", path.display());
+        }
+        let guid = guid.to_owned();
+        Ok(Self { archive, description, guid })
     }
+
+    /// Returns the guid of the FMU that contains a payload.
+    pub(crate) fn guid_with(&self, payload: &str) -> String {
+        format!("{{{}-{}}}", self.guid, scene::fingerprint(payload.as_bytes()))
+    }
+}
+
+/// Makes the FMU of a scene from the general one. Returns its `resources/scene.toml` too.
+pub(crate) fn of_scene(scene: &Scene, mut general: General) -> Result<(Archive, Counts, String)> {
     let mut motion = String::new();
     if let Some(excitation) = &scene.excitation {
-        motion = motion_table(&mut archive, "motion", excitation.bottom());
+        motion = motion_table(&mut general.archive, "motion", excitation.bottom());
         // the tail is in stop_time
         motion.push_str("tail = 0.0\n");
         if let Some(top) = excitation.top() {
-            let table = motion_table(&mut archive, "motion_top", top);
+            let table = motion_table(&mut general.archive, "motion_top", top);
             motion.push_str("\n[motion.top]\n");
             motion.push_str(&table);
         }
     }
     let text = scene::to_toml(scene, &motion);
-    let guid = format!("{{{guid}-{}}}", scene::fingerprint(text.as_bytes()));
-    let reduced = reduce(&base, scene, &guid)?;
-    archive.insert("resources/scene.toml", text);
+    let reduced = reduce(&general.description, scene, &general.guid_with(&text))?;
+    let General { mut archive, description, .. } = general;
+    archive.insert("resources/scene.toml", text.as_str());
     archive.insert("modelDescription.xml", reduced.to_xml());
-    let counts = Counts { kept: reduced.variable_names().count(), all: base.variable_names().count() };
-    Ok((archive, counts))
+    let counts = Counts { kept: reduced.variable_names().count(), all: description.variable_names().count() };
+    Ok((archive, counts, text))
 }
 
 /// Puts a motion into the archive and returns the keys that read it.

@@ -1,6 +1,10 @@
 //! The linear floor against textbook solutions.
 
-use super::{Driven, assert_close};
+use fmi2_export::{Environment, Interface, Log, Model};
+use rocking_floor::unit::Unit;
+use rocking_floor::variables::{Hysteresis, IntegerVariable};
+
+use super::{Driven, assert_close, real};
 
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 2.0e7;
@@ -112,5 +116,35 @@ fn rest_stays_rest() {
     }
     for name in ["displacement", "velocity", "acceleration", "energy_damping", "impulse_bottom"] {
         assert_eq!(driven.get(name), 0.0, "{name}");
+    }
+}
+
+/// The FMU of a storey contains its values; what they do not state has its start value.
+#[test]
+fn a_floor_reads_the_values_inside_its_fmu() {
+    let made = |text: &str| {
+        let environment = Environment {
+            interface: Interface::CoSimulation,
+            instance_name: "storey",
+            resources: None,
+            payload: Some(text.as_bytes()),
+        };
+        Unit::instantiate(environment, &mut Log::silent()).map_err(|failure| failure.to_string())
+    };
+    let unit = made("mass = 2e3\n\n# yields\nhysteresis = \"bilinear\"\nvelocity_start = -0.3\n").unwrap();
+    assert_eq!(unit.real(real("mass")), 2000.0);
+    assert_eq!(unit.real(real("velocity")), -0.3);
+    assert_eq!(unit.real(real("stiffness")), Unit::new().unwrap().real(real("stiffness")));
+    assert_eq!(unit.integer(IntegerVariable::Hysteresis), Hysteresis::Bilinear.value());
+    for (text, words) in [
+        ("mass 3", ["line 1", "name = value"]),
+        ("\nmass = 0", ["line 2", "mass = 0"]),
+        ("mass = nan", ["line 1", "mass = nan"]),
+        ("a_g = 1", ["line 1", "a_g = 1"]),
+        ("hysteresis = \"cubic\"", ["line 1", "cubic"]),
+        ("colour = 1", ["line 1", "colour"]),
+    ] {
+        let message = made(text).err().unwrap();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
     }
 }

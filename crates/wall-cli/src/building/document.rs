@@ -9,9 +9,6 @@ use rocking_floor::variables::{IntegerVariable, RealVariable};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-/// Where the storeys' FMU lies in the archive.
-pub(super) const FLOOR_SOURCE: &str = "resources/floor.fmu";
-
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
 /// Largest file that is read.
@@ -41,15 +38,10 @@ pub(super) struct Floor {
 #[derive(Clone, Debug)]
 pub(super) struct Parameter {
     pub(super) name: &'static str,
-    pub(super) unit: Option<&'static str>,
-    pub(super) value: Start,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Start {
-    Real(f64),
-    /// An item of an enumeration.
-    Integer(i32),
+    /// As a TOML file has it: a number, or the name of a choice in quotes.
+    pub(super) text: String,
+    /// As a model description has it: a number, or that of a choice.
+    pub(super) start: String,
 }
 
 /// A wall and its place.
@@ -166,10 +158,6 @@ impl Building {
         let mut walls = Vec::new();
         for table in wall {
             check_name(&table.name, &mut names, source)?;
-            if fmu_path(table.name.get_ref()) == FLOOR_SOURCE {
-                let message = "\"floor\" is the name of the storeys' FMU; choose another name";
-                return Err(source.error(table.name.span(), message));
-            }
             walls.push(read_wall(table, &floors, source)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
@@ -177,9 +165,9 @@ impl Building {
     }
 }
 
-/// Where a wall's FMU lies in the archive.
-pub(super) fn fmu_path(wall: &str) -> String {
-    format!("resources/{wall}.fmu")
+/// Where a member's FMU lies in the archive.
+pub(super) fn fmu_path(name: &str) -> String {
+    format!("resources/{name}.fmu")
 }
 
 /// The most letters of a name, which becomes a file name.
@@ -252,7 +240,7 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
             names.join(", ")
         ));
     };
-    let start = match (variable.kind, value) {
+    let (text, start) = match (variable.kind, value) {
         (Kind::Real { min, max, .. }, Value::Float(_) | Value::Integer(_)) => {
             #[allow(
                 clippy::cast_precision_loss,
@@ -270,18 +258,19 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
                     limit(max)
                 ));
             }
-            Start::Real(number)
+            let text = format!("{number:?}");
+            (text.clone(), text)
         }
         (Kind::Enumeration { items, .. }, Value::String(text)) => {
             let item = items.iter().find(|item| item.name == text);
             let names: Vec<_> = items.iter().map(|item| item.name).collect();
             let item = item.ok_or_else(|| format!("{name} = {text:?} is not one of {}", names.join(", ")))?;
-            Start::Integer(item.value)
+            (format!("{text:?}"), item.value.to_string())
         }
         (Kind::Real { .. }, _) => return Err(format!("{name} must be a number")),
         _ => return Err(format!("{name} must be the name of a choice in quotes")),
     };
-    Ok(Parameter { name: variable.name, unit: variable.unit, value: start })
+    Ok(Parameter { name: variable.name, text, start })
 }
 
 fn support(key: &str, name: &Spanned<String>, floors: &[Floor], source: &Source<'_>) -> Result<Support> {

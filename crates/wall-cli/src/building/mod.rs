@@ -1,11 +1,11 @@
 //! `wall building`: storeys and walls as a system of FMUs, an SSP 1.0 archive.
 //!
-//! Each wall becomes the FMU of its scene, which contains its choices: importers do not agree on how an
-//! enumeration is set from outside. The storeys share `floor.fmu`; the system's description holds their
-//! numbers.
+//! Each wall becomes the FMU of its scene, and each storey an FMU with its values inside: importers do not
+//! agree on how an enumeration is set from outside, and some ignore the parameters of a system.
 
 mod document;
 mod ssd;
+mod trial;
 mod wiring;
 
 use std::path::{Path, PathBuf};
@@ -14,12 +14,15 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use fmi2_export::VariableId;
 use fmi2_export_build::archive::Archive;
+use fmi2_export_build::{DefaultExperiment, Reduction};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
-use rocking_wall::wall::Wall;
+use rocking_wall::wall::{Parameters, Wall};
 
+use crate::package::General;
 use crate::{output, package};
-use document::{Building, FLOOR_SOURCE, Member, fmu_path};
+use document::{Building, Floor, Member, fmu_path};
+use trial::Trial;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -43,26 +46,53 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let inputs = [&arguments.building, &arguments.wall_fmu, &arguments.floor_fmu];
     output::check_distinct(inputs.into_iter().chain(&scenes), [&arguments.output])?;
     let mut archive = Archive::default();
-    let mut scenes = Vec::with_capacity(building.walls.len());
+    let (mut scenes, mut walls, mut storeys) = (Vec::new(), Vec::new(), Vec::new());
     for wall in &building.walls {
-        let path = folder.join(&wall.scene);
-        let scene = scene(&path, wall).with_context(|| format!("wall {:?}", wall.name))?;
-        let (unit, _) = package::of_scene(&scene, &arguments.wall_fmu, "--wall-fmu")?;
+        let scene =
+            scene(&folder.join(&wall.scene), wall).with_context(|| format!("wall {:?}", wall.name))?;
+        let general = General::open(&arguments.wall_fmu, "--wall-fmu")?;
+        let (unit, _, payload) = package::of_scene(&scene, general)?;
         archive.insert(fmu_path(&wall.name), unit.to_bytes()?);
         scenes.push(scene);
+        walls.push(payload);
     }
-    if !building.floors.is_empty() {
-        archive.insert(FLOOR_SOURCE, floor_unit(&arguments.floor_fmu)?);
+    for floor in &building.floors {
+        let (unit, payload) = storey(&building, floor, &arguments.floor_fmu)?;
+        archive.insert(fmu_path(&floor.name), unit.to_bytes()?);
+        storeys.push(payload);
     }
     let system = wiring::system(&building, &scenes)?;
+    let trial = trial::trial(&building, &system, &[storeys, walls].concat())?;
     archive.insert("SystemStructure.ssd", ssd::text(&system));
     output::to_file(&arguments.output, &archive.to_bytes()?)?;
     let (units, connections) = (system.components.len(), system.connections.len());
     output::to_stdout(&format!(
-        "{}: {}, {units} units, {connections} connections\n",
+        "{}: {}, {units} units, {connections} connections\n{}",
         arguments.output.display(),
-        system.title
+        system.title,
+        advice(&trial, building.step)
     ))
+}
+
+/// Says which steps the building needs.
+fn advice(trial: &Trial, stated: f64) -> String {
+    let milliseconds = |step: f64| format!("{} ms", (1e9 * step).round() / 1e6);
+    let found = |step: Option<f64>| {
+        step.map_or_else(|| format!("none down to {}", milliseconds(trial.least)), milliseconds)
+    };
+    let motion = if trial.is_shaken { "under a pulse of the ground" } else { "from its start values" };
+    let mut text = format!(
+        "step for an error of 1 % of the peak of each u, displacement and acceleration, in a run of {} s\n\
+         {motion}, by a master that passes all outputs on at once:\n\
+         held inputs    {}\nlinear inputs  {}\n",
+        trial.duration,
+        found(trial.held),
+        found(trial.linear)
+    );
+    if trial.held.is_none_or(|held| stated > held) {
+        text += &format!("the file states {}, which is too long for held inputs\n", milliseconds(stated));
+    }
+    text
 }
 
 /// The scene of a wall, with the inputs that its place in the building moves.
@@ -99,21 +129,41 @@ fn scene(path: &Path, wall: &Member) -> Result<Scene> {
     Ok(scene)
 }
 
-/// The general FMU of storeys.
-fn floor_unit(path: &Path) -> Result<Vec<u8>> {
-    let archive = Archive::open(path).with_context(|| {
-        "the FMU of storeys is missing or damaged; make it with `cargo xtask fmu`, or name it with \
-            --floor-fmu"
-    })?;
-    let description = archive.get("modelDescription.xml").unwrap_or_default();
-    let description = fmi2_export_build::Description::parse(&String::from_utf8_lossy(description))
-        .with_context(|| path.display().to_string())?;
-    if description.model_identifier() != "floor" {
-        let found = description.model_identifier();
+/// The FMU of a storey and its `resources/floor.toml`, made from the general one.
+fn storey(building: &Building, floor: &Floor, path: &Path) -> Result<(Archive, String)> {
+    let general = General::open(path, "--floor-fmu")?;
+    if general.description.model_identifier() != "floor" {
+        let found = general.description.model_identifier();
         bail!(
             "{}: is the FMU of `{found}`, not of a floor; name the right one with --floor-fmu",
             path.display()
         );
     }
-    Ok(archive.to_bytes()?)
+    let payload: String = floor
+        .parameters
+        .iter()
+        .map(|parameter| format!("{} = {}\n", parameter.name, parameter.text))
+        .collect();
+    let starts: Vec<_> = floor
+        .parameters
+        .iter()
+        .map(|parameter| (parameter.name.to_owned(), parameter.start.clone()))
+        .collect();
+    let reduced = general.description.reduced(&Reduction {
+        model_name: &floor.name,
+        description: &format!("Storey of: {}", building.title),
+        guid: &general.guid_with(&payload),
+        keep: &|_| true,
+        starts: &starts,
+        experiment: DefaultExperiment {
+            start: 0.0,
+            stop: building.stop_time,
+            step: building.step,
+            tolerance: Parameters::default().tolerance,
+        },
+    })?;
+    let mut archive = general.archive;
+    archive.insert("resources/floor.toml", payload.as_str());
+    archive.insert("modelDescription.xml", reduced.to_xml());
+    Ok((archive, payload))
 }

@@ -1,15 +1,13 @@
-//! The system's description as XML: SSP 1.0, with types, units and start values inside.
+//! The system's description as XML: SSP 1.0, with types and units inside.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::document::Start;
 use super::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
 
-const NAMESPACES: [(&str, &str); 5] = [
+const NAMESPACES: [(&str, &str); 4] = [
     ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
     ("ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription"),
-    ("ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues"),
     // the step for libcosim
     ("osp", "http://opensimulationplatform.com/SSP/OSPAnnotations"),
     // the step for OMSimulator
@@ -89,33 +87,13 @@ fn write(xml: &mut String, system: &System) -> std::fmt::Result {
 }
 
 fn write_component(xml: &mut String, component: &Component) -> std::fmt::Result {
-    let Component { name, source, connectors, parameters } = component;
+    let Component { name, source, connectors } = component;
     write!(xml, "      <ssd:Component name=\"{name}\" type=\"application/x-fmu-sharedlibrary\"")?;
     writeln!(xml, " source=\"{source}\" implementation=\"CoSimulation\">\n        <ssd:Connectors>")?;
     for connector in connectors {
         write_connector(xml, "          ", connector)?;
     }
     writeln!(xml, "        </ssd:Connectors>")?;
-    if !parameters.is_empty() {
-        writeln!(xml, "        <ssd:ParameterBindings>\n          <ssd:ParameterBinding>")?;
-        writeln!(xml, "            <ssd:ParameterValues>")?;
-        writeln!(xml, "              <ssv:ParameterSet version=\"1.0\" name=\"initialValues\">")?;
-        writeln!(xml, "                <ssv:Parameters>")?;
-        for parameter in parameters {
-            let value = match (parameter.value, parameter.unit) {
-                (Start::Real(value), Some(unit)) => {
-                    format!("<ssv:Real value=\"{value:?}\" unit=\"{unit}\"/>")
-                }
-                (Start::Real(value), None) => format!("<ssv:Real value=\"{value:?}\"/>"),
-                (Start::Integer(value), _) => format!("<ssv:Integer value=\"{value}\"/>"),
-            };
-            let name = parameter.name;
-            writeln!(xml, "                  <ssv:Parameter name=\"{name}\">{value}</ssv:Parameter>")?;
-        }
-        writeln!(xml, "                </ssv:Parameters>\n              </ssv:ParameterSet>")?;
-        writeln!(xml, "            </ssd:ParameterValues>\n          </ssd:ParameterBinding>")?;
-        writeln!(xml, "        </ssd:ParameterBindings>")?;
-    }
     writeln!(xml, "      </ssd:Component>")
 }
 
@@ -123,7 +101,6 @@ fn write_connector(xml: &mut String, indent: &str, connector: &Connector) -> std
     let direction = match connector.direction {
         Direction::Input => "input",
         Direction::Output => "output",
-        Direction::Parameter => "parameter",
     };
     let kind = match connector.kind {
         ConnectorKind::Real(Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
@@ -135,7 +112,7 @@ fn write_connector(xml: &mut String, indent: &str, connector: &Connector) -> std
     writeln!(xml, "{indent}<ssd:Connector name=\"{name}\" kind=\"{direction}\">{kind}</ssd:Connector>")
 }
 
-/// The units that connectors and values name.
+/// The units that connectors name.
 fn write_units(xml: &mut String, system: &System) -> std::fmt::Result {
     let connectors = system.components.iter().flat_map(|component| &component.connectors);
     let mut used: BTreeSet<&str> = connectors

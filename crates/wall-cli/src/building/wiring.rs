@@ -6,7 +6,7 @@ use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable};
 
-use super::document::{Building, FLOOR_SOURCE, Floor, Member, Parameter, Start, Support, fmu_path};
+use super::document::{Building, Floor, Member, Support, fmu_path};
 
 /// Inputs of a floor for what stands on it.
 const MOST_LOADS: usize = 8;
@@ -35,14 +35,12 @@ pub(super) struct Component {
     pub(super) name: String,
     pub(super) source: String,
     pub(super) connectors: Vec<Connector>,
-    pub(super) parameters: Vec<Parameter>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     Input,
     Output,
-    Parameter,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,25 +70,16 @@ pub(super) struct Connection {
 
 /// Components, storeys first, and their connections.
 pub(super) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
-    let floors = building.floors.iter().map(|floor| Component {
-        name: floor.name.clone(),
-        source: FLOOR_SOURCE.to_owned(),
-        connectors: Vec::new(),
-        parameters: floor.parameters.clone(),
-    });
-    let walls = building.walls.iter().map(|wall| Component {
-        name: wall.name.clone(),
-        source: fmu_path(&wall.name),
-        connectors: Vec::new(),
-        // its scene has them
-        parameters: Vec::new(),
-    });
+    let names = building.floors.iter().map(|floor| &floor.name);
+    let names = names.chain(building.walls.iter().map(|wall| &wall.name));
+    let component =
+        |name: &String| Component { name: name.clone(), source: fmu_path(name), connectors: Vec::new() };
     let mut system = System {
         title: building.title.clone(),
         stop_time: building.stop_time,
         step: building.step,
         expose_ground: building.expose_ground,
-        components: floors.chain(walls).collect(),
+        components: names.map(component).collect(),
         connections: Vec::new(),
     };
     let mut loads = Loads { taken: vec![0; building.floors.len()], floors: &building.floors };
@@ -159,7 +148,7 @@ impl System {
         Ok(())
     }
 
-    /// The connectors of each component: what is connected, set, or worth showing.
+    /// The connectors of each component: what is connected, or worth showing.
     fn list_connectors(&mut self, building: &Building, scenes: &[Scene]) {
         let floors = building.floors.len();
         let shown = |variable: &'static Variable, direction| Connector {
@@ -193,17 +182,6 @@ impl System {
             }
             if !is_floor && scenes[index - floors].uses("overturned") {
                 component.connectors.push(shown(BooleanVariable::Overturned.variable(), Direction::Output));
-            }
-            for parameter in &component.parameters {
-                let kind = match parameter.value {
-                    Start::Real(_) => ConnectorKind::Real(parameter.unit),
-                    Start::Integer(_) => ConnectorKind::Integer,
-                };
-                component.connectors.push(Connector {
-                    name: parameter.name,
-                    direction: Direction::Parameter,
-                    kind,
-                });
             }
         }
     }
