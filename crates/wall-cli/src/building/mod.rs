@@ -8,6 +8,7 @@ mod ssd;
 mod trial;
 mod wiring;
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -21,7 +22,7 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use crate::package::General;
 use crate::{output, package};
-use document::{Building, Floor, Member, fmu_path};
+use document::{Building, Floor, Member, Parameter, fmu_path};
 use trial::Trial;
 
 #[derive(Debug, Args)]
@@ -90,7 +91,8 @@ fn advice(trial: &Trial, stated: f64) -> String {
         found(trial.linear)
     );
     if trial.held.is_none_or(|held| stated > held) {
-        text += &format!("the file states {}, which is too long for held inputs\n", milliseconds(stated));
+        // writing to a String cannot fail
+        let _ = writeln!(text, "the file states {}, which is too long for held inputs", milliseconds(stated));
     }
     text
 }
@@ -139,11 +141,10 @@ fn storey(building: &Building, floor: &Floor, path: &Path) -> Result<(Archive, S
             path.display()
         );
     }
-    let payload: String = floor
-        .parameters
-        .iter()
-        .map(|parameter| format!("{} = {}\n", parameter.name, parameter.text))
-        .collect();
+    let mut payload = String::new();
+    for Parameter { name, text, .. } in &floor.parameters {
+        let _ = writeln!(payload, "{name} = {text}");
+    }
     let starts: Vec<_> = floor
         .parameters
         .iter()
