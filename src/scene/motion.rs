@@ -189,7 +189,7 @@ fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
         None => format!("peak acceleration {:.4} m/s²", bottom.peak()),
     };
     let excitation = Excitation::new(bottom, top);
-    notes.push(format!("{peak}, {} s", excitation.duration()));
+    notes.push(format!("{peak}, {} s", (1e4 * excitation.duration()).round() / 1e4));
     let files = spec.record.iter().chain(spec.top.as_ref().map(|top| &top.record));
     let records = files.map(|file| folder.join(file)).collect();
     Ok(Loaded { excitation, tail, notes, records })

@@ -165,6 +165,10 @@ fn messages_are_short() {
     let told = message(&[&["record", "--unit", "g"], &names[..]].concat());
     assert!(told.contains("0.csv") && told.contains("30 of 30 files could not be read"), "{told}");
     // numbers as people write them
+    let pulse = "[motion.ricker]\namplitude = 1\nfrequency = 0.3\ncentre = 4\n";
+    fs::write(folder.join("pulse.toml"), pulse).unwrap();
+    let summary = text(&succeed(&folder, &["simulate", "pulse.toml"]).stdout);
+    assert!(summary.split(|c: char| !c.is_ascii_digit()).all(|digits| digits.len() < 8), "{summary}");
     for (arguments, number) in [
         (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
         (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),

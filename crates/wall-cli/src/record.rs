@@ -182,7 +182,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
             row.name(),
             row.record.format.description(),
             motion.samples().len(),
-            significant(motion.step()),
+            output::number(motion.step(), 6),
             motion.duration(),
             row.peak(),
             row.average
@@ -193,7 +193,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
         text.push('\n');
     }
     let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let percent = significant(100.0 * arguments.damping);
+    let percent = output::number(100.0 * arguments.damping, 6);
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
         for warning in &row.check.warnings {
@@ -226,11 +226,6 @@ fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
         Ok(records::Record { name: row.name(), history, spectrum: points, is_vertical })
     };
     Ok(records::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
-}
-
-/// A number to six digits, without trailing zeros.
-fn significant(number: f64) -> String {
-    format!("{number:.5e}").parse::<f64>().unwrap_or(number).to_string()
 }
 
 fn csv(rows: &[Row], periods: &[f64]) -> String {

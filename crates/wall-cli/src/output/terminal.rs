@@ -76,28 +76,24 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
     text
 }
 
-/// Writes a number as people do: without the noise of rounding, and with a power of ten where it is far
-/// from 1.
-pub(crate) fn number(value: f64) -> String {
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    if rounded == 0.0 || (1e-6..1e9).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
+/// Writes a number as people do: with so many digits or less, and with a power of ten where it is far from 1.
+pub(crate) fn number(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    let is_near = rounded == 0.0 || (1e-6..1e9).contains(&rounded.abs());
+    if is_near { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 /// Writes the numbers of a message that have more digits than people write as [`number`] does; words that
 /// hold digits, such as names of files, stay.
 fn with_short_numbers(message: &str) -> String {
-    const MOST_DIGITS: usize = 15;
+    const MOST_DIGITS: usize = 12;
     let is_boundary = |c: char| !(c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | '+' | '/' | '\\'));
     let shortened = |part: &str| {
         let (word, boundary) = part.split_at(part.trim_end_matches(is_boundary).len());
         let digits = word.chars().filter(char::is_ascii_digit).count();
         let is_number = word.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-'));
         match word.parse::<f64>() {
-            Ok(value) if is_number && digits > MOST_DIGITS => number(value) + boundary,
+            Ok(value) if is_number && digits > MOST_DIGITS => number(value, MOST_DIGITS) + boundary,
             _ => part.to_owned(),
         }
     };
