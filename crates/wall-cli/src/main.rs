@@ -69,8 +69,8 @@ enum Command {
     Calibrate(calibrate::Arguments),
     /// Compute every table and figure of the paper and compare it with print, on one page
     Reproduce(reproduce::Arguments),
-    /// Print the JSON schema of scene files
-    Schema,
+    /// Print the JSON schema of scenes, studies or buildings
+    Schema(schema::Arguments),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -96,7 +96,7 @@ fn main() -> ExitCode {
         Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
-        Command::Schema => schema::run(),
+        Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "wall", &mut script);

@@ -125,9 +125,13 @@ impl Building {
         if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
             bail!("{}: expected a building (TOML) of at most {MAX_FILE_BYTES} bytes", path.display());
         }
-        let text = std::fs::read_to_string(path).with_context(context)?;
-        let source = Source { file: path.display().to_string(), text: &text };
-        let document: Document = toml::from_str(&text).map_err(|error| {
+        Self::parse(path, &std::fs::read_to_string(path).with_context(context)?)
+    }
+
+    /// Reads a building from the text of a file.
+    fn parse(path: &Path, text: &str) -> Result<Self> {
+        let source = Source { file: path.display().to_string(), text };
+        let document: Document = toml::from_str(text).map_err(|error| {
             source.error(error.span().unwrap_or(0..0), error.message().replace('\n', " "))
         })?;
         Self::from_document(document, &source, path)
@@ -308,4 +312,31 @@ fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<
     }
     let drift = drift.filter(|_| wanted);
     Ok(Member { name: table.name.into_inner(), scene: table.scene, bottom, top, drift })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The messages about an unknown key `x` list those known.
+    #[test]
+    fn the_schema_has_the_keys_of_building_files() {
+        let schema = crate::schema::building().unwrap();
+        let error = |text: &str| format!("{:#}", Building::parse(Path::new("b.toml"), text).unwrap_err());
+        let in_backquotes =
+            |text: &str| error(text).split('`').skip(3).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+        let floor = error("[[floor]]\nname = \"a\"\nx = 1");
+        let of_floor = floor.rsplit("keys are ").next().unwrap().split(", ").map(str::to_owned).collect();
+        let parts = &schema["properties"];
+        for (object, mut known) in [
+            (&schema, in_backquotes("x = 1")),
+            (&parts["wall"]["items"], in_backquotes("[[wall]]\nx = 1")),
+            (&parts["floor"]["items"], of_floor),
+        ] {
+            known.sort_unstable();
+            let mut listed: Vec<_> = object["properties"].as_object().unwrap().keys().cloned().collect();
+            listed.sort_unstable();
+            assert_eq!(listed, known);
+        }
+    }
 }
