@@ -210,7 +210,9 @@ functions! {
 
 /// Defines the getter and the setter of the values of a type.
 macro_rules! values {
-    ($($type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal;)*) => {
+    ($(
+        $type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal;
+    )*) => {
         functions! { $(
             #[doc = concat!("`", $get_name, "`")]
             $get<Model>(
