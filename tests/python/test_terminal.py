@@ -22,7 +22,8 @@ walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 def test_progress_is_shown_and_a_lost_terminal_changes_nothing(wall, tmp_path, arguments, result):
     (tmp_path / "study.toml").write_text(STUDY)
     ours, theirs = pty.openpty()
-    with subprocess.Popen([wall, *arguments], cwd=tmp_path, stdout=theirs, stderr=theirs) as process:
+    command = [wall, *arguments, "--threads", "1"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=theirs, stderr=theirs) as process:
         os.close(theirs)
         shown = ""
         while not (found := re.search(r"\[[#-]{30}\] (\d+)/(\d+)", shown)):

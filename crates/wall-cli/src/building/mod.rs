@@ -48,15 +48,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::check_distinct(inputs.into_iter().chain(&scenes), [&arguments.output])?;
     let mut archive = Archive::default();
     let (mut scenes, mut walls, mut storeys) = (Vec::new(), Vec::new(), Vec::new());
+    let mut warnings = Vec::new();
     for wall in &building.walls {
-        let scene =
-            scene(&folder.join(&wall.scene), wall).with_context(|| format!("wall {:?}", wall.name))?;
+        let scene = scene(&folder.join(&wall.scene), wall, &mut warnings)
+            .with_context(|| format!("wall {:?}", wall.name))?;
         let general = General::open(&arguments.wall_fmu, "--wall-fmu")?;
         let (unit, _, payload) = package::of_scene(&scene, general)?;
         archive.insert(fmu_path(&wall.name), unit.to_bytes()?);
         scenes.push(scene);
         walls.push(payload);
     }
+    output::report_all(warnings);
     for floor in &building.floors {
         let (unit, payload) = storey(&building, floor, &arguments.floor_fmu)?;
         archive.insert(fmu_path(&floor.name), unit.to_bytes()?);
@@ -98,18 +100,15 @@ fn advice(trial: &Trial, stated: f64) -> String {
 }
 
 /// The scene of a wall, with the inputs that its place in the building moves.
-fn scene(path: &Path, wall: &Member) -> Result<Scene> {
+fn scene(path: &Path, wall: &Member, warnings: &mut Vec<String>) -> Result<Scene> {
     let mut scene = Scene::read(path)?;
     let made = Wall::new(&scene.parameters).with_context(|| path.display().to_string())?;
-    for warning in made.warnings() {
-        output::warn(&format!("wall {:?}: {warning}", wall.name));
-    }
+    let name = &wall.name;
+    warnings.extend(made.warnings().iter().map(|warning| format!("warning: wall {name:?}: {warning}")));
     if scene.parameters.u_start != 0.0 {
         let start = scene.parameters.u_start;
-        output::warn(&format!(
-            "wall {:?} is released from u_start = {start} m, as its scene says",
-            wall.name
-        ));
+        warnings
+            .push(format!("warning: wall {name:?} is released from u_start = {start} m, as its scene says"));
     }
     let spans = scene.parameters.mechanism == Mechanism::VerticalSpanning;
     if scene.excitation.is_some() {
