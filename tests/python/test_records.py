@@ -33,7 +33,7 @@ def test_a_real_record_drives_the_unit(record, fmu, wall, tmp_path, number):
         capture_output=True,
     )
     signal = read_csv(motion)
-    stop = float(signal["time"][-1])
+    stop = float(signal["time (a_g in m/s2)"][-1])
     result = simulate_fmu(str(fmu), input=signal, stop_time=stop, start_values=settings)
     command = [wall, "simulate", "--record", record, "--scale", "0.8", "--stop-time", str(stop), "--json"]
     command += [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
