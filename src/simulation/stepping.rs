@@ -57,15 +57,18 @@ impl Step {
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum RunError {
     /// The motion could not be followed in the segment from `time` on.
-    #[error("at t = {time} s: {source}")]
+    #[error("at t = {time:?} s: {source}")]
     Solver { time: f64, source: SolverError },
     /// The step is too long for its excitation.
     #[error("the step spans more than {limit} samples; use smaller steps")]
     TooManySegments { limit: usize },
+    /// The segments of the step have too many pieces together.
+    #[error("more than {limit} pieces of motion in one step, at t = {time:?} s; use smaller steps")]
+    TooManyPieces { time: f64, limit: u64 },
 }
 
 /// Segments in one step.
-const MOST_SEGMENTS: usize = 100_000_000;
+const MOST_SEGMENTS: usize = 2_000_000;
 
 impl Simulation {
     /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. Of the
@@ -141,8 +144,12 @@ impl Simulation {
         mut demands: Option<&mut Demands>,
     ) -> Result<Step, RunError> {
         let (mut whole, mut done) = (Step::default(), 0.0);
+        let (before, limit) = (self.progress.work.pieces, self.motion.most_pieces());
         for _ in 0..MOST_SEGMENTS {
             let time = self.progress.time;
+            if self.progress.work.pieces - before > limit {
+                return Err(RunError::TooManyPieces { time, limit });
+            }
             let (segment, remaining) = next(time, done);
             if remaining <= 0.0 {
                 return Ok(whole);

@@ -13,6 +13,11 @@ use super::adaptive::Tolerances;
 /// it.
 const LOCAL_SHARE: f64 = 1e-4;
 
+/// Pieces of motion in one step: those of a usual computer in half a second.
+const MOST_PIECES: u64 = 200_000;
+/// Steps of Newmark in one step. They cost a tenth of other pieces.
+const MOST_NEWMARK_STEPS: u64 = 2_000_000;
+
 /// How the motion between events is found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
@@ -78,6 +83,11 @@ impl Motion {
         let wall = Wall::new(parameters)?;
         let method = Method::new(parameters, &wall, tolerance)?;
         Ok(Self::new(wall, method))
+    }
+
+    /// Pieces of motion that one step may have.
+    pub(crate) fn most_pieces(&self) -> u64 {
+        if let Method::Newmark { .. } = self.method { MOST_NEWMARK_STEPS } else { MOST_PIECES }
     }
 
     /// Prepares the motion of a wall.

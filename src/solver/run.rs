@@ -14,9 +14,7 @@ use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
 
 /// Impacts in one segment after which a wall that could rest is put to rest.
-const MOST_IMPACTS: u64 = 1_000_000;
-/// Pieces of motion in one segment.
-const MOST_PIECES: u32 = 4_000_000;
+const MOST_IMPACTS: u64 = 100_000;
 
 impl Motion {
     /// Moves `state` through a segment. `integral` asks for ∫u dt, and `memo` keeps the propagator of a step.
@@ -102,7 +100,7 @@ impl<'a> Run<'a> {
 
     /// Moves to the end of the segment.
     pub(super) fn finish(mut self) -> Result<(State, Report), SolverError> {
-        for _ in 0..MOST_PIECES {
+        for _ in 0..self.motion.most_pieces() {
             if self.time >= self.duration {
                 self.check()?;
                 return Ok((self.state, self.report));
@@ -284,7 +282,7 @@ impl<'a> Run<'a> {
 
     fn exhausted(&self) -> SolverError {
         let State { displacement, velocity, .. } = self.state;
-        let (reached, duration, limit) = (self.time, self.duration, MOST_PIECES);
+        let (reached, duration, limit) = (self.time, self.duration, self.motion.most_pieces());
         SolverError::TooManyPieces { reached, duration, limit, displacement, velocity }
     }
 }

@@ -127,14 +127,15 @@ impl Work {
 pub enum SolverError {
     /// Too many pieces in one segment.
     #[error(
-        "gave up {reached} s into a step of {duration} s after {limit} pieces of motion \
-         (u = {displacement} m, u_dot = {velocity} m/s); use smaller steps"
+        "gave up {reached:?} s into a step of {duration:?} s after {limit} pieces of motion \
+         (u = {displacement:?} m, u_dot = {velocity:?} m/s); use smaller steps"
     )]
-    TooManyPieces { reached: f64, duration: f64, limit: u32, displacement: f64, velocity: f64 },
+    TooManyPieces { reached: f64, duration: f64, limit: u64, displacement: f64, velocity: f64 },
     /// Overflow.
     #[error(
-        "the motion left the range of numbers {reached} s into a step of {duration} s (u = {displacement} m, \
-         u_dot = {velocity} m/s, forcing {forcing} m/s2); check the accelerations given"
+        "the motion left the range of numbers {reached:?} s into a step of {duration:?} s \
+         (u = {displacement:?} m, u_dot = {velocity:?} m/s, forcing {forcing:?} m/s2); \
+         check the accelerations given"
     )]
     NotFinite { reached: f64, duration: f64, displacement: f64, velocity: f64, forcing: f64 },
 }

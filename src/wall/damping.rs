@@ -67,6 +67,10 @@ impl Damping {
         if !given && model != DampingModel::None && restitution <= 0.0 {
             return Err(ParameterError::Prediction { restitution });
         }
+        let needs_none = matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
+        if force.elastic_stiffness.is_none() && !needs_none {
+            return Err(ParameterError::NoElasticBranch { model: model.name() });
+        }
         let value = match (given, model) {
             (false, _) => equivalence::predicted(model, force.elastic_fraction, restitution),
             (true, DampingModel::FreeStandingBlock) => parameters.c_bar,
@@ -78,9 +82,6 @@ impl Damping {
                 // C = m_eff √(g/(h/2)) c̄
                 let c = (parameters.gravity / (body.height / 2.0)).sqrt() * value;
                 (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c)
-            }
-            _ if force.elastic_stiffness.is_none() => {
-                return Err(ParameterError::NoElasticBranch { model: model.name() });
             }
             // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
             _ => (value, 2.0 * omega1 * value),
@@ -98,7 +99,8 @@ impl Damping {
         match self.model {
             DampingModel::ConstantRatio => BranchDamping::SecantRatio(2.0 * self.ratio),
             DampingModel::StiffnessProportional => {
-                BranchDamping::SecantStiffness(2.0 * self.ratio / self.omega1)
+                // no division by zero even where the compiler computes this ahead, for the rigid-linear law
+                BranchDamping::SecantStiffness(2.0 * self.ratio / self.omega1.max(f64::MIN_POSITIVE))
             }
             _ => BranchDamping::Constant(self.elastic),
         }

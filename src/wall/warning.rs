@@ -1,11 +1,18 @@
 //! What a user should know about valid parameters.
 
-use crate::choices::{DampingModel, DampingSource, Mechanism};
+use crate::choices::{DampingModel, DampingSource, Mechanism, Solver};
 
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
 use super::parameters::Parameters;
+
+/// A usual step of records and importers \[s\].
+const USUAL_STEP: f64 = 0.01;
+/// Largest usual ω₁ times that step: 16 vibrations.
+const MOST_USUAL_ANGLE: f64 = 100.0;
+/// Most usual steps of Newmark in it.
+const MOST_USUAL_STEPS: f64 = 10_000.0;
 
 /// Something a user should know about valid parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +26,10 @@ pub enum Warning {
     OutsideFit { a1: f64 },
     /// e = 1 and no damping.
     NeverRests,
+    /// An elastic frequency that makes steps expensive \[rad/s\].
+    Fast { omega1: f64 },
+    /// A step of Newmark that makes steps expensive \[s\].
+    SmallStep { step: f64 },
     /// A start beyond the static instability displacement.
     StartsOverturned { u_start: f64, u_ins: f64 },
     /// A number that walls rarely have: a slip of the keyboard or another unit.
@@ -44,6 +55,18 @@ impl std::fmt::Display for Warning {
             ),
             Self::NeverRests => f.write_str(
                 "restitution = 1 without damping: the wall loses no energy and never comes to rest",
+            ),
+            Self::Fast { omega1 } => write!(
+                f,
+                "omega1 = {omega1:.3e} rad/s: the wall vibrates {:.0} times in {USUAL_STEP} s, and computing \
+                 takes as much longer than usual; check a1, thickness, density and overburden",
+                omega1 * USUAL_STEP / std::f64::consts::TAU
+            ),
+            Self::SmallStep { step } => write!(
+                f,
+                "newmark_step = {step:e} s: {:.0} steps for each {USUAL_STEP} s, and computing takes as much \
+                 longer than usual; 1e-4 s is usual",
+                USUAL_STEP / step
             ),
             Self::StartsOverturned { u_start, u_ins } => write!(
                 f,
@@ -90,8 +113,21 @@ impl Warning {
         if u_start.abs() > u_ins {
             warnings.push(Self::StartsOverturned { u_start, u_ins });
         }
+        let omega1 = force.elastic_stiffness.map_or(0.0, |k1| (k1 / body.effective_mass).sqrt());
+        if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {
+            warnings.push(Self::Fast { omega1 });
+        }
+        let step = parameters.newmark_step;
+        if parameters.solver == Solver::Newmark && USUAL_STEP / step > MOST_USUAL_STEPS {
+            warnings.push(Self::SmallStep { step });
+        }
         warnings.extend(Self::unusual(parameters));
         warnings
+    }
+
+    /// Whether it says that runs take long.
+    pub fn is_about_work(&self) -> bool {
+        matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
     }
 
     /// Finds the numbers of a wall that walls rarely have.

@@ -43,6 +43,24 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     assert_eq!(names(), before, "{arguments:?}: left something behind");
 }
 
+#[test]
+fn parameters_that_make_runs_long_are_named_before_the_run() {
+    let folder = folder("long");
+    for (settings, warning) in [
+        (["--set", "a1=1e-9", "--set", "solver=exact"], "warning: omega1 = "),
+        (
+            ["--set", "solver=newmark", "--set", "newmark_step=1e-8"],
+            "warning: newmark_step = 1e-8 s: 1000000",
+        ),
+    ] {
+        let mut arguments = vec!["simulate", "--stop-time", "1e-4", "--set", "damping_model=none"];
+        arguments.extend(settings);
+        let output = wall(&folder, &arguments);
+        let message = text(&output.stderr);
+        assert!(output.status.success() && message.contains(warning), "{settings:?}: {message}");
+    }
+}
+
 /// To open a pipe would be to wait for its writer, for ever.
 #[test]
 fn pipes_in_place_of_files_are_refused() {

@@ -203,6 +203,17 @@ def test_the_clock_does_not_matter(unpacked):
         assert early.get("u") == pytest.approx(late.get("u"), abs=1e-10)
 
 
+def test_the_work_of_a_step_is_bounded(unpacked):
+    """A wall of 0.1 mm under 10^12 N vibrates 10^5 times in a step."""
+    for step in (0.01, 1e6):
+        with Unit(unpacked, logging=True) as unit:
+            unit.start(
+                height=0.00658, thickness=0.000122, overburden=7.88e11, damping_model="none", u_start=1e-5
+            )
+            assert any("omega1" in text for status, _, text in unit.messages if status == 1), "a warning"
+            refused(unit, lambda: unit.step(step), "200000 pieces of motion", "use smaller steps")
+
+
 def test_overturning_is_an_ordinary_state(unit):
     unit.start(u_start=0.15, u_dot_start=1.0)
     for _ in range(600):

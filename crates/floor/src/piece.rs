@@ -73,14 +73,14 @@ impl Piece {
                 let angle = if angle > 0.0 { angle } else { PI };
                 return (angle / omega, PI / omega);
             }
-            Regime::Oscillating(_) => -a / (jerk + 0.5 * c * a),
+            Regime::Oscillating(_) => -quotient(a, jerk + 0.5 * c * a),
             // a = A e^{r₁t} + B e^{r₂t} with e^{(r₁ − r₂)t} = −B/A
             Regime::Exponential(slow, fast) => {
                 let spread = slow - fast;
-                (-spread * a / (jerk - fast * a)).ln_1p() / spread
+                quotient(-spread * a, jerk - fast * a).max(0.0).ln_1p() / spread
             }
         };
-        // NaN where there is no zero
+        // 0 or less where there is no zero
         (if time > 0.0 { time } else { f64::INFINITY }, f64::INFINITY)
     }
 
@@ -113,6 +113,12 @@ impl Piece {
         }
         high
     }
+}
+
+/// Returns a/b; 0 for b = 0, without a division by zero, which some hosts trap.
+fn quotient(a: f64, b: f64) -> f64 {
+    let (a, b) = if b == 0.0 { (0.0, 1.0) } else { (a, b) };
+    a / b
 }
 
 #[cfg(test)]

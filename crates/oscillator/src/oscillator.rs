@@ -52,6 +52,9 @@ const RECIPROCALS: [f64; HIGHEST_ORDER + 1] = {
 /// c t + |k| t² up to which series serve.
 const SHORT: f64 = 1.0;
 
+/// Circular frequency \[rad/s\] below which a motion is one without stiffness.
+const SLOWEST: f64 = 1e-300;
+
 /// Size below which a term of the series changes no sum: the first terms are 1, 1/2, 1/6 and 1/24.
 const NEGLIGIBLE: f64 = 1e-18;
 
@@ -69,7 +72,8 @@ impl Oscillator {
             Regime::Exponential(stiffness / fast, fast)
         };
         let root = stiffness.abs().sqrt();
-        Self { damping, stiffness, regime, root, inverse_root: 1.0 / root }
+        // without stiffness nothing asks for the inverse; no division by zero, also for hosts that trap it
+        Self { damping, stiffness, regime, root, inverse_root: 1.0 / root.max(f64::MIN_POSITIVE) }
     }
 
     /// Returns damping c \[1/s\].
@@ -96,9 +100,9 @@ impl Oscillator {
     pub fn longest_piece(&self) -> f64 {
         match self.regime {
             // a little more than a period; without stiffness and damping there is no limit
-            Regime::Oscillating(omega) => 7.0 / omega,
+            Regime::Oscillating(omega) => 7.0 / omega.max(SLOWEST),
             // a softening branch grows by e³⁶ at most, 1/ε: no displacement lies closer to its equilibrium
-            Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow,
+            Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow.max(SLOWEST),
             Regime::Exponential(..) => f64::INFINITY,
         }
     }

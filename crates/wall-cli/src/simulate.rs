@@ -51,16 +51,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let scene = arguments.scene()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
-    let response = arguments.scene.named(Response::of(&scene))?;
-    for warning in &response.warnings {
+    // before the run, which may take long
+    let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
+    for warning in wall.warnings() {
         output::warn(&warning.to_string());
     }
+    let response = arguments.scene.named(Response::of(&scene))?;
     if response.summary.put_to_rest {
         output::warn("impacts accumulated beyond their bound: the wall was put to rest");
     }
     output::save(arguments.csv.as_ref(), || history(&response))?;
     if let Some(path) = &arguments.html {
-        let page = page::render(&scene, &Wall::new(&scene.parameters)?, &response)?;
+        let page = page::render(&scene, &wall, &response)?;
         output::to_file(path, page.as_bytes())?;
     }
     let text = if arguments.json {

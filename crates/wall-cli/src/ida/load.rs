@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use ground_motion::read;
 use rocking_wall::scene::Scene;
-use rocking_wall::wall::Warning;
+use rocking_wall::wall::{Wall, Warning};
 use study::document::{RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource};
 use study::ida::{NamedRecord, NamedWall, Study};
 
@@ -72,6 +72,9 @@ fn wall(
         warnings
             .push(format!("wall {name:?}: the study ignores the motion of its scene and uses its records"));
     }
+    let made = Wall::new(&parameters).into_iter();
+    let about_work = made.flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
+    warnings.extend(about_work.map(|warning| format!("wall {name:?}: {warning}")));
     warnings.extend(Warning::unusual(&parameters).map(|warning| format!("wall {name:?}: {warning}")));
     Ok(NamedWall { name, parameters })
 }
