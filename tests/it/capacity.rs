@@ -122,14 +122,11 @@ fn describe_writes_the_curve() {
     let kinds: Vec<_> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     assert_eq!(kinds, ["corner", "corner", "corner", "limit_state", "limit_state"]);
     assert!(std::fs::read_to_string(folder.join("c.svg")).unwrap().contains("0.4 u_ins, T = 2.675 s"));
-    // legends name the limit state as it was given: 0.1 u_ins/u_ins is 0.10000000000000002
+    // legends name the limit state as it was given: 0.1 u_ins/u_ins is 0.09999999999999999 here
     let strip = crate::root().join("scenes/strip_between_floors.toml").display().to_string();
-    for thickness in ["0.1", "0.2", "0.37"] {
-        let set = format!("thickness={thickness}");
-        wall(&folder, &["describe", &strip, "--set", &set, "--plot", "d.svg"]);
-        let svg = std::fs::read_to_string(folder.join("d.svg")).unwrap();
-        assert!(svg.contains(">0.1 u_ins, T = ") && svg.contains(">0.6 u_ins, T = "), "{thickness}");
-    }
+    wall(&folder, &["describe", &strip, "--set", "thickness=0.41", "--plot", "d.svg"]);
+    let svg = std::fs::read_to_string(folder.join("d.svg")).unwrap();
+    assert!(svg.contains(">0.1 u_ins, T = ") && svg.contains(">0.4 u_ins, T = "));
     let json: serde_json::Value =
         serde_json::from_slice(&wall(&folder, &["describe", "--json"]).stdout).unwrap();
     let limits = json["capacity"][0]["limit_states"].as_array().unwrap();
