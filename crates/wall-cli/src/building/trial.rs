@@ -20,7 +20,7 @@ const GRID: f64 = 0.01;
 /// Longest run \[s\].
 const LONGEST: f64 = 5.0;
 /// Most steps of all units in one run.
-const MOST_STEPS: f64 = 4e6;
+const MOST_STEPS: f64 = 1e7;
 /// The error that is asked for, and that of the reference.
 const ERROR: f64 = 0.01;
 const REFERENCE_ERROR: f64 = 0.002;
