@@ -82,6 +82,24 @@ class Exchange(Unit):
         return integrate([self], end, tolerance, lambda time: self.set(**inputs(time)) if inputs else None)
 
 
+def parapet_on_floor(wall, floor):
+    """Returns the function that connects a parapet and a floor for `integrate`."""
+    a_bottom, reaction = wall.reference("a_bottom"), floor.reference("reaction_1")
+    reaction_bottom = wall.reference("reaction_bottom")
+    acceleration = floor.reference("acceleration_absolute")
+
+    def connect(_time):
+        # the loop is linear: one step of Newton closes it
+        (by_wall,) = wall.slave.getDirectionalDerivative([reaction_bottom], [a_bottom], [1.0])
+        (by_floor,) = floor.slave.getDirectionalDerivative([acceleration], [reaction], [1.0])
+        floor.set(reaction_1=wall.get("reaction_bottom"))
+        gap = floor.get("acceleration_absolute") - wall.get("a_bottom")
+        wall.set(a_bottom=wall.get("a_bottom") + gap / (1 - by_wall * by_floor))
+        floor.set(reaction_1=wall.get("reaction_bottom"))
+
+    return connect
+
+
 def integrate(units, end, tolerance, connect):
     """Integrates units together to `end` through all events; returns the number of events.
 

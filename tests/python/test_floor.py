@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 
 from check_symbols import problems
 from conftest import ROOT
-from exchange import Exchange, integrate
+from exchange import Exchange, integrate, parapet_on_floor
 from monolith import Monolith, Wall
 from unit import Unit
 
@@ -340,24 +340,11 @@ def test_a_wall_and_a_floor_are_integrated_together(unpacked, unpacked_floor):
     with Exchange(unpacked) as wall, Exchange(unpacked_floor, "floor") as floor:
         wall.run(**parapet, damping_model="constant_coefficient", damping_source="given")
         floor.run(**storey)
-        a_bottom, reaction = wall.reference("a_bottom"), floor.reference("reaction_1")
-        reaction_bottom = wall.reference("reaction_bottom")
-        acceleration = floor.reference("acceleration_absolute")
-
-        def connect(time):
-            # the loop is linear: one step of Newton closes it
-            (by_wall,) = wall.slave.getDirectionalDerivative([reaction_bottom], [a_bottom], [1.0])
-            (by_floor,) = floor.slave.getDirectionalDerivative([acceleration], [reaction], [1.0])
-            floor.set(reaction_1=wall.get("reaction_bottom"))
-            gap = floor.get("acceleration_absolute") - wall.get("a_bottom")
-            wall.set(a_bottom=wall.get("a_bottom") + gap / (1 - by_wall * by_floor))
-            floor.set(reaction_1=wall.get("reaction_bottom"))
-
         times = 0.05 * np.arange(1, 41)
         truth = Monolith([storey], [Wall(parapet, 0)]).solve(times)
         found, events = [], 0
         for time in times:
-            events += integrate([wall, floor], time, 1e-10, connect)
+            events += integrate([wall, floor], time, 1e-10, parapet_on_floor(wall, floor))
             found.append([floor.get("displacement"), wall.get("u")])
     assert events > 20, "it rocks"
     # DOP853 at 1e-10 through the corners
