@@ -326,6 +326,19 @@ def test_fmpy_integrates_the_floor(unpacked_floor, settings):
         assert np.abs(steps[name] - exchange[name]).max() < 1e-5 * np.abs(steps[name]).max() + 1e-12, name
 
 
+def test_a_state_of_model_exchange_resumes_bit_for_bit(unpacked_floor):
+    with Exchange(unpacked_floor) as first, Exchange(unpacked_floor) as second:
+        first.run(**KICKED, **BILINEAR)
+        first.integrate(0.02, 1e-8)
+        assert first.get("yielding") and first.get("energy_hysteretic") > 0
+        state = first.slave.getFMUState()
+        second.slave.setFMUState(second.slave.deserializeFMUState(first.slave.serializeFMUState(state)))
+        second.time = first.time
+        for instance in (first, second):
+            instance.integrate(1.0, 1e-8)
+        assert everything(first) == everything(second)
+
+
 def test_what_model_exchange_refuses(unpacked_floor):
     with Exchange(unpacked_floor) as exchange:
         with pytest.raises(Exception, match="fmi2ExitInitializationMode"):
