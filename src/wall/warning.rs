@@ -73,11 +73,25 @@ impl std::fmt::Display for Warning {
                 "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: the wall has overturned at the start; \
                  set u_start = 0 or less than u_ins"
             ),
-            Self::Unusual { name, value, unit, usual: [least, most] } => write!(
-                f,
-                "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; check value and unit"
-            ),
+            Self::Unusual { name, value, unit, usual } => {
+                let [value, least, most] = [*value, usual[0], usual[1]].map(six_digits);
+                write!(
+                    f,
+                    "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; check value and \
+                     unit"
+                )
+            }
         }
+    }
+}
+
+/// A number to six digits, in powers of ten where it is very large or small.
+fn six_digits(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
     }
 }
 

@@ -22,6 +22,9 @@ fn improbable_walls_are_warned_of() {
         (vec!["density=1.8"], ["density = 1.8 kg/m3", "400 to 3000 kg/m3"]),
         (vec!["overburden=10"], ["overburden = 10 N", "100 to 1000000 N"]),
         (vec![heavy, "overburden_eccentricity=0.25"], ["overburden_eccentricity = 0.25 m", "-0.2 to 0.2 m"]),
+        // 100 N/m times 0.07 m is 7.000000000000001 N
+        (vec!["width=0.07", "overburden=1"], ["overburden = 1 N is", "7 to 70000 N"]),
+        (vec!["width=0.07", "overburden=1e11"], ["overburden = 1e11 N is", "7 to 70000 N"]),
         (vec!["height=300"], ["height = 300 m", "0.2 to 30 m"]),
         (vec!["thickness=5", "u_start=0"], ["height/thickness = 0.8 is", "1 to 100 is"]),
         (vec!["gravity=1.62"], ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
