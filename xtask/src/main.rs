@@ -1,4 +1,4 @@
-//! The jobs of the project: `cargo xtask fmu | demo | test | bench | figures | coupling`.
+//! The jobs of the project: `cargo xtask fmu | demo | test | fuzz | bench | figures | coupling`.
 //!
 //! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
 //! packages that a job needs under the target folder, pinned by hash.
@@ -11,6 +11,7 @@ mod coupling;
 mod demo;
 mod figures;
 mod fmu;
+mod fuzz;
 mod python;
 mod test;
 
@@ -26,6 +27,8 @@ The jobs of the project.
                                    to fmu_out/
   cargo xtask test                 run every test: Rust, the FMU through FMPy, the C interface against
                                    fmi-sys
+  cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
+                                   functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
                                    the pages
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
+        ["fuzz"] => fuzz::run(),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
         ["bench", "--peers"] => bench::peers(None).map(drop),

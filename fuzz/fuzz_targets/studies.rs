@@ -1,0 +1,9 @@
+//! Study files: read or refused.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use study::document::StudyFile;
+
+fuzz_target!(|text: &str| {
+    let _ = StudyFile::parse("study.toml", text);
+});
