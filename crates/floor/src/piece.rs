@@ -10,6 +10,9 @@ use oscillator::{KinematicState, Oscillator, Regime};
 /// Most steps towards a crossing: Illinois takes about ten, bisection of a whole f64 bracket 64.
 const MOST_ITERATIONS: usize = 100;
 
+/// Distance to a zero that there is not; finite, because 0 · ∞ is invalid, which some hosts trap \[s\].
+const FAR: f64 = f64::MAX;
+
 /// Motion on one branch; displacements count from its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
@@ -57,7 +60,7 @@ impl Piece {
     }
 
     /// Finds the first zero of the acceleration after the start, and the distance between zeros; infinite
-    /// where there is none.
+    /// and [`FAR`] where there is none.
     fn first_flat(&self) -> (f64, f64) {
         let (c, a) = (self.oscillator.damping(), self.start.acceleration);
         let jerk = self.oscillator.jerk(self.start, self.rate);
@@ -66,7 +69,7 @@ impl Piece {
             Regime::Oscillating(omega) if omega > 0.0 => {
                 let quadrature = (jerk + 0.5 * c * a) / omega;
                 if a == 0.0 && quadrature == 0.0 {
-                    return (f64::INFINITY, f64::INFINITY);
+                    return (f64::INFINITY, FAR);
                 }
                 let phase = quadrature.atan2(a) + 0.5 * PI;
                 let angle = phase - PI * (phase / PI).floor();
@@ -81,7 +84,7 @@ impl Piece {
             }
         };
         // 0 or less where there is no zero
-        (if time > 0.0 { time } else { f64::INFINITY }, f64::INFINITY)
+        (if time > 0.0 { time } else { f64::INFINITY }, FAR)
     }
 
     /// Finds the time in a bracket from which `height` has the sign that it has at `high`; at `low` it has
@@ -93,7 +96,7 @@ impl Piece {
         // Illinois: regula falsi that halves the weight of an end that stays, so that it cannot get stuck
         let mut high_moved = None;
         for _ in 0..MOST_ITERATIONS {
-            let secant = high - at_high * (high - low) / (at_high - at_low);
+            let secant = high - quotient(at_high * (high - low), at_high - at_low);
             let time = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
             if time <= low || time >= high || high - low <= f64::EPSILON * high {
                 break;
