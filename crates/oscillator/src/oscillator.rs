@@ -63,12 +63,13 @@ impl Oscillator {
     pub fn new(damping: f64, stiffness: f64) -> Self {
         let half = 0.5 * damping;
         let discriminant = stiffness - half * half;
+        // one root for both regimes: compilers take either of two ahead, and hosts may trap that of −1
+        let omega = discriminant.abs().sqrt();
         let regime = if discriminant >= 0.0 {
-            Regime::Oscillating(discriminant.sqrt())
+            Regime::Oscillating(omega)
         } else {
-            let root = (-discriminant).sqrt();
             // r₁ = −c/2 + √…, of the two the one that cancels comes from r₁ r₂ = k
-            let fast = -(half + root);
+            let fast = -(half + omega);
             Regime::Exponential(stiffness / fast, fast)
         };
         let root = stiffness.abs().sqrt();
