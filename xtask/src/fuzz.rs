@@ -15,8 +15,9 @@ const READERS: [(&str, &[&str]); 5] = [
 ];
 /// Time for each reader \[s\].
 const SECONDS: u32 = 60;
-/// Calls of each unit.
+/// Calls of each unit: as FMUs are built, and with assertions and AddressSanitizer, which make them slow.
 const CALLS: &str = "1000000";
+const CHECKED_CALLS: &str = "50000";
 const SEED: &str = "1";
 
 /// What libFuzzer needs to see which code an input reaches; on any toolchain.
@@ -34,7 +35,7 @@ pub(crate) fn run() -> Result<()> {
     let host = host()?;
     println!("== calls, as FMUs are built");
     succeed(build(&mut cargo(), "plain", "").args(["--bin", "calls"]), "see the compiler's message")?;
-    calls("plain", "plain")?;
+    calls("plain", "plain", CALLS)?;
     println!("== calls, with assertions and AddressSanitizer");
     let nightly = output(program("rustup").args(["run", "nightly", "rustc", "--version"]), "").is_ok();
     let (mut compiler, folder, flags) = if nightly {
@@ -48,7 +49,7 @@ pub(crate) fn run() -> Result<()> {
     let compiler = build(&mut compiler, folder, flags);
     compiler.args(["--release", "--target", &host, "--bin", "calls"]);
     succeed(compiler, "see the compiler's message")?;
-    calls(folder, &format!("{host}/release"))?;
+    calls(folder, &format!("{host}/release"), CHECKED_CALLS)?;
     let mut compiler = cargo();
     let compiler = build(&mut compiler, "readers", COVERAGE);
     compiler.args(["--release", "--target", &host]);
@@ -74,9 +75,9 @@ fn built(folder: &str) -> PathBuf {
     target().join("fuzz").join(folder)
 }
 
-fn calls(folder: &str, profile: &str) -> Result<()> {
+fn calls(folder: &str, profile: &str, count: &str) -> Result<()> {
     let driver = built(folder).join(profile).join("calls");
-    succeed(program(driver).args([CALLS, SEED]), "the figures above name the fault; the seed repeats it")
+    succeed(program(driver).args([count, SEED]), "the figures above name the fault; the seed repeats it")
 }
 
 fn read(name: &str, folders: &[&str], profile: &str) -> Result<()> {
