@@ -62,7 +62,7 @@ impl Damping {
         restitution: f64,
     ) -> Result<Self, ParameterError> {
         let model = parameters.damping_model;
-        let omega1 = force.elastic_stiffness.map_or(0.0, |k1| (k1 / body.effective_mass).sqrt());
+        let omega1 = force.omega1(body.effective_mass);
         let given = parameters.damping_source == DampingSource::Given;
         if !given && model != DampingModel::None && restitution <= 0.0 {
             return Err(ParameterError::Prediction { restitution });

@@ -116,7 +116,7 @@ impl Wall {
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
     pub fn omega1(&self) -> f64 {
-        self.force.elastic_stiffness.map_or(0.0, |k1| (k1 / self.body.effective_mass).sqrt())
+        self.force.omega1(self.body.effective_mass)
     }
 
     /// Damping ratio in use \[-\]: ξ, ξ₁, the equivalent of c̄ at ω₁, or 0.

@@ -80,6 +80,11 @@ impl RestoringForce {
         };
         Ok(Self { positive, negative, elastic_stiffness, elastic_fraction })
     }
+
+    /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
+    pub(super) fn omega1(&self, effective_mass: f64) -> f64 {
+        self.elastic_stiffness.map_or(0.0, |k1| (k1 / effective_mass).sqrt())
+    }
 }
 
 impl Side {

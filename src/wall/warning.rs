@@ -127,7 +127,7 @@ impl Warning {
         if u_start.abs() > u_ins {
             warnings.push(Self::StartsOverturned { u_start, u_ins });
         }
-        let omega1 = force.elastic_stiffness.map_or(0.0, |k1| (k1 / body.effective_mass).sqrt());
+        let omega1 = force.omega1(body.effective_mass);
         if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {
             warnings.push(Self::Fast { omega1 });
         }

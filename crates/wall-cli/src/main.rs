@@ -9,6 +9,7 @@ mod csv;
 mod demands;
 mod describe;
 mod ida;
+mod input;
 mod linearisation;
 mod motion;
 mod output;

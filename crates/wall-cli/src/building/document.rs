@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use fmi2_export::{Causality, Kind, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
 use serde::Deserialize;
 use toml::{Spanned, Value};
+
+use crate::input;
 
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
@@ -120,12 +122,7 @@ impl Source<'_> {
 impl Building {
     /// Reads the file of a building.
     pub(super) fn read(path: &Path) -> Result<Self> {
-        let context = || format!("{}: cannot be read", path.display());
-        let metadata = std::fs::metadata(path).with_context(context)?;
-        if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-            bail!("{}: expected a building (TOML) of at most {MAX_FILE_BYTES} bytes", path.display());
-        }
-        Self::parse(path, &std::fs::read_to_string(path).with_context(context)?)
+        Self::parse(path, &input::read(path, "a building (TOML)", MAX_FILE_BYTES)?)
     }
 
     /// Reads a building from the text of a file.

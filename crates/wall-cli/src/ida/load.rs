@@ -10,6 +10,8 @@ use rocking_wall::wall::{Wall, Warning};
 use study::document::{RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource};
 use study::ida::{NamedRecord, NamedWall, Study};
 
+use crate::input;
+
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
 
@@ -26,11 +28,7 @@ pub(super) struct Loaded {
 
 pub(super) fn load(path: &Path) -> Result<Loaded> {
     let name = path.display().to_string();
-    let metadata = std::fs::metadata(path).with_context(|| format!("{name}: cannot be read"))?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        bail!("{name}: expected a study file (TOML) of at most {MAX_FILE_BYTES} bytes");
-    }
-    let text = std::fs::read_to_string(path).with_context(|| format!("{name}: cannot be read"))?;
+    let text = input::read(path, "a study file (TOML)", MAX_FILE_BYTES)?;
     let StudyFile { title, walls, records, models, measure, levels, tail, report } =
         StudyFile::parse(&name, &text)?;
     let folder = path.parent().unwrap_or(Path::new("."));
