@@ -15,7 +15,7 @@ const READERS: [(&str, &[&str]); 5] = [
 ];
 /// Time for each reader \[s\].
 const SECONDS: u32 = 60;
-/// Calls of each unit: as FMUs are built, and with assertions and AddressSanitizer, which make them slow.
+/// Calls of each unit: as FMUs are built, and with assertions and `AddressSanitizer`, which make them slow.
 const CALLS: &str = "1000000";
 const CHECKED_CALLS: &str = "50000";
 const SEED: &str = "1";
