@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use fmi2_export::{Environment, Interface, Log, Model, Step};
+use fmu_export::{Environment, Interface, Log, Model, Step};
 use ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;

@@ -63,4 +63,4 @@ pub mod variables;
 pub mod wall;
 
 #[cfg(feature = "fmu")]
-fmi2_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
+fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);

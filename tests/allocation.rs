@@ -7,7 +7,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use fmi2_export::{Environment, Interface, Log, Model, ModelExchange, Step};
+use fmu_export::{Environment, Interface, Log, Model, ModelExchange, Step};
 use ground_motion::{Format, RecordOptions, Unit as RecordUnit, parse_channels};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -1,5 +1,5 @@
 //! Turns the model description into Rust variables; the library includes them as `choices` and `variables`.
 
 fn main() -> std::process::ExitCode {
-    fmi2_export_build::build_script("modelDescription/modelDescription.xml")
+    fmu_export_build::build_script("modelDescription/modelDescription.xml")
 }

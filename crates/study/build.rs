@@ -26,7 +26,7 @@ fn main() -> io::Result<()> {
             bytes.extend(fs::read(&file)?.into_iter().filter(|byte| *byte != b'\r'));
         }
     }
-    println!("cargo::rustc-env=SOURCES={:032x}", fmi2_export::fnv1a_128(bytes.into_iter()));
+    println!("cargo::rustc-env=SOURCES={:032x}", fmu_export::fnv1a_128(bytes.into_iter()));
     Ok(())
 }
 

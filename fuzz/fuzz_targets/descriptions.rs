@@ -1,7 +1,7 @@
 //! Model descriptions: read or refused.
 #![no_main]
 
-use fmi2_export_build::Description;
+use fmu_export_build::Description;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

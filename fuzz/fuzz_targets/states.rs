@@ -1,10 +1,10 @@
 //! Saved states with edited bytes and a checksum that suits them: refused, or states to go on from.
 #![no_main]
 
-use fmi2_export::Model;
-use fmi2_export::VariableId;
-use fmi2_export::ffi::types::{CO_SIMULATION, Component, OK, Real};
-use fmi2_export::ffi::{Kinds, co_simulation, common, states};
+use fmu_export::Model;
+use fmu_export::VariableId;
+use fmu_export::ffi::types::{CO_SIMULATION, Component, OK, Real};
+use fmu_export::ffi::{Kinds, co_simulation, common, states};
 use libfuzzer_sys::fuzz_target;
 use rocking_wall_fuzz::importer::Importer;
 

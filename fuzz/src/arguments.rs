@@ -1,9 +1,9 @@
 //! Calls with random arguments, of which most make sense.
 
 use crate::random::Random;
-use fmi2_export::ffi::types::{Component, EventInfo, OK, Status};
-use fmi2_export::ffi::{co_simulation as cs, common, model_exchange as me};
-use fmi2_export::{Causality, Kind, Model, ModelExchange, Variable, VariableId};
+use fmu_export::ffi::types::{Component, EventInfo, OK, Status};
+use fmu_export::ffi::{co_simulation as cs, common, model_exchange as me};
+use fmu_export::{Causality, Kind, Model, ModelExchange, Variable, VariableId};
 use std::ptr;
 
 /// Most values of one call.

@@ -8,7 +8,7 @@
 //! A fault ends it with exit code 1: a panic, a status or value that may not be, memory that is not freed,
 //! and, unless assertions slow it down, a call that takes over a second.
 
-use fmi2_export::ModelExchange;
+use fmu_export::ModelExchange;
 use rocking_wall_fuzz::driver::{Figures, Instance};
 use std::path::Path;
 use std::process::ExitCode;
@@ -21,7 +21,7 @@ const BURST: u64 = 500;
 const SCENE: &str = "[force_law]\nforce_law = \"trilinear\"\n[motion]\nsynthetic = {}\n";
 
 fn main() -> ExitCode {
-    fmi2_export::ffi::install_panic_hook();
+    fmu_export::ffi::install_panic_hook();
     let number = |index, default| std::env::args().nth(index).map_or(Some(default), |text| text.parse().ok());
     let (Some(count), Some(seed)) = (number(1, 1_000_000), number(2, 1)) else {
         eprintln!("usage: calls [COUNT] [SEED]");
@@ -41,7 +41,7 @@ fn main() -> ExitCode {
 fn write_scene(folder: &Path) -> std::io::Result<(String, String)> {
     std::fs::create_dir_all(folder)?;
     std::fs::write(folder.join("scene.toml"), SCENE)?;
-    let hash = fmi2_export::fnv1a_128(SCENE.bytes());
+    let hash = fmu_export::fnv1a_128(SCENE.bytes());
     let guid = rocking_wall::variables::GUID.replace('}', &format!("-{hash:032x}}}"));
     Ok((guid, folder.display().to_string()))
 }

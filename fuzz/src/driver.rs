@@ -3,11 +3,11 @@
 use crate::arguments::{Arguments, MOST};
 use crate::importer::Importer;
 use crate::random::Random;
-use fmi2_export::ModelExchange;
-use fmi2_export::ffi::types::{
+use fmu_export::ModelExchange;
+use fmu_export::ffi::types::{
     CO_SIMULATION, Component, DISCARD, ERROR, FmuState, MODEL_EXCHANGE, OK, Status,
 };
-use fmi2_export::ffi::{Kinds, co_simulation as cs, common, states};
+use fmu_export::ffi::{Kinds, co_simulation as cs, common, states};
 use std::fmt;
 use std::ptr;
 use std::time::Duration;

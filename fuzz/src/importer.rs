@@ -1,11 +1,11 @@
 //! One instance of a unit, and what an importer keeps for it.
 
-use fmi2_export::Model;
-use fmi2_export::ffi::types::{
+use fmu_export::Model;
+use fmu_export::ffi::types::{
     CallbackFunctions, CallbackLogger, Component, ComponentEnvironment, ERROR, FmuState, OK, Status, Text,
     Type,
 };
-use fmi2_export::ffi::{Kinds, common, states};
+use fmu_export::ffi::{Kinds, common, states};
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char};
 use std::marker::PhantomData;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use fmi2_export::VariableId;
+use fmu_export::VariableId;
 use serde::Deserialize;
 use toml::Spanned;
 

@@ -14,7 +14,7 @@ mod used;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use fmi2_export::VariableId;
+use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{Mechanism, RealVariable};

@@ -276,7 +276,7 @@ fn read_record(
 
 /// The fingerprint of a record file as a scene states it.
 pub fn fingerprint(bytes: &[u8]) -> String {
-    format!("{:032x}", fmi2_export::fnv1a_128(bytes.iter().copied()))
+    format!("{:032x}", fmu_export::fnv1a_128(bytes.iter().copied()))
 }
 
 fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, GroundMotionError> {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fmi2_export::{Causality, Kind, Variable, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId};
 use toml::{Spanned, Value};
 
 use crate::variables::{GROUPS, IntegerVariable, RealVariable};

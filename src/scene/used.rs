@@ -1,6 +1,6 @@
 //! Which variables the FMU of a scene lists: what a scene does not use is not there.
 
-use fmi2_export::VariableId;
+use fmu_export::VariableId;
 
 use crate::choices::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Solver};
 use crate::variables::{BooleanVariable, IntegerVariable, RealVariable, integer_parameter};

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use fmi2_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, VariableId};
+use fmu_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, VariableId};
 
 use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Simulation, segment_of};

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fmi2_export::{
+use fmu_export::{
     Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step as CommunicationStep,
     VariableId,
 };

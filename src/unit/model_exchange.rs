@@ -1,6 +1,6 @@
 //! The wall for an importer's solver: Model Exchange.
 
-use fmi2_export::{Failure, Log, ModelExchange, Update};
+use fmu_export::{Failure, Log, ModelExchange, Update};
 
 use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, RealVariable};
 

@@ -1,6 +1,6 @@
 //! The state of a unit as bytes: everything that does not follow from the rest.
 
-use fmi2_export::{Experiment, Failure, StateCodec};
+use fmu_export::{Experiment, Failure, StateCodec};
 
 use crate::simulation::Progress;
 use crate::solver::{Peaks, Phase, State, Work};

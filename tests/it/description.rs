@@ -1,6 +1,6 @@
 //! Compares the model description with the promised names, and the documentation with the description.
 
-use fmi2_export::{Kind, Variable, VariableId};
+use fmu_export::{Kind, Variable, VariableId};
 use rocking_wall::variables::{
     BooleanVariable, DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, IntegerVariable,
     Mechanism, RealVariable, RestitutionSource, Softening, Solver, StringVariable,

@@ -54,19 +54,19 @@ fn every_crate_has_what_a_registry_shows() {
 #[test]
 fn arrows_between_crates_point_one_way() {
     let known: [(&str, &[&str]); 9] = [
-        ("fmi2-export", &[]),
-        ("fmi2-export-build", &["fmi2-export"]),
+        ("fmu-export", &[]),
+        ("fmu-export-build", &["fmu-export"]),
         ("rocking-oscillator", &[]),
         ("ground-motion", &["rocking-oscillator"]),
-        ("rocking-floor", &["fmi2-export", "rocking-oscillator"]),
-        ("rocking-wall", &["fmi2-export", "ground-motion", "rocking-oscillator"]),
-        ("rocking-study", &["fmi2-export", "ground-motion", "rocking-wall"]),
+        ("rocking-floor", &["fmu-export", "rocking-oscillator"]),
+        ("rocking-wall", &["fmu-export", "ground-motion", "rocking-oscillator"]),
+        ("rocking-study", &["fmu-export", "ground-motion", "rocking-wall"]),
         ("rocking-figures", &["rocking-study"]),
         (
             "rocking-wall-cli",
             &[
-                "fmi2-export",
-                "fmi2-export-build",
+                "fmu-export",
+                "fmu-export-build",
                 "ground-motion",
                 "rocking-figures",
                 "rocking-floor",

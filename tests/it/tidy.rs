@@ -11,11 +11,11 @@ const LINES: usize = 400;
 const ENDINGS: [&str; 10] =
     [".rs", ".md", ".toml", ".py", ".c", ".html", ".xml", ".css", ".yml", ".schema.json"];
 /// Texts of others, and descriptions whose lines a test counts.
-const EXEMPT: [&str; 2] = ["/licenses/", "fmi2-export-build/tests/it/"];
+const EXEMPT: [&str; 2] = ["/licenses/", "fmu-export-build/tests/it/"];
 /// The folders where `unsafe` may stand: the C boundary, tests that load libraries or count allocations, and
 /// the fuzzer, which calls as C does.
 const UNSAFE: [&str; 5] =
-    ["crates/fmi2-export/src/ffi", "crates/fmi2-export/tests", "tests/", "crates/floor/tests", "fuzz/"];
+    ["crates/fmu-export/src/ffi", "crates/fmu-export/tests", "tests/", "crates/floor/tests", "fuzz/"];
 
 /// The files of the project with their texts.
 fn files() -> Vec<(String, String)> {

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use fmi2_export::{Category, Environment, Filter, Interface, Log, Model, Status};
+use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::RealVariable;
 

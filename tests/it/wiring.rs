@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fmi2_export::VariableId;
+use fmu_export::VariableId;
 use rocking_wall::variables::{BooleanVariable, IntegerVariable, RealVariable};
 
 const XML: &str = "modelDescription/modelDescription.xml";

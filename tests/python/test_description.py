@@ -236,11 +236,11 @@ def test_packing_is_reproducible(fmu, tmp_path):
         "--quiet",
         "--locked",
         "-p",
-        "fmi2-export-build",
+        "fmu-export-build",
         "--features",
         "archive",
         "--bin",
-        "fmi2-pack",
+        "fmu-pack",
         "--",
     ]
     command += [

@@ -15,7 +15,7 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
     let (library, programs, python) = std::thread::scope(|scope| {
         let library = scope.spawn(|| fmu::library(fmu::WALL, Linker::System));
         let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
-        let programs = fmu::programs("demo", &["rocking-wall-cli", "fmi2-export-build"]);
+        let programs = fmu::programs("demo", &["rocking-wall-cli", "fmu-export-build"]);
         (joined(library), programs, joined(python))
     });
     let (programs, python) = (programs?, python?);

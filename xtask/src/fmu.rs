@@ -46,7 +46,7 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 /// If the library does not build or the archive cannot be written.
 pub(crate) fn build(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let library = library(unit, linker)?;
-    let built = programs("dev", &["fmi2-export-build"])?;
+    let built = programs("dev", &["fmu-export-build"])?;
     pack(unit, &library, &built)
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn build_all(linker: Linker) -> Result<()> {
 /// If they do not build.
 pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--locked", "--bins", "--features", "fmi2-export-build/archive"]);
+    build.args(["build", "--locked", "--bins", "--features", "fmu-export-build/archive"]);
     build.args(["--profile", profile]);
     build.args(packages.iter().flat_map(|package| ["--package", *package]));
     succeed(&mut build, "see the compiler's message above")?;
@@ -127,13 +127,13 @@ fn reproducible(build: &mut Command) {
     build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
 }
 
-/// Zips the FMU with `fmi2-pack` of a folder of programs, and returns its path.
+/// Zips the FMU with `fmu-pack` of a folder of programs, and returns its path.
 ///
 /// # Errors
 /// If the archive cannot be written.
 pub(crate) fn pack(unit: Unit, library: &Path, programs: &Path) -> Result<PathBuf> {
     let output = root().join("fmu_out").join(unit.file);
-    let mut pack = program(programs.join("fmi2-pack"));
+    let mut pack = program(programs.join("fmu-pack"));
     let description = Path::new(unit.description);
     pack.arg("--description").arg(description.join("modelDescription.xml"));
     pack.arg("--documentation").arg(description.join("documentation"));

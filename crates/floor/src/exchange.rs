@@ -1,6 +1,6 @@
 //! The floor for an importer's solver: Model Exchange.
 
-use fmi2_export::{Failure, Log, ModelExchange, Update};
+use fmu_export::{Failure, Log, ModelExchange, Update};
 
 use crate::event::INDICATORS;
 use crate::floor::Branch;

@@ -21,7 +21,7 @@
 //! no error of its own.
 //!
 //! ```
-//! use fmi2_export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use rocking_floor::unit::Unit;
 //! use rocking_floor::variables::RealVariable as V;
 //!
@@ -30,7 +30,7 @@
 //! floor.initialize(&mut Log::silent())?;
 //! floor.do_step(Step { from: 0.0, duration: 0.05 }, &mut Log::silent())?;
 //! assert!(floor.real(V::Displacement) < 0.01, "it swings back");
-//! # Ok::<(), fmi2_export::Failure>(())
+//! # Ok::<(), fmu_export::Failure>(())
 //! ```
 
 pub mod choices;
@@ -45,4 +45,4 @@ mod values;
 pub mod variables;
 
 #[cfg(feature = "fmu")]
-fmi2_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
+fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);

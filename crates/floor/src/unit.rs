@@ -1,6 +1,6 @@
 //! The floor as an FMI model.
 
-use fmi2_export::{Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
+use fmu_export::{Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};

@@ -1,6 +1,6 @@
 //! Reads the values of a floor that its FMU contains: `resources/floor.toml`, one `name = value` a line.
 
-use fmi2_export::{Causality, Kind, VariableId};
+use fmu_export::{Causality, Kind, VariableId};
 
 use crate::floor::Parameters;
 use crate::variables::{IntegerVariable, RealVariable};

@@ -2,7 +2,7 @@
 //! `build.rs`.
 //!
 //! ```
-//! use fmi2_export::VariableId;
+//! use fmu_export::VariableId;
 //! use rocking_floor::floor::Parameters;
 //! use rocking_floor::variables::RealVariable;
 //!

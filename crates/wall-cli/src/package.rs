@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use fmi2_export_build::archive::Archive;
-use fmi2_export_build::{DefaultExperiment, Description, Reduction};
+use fmu_export_build::archive::Archive;
+use fmu_export_build::{DefaultExperiment, Description, Reduction};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::wall::{Kinematics, Parameters, Wall};

@@ -3,7 +3,7 @@
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use fmi2_export::{Causality, Kind, Variable, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables as floor;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, GROUPS, KINEMATICS, MOST_THRESHOLDS, POINTS, input_names};
 use rocking_wall::variables::{IntegerVariable, RealVariable};

@@ -1,6 +1,6 @@
 //! Reactions and impulses of walls, saved states, derivatives.
 
-use fmi2_export::{Log, Model, Step, VariableId};
+use fmu_export::{Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit;
 use rocking_floor::variables::{Coupling, Hysteresis, RealVariable};
 
@@ -86,10 +86,10 @@ fn inputs_of_the_other_coupling_are_warned_of_once() {
     let mut warnings = |run: &mut dyn FnMut(&mut Log<'_>)| {
         let sink = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));
         let taken = sink.clone();
-        let mut push = move |_: fmi2_export::Status, _: fmi2_export::Category, text: &str| {
+        let mut push = move |_: fmu_export::Status, _: fmu_export::Category, text: &str| {
             taken.lock().unwrap().push(text.to_owned());
         };
-        let filter = fmi2_export::Filter::ERRORS.with(fmi2_export::Category::Warning);
+        let filter = fmu_export::Filter::ERRORS.with(fmu_export::Category::Warning);
         run(&mut Log::new(&mut push, filter));
         texts.append(&mut sink.lock().unwrap());
     };
@@ -119,10 +119,10 @@ fn derivatives_are_those_of_the_outputs() {
         assert_eq!(driven.yielding(), hysteresis == Hysteresis::Bilinear);
         let inputs = RealVariable::ALL
             .iter()
-            .filter(|input| input.variable().causality == fmi2_export::Causality::Input);
+            .filter(|input| input.variable().causality == fmu_export::Causality::Input);
         let outputs: Vec<_> = RealVariable::ALL
             .iter()
-            .filter(|output| output.variable().causality == fmi2_export::Causality::Output)
+            .filter(|output| output.variable().causality == fmu_export::Causality::Output)
             .collect();
         for &input in inputs {
             let at = |value: f64| {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
-use fmi2_export::{Kind, Variable, VariableId};
+use fmu_export::{Kind, Variable, VariableId};
 use rocking_floor::variables::{BooleanVariable, IntegerVariable, RealVariable};
 
 const PAGE: &str = include_str!("../../modelDescription/documentation/index.html");
@@ -65,9 +65,9 @@ fn every_linked_crate_is_named_in_the_notices() {
     let named: BTreeSet<_> = notices.lines().filter_map(|line| line.split_whitespace().next()).collect();
     let tree = String::from_utf8(output.stdout).unwrap();
     let linked: BTreeSet<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert!(linked.contains("fmi2-export") && !linked.contains("rocking-wall"), "{linked:?}");
+    assert!(linked.contains("fmu-export") && !linked.contains("rocking-wall"), "{linked:?}");
     for name in linked {
-        let own = ["rocking-floor", "fmi2-export", "rocking-oscillator"].contains(&name);
+        let own = ["rocking-floor", "fmu-export", "rocking-oscillator"].contains(&name);
         assert!(own || named.contains(name), "notices.txt does not name {name}");
     }
 }

@@ -1,6 +1,6 @@
 //! The linear floor against textbook solutions.
 
-use fmi2_export::{Environment, Interface, Log, Model};
+use fmu_export::{Environment, Interface, Log, Model};
 use rocking_floor::unit::Unit;
 use rocking_floor::variables::{Hysteresis, IntegerVariable};
 

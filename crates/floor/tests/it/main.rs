@@ -5,7 +5,7 @@ mod description;
 mod hysteresis;
 mod linear;
 
-use fmi2_export::{Experiment, Log, Model, Step, VariableId};
+use fmu_export::{Experiment, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit;
 use rocking_floor::variables::{BooleanVariable, Coupling, Hysteresis, IntegerVariable, RealVariable};
 

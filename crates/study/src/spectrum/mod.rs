@@ -27,7 +27,7 @@ mod axes;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use fmi2_export::{Kind, VariableId};
+use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
 use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};

@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use fmi2_export::VariableId;
-use fmi2_export_build::archive::Archive;
-use fmi2_export_build::{DefaultExperiment, Reduction};
+use fmu_export::VariableId;
+use fmu_export_build::archive::Archive;
+use fmu_export_build::{DefaultExperiment, Reduction};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};

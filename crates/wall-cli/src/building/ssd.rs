@@ -147,7 +147,7 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fmi2_export::{Causality, VariableId};
+    use fmu_export::{Causality, VariableId};
     use rocking_floor::variables::RealVariable as FloorVariable;
     use rocking_wall::variables::RealVariable;
 

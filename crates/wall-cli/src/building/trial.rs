@@ -4,7 +4,7 @@
 //! do: inputs are held over the step, or linear by the derivatives of the outputs.
 
 use anyhow::{Result, anyhow};
-use fmi2_export::{Environment, Experiment, Interface, Log, Model, Step, VariableId};
+use fmu_export::{Environment, Experiment, Interface, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit as FloorUnit;
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::unit::Unit as WallUnit;

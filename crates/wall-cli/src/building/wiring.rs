@@ -1,7 +1,7 @@
 //! From a building to components and connections: what moves a member, and what it loads.
 
 use anyhow::{Result, bail};
-use fmi2_export::{Kind, Variable, VariableId};
+use fmu_export::{Kind, Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable};

@@ -1,0 +1,260 @@
+//! The FMU as an archive: files in memory. The same content gives the same bytes.
+//!
+//! ```
+//! use fmu_export_build::archive::Archive;
+//!
+//! let mut archive = Archive::default();
+//! archive.insert("documentation/index.html", "<!DOCTYPE html>");
+//! archive.insert("binaries/linux64/clock.so", vec![0_u8; 4]);
+//! assert_eq!(archive.names().next(), Some("binaries/linux64/clock.so"));
+//! assert_eq!(archive.to_bytes()?, archive.clone().to_bytes()?);
+//! # Ok::<(), std::io::Error>(())
+//! ```
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{Cursor, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+
+/// Largest content of an FMU \[bytes\]: a small archive can unpack to anything.
+const MAX_CONTENT: u64 = 1 << 30;
+
+/// The files of an FMU by their path inside it, in the order of the paths.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Archive {
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+/// Why an archive cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum ArchiveError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read { path: PathBuf, source: std::io::Error },
+    /// The file is not an archive, or is damaged.
+    #[error("{}: is not a readable zip archive: {source}", path.display())]
+    Damaged { path: PathBuf, source: zip::result::ZipError },
+    /// A file inside has a path that leads elsewhere.
+    #[error("{}: contains {name:?}, which is not a path inside an FMU", path.display())]
+    BadName { path: PathBuf, name: String },
+    /// The content is larger than any FMU's.
+    #[error("{}: unpacks to more than {MAX_CONTENT} bytes", path.display())]
+    TooLarge { path: PathBuf },
+    /// The archive cannot be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+}
+
+impl Archive {
+    /// Reads the archive at `path`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not a zip archive, fails its checksum, unpacks to more than 1 GiB, or
+    /// contains paths that lead out of it.
+    pub fn open(path: &Path) -> Result<Self, ArchiveError> {
+        let read = |source| ArchiveError::Read { path: path.to_path_buf(), source };
+        let damaged = |source| ArchiveError::Damaged { path: path.to_path_buf(), source };
+        // to open a pipe in its place would wait for its writer
+        if !fs::metadata(path).map_err(read)?.is_file() {
+            return Err(read(std::io::Error::other("not a regular file")));
+        }
+        let mut zip = ZipArchive::new(File::open(path).map_err(read)?).map_err(damaged)?;
+        let mut archive = Self::default();
+        let mut left = MAX_CONTENT;
+        for index in 0..zip.len() {
+            let file = zip.by_index(index).map_err(damaged)?;
+            if file.is_dir() {
+                continue;
+            }
+            let name = file.name().map_err(damaged)?.into_owned();
+            if !is_inside(&name) {
+                return Err(ArchiveError::BadName { path: path.to_path_buf(), name });
+            }
+            let mut content = Vec::new();
+            // One byte more than is allowed tells too much from just enough; the size in the header may lie.
+            let size =
+                file.take(left + 1).read_to_end(&mut content).map_err(|error| damaged(error.into()))?;
+            left = left
+                .checked_sub(size as u64)
+                .ok_or_else(|| ArchiveError::TooLarge { path: path.to_path_buf() })?;
+            archive.files.insert(name, content);
+        }
+        Ok(archive)
+    }
+
+    /// The content of the file at `name`.
+    pub fn get(&self, name: &str) -> Option<&[u8]> {
+        self.files.get(name).map(Vec::as_slice)
+    }
+
+    /// Adds a file, or replaces it.
+    ///
+    /// # Panics
+    /// If `name` is not a relative path with `/` between its parts.
+    pub fn insert(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
+        let name = name.into();
+        assert!(is_inside(&name), "{name:?} is not a path inside an FMU");
+        self.files.insert(name, content.into());
+    }
+
+    /// Takes a file out.
+    pub fn remove(&mut self, name: &str) -> Option<Vec<u8>> {
+        self.files.remove(name)
+    }
+
+    /// The paths inside, sorted.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
+    }
+
+    /// Writes the archive to `path`, whole or not at all.
+    ///
+    /// # Errors
+    /// A folder that is not there or not writable; what was at `path` then stays as it was.
+    pub fn write(&self, path: &Path) -> Result<(), ArchiveError> {
+        let write = |source| ArchiveError::Write { path: path.to_path_buf(), source };
+        let bytes = self.to_bytes().map_err(write)?;
+        let name = path.file_name().ok_or_else(|| write(std::io::ErrorKind::InvalidInput.into()))?;
+        // In the same folder, so that renaming does not copy.
+        let mut part = std::ffi::OsString::from(".");
+        part.push(name);
+        part.push(format!(".{}.part", std::process::id()));
+        let part = path.with_file_name(part);
+        let written = File::create(&part)
+            .and_then(|mut file| file.write_all(&bytes).and_then(|()| file.sync_all()))
+            .and_then(|()| std::fs::rename(&part, path));
+        written.map_err(|error| {
+            // The first error is the one to report; there may be nothing to remove.
+            let _ = std::fs::remove_file(&part);
+            write(error)
+        })
+    }
+
+    /// The archive's bytes: sorted paths, deflate, no dates, equal permissions.
+    ///
+    /// # Errors
+    /// Content beyond the limits of the format.
+    pub fn to_bytes(&self) -> std::io::Result<Vec<u8>> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .compression_level(Some(9))
+            .last_modified_time(DateTime::DEFAULT)
+            .unix_permissions(0o644);
+        let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, content) in &self.files {
+            writer.start_file(name.as_str(), options)?;
+            writer.write_all(content)?;
+        }
+        Ok(writer.finish()?.into_inner())
+    }
+}
+
+/// Whether `name` is a relative path with `/` between its parts and none of them `..`.
+fn is_inside(name: &str) -> bool {
+    let plain = |part: &str| !matches!(part, "" | "." | "..") && !part.contains(['\\', ':', '\0']);
+    name.split('/').all(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder of its own below the system's temporary one, gone at the end of the test.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("fmu-export-build-{}-{name}", std::process::id()));
+            std::fs::create_dir_all(&path).unwrap();
+            Self(path)
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    fn sample(order: [&str; 3]) -> Archive {
+        let mut archive = Archive::default();
+        for name in order {
+            archive.insert(name, name.repeat(1000));
+        }
+        archive
+    }
+
+    #[test]
+    fn the_same_content_gives_the_same_bytes_and_reads_back() {
+        let folder = Folder::new("same");
+        let names = ["resources/scene.toml", "modelDescription.xml", "binaries/linux64/wall.so"];
+        let archive = sample(names);
+        let (first, second) = (folder.0.join("a.fmu"), folder.0.join("b.fmu"));
+        archive.write(&first).unwrap();
+        sample([names[2], names[0], names[1]]).write(&second).unwrap();
+        assert_eq!(std::fs::read(&first).unwrap(), std::fs::read(&second).unwrap());
+        let read = Archive::open(&first).unwrap();
+        assert_eq!(read, archive);
+        assert!(read.names().is_sorted());
+        // Writing over an archive replaces it, and nothing else is left in the folder.
+        read.write(&second).unwrap();
+        assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn files_can_be_replaced_and_removed() {
+        let mut archive = sample(["a", "b", "c"]);
+        archive.insert("b", *b"new");
+        assert_eq!(archive.get("b"), Some(&b"new"[..]));
+        assert_eq!(archive.remove("a").map(|content| content.len()), Some(1000));
+        assert_eq!(archive.names().collect::<Vec<_>>(), ["b", "c"]);
+        assert_eq!(archive.get("a"), None);
+    }
+
+    #[test]
+    fn damaged_archives_are_refused() {
+        let folder = Folder::new("damaged");
+        let path = folder.0.join("a.fmu");
+        assert!(matches!(Archive::open(&path), Err(ArchiveError::Read { .. })));
+        std::fs::write(&path, "not a zip").unwrap();
+        assert!(matches!(Archive::open(&path), Err(ArchiveError::Damaged { .. })));
+        let mut archive = Archive::default();
+        // Content that does not compress is stored as it is, so that a flipped byte is the content's.
+        let noise = (0..4000_u32).map(|n| (n.wrapping_mul(2_654_435_761) >> 13).to_le_bytes()[0]);
+        archive.insert("a", noise.collect::<Vec<u8>>());
+        archive.write(&path).unwrap();
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[1000] ^= 1;
+        std::fs::write(&path, &bytes).unwrap();
+        assert!(matches!(Archive::open(&path), Err(ArchiveError::Damaged { .. })));
+    }
+
+    #[test]
+    fn paths_that_lead_elsewhere_are_refused() {
+        let folder = Folder::new("elsewhere");
+        let path = folder.0.join("a.fmu");
+        for name in ["../a", "/a", "a//b", "a\\b", "c:/a"] {
+            let mut writer = ZipWriter::new(File::create(&path).unwrap());
+            writer.start_file(name, SimpleFileOptions::default()).unwrap();
+            writer.finish().unwrap();
+            let error = Archive::open(&path).unwrap_err();
+            assert!(matches!(error, ArchiveError::BadName { .. }), "{name}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_failed_write_leaves_nothing() {
+        let folder = Folder::new("failed");
+        let path = folder.0.join("missing").join("a.fmu");
+        assert!(matches!(sample(["a", "b", "c"]).write(&path), Err(ArchiveError::Write { .. })));
+        // A folder cannot be replaced by a file.
+        let taken = folder.0.join("taken");
+        std::fs::create_dir(&taken).unwrap();
+        assert!(sample(["a", "b", "c"]).write(&taken).is_err());
+        assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 1);
+    }
+}

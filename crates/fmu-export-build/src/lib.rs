@@ -1,0 +1,110 @@
+//! Turns a modelDescription.xml into Rust variables, and files into an FMU.
+//!
+//! The description is the one source of an FMU's variables. [`build_script`], the `build.rs` of a model,
+//! refuses a description that contradicts itself and names the line. It writes one enum per FMI base type, so
+//! that a variable which is declared but not wired does not compile. [`Description::reduced`] makes the
+//! description of an FMU with fewer variables, and the feature `archive` reads and writes the FMU itself.
+//!
+//! ```
+//! use fmu_export_build::Description;
+//!
+//! let description = Description::parse(r#"
+//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="">
+//!       <CoSimulation modelIdentifier="clock"/>
+//!       <ModelVariables>
+//!         <ScalarVariable name="rate" valueReference="1" causality="parameter" variability="fixed">
+//!           <Real start="1"/>
+//!         </ScalarVariable>
+//!       </ModelVariables>
+//!       <ModelStructure/>
+//!     </fmiModelDescription>"#)?;
+//! assert_eq!(description.variable_names().collect::<Vec<_>>(), ["rate"]);
+//! assert_eq!(description.guid().len(), "{}".len() + 32);
+//!
+//! let fault = Description::parse("<fmiModelDescription/>").unwrap_err();
+//! assert_eq!(fault.to_string(), "line 1: <fmiModelDescription> needs the attribute `fmiVersion`");
+//! # Ok::<(), fmu_export_build::Fault>(())
+//! ```
+//!
+//! Each module uses those above it:
+//!
+//! ```text
+//! element      XML with line numbers ─► Element ─► XML in canonical form
+//! variable     Element ─► variables and enumerations
+//! check        what the FMI 2.0 schema cannot check of these; structure: of the ModelStructure
+//! description  Description: what has passed every check
+//! choices      Description ─► choices.rs; code: ─► variables.rs
+//! reduced      Description ─► Description of a subset
+//! archive      FMU ◄─► files in memory, the same bytes for the same content
+//! pack         files of a build ─► FMU
+//! ```
+
+#[cfg(feature = "archive")]
+pub mod archive;
+mod check;
+mod choices;
+mod code;
+mod description;
+mod element;
+mod error;
+mod fingerprint;
+mod names;
+#[cfg(feature = "archive")]
+pub mod pack;
+mod reduced;
+mod structure;
+mod variable;
+
+pub use description::Description;
+pub use error::{DescriptionError, Fault, Problem};
+pub use fingerprint::fingerprint;
+pub use reduced::{DefaultExperiment, Reduction, ReductionError};
+
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Is the `build.rs` of a model: generates the variables of the description `xml` where cargo wants them.
+///
+/// ```no_run
+/// fn main() -> std::process::ExitCode {
+///     fmu_export_build::build_script("modelDescription/modelDescription.xml")
+/// }
+/// ```
+#[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
+pub fn build_script(xml: &str) -> ExitCode {
+    println!("cargo::rerun-if-changed={xml}");
+    let Some(out_dir) = std::env::var_os("OUT_DIR") else {
+        println!("cargo::error=OUT_DIR is not set: this program is run by cargo");
+        return ExitCode::FAILURE;
+    };
+    match generate(xml.as_ref(), out_dir.as_ref()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            println!("cargo::error={error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Reads the description `xml`, checks it, and writes `choices.rs` and `variables.rs` into the folder
+/// `out_dir`.
+///
+/// `choices.rs` stands alone: enumerations, and `start_values!` for a struct `Parameters` with one field per
+/// parameter. `variables.rs` refers to the crate `fmu_export`, and needs `Parameters` and the enumerations
+/// in scope.
+///
+/// # Errors
+/// A file that cannot be read or written, and any [`Problem`] of the description, with its line.
+pub fn generate(xml: &Path, out_dir: &Path) -> Result<(), DescriptionError> {
+    let text = std::fs::read_to_string(xml)
+        .map_err(|source| DescriptionError::Read { path: xml.to_path_buf(), source })?;
+    let description = Description::parse(&text)
+        .map_err(|fault| DescriptionError::Invalid { path: xml.to_path_buf(), fault: Box::new(fault) })?;
+    for (name, code) in
+        [("choices.rs", choices::module(&description)), ("variables.rs", code::module(&description))]
+    {
+        let path = out_dir.join(name);
+        std::fs::write(&path, code).map_err(|source| DescriptionError::Write { path, source })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,93 @@
+//! The generated modules, as text; the crates that include them compile them.
+
+use crate::{BLOCK, block_with};
+use fmu_export_build::{Description, generate};
+
+/// The modules generated from the description `xml`; `test` names a folder of its own.
+fn module(test: &str, xml: &str) -> String {
+    let folder = std::env::temp_dir().join(format!("fmu-export-build-{test}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let description = folder.join("modelDescription.xml");
+    std::fs::write(&description, xml).unwrap();
+    generate(&description, &folder).unwrap();
+    let code = ["variables.rs", "choices.rs"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
+    std::fs::remove_dir_all(&folder).unwrap();
+    code.concat()
+}
+
+/// The text between the braces of the first item that starts with `head`.
+fn body<'a>(code: &'a str, head: &str) -> &'a str {
+    let start = code.find(head).unwrap_or_else(|| panic!("{head} is there")) + head.len();
+    &code[start..start + code[start..].find("\n}").unwrap()]
+}
+
+#[test]
+fn each_base_type_has_an_enum_of_its_variables() {
+    let code = module("enums", BLOCK);
+    let variants = |name: &str| {
+        let lines = body(&code, &format!("pub enum {name} {{")).lines().map(str::trim);
+        lines.filter(|line| !line.starts_with("///") && !line.is_empty()).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(variants("RealVariable"), "Force, X, XDot, XStart, Weight,");
+    assert_eq!(variants("IntegerVariable"), "Surface, Layers,");
+    assert_eq!(variants("BooleanVariable"), "Moving,");
+    assert_eq!(variants("StringVariable"), "");
+    assert_eq!(variants("Surface"), "WetIce, Sand,");
+    assert!(code.contains("    /// `x`: Position \\[m\\].\n    X,\n"), "{code}");
+    assert!(code.contains("    /// `x_dot`: Speed \\< 1 \\[m/s\\].\n"), "{code}");
+}
+
+#[test]
+fn states_and_derivatives_are_named() {
+    let text =
+        BLOCK.replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\">");
+    let text = text.replace("<CoSimulation", "<ModelExchange modelIdentifier=\"block\"/><CoSimulation");
+    let code = module("states", &text);
+    for line in [
+        "pub const CONTINUOUS_STATES: &[RealVariable] = &[RealVariable::X];",
+        "pub const DERIVATIVES: &[RealVariable] = &[RealVariable::XDot];",
+        "pub const EVENT_INDICATORS: usize = 4;",
+    ] {
+        assert!(code.contains(line), "{line} is missing in\n{code}");
+    }
+}
+
+#[test]
+fn the_tables_say_what_the_description_says() {
+    let code = module("tables", BLOCK);
+    let guid = Description::parse(BLOCK).unwrap().guid();
+    for text in [
+        "pub const MODEL_NAME: &str = \"sliding block\";",
+        "pub const MODEL_IDENTIFIER: &str = \"block\";",
+        &format!("pub const GUID: &str = \"{guid}\";"),
+        "50 => Some(Self::XStart),",
+        "Real { start: Some(0.1), min: Some(-5e-8), max: Some(50.0) }",
+        "Integer { start: Some(3), min: Some(1), max: Some(9) }",
+        "Enumeration { start: Some(2), items: &[",
+        "::fmu_export::Item { name: \"wet_ice\", value: 1, description: \"Hardly any friction\" },",
+        "Boolean { start: None }",
+        "causality: ::fmu_export::Causality::CalculatedParameter,",
+        "variability: ::fmu_export::Variability::Discrete,",
+        "unit: Some(\"m/s\"),",
+    ] {
+        assert!(code.contains(text), "{text} is missing in\n{code}");
+    }
+}
+
+#[test]
+fn removing_or_adding_a_variable_changes_the_enum() {
+    let before = module("before", BLOCK);
+    let line = BLOCK.lines().find(|line| line.contains("\"layers\"")).unwrap();
+    let structure =
+        "      <Unknown index=\"8\" dependencies=\"7 6\" dependenciesKind=\"dependent constant\"/>";
+    let without = block_with(&format!("{line}\n"), "")
+        .replace(structure, "      <Unknown index=\"7\" dependencies=\"6\"/>");
+    let without = module("without", &without);
+    assert!(before.contains("Layers") && !without.contains("Layers"));
+    let with = line.replace("layers", "tiles").replace("\"70\"", "\"90\"");
+    let with = module("with", &block_with("  </ModelVariables>", &format!("{with}\n  </ModelVariables>")));
+    assert!(
+        !before.contains("Tiles") && with.contains("    Layers,\n    /// `tiles`: .\n    Tiles,\n"),
+        "{with}"
+    );
+}

@@ -1,0 +1,126 @@
+//! The command `fmu-pack`, run as a build runs it.
+
+use crate::BLOCK;
+use fmu_export_build::Description;
+use fmu_export_build::archive::Archive;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The files of a build, in a folder of its own that goes with this.
+struct Build(PathBuf);
+
+impl Build {
+    fn new(name: &str) -> Self {
+        let root = std::env::temp_dir().join(format!("fmu-pack-{name}-{}", std::process::id()));
+        fs::create_dir_all(root.join("documentation/licenses")).unwrap();
+        fs::create_dir_all(root.join("resources")).unwrap();
+        for (path, content) in [
+            ("modelDescription.xml", BLOCK),
+            ("model.png", "an icon"),
+            ("libblock.so", "a library"),
+            ("documentation/index.html", "a page"),
+            ("documentation/licenses/notices.txt", "notices"),
+            ("documentation/.gitignore", "*"),
+            ("resources/scene.toml", "a scene"),
+        ] {
+            fs::write(root.join(path), content).unwrap();
+        }
+        Self(root)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+
+    /// Runs the command on these files, with `extra` arguments.
+    fn pack(&self, output: &Path, extra: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_fmu-pack"))
+            .arg("--description")
+            .arg(self.path("modelDescription.xml"))
+            .arg("--binary")
+            .arg(self.path("libblock.so"))
+            .arg("--documentation")
+            .arg(self.path("documentation"))
+            .arg("--output")
+            .arg(output)
+            .args(extra)
+            .output()
+            .unwrap()
+    }
+}
+
+impl Drop for Build {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn an_fmu_has_its_files_in_their_places() {
+    let build = Build::new("places");
+    let (first, second) = (build.path("a.fmu"), build.path("b.fmu"));
+    let resources = build.path("resources");
+    let arguments = ["--platform", "linux64", "--resources", resources.to_str().unwrap()];
+    let done = build.pack(&first, &arguments);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(done.stdout.is_empty());
+    let archive = Archive::open(&first).unwrap();
+    let names: Vec<_> = archive.names().collect();
+    assert_eq!(
+        names,
+        [
+            "binaries/linux64/block.so",
+            "documentation/index.html",
+            "documentation/licenses/notices.txt",
+            "model.png",
+            "modelDescription.xml",
+            "resources/scene.toml"
+        ]
+    );
+    assert_eq!(archive.get("binaries/linux64/block.so"), Some(&b"a library"[..]));
+    let text = std::str::from_utf8(archive.get("modelDescription.xml").unwrap()).unwrap();
+    let description = Description::parse(text).unwrap();
+    assert_eq!(description.declared_guid(), Description::parse(BLOCK).unwrap().guid());
+    assert!(build.pack(&second, &arguments).status.success());
+    assert_eq!(fs::read(first).unwrap(), fs::read(second).unwrap());
+}
+
+#[test]
+fn bad_input_gives_one_message_exit_code_2_and_no_file() {
+    let build = Build::new("bad");
+    let output = build.path("a.fmu");
+    let refused = |extra: &[&str], message: &str| {
+        let done = build.pack(&output, extra);
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(done.status.code(), Some(2), "{said}");
+        assert!(said.starts_with("fmu-pack: ") && said.trim_end().ends_with(message), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(!output.exists());
+    };
+    let platform = ["--platform", "linux64"];
+    refused(&[], "1 --binary and 0 --platform: each library needs its platform; see --help");
+    refused(&["--platform"], "--platform needs a value; see --help");
+    refused(&["--platfrom", "linux64"], "\"--platfrom\" is not an option; see --help");
+    refused(&["--platform", "linux64", "--output", "b"], "--output is given twice");
+    refused(
+        &["--platform", "linux"],
+        "the platform \"linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32",
+    );
+    fs::remove_file(build.path("documentation/index.html")).unwrap();
+    refused(&platform, "has no index.html, the page that importers open");
+    fs::write(build.path("modelDescription.xml"), BLOCK.replace("start=\"3\"", "start=\"30\"")).unwrap();
+    refused(&platform, ":26: the start value 30 of `layers` is outside its limits 1 to 9");
+    fs::remove_file(build.path("modelDescription.xml")).unwrap();
+    assert_eq!(build.pack(&output, &platform).status.code(), Some(2));
+}
+
+#[test]
+fn help_names_every_option() {
+    let done = Command::new(env!("CARGO_BIN_EXE_fmu-pack")).arg("--help").output().unwrap();
+    let help = String::from_utf8(done.stdout).unwrap();
+    assert!(done.status.success());
+    for option in ["--description", "--binary", "--platform", "--documentation", "--resources", "--output"] {
+        assert!(help.contains(&format!("\n  {option} ")), "{option}");
+    }
+}

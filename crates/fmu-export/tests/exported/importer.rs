@@ -1,0 +1,205 @@
+//! An importer: calls the exported C functions and keeps what they log.
+
+use crate::fmi2::{
+    fmi2DoStep, fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance, fmi2GetInteger,
+    fmi2GetReal, fmi2Instantiate, fmi2SetInteger, fmi2SetReal, fmi2SetupExperiment, fmi2Terminate,
+};
+use crate::spring::{Integer, Real, Spring};
+use fmu_export::Model;
+use fmu_export::ffi::types::{
+    CO_SIMULATION, CallbackFunctions, CallbackLogger, Component, ComponentEnvironment, OK, Status, Text, Type,
+};
+use std::ffi::{CStr, CString, c_char};
+use std::ptr;
+use std::sync::Mutex;
+
+#[derive(Clone, PartialEq, Debug)]
+pub struct Message {
+    pub instance: String,
+    pub status: Status,
+    pub category: String,
+    pub text: String,
+}
+
+/// What the importer's environment pointer points to.
+pub struct Journal(Mutex<Vec<Message>>);
+
+impl Journal {
+    #[allow(clippy::unnecessary_box_returns, reason = "C keeps its address")]
+    pub fn new() -> Box<Self> {
+        Box::new(Self(Mutex::default()))
+    }
+
+    /// The messages since the last time.
+    pub fn take(&self) -> Vec<Message> {
+        std::mem::take(&mut *self.0.lock().unwrap())
+    }
+
+    pub fn callbacks(&self) -> CallbackFunctions {
+        CallbackFunctions {
+            logger: Some(as_logger(write_down)),
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            component_environment: ptr::from_ref(self).cast_mut().cast(),
+        }
+    }
+}
+
+/// A logger that takes the one pointer after the format.
+pub type FixedLogger = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text, *const c_char);
+
+/// Rust cannot define a variadic function, but it can define one with the one pointer that follows the format
+/// "%s". On the platforms these tests run on (System V on x86-64, AAPCS on 64-bit Arm Linux) a pointer after
+/// the format is passed to a variadic function like to any other. Only tests do this.
+pub fn as_logger(fixed: FixedLogger) -> CallbackLogger {
+    // SAFETY: both are pointers to C functions; see above for how they are called.
+    unsafe { std::mem::transmute::<FixedLogger, CallbackLogger>(fixed) }
+}
+
+unsafe extern "C" fn write_down(
+    environment: ComponentEnvironment,
+    instance: Text,
+    status: Status,
+    category: Text,
+    format: Text,
+    message: *const c_char,
+) {
+    // SAFETY: the library passes texts that end with a NUL, and the environment it was given.
+    let (text, format, journal) = unsafe {
+        let text = |text| CStr::from_ptr(text).to_str().unwrap().to_owned();
+        let message =
+            Message { instance: text(instance), status, category: text(category), text: text(message) };
+        (message, CStr::from_ptr(format), &*environment.cast::<Journal>())
+    };
+    assert_eq!(format, c"%s");
+    journal.0.lock().unwrap().push(text);
+}
+
+/// An instance that is freed in the end.
+pub struct Importer {
+    pub component: Component,
+    pub journal: Box<Journal>,
+}
+
+// SAFETY: an instance may be used by any thread, by one at a time.
+unsafe impl Send for Importer {}
+
+impl Importer {
+    /// A new instance, not logging.
+    pub fn new() -> Self {
+        Self::logging(false)
+    }
+
+    pub fn logging(on: bool) -> Self {
+        let (component, journal) = instantiate("one", CO_SIMULATION, Spring::GUID, None, on);
+        assert!(!component.is_null(), "{:?}", journal.take());
+        Self { component, journal }
+    }
+
+    pub fn in_initialization_mode() -> Self {
+        let importer = Self::new();
+        // SAFETY: the instance lives.
+        unsafe {
+            assert_eq!(fmi2SetupExperiment(importer.component, 0, 0.0, 0.0, 0, 0.0), OK);
+            assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
+        }
+        importer
+    }
+
+    pub fn in_step_mode() -> Self {
+        let importer = Self::in_initialization_mode();
+        // SAFETY: the instance lives.
+        assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, OK);
+        importer
+    }
+
+    /// A spring that swings from 1 m.
+    pub fn swinging() -> Self {
+        let importer = Self::in_initialization_mode();
+        assert_eq!(importer.set(Real::XStart, 1.0), OK);
+        // SAFETY: the instance lives.
+        assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, OK);
+        importer
+    }
+
+    pub fn terminated() -> Self {
+        let importer = Self::in_step_mode();
+        // SAFETY: the instance lives.
+        assert_eq!(unsafe { fmi2Terminate(importer.component) }, OK);
+        importer
+    }
+
+    pub fn set(&self, variable: Real, value: f64) -> Status {
+        // SAFETY: the instance lives; one reference, one value.
+        unsafe { fmi2SetReal(self.component, &variable.reference(), 1, &value) }
+    }
+
+    pub fn set_integer(&self, variable: Integer, value: i32) -> Status {
+        // SAFETY: the instance lives; one reference, one value.
+        unsafe { fmi2SetInteger(self.component, &variable.reference(), 1, &value) }
+    }
+
+    pub fn get(&self, variable: Real) -> f64 {
+        let mut value = f64::NAN;
+        // SAFETY: the instance lives; one reference, one value.
+        let status = unsafe { fmi2GetReal(self.component, &variable.reference(), 1, &mut value) };
+        assert_eq!(status, OK, "{:?}", self.journal.take());
+        value
+    }
+
+    pub fn get_integer(&self, variable: Integer) -> i32 {
+        let mut value = i32::MIN;
+        // SAFETY: the instance lives; one reference, one value.
+        let status = unsafe { fmi2GetInteger(self.component, &variable.reference(), 1, &mut value) };
+        assert_eq!(status, OK, "{:?}", self.journal.take());
+        value
+    }
+
+    pub fn step(&self, point: f64, size: f64) -> Status {
+        // SAFETY: the instance lives.
+        unsafe { fmi2DoStep(self.component, point, size, 1) }
+    }
+
+    /// The one message since the last time, which is an error and contains `parts`.
+    #[track_caller]
+    pub fn expect_error(&self, parts: &[&str]) {
+        expect_error(&self.journal, parts);
+    }
+}
+
+impl Drop for Importer {
+    fn drop(&mut self) {
+        // SAFETY: the instance lives, for the last time.
+        unsafe { fmi2FreeInstance(self.component) };
+    }
+}
+
+#[track_caller]
+pub fn expect_error(journal: &Journal, parts: &[&str]) {
+    let messages = journal.take();
+    let [message] = &messages[..] else { panic!("one message was expected: {messages:?}") };
+    assert_eq!(message.category, "logStatusError");
+    for part in parts {
+        assert!(message.text.contains(part), "{part:?} is missing in {:?}", message.text);
+    }
+}
+
+pub fn instantiate(
+    name: &str,
+    kind: Type,
+    guid: &str,
+    location: Option<&str>,
+    logging: bool,
+) -> (Component, Box<Journal>) {
+    let journal = Journal::new();
+    let [name, guid] = [name, guid].map(|text| CString::new(text).unwrap());
+    let location = location.map(|text| CString::new(text).unwrap());
+    let location = location.as_ref().map_or(ptr::null(), |text| text.as_ptr());
+    let callbacks = journal.callbacks();
+    // SAFETY: texts and callbacks live until the call returns.
+    let component = unsafe {
+        fmi2Instantiate(name.as_ptr(), kind, guid.as_ptr(), location, &callbacks, 0, i32::from(logging))
+    };
+    (component, journal)
+}

@@ -1,0 +1,233 @@
+//! Instantiation: kinds, guids, resources, names, callbacks.
+
+use crate::fmi2::*;
+use crate::importer::{Importer, Journal, expect_error, instantiate};
+use crate::spring::{Real, Spring, Text};
+use fmu_export::ffi::types::{CO_SIMULATION, CallbackFunctions, Component, ERROR, OK};
+use fmu_export::{Model, fnv1a_128};
+use std::ffi::CStr;
+use std::path::PathBuf;
+use std::process::Command;
+use std::{fs, ptr};
+
+fn text(c: Component, variable: Text) -> String {
+    let mut text = ptr::null();
+    // SAFETY: the instance lives; one reference, one value.
+    unsafe {
+        assert_eq!(fmi2GetString(c, &variable.reference(), 1, &mut text), OK);
+        CStr::from_ptr(text).to_str().unwrap().to_owned()
+    }
+}
+
+/// What an instance with this guid and location made of them; None if it was refused.
+fn made_of(guid: &str, location: Option<&str>) -> Result<[String; 2], Box<Journal>> {
+    let (c, journal) = instantiate("one", CO_SIMULATION, guid, location, false);
+    if c.is_null() {
+        return Err(journal);
+    }
+    // SAFETY: the instance lives until it is freed.
+    unsafe {
+        assert_eq!(fmi2EnterInitializationMode(c), OK);
+        let texts = [Text::Label, Text::Home].map(|variable| text(c, variable));
+        fmi2FreeInstance(c);
+        Ok(texts)
+    }
+}
+
+/// A resources folder with a name that needs escapes, and the guid of what is in it.
+fn resources(name: &str, payload: &str) -> (PathBuf, String) {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name} mit Ümlaut %41"));
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join(Spring::PAYLOAD), payload).unwrap();
+    let hash = fnv1a_128(payload.bytes());
+    (folder, format!("{{0123456789abcdef0123456789abcdef-{hash:032x}}}"))
+}
+
+#[test]
+fn other_kinds_are_refused() {
+    for kind in [2, 77, u32::MAX] {
+        let (component, journal) = instantiate("one", kind, Spring::GUID, None, false);
+        assert!(component.is_null());
+        expect_error(&journal, &["fmi2Instantiate", &format!("fmuType {kind}"), "co-simulation"]);
+    }
+}
+
+#[test]
+fn the_guid_is_compared_in_full() {
+    let base = "0123456789abcdef0123456789abcdef";
+    for wrong in [
+        String::new(),
+        "{}".to_owned(),
+        base.to_owned(),
+        format!("{{{base}"),
+        format!("{{{base}0}}"),
+        format!("{{{base}-}}"),
+        format!("{{{base}-123}}"),
+        format!("{{{base}-+123456789abcdef0123456789abcdef}}"),
+        "{0123456789abcdef0123456789abcdee}".to_owned(),
+        "{0123456789abcdef0123456789abcde}".to_owned(),
+        "{1123456789abcdef0123456789abcdef-0123456789abcdef0123456789abcdef}".to_owned(),
+    ] {
+        let journal = made_of(&wrong, None).unwrap_err();
+        expect_error(&journal, &["fmi2Instantiate", &format!("{wrong:?}"), Spring::GUID]);
+    }
+    assert!(made_of(Spring::GUID, None).is_ok());
+}
+
+#[test]
+fn a_payload_is_what_the_guid_states() {
+    let (folder, guid) = resources("payload", "label");
+    let path = folder.to_str().unwrap();
+    let escaped = path.replace('%', "%25").replace(' ', "%20").replace('Ü', "%C3%9C");
+    for location in [
+        path.to_owned(),
+        format!("{path}/"),
+        format!("file://{escaped}"),
+        format!("file:{escaped}"),
+        format!("file://localhost{escaped}/"),
+    ] {
+        let made = made_of(&guid, Some(&location)).map_err(|journal| journal.take());
+        assert_eq!(made, Ok(["label".to_owned(), path.to_owned()]), "{location}");
+    }
+    // A plain unit takes no payload, even if there is one.
+    let made = made_of(Spring::GUID, Some(path)).map_err(|journal| journal.take());
+    assert_eq!(made, Ok(["spring".to_owned(), path.to_owned()]));
+
+    fs::write(folder.join(Spring::PAYLOAD), "lapel").unwrap();
+    let journal = made_of(&guid, Some(path)).unwrap_err();
+    expect_error(&journal, &["resources/spring.toml has the fingerprint", "states"]);
+    fs::remove_file(folder.join(Spring::PAYLOAD)).unwrap();
+    let journal = made_of(&guid, Some(path)).unwrap_err();
+    expect_error(&journal, &["spring.toml", "cannot be read"]);
+    fs::create_dir(folder.join(Spring::PAYLOAD)).unwrap();
+    let journal = made_of(&guid, Some(path)).unwrap_err();
+    expect_error(&journal, &["spring.toml", "cannot be read"]);
+    // nobody writes into this pipe: to open it would be to wait for ever
+    fs::remove_dir(folder.join(Spring::PAYLOAD)).unwrap();
+    assert!(Command::new("mkfifo").arg(folder.join(Spring::PAYLOAD)).status().unwrap().success());
+    let journal = made_of(&guid, Some(path)).unwrap_err();
+    expect_error(&journal, &["spring.toml", "cannot be read: it is not a regular file"]);
+    let journal = made_of(&guid, None).unwrap_err();
+    expect_error(&journal, &["needs resources/spring.toml"]);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn hostile_locations_harm_nobody() {
+    let long = "x/".repeat(100_000);
+    for location in [
+        "",
+        "file://",
+        "http://host/p",
+        "file:///%",
+        "file:///%00",
+        "%s%n%s%n",
+        "/dev/null",
+        "../../..",
+        &long,
+    ] {
+        assert!(made_of(Spring::GUID, Some(location)).is_ok(), "a plain unit needs no resources");
+        let (_, guid) = resources("hostile", "label");
+        assert!(made_of(&guid, Some(location)).is_err(), "{location}");
+    }
+}
+
+#[test]
+fn an_unusable_location_is_a_warning() {
+    let (component, journal) = instantiate("one", CO_SIMULATION, Spring::GUID, Some("http://host/p"), true);
+    let messages = journal.take();
+    assert_eq!(messages[0].category, "logStatusWarning");
+    assert!(messages[0].text.contains("http://host/p"));
+    // SAFETY: the instance lives, for the last time.
+    unsafe { fmi2FreeInstance(component) };
+}
+
+#[test]
+fn a_model_that_refuses_or_panics_gives_no_instance() {
+    for (name, part) in [("fail", "no spring today"), ("panic", "spring snapped at once")] {
+        let (component, journal) = instantiate(name, CO_SIMULATION, Spring::GUID, None, false);
+        assert!(component.is_null());
+        expect_error(&journal, &["fmi2Instantiate", part]);
+    }
+}
+
+#[test]
+fn names_may_be_missing_and_callbacks_too() {
+    let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
+    let silent = CallbackFunctions {
+        logger: None,
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        component_environment: ptr::null_mut(),
+    };
+    for name in [ptr::null(), c"".as_ptr(), c"\xff\xfe".as_ptr(), c"%s%n".as_ptr()] {
+        for callbacks in [ptr::null(), ptr::from_ref(&silent)] {
+            // SAFETY: texts and callbacks live until the call returns; the instance lives until it is freed.
+            unsafe {
+                let c = fmi2Instantiate(name, CO_SIMULATION, guid, ptr::null(), callbacks, 1, 1);
+                assert!(!c.is_null());
+                assert_eq!(fmi2EnterInitializationMode(c), OK);
+                assert_eq!(fmi2ExitInitializationMode(c), OK);
+                assert_eq!(fmi2DoStep(c, 0.0, 0.1, 1), OK);
+                assert_eq!(fmi2DoStep(c, 7.0, 0.1, 1), ERROR);
+                fmi2FreeInstance(c);
+                // Refused without a logger to tell.
+                assert!(fmi2Instantiate(name, 2, guid, ptr::null(), callbacks, 1, 1).is_null());
+                assert!(
+                    fmi2Instantiate(name, CO_SIMULATION, ptr::null(), ptr::null(), callbacks, 1, 1).is_null()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn texts_that_are_no_text_are_refused() {
+    let journal = Journal::new();
+    let callbacks = journal.callbacks();
+    // SAFETY: texts and callbacks live until the call returns.
+    unsafe {
+        let latin_1 = c"\xfc".as_ptr();
+        let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
+        assert!(
+            fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, ptr::null(), ptr::null(), &callbacks, 0, 0)
+                .is_null()
+        );
+        expect_error(&journal, &["fmuGUID is NULL"]);
+        assert!(
+            fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, latin_1, ptr::null(), &callbacks, 0, 0).is_null()
+        );
+        expect_error(&journal, &["fmuGUID is not UTF-8"]);
+        assert!(fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, guid, latin_1, &callbacks, 0, 0).is_null());
+        expect_error(&journal, &["fmuResourceLocation is not UTF-8"]);
+    }
+}
+
+#[test]
+fn an_environment_may_be_null_while_there_is_a_logger() {
+    use fmu_export::ffi::types::{CallbackLogger, ComponentEnvironment, Status, Text};
+    unsafe extern "C" fn deaf(environment: ComponentEnvironment, _: Text, _: Status, _: Text, _: Text) {
+        assert!(environment.is_null());
+    }
+    type Fixed = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text);
+    // SAFETY: both are pointers to C functions, and one that takes fewer arguments leaves the rest alone.
+    let logger = unsafe { std::mem::transmute::<Fixed, CallbackLogger>(deaf) };
+    let callbacks = CallbackFunctions { logger: Some(logger), ..Journal::new().callbacks() };
+    let callbacks = CallbackFunctions { component_environment: ptr::null_mut(), ..callbacks };
+    // SAFETY: texts and callbacks live until the call returns; the instance lives until it is freed.
+    unsafe {
+        let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
+        let c = fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, guid, ptr::null(), &callbacks, 0, 1);
+        assert_eq!(fmi2DoStep(c, 0.0, 0.1, 1), ERROR);
+        fmi2FreeInstance(c);
+    }
+}
+
+#[test]
+fn instances_do_not_share_anything() {
+    let (one, two) = (Importer::swinging(), Importer::in_step_mode());
+    assert_eq!(one.step(0.0, 0.1), OK);
+    assert_eq!(two.step(0.0, 0.1), OK);
+    assert_eq!((one.get(Real::X) == 0.0, two.get(Real::X)), (false, 0.0));
+}

@@ -1,0 +1,222 @@
+//! Getting and setting values.
+
+use crate::fmi2::*;
+use crate::importer::Importer;
+use crate::spring::{Boolean, Integer, Real, Text};
+use fmu_export::ffi::types::{ERROR, OK};
+use std::ffi::CStr;
+use std::ptr;
+
+#[test]
+fn a_model_starts_with_the_values_of_its_description() {
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.get(Real::Stiffness), 4.0);
+    assert_eq!(importer.get_integer(Integer::Law), 1);
+    assert_eq!(importer.get_integer(Integer::Substeps), 8);
+}
+
+#[test]
+fn what_is_set_is_got() {
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.set(Real::Stiffness, 9.0), OK);
+    assert_eq!(importer.set_integer(Integer::Law, 2), OK);
+    let c = importer.component;
+    let mut flag = -1;
+    let mut label = ptr::null();
+    // SAFETY: the instance lives; one reference, one value.
+    let label = unsafe {
+        // C's truth is anything but 0.
+        assert_eq!(fmi2SetBoolean(c, &Boolean::Clamped.reference(), 1, &2), OK);
+        assert_eq!(fmi2SetString(c, &Text::Label.reference(), 1, &c"Fäden %s".as_ptr()), OK);
+        assert_eq!(fmi2GetBoolean(c, &Boolean::Clamped.reference(), 1, &mut flag), OK);
+        assert_eq!(fmi2GetString(c, &Text::Label.reference(), 1, &mut label), OK);
+        CStr::from_ptr(label)
+    };
+    assert_eq!((flag, label), (1, c"Fäden %s"));
+    assert_eq!(importer.get(Real::Stiffness), 9.0);
+    assert_eq!(importer.get_integer(Integer::Law), 2);
+}
+
+#[test]
+fn values_that_overflow_are_an_error() {
+    let importer = Importer::in_step_mode();
+    assert_eq!(importer.set(Real::Push, 1e308), OK);
+    assert_eq!(importer.step(0.0, 1e-3), OK);
+    let (mut value, c) = (0.0, importer.component);
+    // SAFETY: the instance lives; one reference, one value.
+    unsafe {
+        assert_eq!(fmi2GetReal(c, &Real::V.reference(), 1, &mut value), OK);
+        assert_eq!(fmi2GetReal(c, &Real::Energy.reference(), 1, &mut value), ERROR);
+    }
+    importer.expect_error(&["energy = inf is not a finite number"]);
+}
+
+#[test]
+fn a_text_lives_until_the_next_is_got() {
+    let importer = Importer::in_step_mode();
+    let mut texts = [ptr::null(); 2];
+    // SAFETY: the instance lives; two references, two values.
+    unsafe {
+        let references = [Text::Label.reference(), Text::Home.reference()];
+        assert_eq!(fmi2GetString(importer.component, references.as_ptr(), 2, texts.as_mut_ptr()), OK);
+        importer.step(0.0, 0.1);
+        importer.get(Real::X);
+        assert_eq!(CStr::from_ptr(texts[0]), c"spring");
+        assert_eq!(CStr::from_ptr(texts[1]), c"");
+    }
+}
+
+#[test]
+fn calculated_values_follow_sets_in_initialization_mode() {
+    let importer = Importer::in_initialization_mode();
+    // 2π/√4 and 2π/√1: exact, as the square roots are.
+    assert_eq!(importer.get(Real::Period), std::f64::consts::PI);
+    assert_eq!(importer.set(Real::Stiffness, 1.0), OK);
+    assert_eq!(importer.get(Real::Period), std::f64::consts::TAU);
+}
+
+#[test]
+fn contradictions_are_told_when_values_are_asked_for() {
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.set(Real::XStart, 1.0), OK);
+    // SAFETY: the instance lives; one reference, one value.
+    unsafe {
+        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Clamped.reference(), 1, &1), OK);
+        assert_eq!(fmi2ExitInitializationMode(importer.component), ERROR);
+    }
+    importer.expect_error(&["fmi2ExitInitializationMode", "x_start = 1 m"]);
+
+    let importer = Importer::in_initialization_mode();
+    assert_eq!(importer.set_integer(Integer::Substeps, 13), OK);
+    // SAFETY: the instance lives.
+    assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, ERROR);
+    importer.expect_error(&["substeps = 13"]);
+}
+
+#[test]
+fn limits_are_checked_and_named() {
+    for (variable, value, parts) in [
+        (Real::Stiffness, 0.25, ["fmi2SetReal", "stiffness = 0.25 N/m", "minimum, 0.5 N/m"]),
+        (Real::Stiffness, 101.0, ["fmi2SetReal", "stiffness = 101.0 N/m", "maximum, 100.0 N/m"]),
+        (Real::Stiffness, f64::NAN, ["fmi2SetReal", "stiffness = NaN", "finite"]),
+        (Real::Force, f64::INFINITY, ["fmi2SetReal", "force = inf", "finite"]),
+        (Real::Push, f64::NEG_INFINITY, ["fmi2SetReal", "push = -inf", "finite"]),
+        (Real::Force, -50.001, ["fmi2SetReal", "force = -50.001 N", "minimum, -50.0 N"]),
+    ] {
+        let importer = Importer::in_initialization_mode();
+        let before = importer.get(variable);
+        assert_eq!(importer.set(variable, value), ERROR);
+        importer.expect_error(&parts);
+        assert_eq!(importer.get(variable), before);
+    }
+    for (variable, value, parts) in [
+        (Integer::Substeps, 0, ["fmi2SetInteger", "substeps = 0", "minimum, 1"]),
+        (Integer::Substeps, 101, ["fmi2SetInteger", "substeps = 101", "maximum, 100"]),
+        (Integer::Law, 3, ["fmi2SetInteger", "law = 3", "linear = 1, cubic = 2"]),
+    ] {
+        let importer = Importer::in_initialization_mode();
+        assert_eq!(importer.set_integer(variable, value), ERROR);
+        importer.expect_error(&parts);
+    }
+    let importer = Importer::in_initialization_mode();
+    for value in [0.5, 100.0] {
+        assert_eq!(importer.set(Real::Stiffness, value), OK, "a limit belongs to its range");
+    }
+}
+
+#[test]
+fn only_inputs_and_parameters_are_set_and_those_in_their_phase() {
+    let settable = |importer: fn() -> Importer, variable| importer().set(variable, 1.0) == OK;
+    for (variable, before, in_steps) in [
+        (Real::Force, true, true),
+        (Real::Push, true, true),
+        (Real::Stiffness, true, false),
+        (Real::Trim, true, true),
+        (Real::Gravity, false, false),
+        (Real::Period, false, false),
+        (Real::X, false, false),
+        (Real::Energy, false, false),
+        (Real::Time, false, false),
+    ] {
+        assert_eq!(settable(Importer::new, variable), before, "{variable:?} instantiated");
+        assert_eq!(
+            settable(Importer::in_initialization_mode, variable),
+            before,
+            "{variable:?} in Initialization Mode"
+        );
+        assert_eq!(settable(Importer::in_step_mode, variable), in_steps, "{variable:?} in step mode");
+    }
+    let importer = Importer::in_step_mode();
+    assert_eq!(importer.set(Real::Stiffness, 1.0), ERROR);
+    importer.expect_error(&["stiffness is a fixed parameter", "in step mode"]);
+    let importer = Importer::new();
+    assert_eq!(importer.set_integer(Integer::Count, 1), ERROR);
+    importer.expect_error(&["count is an output"]);
+    // SAFETY: the instances live; one reference, one value.
+    unsafe {
+        let importer = Importer::in_step_mode();
+        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Clamped.reference(), 1, &1), ERROR);
+        let importer = Importer::new();
+        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Moving.reference(), 1, &1), ERROR);
+        let importer = Importer::in_step_mode();
+        assert_eq!(fmi2SetString(importer.component, &Text::Label.reference(), 1, &c"".as_ptr()), ERROR);
+    }
+}
+
+#[test]
+fn one_bad_value_leaves_all_as_they_were() {
+    let importer = Importer::in_initialization_mode();
+    let references = [Real::Force.reference(), Real::Push.reference(), Real::Stiffness.reference()];
+    // SAFETY: the instance lives; three references, three values.
+    let status =
+        unsafe { fmi2SetReal(importer.component, references.as_ptr(), 3, [1.0, 2.0, -1.0].as_ptr()) };
+    assert_eq!(status, ERROR);
+    assert_eq!((importer.get(Real::Force), importer.get(Real::Push)), (0.0, 0.0));
+
+    let importer = Importer::in_initialization_mode();
+    let references = [Integer::Substeps.reference(), 999];
+    // SAFETY: the instance lives; two references, two values.
+    let status = unsafe { fmi2SetInteger(importer.component, references.as_ptr(), 2, [5, 5].as_ptr()) };
+    assert_eq!(status, ERROR);
+    assert_eq!(importer.get_integer(Integer::Substeps), 8);
+
+    let importer = Importer::in_initialization_mode();
+    let references = [Text::Label.reference(), Text::Label.reference()];
+    // SAFETY: the instance lives; two references, two values, both texts.
+    unsafe {
+        let latin_1 = c"\xfc".as_ptr();
+        let values = [c"other".as_ptr(), latin_1];
+        assert_eq!(fmi2SetString(importer.component, references.as_ptr(), 2, values.as_ptr()), ERROR);
+        importer.expect_error(&["UTF-8"]);
+        let mut label = ptr::null();
+        assert_eq!(fmi2GetString(importer.component, references.as_ptr(), 1, &mut label), OK);
+        assert_eq!(CStr::from_ptr(label), c"spring");
+    }
+}
+
+#[test]
+fn unknown_references_are_refused() {
+    // References of another type are unknown as well.
+    for reference in [0, 999, u32::MAX, Integer::Law.reference()] {
+        // SAFETY: the instances live; one reference, one value.
+        unsafe {
+            let importer = Importer::in_initialization_mode();
+            assert_eq!(fmi2GetReal(importer.component, &reference, 1, &mut 0.0), ERROR);
+            importer.expect_error(&["fmi2GetReal", &reference.to_string()]);
+            let importer = Importer::in_initialization_mode();
+            assert_eq!(fmi2SetReal(importer.component, &reference, 1, &0.0), ERROR);
+            importer.expect_error(&["fmi2SetReal", &reference.to_string()]);
+        }
+    }
+    // SAFETY: the instances live; one reference, one value.
+    unsafe {
+        let c = |importer: &Importer| importer.component;
+        let importers = [(); 6].map(|()| Importer::in_initialization_mode());
+        assert_eq!(fmi2GetInteger(c(&importers[0]), &1, 1, &mut 0), ERROR);
+        assert_eq!(fmi2SetInteger(c(&importers[1]), &1, 1, &0), ERROR);
+        assert_eq!(fmi2GetBoolean(c(&importers[2]), &1, 1, &mut 0), ERROR);
+        assert_eq!(fmi2SetBoolean(c(&importers[3]), &1, 1, &0), ERROR);
+        assert_eq!(fmi2GetString(c(&importers[4]), &1, 1, &mut ptr::null()), ERROR);
+        assert_eq!(fmi2SetString(c(&importers[5]), &1, 1, &c"".as_ptr()), ERROR);
+    }
+}
