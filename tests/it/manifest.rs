@@ -53,7 +53,7 @@ fn every_crate_has_what_a_registry_shows() {
 /// What each crate may know of the others; Cargo holds it to this.
 #[test]
 fn arrows_between_crates_point_one_way() {
-    let known: [(&str, &[&str]); 9] = [
+    let known: [(&str, &[&str]); 10] = [
         ("fmu-export", &[]),
         ("fmu-export-build", &["fmu-export"]),
         ("rocking-oscillator", &[]),
@@ -62,6 +62,7 @@ fn arrows_between_crates_point_one_way() {
         ("rocking-wall", &["fmu-export", "ground-motion", "rocking-oscillator"]),
         ("rocking-study", &["fmu-export", "ground-motion", "rocking-wall"]),
         ("rocking-figures", &["rocking-study"]),
+        ("rocking-scene-fmu", &["fmu-export-build", "ground-motion", "rocking-wall"]),
         (
             "rocking-wall-cli",
             &[
@@ -70,6 +71,7 @@ fn arrows_between_crates_point_one_way() {
                 "ground-motion",
                 "rocking-figures",
                 "rocking-floor",
+                "rocking-scene-fmu",
                 "rocking-study",
                 "rocking-wall",
             ],

@@ -1,6 +1,7 @@
 //! Studies of rocking walls: many runs, and the results they have together.
 //!
-//! Nothing here opens a file or prints. Each module uses only modules above it in this table:
+//! Nothing here prints, and only [`loaded`] opens files. Each module uses only modules above it in this
+//! table:
 //!
 //! | module | holds |
 //! |---|---|
@@ -11,6 +12,8 @@
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`document`] | study files |
+//! | [`loaded`] | studies read from files, with their scenes and records |
+//! | [`results`] | the curves and the fragilities of a complete study |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
@@ -26,9 +29,11 @@ pub mod document;
 pub mod fragility;
 mod free_motion;
 pub mod ida;
+pub mod loaded;
 pub mod parallel;
 mod random;
 pub mod reproduce;
+pub mod results;
 pub mod spectrum;
 pub mod stability;
 

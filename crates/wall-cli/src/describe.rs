@@ -7,7 +7,7 @@ use anyhow::Result;
 use clap::Args;
 use rocking_wall::scene::check_thresholds;
 use rocking_wall::solver::Method;
-use rocking_wall::wall::{Wall, equivalence};
+use rocking_wall::wall::{Fact, Wall};
 
 use crate::args::SceneArguments;
 use crate::capacity::{Capacity, significant};
@@ -32,9 +32,6 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// One derived number: name, symbol, value, unit.
-struct Fact(&'static str, &'static str, f64, &'static str);
-
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
@@ -50,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         output::picture(path, || Ok(capacity.picture()))?;
     }
     output::save(arguments.csv.as_ref(), || capacity.csv())?;
-    let facts = facts(&wall);
+    let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
         ("title", scene.title.clone()),
@@ -66,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         for (name, value) in words {
             object.insert(name.into(), value.into());
         }
-        for Fact(name, _, value, _) in facts {
+        for Fact { name, value, .. } in facts {
             object.insert(name.into(), value.into());
         }
         let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
@@ -81,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         let _ = writeln!(text, "{name:<22}{value}");
     }
     text.push('\n');
-    for Fact(name, symbol, value, unit) in facts {
+    for Fact { name, symbol, value, unit } in facts {
         let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
     }
     text.push_str(&capacity.table());
@@ -92,34 +89,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         let _ = writeln!(text, "\nwritten {}", path.display());
     }
     output::to_stdout(&text)
-}
-
-fn facts(wall: &Wall) -> Vec<Fact> {
-    let body = wall.body();
-    let omega1 = wall.omega1();
-    let period = if omega1 > 0.0 { 2.0 * std::f64::consts::PI / omega1 } else { 0.0 };
-    let e = wall.restitution();
-    vec![
-        Fact("mass", "m", body.mass, "kg"),
-        Fact("effective_mass", "m_eff", body.effective_mass, "kg"),
-        Fact("participation", "lambda", body.participation, "-"),
-        Fact("weight", "W", body.weight, "N"),
-        Fact("slenderness", "alpha", body.slenderness, "rad"),
-        Fact("F0", "F0+", body.strength.positive, "N"),
-        Fact("F0_negative", "F0-", body.strength.negative, "N"),
-        Fact("u_ins", "u_ins+", body.instability.positive, "m"),
-        Fact("u_ins_negative", "u_ins-", body.instability.negative, "m"),
-        Fact("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
-        Fact("force_end", "u3+", wall.force_end().positive, "m"),
-        Fact("rocking_onset", "a_g", wall.rocking_onset(), "m/s2"),
-        Fact("omega1", "omega1", omega1, "rad/s"),
-        Fact("elastic_period", "T1", period, "s"),
-        Fact("restitution_used", "e", e, "-"),
-        Fact("xi_used", "xi", wall.damping_ratio(), "-"),
-        Fact("elastic_damping", "C", wall.elastic_damping(), "N s/m"),
-        Fact("xi_makris", "Eq. 14", equivalence::makris_konstantinidis(e), "-"),
-        Fact("xi_giannini", "Eq. 17", equivalence::giannini_masiani(e), "-"),
-    ]
 }
 
 /// The solver in words.

@@ -25,19 +25,20 @@ mod error;
 mod levels;
 mod measure;
 mod model;
+mod shaking;
 
-use crate::free_motion::peak_is_final;
 use crate::parallel;
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
-use rocking_wall::solver::{Motion, SolverError, State};
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::solver::record::{Outcome, RecordSolver};
+use rocking_wall::solver::{Motion, SolverError};
+use rocking_wall::wall::{Parameters, Wall};
 
 pub use curve::{Curve, Exceedance, Run};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
 pub use model::{Damping, Model, RatioSource};
+pub use shaking::Shaking;
 
 /// Default free vibration after a record \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -195,11 +196,11 @@ impl Study {
     /// # Errors
     /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
-        let record = &self.records[case.record];
-        let solver = RecordSolver::new(self.motion(case.wall, case.model), record.motion.step());
-        let batch = solver.batch(Forcing::Samples(record.motion.samples()));
+        let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record]);
+        let solver = RecordSolver::new(motion, record.motion.step());
+        let shaking = Shaking::new(motion, &solver, &record.motion, self.tail);
         let runs = self.levels.trace(|levels| {
-            self.runs(case, &solver, &batch, levels).map_err(|source| IdaError::Run {
+            self.runs(case, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
                 record: record.name.clone(),
                 model: self.models[case.model].name.clone(),
@@ -220,49 +221,15 @@ impl Study {
     }
 
     /// Runs the record of a combination scaled to each of some levels \[m/s²\].
-    fn runs(
-        &self,
-        case: Case,
-        solver: &RecordSolver<'_>,
-        batch: &Batch<'_>,
-        levels: &[f64],
-    ) -> Result<Vec<Run>, SolverError> {
-        let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record].motion);
-        let body = motion.wall().body();
-        // p = −λ a_g
-        let participation = body.forcing(Support::rigid(1.0));
-        let start = |level: &f64| {
-            let factor = level / self.intensities[case.record] * participation;
-            RunStart { state: motion.start_under(0.0, 0.0, factor * record.samples()[0]), factor }
+    fn runs(&self, case: Case, shaking: &Shaking<'_>, levels: &[f64]) -> Result<Vec<Run>, SolverError> {
+        let factors: Vec<_> = levels.iter().map(|level| level / self.intensities[case.record]).collect();
+        let instability = self.wall(case.wall, case.model).body().instability;
+        let run = |(&intensity, outcome): (&f64, Outcome)| Run {
+            intensity,
+            demand: outcome.state.peaks.ratio(instability),
+            overturning: outcome.overturning,
         };
-        let starts: Vec<_> = levels.iter().map(start).collect();
-        let outcomes = batch.run(&starts, true)?;
-        let run = |(&intensity, outcome): (&f64, &Outcome)| {
-            let (state, overturning) = match outcome.overturning {
-                Some(time) => (outcome.state, Some(time)),
-                None => self.free_vibration(solver, motion.wall(), record, outcome.state)?,
-            };
-            Ok(Run { intensity, demand: state.peaks.ratio(body.instability), overturning })
-        };
-        levels.iter().zip(&outcomes).map(run).collect()
-    }
-
-    /// Returns the state after the free vibration that follows a record, and the time of overturning. A wall
-    /// that lacks the energy to exceed its peak is not followed.
-    fn free_vibration(
-        &self,
-        solver: &RecordSolver<'_>,
-        wall: &Wall,
-        record: &GroundMotion,
-        state: State,
-    ) -> Result<(State, Option<f64>), SolverError> {
-        if peak_is_final(wall, &state) {
-            return Ok((state, None));
-        }
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
-        let count = (self.tail / record.step()).ceil() as usize + 1;
-        let outcome = solver.run(RunStart { state, factor: 1.0 }, Forcing::Still(count), true)?;
-        Ok((outcome.state, outcome.overturning.map(|time| record.duration() + time)))
+        Ok(levels.iter().zip(shaking.runs([0.0, 0.0], &factors)?).map(run).collect())
     }
 }
 

@@ -19,9 +19,10 @@ use fmu_export_build::{DefaultExperiment, Reduction};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};
+use scene_fmu::of_scene;
 
-use crate::package::General;
-use crate::{output, package};
+use crate::output;
+use crate::package::general;
 use document::{Building, Floor, Member, Parameter, fmu_path};
 use trial::Trial;
 
@@ -52,11 +53,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for wall in &building.walls {
         let scene = scene(&folder.join(&wall.scene), wall, &mut warnings)
             .with_context(|| format!("wall {:?}", wall.name))?;
-        let general = General::open(&arguments.wall_fmu, "--wall-fmu")?;
-        let (unit, _, payload) = package::of_scene(&scene, general)?;
-        archive.insert(fmu_path(&wall.name), unit.to_bytes()?);
+        let general = general(&arguments.wall_fmu, "--wall-fmu")?;
+        let unit = of_scene(&scene, general).with_context(|| format!("wall {:?}", wall.name))?;
+        archive.insert(fmu_path(&wall.name), unit.archive.to_bytes()?);
         scenes.push(scene);
-        walls.push(payload);
+        walls.push(unit.scene);
     }
     output::report_all(warnings);
     for floor in &building.floors {
@@ -132,7 +133,7 @@ fn scene(path: &Path, wall: &Member, warnings: &mut Vec<String>) -> Result<Scene
 
 /// The FMU of a storey and its `resources/floor.toml`, made from the general one.
 fn storey(building: &Building, floor: &Floor, path: &Path) -> Result<(Archive, String)> {
-    let general = General::open(path, "--floor-fmu")?;
+    let general = general(path, "--floor-fmu")?;
     if general.description.model_identifier() != "floor" {
         let found = general.description.model_identifier();
         bail!(

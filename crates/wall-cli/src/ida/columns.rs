@@ -52,7 +52,7 @@ fn rows(
     group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
 ) -> Result<()> {
     let contents = results.contents();
-    let curves = results.curves(wall, model);
+    let curves = results.data.curves(wall, model);
     let levels: Vec<_> = curves.iter().flat_map(Curve::levels).collect();
     let alike = |name: &str| vec![ByteArray::from(name); levels.len()];
     let records = curves.iter().zip(&contents.records).flat_map(|(curve, record)| {

@@ -3,7 +3,6 @@
 #[cfg(feature = "parquet")]
 mod columns;
 mod folder;
-mod load;
 mod page;
 mod results;
 
@@ -17,13 +16,13 @@ use anyhow::{Result, bail};
 use clap::Args;
 use ground_motion::STANDARD_GRAVITY;
 use study::ida::{Exceedance, Study};
+use study::loaded::LoadedStudy;
 use study::parallel;
 
 use crate::output;
 use crate::progress::Progress;
 
 use folder::Folder;
-use load::load;
 use results::Results;
 
 #[derive(Debug, Args)]
@@ -80,7 +79,7 @@ const FILES: [&str; 6] =
 const NAMED: usize = 3;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let loaded = load(&arguments.study)?;
+    let loaded = LoadedStudy::read(&arguments.study)?;
     let path = match (&arguments.output, arguments.study.file_stem()) {
         (Some(path), _) => path.clone(),
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
@@ -226,7 +225,7 @@ fn finish(folder: &Folder, threads: usize) -> Result<()> {
         bail!("{}", missing_message(folder, &missing));
     }
     folder.sweep();
-    let results = Results::new(folder.manifest.clone(), curves, threads)?;
+    let results = Results::new(folder.manifest.clone(), curves, threads);
     let mut files = vec![
         ("levels.csv", results.levels_csv().into_bytes()),
         ("collapses.csv", results.collapses_csv().into_bytes()),
@@ -261,7 +260,7 @@ fn summary(results: &Results) -> String {
     let model_width = width(&mut contents.models.iter().map(|model| &model.name));
     let mut text = format!(
         "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n",
-        results.runs(),
+        results.data.runs(),
         contents.measure,
         report.resamples,
         contents.records.len()
@@ -273,7 +272,7 @@ fn summary(results: &Results) -> String {
         "wall", "model", "median", "", "theta", "beta", "censored"
     );
     for (w, wall) in contents.walls.iter().enumerate() {
-        for (model, summary) in contents.models.iter().zip(results.summaries(w, collapse)) {
+        for (model, summary) in contents.models.iter().zip(results.data.summaries(w, collapse)) {
             let beta = summary.fitted.map_or("–".to_owned(), |fit| format!("{:.3}", fit.dispersion));
             let [median, low, high] = summary.median.texts(STANDARD_GRAVITY, Some(3));
             let [theta, ..] = summary.theta.texts(STANDARD_GRAVITY, Some(3));
@@ -295,10 +294,10 @@ fn summary(results: &Results) -> String {
 /// Warns of walls and models whose limit states contradict a common β.
 fn contradictions(results: &Results) -> Option<String> {
     let contents = results.contents();
-    let found = results.contradicted();
+    let found = results.data.contradicted();
     let name = |&[w, m]: &[usize; 2]| {
         let states = results.manifest.report.fractions.len();
-        let alone = (0..states).filter_map(|state| results.summaries(w, state)[m].alone.ok());
+        let alone = (0..states).filter_map(|state| results.data.summaries(w, state)[m].alone.ok());
         let alone: Vec<_> = alone.map(|fit| format!("{:.2}", fit.dispersion)).collect();
         let (wall, model) = (&contents.walls[w].name, &contents.models[m].name);
         format!("wall {wall:?} with {model} ({})", alone.join(", "))
@@ -320,7 +319,7 @@ fn contradictions(results: &Results) -> Option<String> {
 fn resurrections(results: &Results) -> String {
     let contents = results.contents();
     let resurrected = (0..contents.walls.len() * contents.models.len())
-        .flat_map(|pair| results.curves(pair / contents.models.len(), pair % contents.models.len()))
+        .flat_map(|pair| results.data.curves(pair / contents.models.len(), pair % contents.models.len()))
         .filter(|curve| matches!(curve.collapse(), Exceedance::At(_)) && curve.resurrections() > 0)
         .count();
     if resurrected == 0 {

@@ -57,7 +57,7 @@ pub(super) fn page(results: &Results) -> String {
         if contents.walls.len() == 1 { "wall" } else { "walls" },
         contents.records.len(),
         contents.models.len(),
-        results.runs(),
+        results.data.runs(),
         measure_words(results),
     );
     filled(
@@ -186,6 +186,7 @@ fn top(results: &Results, wall: usize, fraction: f64) -> f64 {
     let models = results.contents().models.len();
     let largest = |model: usize| {
         let mut intensities: Vec<f64> = results
+            .data
             .exceedances(wall, model, fraction)
             .into_iter()
             .map(|occurrence| match occurrence {
@@ -205,11 +206,11 @@ fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: 
     let contents = results.contents();
     let fraction = results.manifest.report.fractions[place];
     let mut plot = ManyLines::new(size, [0.0, top], [0.0, 1.0]);
-    for (model, summary) in results.summaries(wall, place).iter().enumerate() {
+    for (model, summary) in results.data.summaries(wall, place).iter().enumerate() {
         let color = color(results, model);
         let mut points = vec![[0.0, 0.0]];
         let mut before = 0.0;
-        for (intensity, part) in steps(&results.exceedances(wall, model, fraction)) {
+        for (intensity, part) in steps(&results.data.exceedances(wall, model, fraction)) {
             points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
             before = part;
         }
@@ -228,10 +229,10 @@ fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: 
 /// Curves of one model: intensity up, demand across.
 fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
     let contents = results.contents();
-    let all = results.curves(wall, model);
+    let all = results.data.curves(wall, model);
     let color = color(results, model);
     let mut plot = ManyLines::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
-    let every = results.runs().div_ceil(MOST_POINTS).max(1);
+    let every = results.data.runs().div_ceil(MOST_POINTS).max(1);
     for curve in all.iter().step_by(every) {
         plot.line(&path(curve), "record", color);
     }
@@ -287,9 +288,9 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
          <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
-    for (model, summary) in results.summaries(wall, collapse).iter().enumerate() {
+    for (model, summary) in results.data.summaries(wall, collapse).iter().enumerate() {
         let xi = contents.walls[wall].xi[model];
-        let again = results.curves(wall, model).iter().filter(|curve| curve.resurrections() > 0).count();
+        let again = results.data.curves(wall, model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
         let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
         let gravity = ground_motion::STANDARD_GRAVITY;

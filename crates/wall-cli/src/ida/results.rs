@@ -1,12 +1,11 @@
-//! The results of a study, and its tables.
+//! The tables of a study.
 
 use std::fmt::Write;
 
-use anyhow::Result;
 use ground_motion::STANDARD_GRAVITY;
-use study::fragility::{Bootstrap, FitError, Interval, Lognormal, ObservationKind, Summary, compare};
+use study::fragility::{FitError, Interval, Lognormal};
 use study::ida::{Curve, Exceedance};
-use study::parallel;
+use study::results;
 
 use crate::csv::{self, quoted};
 
@@ -15,70 +14,20 @@ use super::folder::{Contents, Manifest};
 /// A study whose runs are complete.
 pub(crate) struct Results {
     pub(crate) manifest: Manifest,
-    curves: Vec<Curve>,
-    /// Wall by wall, fraction by fraction: one summary for each model.
-    summaries: Vec<Vec<Summary>>,
+    pub(crate) data: results::Results,
 }
 
 impl Results {
-    pub(super) fn new(manifest: Manifest, curves: Vec<Curve>, threads: usize) -> Result<Self> {
-        let walls = manifest.contents.walls.len();
-        let mut results = Self { manifest, curves, summaries: Vec::new() };
-        let report = &results.manifest.report;
-        let bootstrap =
-            Bootstrap::new(results.contents().records.len(), report.resamples as usize, report.seed);
-        let kind = results.observation_kind();
-        let models = &results.contents().models;
-        let reference = models.iter().position(|model| model.name == report.reference).unwrap_or(0);
-        let summaries = parallel::map(walls, threads, |wall| -> Result<_> {
-            let exceedances = |model: usize| {
-                let at = |&fraction: &f64| results.exceedances(wall, model, fraction);
-                report.fractions.iter().map(at).collect()
-            };
-            let exceedances: Vec<Vec<_>> = (0..models.len()).map(exceedances).collect();
-            Ok(compare(&exceedances, reference, &kind, &bootstrap))
-        })?;
-        results.summaries = summaries.concat();
-        Ok(results)
+    pub(super) fn new(manifest: Manifest, curves: Vec<Curve>, threads: usize) -> Self {
+        let Contents { records, models, grid, .. } = &manifest.contents;
+        let models: Vec<_> = models.iter().map(|model| model.name.as_str()).collect();
+        let grid = grid.clone();
+        let data = results::Results::new(curves, records.len(), &models, grid, &manifest.report, threads);
+        Self { manifest, data }
     }
 
     pub(crate) fn contents(&self) -> &Contents {
         &self.manifest.contents
-    }
-
-    /// Returns stripes at levels that all records share, or the records' own intensities.
-    fn observation_kind(&self) -> ObservationKind {
-        self.contents().grid.clone().map_or(ObservationKind::Records, ObservationKind::Stripes)
-    }
-
-    /// The curves of a wall and model, record by record.
-    pub(crate) fn curves(&self, wall: usize, model: usize) -> &[Curve] {
-        let (records, models) = (self.contents().records.len(), self.contents().models.len());
-        let start = (wall * models + model) * records;
-        &self.curves[start..start + records]
-    }
-
-    /// Where each record first exceeds a fraction of `u_ins`.
-    pub(crate) fn exceedances(&self, wall: usize, model: usize, fraction: f64) -> Vec<Exceedance> {
-        let at_levels = self.contents().grid.is_some();
-        self.curves(wall, model).iter().map(|curve| curve.exceedance(fraction, at_levels)).collect()
-    }
-
-    /// The fragilities of a wall at the fraction of a place, one for each model.
-    pub(crate) fn summaries(&self, wall: usize, fraction: usize) -> &[Summary] {
-        &self.summaries[wall * self.manifest.report.fractions.len() + fraction]
-    }
-
-    /// The walls and models, by index, whose limit states contradict a common β.
-    pub(super) fn contradicted(&self) -> Vec<[usize; 2]> {
-        let models = self.contents().models.len();
-        let pairs = (0..self.contents().walls.len() * models).map(|pair| [pair / models, pair % models]);
-        pairs.filter(|&[wall, model]| self.summaries(wall, 0)[model].contradicted).collect()
-    }
-
-    /// Number of runs.
-    pub(crate) fn runs(&self) -> usize {
-        self.curves.iter().map(|curve| curve.runs().len()).sum()
     }
 
     /// The names of a combination, for the first columns of a table.
@@ -96,7 +45,7 @@ impl Results {
     pub(super) fn levels_csv(&self) -> String {
         let mut text =
             "wall,model,record,intensity_g,u_max_over_u_ins,overturned,overturn_time_s\n".to_owned();
-        for (index, curve) in self.curves.iter().enumerate() {
+        for (index, curve) in self.data.all_curves().iter().enumerate() {
             let names = self.names(index);
             for run in curve.runs() {
                 let time = run.overturning.map_or_else(String::new, |time| time.to_string());
@@ -116,7 +65,7 @@ impl Results {
     pub(super) fn collapses_csv(&self) -> String {
         let mut text =
             "wall,model,record,collapse_g,standing_below_g,highest_level_g,runs,resurrections\n".to_owned();
-        for (index, curve) in self.curves.iter().enumerate() {
+        for (index, curve) in self.data.all_curves().iter().enumerate() {
             let collapse = match curve.collapse() {
                 Exceedance::At(intensity) => in_g(intensity).to_string(),
                 Exceedance::Above(_) => String::new(),
@@ -146,7 +95,7 @@ impl Results {
         for (w, wall) in self.contents().walls.iter().enumerate() {
             for (m, model) in self.contents().models.iter().enumerate() {
                 for (f, fraction) in self.manifest.report.fractions.iter().enumerate() {
-                    let summary = &self.summaries(w, f)[m];
+                    let summary = &self.data.summaries(w, f)[m];
                     let _ = writeln!(
                         text,
                         "{},{},{fraction},{},{},{},{},{},{},{},{}",

@@ -1,0 +1,115 @@
+//! The FMU of a scene, made from the general FMU.
+//!
+//! It needs no compiler: the library stays, the description keeps the variables that the scene uses, and
+//! `resources/` gets the scene and its motion. The guid ends in the scene's fingerprint, so that the library
+//! refuses to run without it.
+//!
+//! ```no_run
+//! use rocking_wall::scene::Scene;
+//! use scene_fmu::{General, of_scene};
+//!
+//! let scene = Scene::read("scenes/shaken_parapet.toml".as_ref())?;
+//! let unit = of_scene(&scene, General::open("fmu_out/wall.fmu".as_ref())?)?;
+//! unit.archive.write("parapet.fmu".as_ref())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod general;
+
+use std::fmt::Write;
+
+use fmu_export_build::archive::Archive;
+use fmu_export_build::{DefaultExperiment, Description, Reduction};
+use ground_motion::GroundMotion;
+use rocking_wall::scene::{self, GROUPS, Scene};
+use rocking_wall::wall::{Kinematics, Parameters};
+
+pub use error::SceneFmuError;
+pub use general::General;
+
+/// Communication steps of a scene's default experiment: FMPy records at most 1000 samples.
+const STEPS: f64 = 1000.0;
+
+/// The FMU of a scene.
+#[derive(Clone, Debug)]
+pub struct SceneFmu {
+    /// Its files.
+    pub archive: Archive,
+    /// Its `resources/scene.toml`.
+    pub scene: String,
+    /// Number of its variables.
+    pub variables: usize,
+    /// Number of the variables of the general FMU.
+    pub general_variables: usize,
+}
+
+/// Makes the FMU of a scene from the general one.
+///
+/// # Errors
+/// [`SceneFmuError`] of a scene in full rotations, or where the description cannot be reduced.
+pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFmuError> {
+    if scene.parameters.kinematics != Kinematics::Linear {
+        return Err(SceneFmuError::FullRotations);
+    }
+    let mut motion = String::new();
+    if let Some(excitation) = &scene.excitation {
+        motion = motion_table(&mut general.archive, "motion", excitation.bottom());
+        // the tail is in stop_time
+        motion.push_str("tail = 0.0\n");
+        if let Some(top) = excitation.top() {
+            let table = motion_table(&mut general.archive, "motion_top", top);
+            motion.push_str("\n[motion.top]\n");
+            motion.push_str(&table);
+        }
+    }
+    let text = scene::to_toml(scene, &motion);
+    let reduced = reduce(&general.description, scene, &general.guid_with(&text))?;
+    let General { mut archive, description, .. } = general;
+    archive.insert("resources/scene.toml", text.as_str());
+    archive.insert("modelDescription.xml", reduced.to_xml());
+    Ok(SceneFmu {
+        archive,
+        scene: text,
+        variables: reduced.variable_names().count(),
+        general_variables: description.variable_names().count(),
+    })
+}
+
+/// Puts a motion into the archive and returns the keys that read it.
+fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> String {
+    let mut csv = String::new();
+    for sample in motion.samples() {
+        // writing to a String cannot fail
+        let _ = writeln!(csv, "{sample:?}");
+    }
+    let table = format!(
+        "record = \"{name}.csv\"\nunit = \"m/s2\"\nstep = {:?}\nfingerprint = \"{}\"\n",
+        motion.step(),
+        scene::fingerprint(csv.as_bytes())
+    );
+    archive.insert(format!("resources/{name}.csv"), csv);
+    table
+}
+
+fn reduce(base: &Description, scene: &Scene, guid: &str) -> Result<Description, SceneFmuError> {
+    let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
+    let starts: Vec<_> = numbers
+        .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
+        .collect();
+    let keep = |name: &str| scene.uses(name);
+    let description = format!("Rocking wall, one scene: {}", scene.title);
+    Ok(base.reduced(&Reduction {
+        model_name: &scene.title,
+        description: &description,
+        guid,
+        keep: &keep,
+        starts: &starts,
+        experiment: DefaultExperiment {
+            start: 0.0,
+            stop: scene.stop_time,
+            step: scene.stop_time / STEPS,
+            tolerance: Parameters::default().tolerance,
+        },
+    })?)
+}

@@ -1,0 +1,77 @@
+//! Runs of one wall through one record, multiplied by factors.
+
+use ground_motion::GroundMotion;
+use rocking_wall::solver::record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
+use rocking_wall::solver::{Motion, SolverError};
+use rocking_wall::wall::Support;
+
+use crate::free_motion::peak_is_final;
+
+/// A wall under a record: what its runs share.
+///
+/// ```
+/// use ground_motion::SyntheticMotion;
+/// use rocking_wall::solver::{Motion, record::RecordSolver};
+/// use rocking_wall::wall::Parameters;
+/// use study::ida::Shaking;
+///
+/// let record = SyntheticMotion::default().motion()?;
+/// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };
+/// let motion = Motion::of(&parameters, parameters.tolerance)?;
+/// let solver = RecordSolver::new(&motion, record.step());
+/// let runs = Shaking::new(&motion, &solver, &record, 10.0).runs([0.0, 0.0], &[0.1, 100.0])?;
+/// assert!(runs[0].overturning.is_none() && runs[1].overturning.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Shaking<'a> {
+    motion: &'a Motion,
+    solver: &'a RecordSolver<'a>,
+    batch: Batch<'a>,
+    record: &'a GroundMotion,
+    tail: f64,
+}
+
+impl<'a> Shaking<'a> {
+    /// Prepares the runs of a wall through a record and, for `tail` \[s\] after it, in free vibration. The
+    /// steps of `solver` are those of the record.
+    pub fn new(
+        motion: &'a Motion,
+        solver: &'a RecordSolver<'a>,
+        record: &'a GroundMotion,
+        tail: f64,
+    ) -> Self {
+        let batch = solver.batch(Forcing::Samples(record.samples()));
+        Self { motion, solver, batch, record, tail }
+    }
+
+    /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. A run stops
+    /// where the wall overturns. The time of overturning counts from the start of the record.
+    ///
+    /// # Errors
+    /// [`SolverError`] of the first run that could not be followed.
+    pub fn runs(&self, [u, v]: [f64; 2], factors: &[f64]) -> Result<Vec<Outcome>, SolverError> {
+        // p = −λ a_g
+        let participation = self.motion.wall().body().forcing(Support::rigid(1.0));
+        let start = |factor: &f64| {
+            let factor = factor * participation;
+            RunStart { state: self.motion.start_under(u, v, factor * self.record.samples()[0]), factor }
+        };
+        let starts: Vec<_> = factors.iter().map(start).collect();
+        self.batch.run(&starts, true)?.into_iter().map(|outcome| self.free_vibration(outcome)).collect()
+    }
+
+    /// Follows the free vibration after the record. A wall that lacks the energy to exceed its peak is not
+    /// followed.
+    fn free_vibration(&self, outcome: Outcome) -> Result<Outcome, SolverError> {
+        if outcome.overturning.is_some() || peak_is_final(self.motion.wall(), &outcome.state) {
+            return Ok(outcome);
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 1000 s of steps")]
+        let count = (self.tail / self.record.step()).ceil() as usize + 1;
+        let start = RunStart { state: outcome.state, factor: 1.0 };
+        let after = self.solver.run(start, Forcing::Still(count), true)?;
+        let overturning = after.overturning.map(|time| self.record.duration() + time);
+        Ok(Outcome { state: after.state, overturning, ..outcome })
+    }
+}

@@ -1,0 +1,52 @@
+//! The numbers that follow from the parameters of a wall.
+
+use std::f64::consts::TAU;
+
+use super::equation::Wall;
+use super::equivalence;
+
+/// A number that follows from the parameters of a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fact {
+    /// Its name, that of the variable of the model description where there is one.
+    pub name: &'static str,
+    /// Its symbol.
+    pub symbol: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit; `-` for none.
+    pub unit: &'static str,
+}
+
+impl Wall {
+    /// Lists the numbers that follow from the parameters: masses, strength, stability, periods, damping.
+    pub fn facts(&self) -> Vec<Fact> {
+        let body = self.body();
+        let omega1 = self.omega1();
+        let period = if omega1 > 0.0 { TAU / omega1 } else { 0.0 };
+        let e = self.restitution();
+        [
+            ("mass", "m", body.mass, "kg"),
+            ("effective_mass", "m_eff", body.effective_mass, "kg"),
+            ("participation", "lambda", body.participation, "-"),
+            ("weight", "W", body.weight, "N"),
+            ("slenderness", "alpha", body.slenderness, "rad"),
+            ("F0", "F0+", body.strength.positive, "N"),
+            ("F0_negative", "F0-", body.strength.negative, "N"),
+            ("u_ins", "u_ins+", body.instability.positive, "m"),
+            ("u_ins_negative", "u_ins-", body.instability.negative, "m"),
+            ("geometric_stiffness", "k0", body.geometric_stiffness, "N/m"),
+            ("force_end", "u3+", self.force_end().positive, "m"),
+            ("rocking_onset", "a_g", self.rocking_onset(), "m/s2"),
+            ("omega1", "omega1", omega1, "rad/s"),
+            ("elastic_period", "T1", period, "s"),
+            ("restitution_used", "e", e, "-"),
+            ("xi_used", "xi", self.damping_ratio(), "-"),
+            ("elastic_damping", "C", self.elastic_damping(), "N s/m"),
+            ("xi_makris", "Eq. 14", equivalence::makris_konstantinidis(e), "-"),
+            ("xi_giannini", "Eq. 17", equivalence::giannini_masiani(e), "-"),
+        ]
+        .map(|(name, symbol, value, unit)| Fact { name, symbol, value, unit })
+        .into()
+    }
+}
