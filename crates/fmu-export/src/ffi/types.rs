@@ -23,12 +23,8 @@ pub type Text = *const c_char;
 /// `fmi2Byte`
 pub type Byte = c_char;
 
-/// The integer type of a C enumeration without negative values.
-#[cfg(not(windows))]
+/// The integer type of a C enumeration. On Windows it is `int`, which is passed in the same way.
 pub type Enumeration = std::ffi::c_uint;
-/// The integer type of a C enumeration.
-#[cfg(windows)]
-pub type Enumeration = c_int;
 
 /// `fmi2Status`
 pub type Status = Enumeration;
