@@ -2,7 +2,7 @@
 
 use crate::root;
 
-const DOCUMENTS: [&str; 9] = [
+const DOCUMENTS: [&str; 10] = [
     "README.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -11,6 +11,7 @@ const DOCUMENTS: [&str; 9] = [
     "docs/coupling.md",
     "docs/model.md",
     "docs/paper.md",
+    "docs/platforms.md",
     "docs/record-path.md",
 ];
 const ENDINGS: [&str; 7] = [".rs", ".py", ".c", ".toml", ".xml", ".html", ".md"];

@@ -38,6 +38,27 @@ fn no_dependency_needs_a_newer_rust_than_the_project_states() {
 }
 
 #[test]
+fn versions_agree() {
+    let version = env!("CARGO_PKG_VERSION");
+    let read = |name: &str| std::fs::read_to_string(crate::root().join(name)).unwrap();
+    for package in packages(&["--no-deps"]) {
+        assert_eq!(package["version"], version, "{}", package["name"]);
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let is_ours = dependency["path"].is_string();
+            let stated = dependency["req"].as_str().unwrap();
+            assert!(!is_ours || [format!("^{version}").as_str(), "*"].contains(&stated), "{dependency}");
+        }
+    }
+    for name in ["modelDescription", "crates/floor/modelDescription"] {
+        let description = read(&format!("{name}/modelDescription.xml"));
+        assert!(description.contains(&format!("\n  version=\"{version}\"\n")), "{name}");
+    }
+    let changelog = read("CHANGELOG.md");
+    let newest = changelog.lines().find_map(|line| line.strip_prefix("## ")).unwrap();
+    assert!(newest == "Unreleased" || newest.starts_with(&format!("{version} ")), "CHANGELOG.md: {newest}");
+}
+
+#[test]
 fn every_crate_has_what_a_registry_shows() {
     for package in packages(&["--no-deps"]).iter().filter(|package| package["publish"].is_null()) {
         for key in ["description", "license", "repository", "readme", "rust_version"] {

@@ -8,11 +8,11 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from check_symbols import problems, read
 from conftest import ROOT
+from library import problems
 from unit import Unit
 
-# Largest archive, small enough for a mail or a repository.
+# Largest archive for one processor, small enough for a mail or a repository.
 LARGEST = 600_000
 
 
@@ -203,10 +203,12 @@ def test_dependencies_are_true(unpacked, xml, variables):
 
 
 def test_archive(fmu):
-    assert fmu.stat().st_size < LARGEST
     with zipfile.ZipFile(fmu) as archive:
         items = archive.infolist()
     names = [item.filename for item in items]
+    # the library of macOS is for two
+    processors = sum(1 + ("darwin" in name) for name in names if name.startswith("binaries/"))
+    assert fmu.stat().st_size < LARGEST * processors
     assert names == sorted(names)
     assert {item.date_time for item in items} == {(1980, 1, 1, 0, 0, 0)}
     assert {item.compress_type for item in items} <= {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
@@ -223,12 +225,15 @@ def test_library_exports_the_interface_alone(fmu, tmp_path):
     with zipfile.ZipFile(fmu) as archive:
         library = archive.extract("binaries/linux64/wall.so", tmp_path)
     assert problems(library, portable=False) == []
-    assert len(read(library)[2]) == 44
 
 
 def test_packing_is_reproducible(fmu, tmp_path):
+    libraries = []
     with zipfile.ZipFile(fmu) as archive:
-        library = archive.extract("binaries/linux64/wall.so", tmp_path)
+        for name in archive.namelist():
+            if name.startswith("binaries/"):
+                library = archive.extract(name, tmp_path)
+                libraries += ["--binary", library, "--platform", name.split("/")[1]]
     again = tmp_path / "again.fmu"
     command = [
         "cargo",
@@ -249,6 +254,6 @@ def test_packing_is_reproducible(fmu, tmp_path):
         "--documentation",
         "modelDescription/documentation",
     ]
-    command += ["--binary", library, "--platform", "linux64", "--output", str(again)]
+    command += [*libraries, "--output", str(again)]
     subprocess.run(command, check=True, cwd=ROOT)
     assert again.read_bytes() == fmu.read_bytes()

@@ -15,9 +15,9 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 from scipy.integrate import solve_ivp
 
-from check_symbols import problems
 from conftest import ROOT
 from exchange import Exchange, integrate, parapet_on_floor
+from library import problems
 from monolith import Monolith, Wall
 from unit import Unit
 

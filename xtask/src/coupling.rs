@@ -3,7 +3,7 @@
 
 use crate::command::{Result, root, succeed};
 use crate::figures;
-use crate::fmu::{self, Linker};
+use crate::fmu;
 use crate::python::Environment;
 
 const DOCUMENT: &str = "docs/coupling.md";
@@ -14,8 +14,8 @@ const MARK: &str = "figures";
 /// # Errors
 /// If a program fails, or the document lacks its mark.
 pub(crate) fn run() -> Result<()> {
-    let wall = fmu::build(fmu::WALL, Linker::System)?;
-    let floor = fmu::build(fmu::FLOOR, Linker::System)?;
+    let wall = fmu::build(fmu::WALL)?;
+    let floor = fmu::build(fmu::FLOOR)?;
     let python = Environment::of("tests", "tests/python/requirements.lock")?;
     let folder = root().join("fmu_out");
     let mut measure = python.program("python");

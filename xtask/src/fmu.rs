@@ -1,22 +1,19 @@
 //! `cargo xtask fmu`: builds the library, then the archive.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use crate::command::{Result, cargo, program, root, succeed, target};
-use crate::python::Environment;
+use crate::platform::{Platform, reproducible};
+use crate::universal;
 
 /// The linker of the library.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Linker {
     /// The machine's own linker and C library.
     System,
-    /// Zig with the symbols of glibc 2.17.
-    Zig,
+    /// Zig, for a platform.
+    Zig(&'static Platform),
 }
-
-/// The oldest C library a portable FMU runs on.
-const PORTABLE_TARGET: &str = "x86_64-unknown-linux-gnu.2.17";
 
 /// An FMU of this workspace.
 #[derive(Clone, Copy)]
@@ -40,25 +37,54 @@ pub(crate) const FLOOR: Unit =
 /// All FMUs.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 
-/// Builds an FMU into `fmu_out/` and returns its path.
+/// The platforms of portable FMUs.
+pub(crate) const PORTABLE: &str = "linux64,win64,darwin64";
+
+/// Builds an FMU for this machine into `fmu_out/` and returns its path.
 ///
 /// # Errors
 /// If the library does not build or the archive cannot be written.
-pub(crate) fn build(unit: Unit, linker: Linker) -> Result<PathBuf> {
-    let library = library(unit, linker)?;
-    let built = programs("dev", &["fmu-export-build"])?;
-    pack(unit, &library, &built)
+pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
+    let library = library(unit, Linker::System)?;
+    pack(unit, &[(host(), library)], &programs("dev", &["fmu-export-build"])?)
 }
 
-/// Builds every FMU and prints its path.
+/// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
 ///
 /// # Errors
-/// As [`build`].
-pub(crate) fn build_all(linker: Linker) -> Result<()> {
+/// As [`build`], or if a platform is unknown or its Rust library is missing.
+pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
+    let platforms = names.map(Platform::named).transpose()?;
+    let mut built = Vec::new();
     for unit in UNITS {
-        println!("{}", build(unit, linker)?.display());
+        let path = match &platforms {
+            None => build(unit)?,
+            Some(platforms) => {
+                pack(unit, &libraries(unit, platforms)?, &programs("dev", &["fmu-export-build"])?)?
+            }
+        };
+        println!("{}", path.display());
+        built.push(path);
     }
-    Ok(())
+    Ok(built)
+}
+
+/// Builds the library for each platform, and returns folders of FMI 2.0 with their libraries.
+fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'static str, PathBuf)>> {
+    let mut libraries: Vec<(&str, PathBuf)> = Vec::new();
+    for platform in platforms {
+        let Some(folder) = platform.fmi2 else { continue };
+        let library = library(unit, Linker::Zig(platform))?;
+        match libraries.iter_mut().find(|(other, _)| *other == folder) {
+            Some((_, joined)) => {
+                let universal = library.with_extension("universal");
+                universal::join(&[joined, &library], &universal)?;
+                *joined = universal;
+            }
+            None => libraries.push((folder, library)),
+        }
+    }
+    Ok(libraries)
 }
 
 /// Builds the programs of some packages with a profile and returns their folder.
@@ -80,71 +106,43 @@ pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
 /// If it does not build.
 pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let folder = target().join("fmu");
-    let mut build = cargo();
-    match linker {
+    let (mut build, built, (beginning, ending)) = match linker {
         Linker::System => {
-            build.arg("rustc");
+            let names = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+            let mut build = cargo();
+            reproducible(build.arg("rustc"), &[]);
+            (build, folder.clone(), names)
         }
-        Linker::Zig => {
-            let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
-            build = zig.program("cargo-zigbuild");
-            build.arg("rustc").args(["--target", PORTABLE_TARGET]);
-            let mut path = zig.programs().into_os_string();
-            if let Some(rest) = std::env::var_os("PATH") {
-                path.push(":");
-                path.push(rest);
-            }
-            build.env("PATH", path);
-        }
-    }
+        Linker::Zig(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
+    };
     build.args(["--release", "--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
-    build.args(["--features", "fmu"]);
-    build.env("CARGO_TARGET_DIR", &folder);
-    reproducible(&mut build);
+    build.args(["--features", "fmu"]).env("CARGO_TARGET_DIR", &folder);
     succeed(&mut build, "see the compiler's message above")?;
-    let mut built = folder;
-    if linker == Linker::Zig {
-        built.push(PORTABLE_TARGET.trim_end_matches(".2.17"));
-    }
-    built.push("release");
-    built.push(library_name(unit));
-    Ok(built)
+    let name = unit.package.replace('-', "_");
+    Ok(built.join("release").join(format!("{beginning}{name}{ending}")))
 }
 
-/// Makes the library's bytes independent of the build folders.
-fn reproducible(build: &mut Command) {
-    let cargo_home = std::env::var_os("CARGO_HOME")
-        .map(PathBuf::from)
-        .or_else(|| std::env::var_os("HOME").map(|home| Path::new(&home).join(".cargo")));
-    let mut flags = vec![
-        "-Cstrip=symbols".to_owned(),
-        format!("--remap-path-prefix={}=/target", target().join("fmu").display()),
-        format!("--remap-path-prefix={}=/rocking-wall", root().display()),
-    ];
-    if let Some(cargo_home) = cargo_home {
-        flags.push(format!("--remap-path-prefix={}=/cargo", cargo_home.display()));
-    }
-    build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
-}
-
-/// Zips the FMU with `fmu-pack` of a folder of programs, and returns its path.
+/// Zips the FMU with `fmu-pack` of a folder of programs, and returns its path. `libraries` are folders of FMI
+/// 2.0 with their libraries.
 ///
 /// # Errors
 /// If the archive cannot be written.
-pub(crate) fn pack(unit: Unit, library: &Path, programs: &Path) -> Result<PathBuf> {
+pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
     let output = root().join("fmu_out").join(unit.file);
     let mut pack = program(programs.join("fmu-pack"));
     let description = Path::new(unit.description);
     pack.arg("--description").arg(description.join("modelDescription.xml"));
     pack.arg("--documentation").arg(description.join("documentation"));
-    pack.arg("--binary").arg(library).args(["--platform", platform()]);
+    for (platform, library) in libraries {
+        pack.arg("--binary").arg(library).args(["--platform", platform]);
+    }
     pack.arg("--output").arg(&output);
     succeed(&mut pack, "see its message above")?;
     Ok(output)
 }
 
-/// Returns FMI's name for this machine.
-fn platform() -> &'static str {
+/// Returns FMI 2.0's name for this machine.
+pub(crate) fn host() -> &'static str {
     if cfg!(target_os = "windows") {
         "win64"
     } else if cfg!(target_os = "macos") {
@@ -152,9 +150,4 @@ fn platform() -> &'static str {
     } else {
         "linux64"
     }
-}
-
-fn library_name(unit: Unit) -> String {
-    let name = unit.package.replace('-', "_");
-    format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
 }

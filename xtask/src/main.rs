@@ -1,4 +1,4 @@
-//! The jobs of the project: `cargo xtask fmu | demo | test | fuzz | bench | figures | coupling`.
+//! The jobs of the project: `cargo xtask fmu | demo | test | portable | fuzz …`.
 //!
 //! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
 //! packages that a job needs under the target folder, pinned by hash.
@@ -12,8 +12,11 @@ mod demo;
 mod figures;
 mod fmu;
 mod fuzz;
+mod platform;
+mod portable;
 mod python;
 mod test;
+mod universal;
 
 use std::process::ExitCode;
 
@@ -21,12 +24,15 @@ const HELP: &str = "\
 The jobs of the project.
 
   cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
-                                   --portable: with zig, for Linux machines as old as glibc 2.17
+                                   --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig
+                                   --platforms linux64,win64: for some of them
   cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
                                    a record (UNIT if the file states none); write histories and pages
                                    to fmu_out/
   cargo xtask test                 run every test: Rust, the FMU through FMPy, the C interface against
                                    fmi-sys
+  cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
+                                   Windows library under wine
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
@@ -45,13 +51,15 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
-        ["fmu"] => fmu::build_all(fmu::Linker::System),
-        ["fmu", "--portable"] => fmu::build_all(fmu::Linker::Zig),
+        ["fmu"] => fmu::build_all(None).map(drop),
+        ["fmu", "--portable"] => fmu::build_all(Some(fmu::PORTABLE)).map(drop),
+        ["fmu", "--platforms", names] => fmu::build_all(Some(names)).map(drop),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
+        ["portable"] => portable::run(),
         ["fuzz"] => fuzz::run(),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::command::{Result, cargo, output, program, root, succeed, target};
+use crate::command::{Result, cargo, find, output, program, root, succeed, target};
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
 
@@ -11,7 +11,7 @@ use crate::python::Environment;
 const RECORDS: &str = "../shared/records";
 
 /// Python environments by name, with their locks.
-const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
+pub(crate) const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
 const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");
 const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
 
@@ -23,12 +23,11 @@ type Part = fn() -> Result<()>;
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, Part); 6] = [
+    let parts: [(&str, Part); 5] = [
         ("Rust tests", rust),
         ("the examples", examples),
         ("the FMU through FMPy", python),
         ("systems in other masters", masters),
-        ("the portable FMU", portable),
         ("the C boundary", conformance),
     ];
     // the network and the linker take their time beside the Rust tests; who needs this asks again, and
@@ -76,19 +75,17 @@ fn not_run() -> Vec<String> {
     if browser().is_none() {
         lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
     }
+    lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
     lines
 }
 
-fn records() -> PathBuf {
+/// Returns the folder of real accelerograms.
+pub(crate) fn records() -> PathBuf {
     std::env::var_os("ROCKING_WALL_RECORDS").map_or_else(|| root().join(RECORDS), PathBuf::from)
 }
 
 /// Finds a Chromium with its driver.
 fn browser() -> Option<PathBuf> {
-    let paths = std::env::var_os("PATH")?;
-    let find = |name: &str| {
-        std::env::split_paths(&paths).map(|folder| folder.join(name)).find(|path| path.is_file())
-    };
     find("chromedriver")?;
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find_map(find)
 }
@@ -100,7 +97,6 @@ fn prepare() {
     }
     for unit in fmu::UNITS {
         let _ = fmu::library(unit, Linker::System);
-        let _ = fmu::library(unit, Linker::Zig);
     }
 }
 
@@ -126,7 +122,8 @@ fn programs() -> PathBuf {
 
 /// Packs an FMU of the release library.
 fn packed(unit: fmu::Unit) -> Result<PathBuf> {
-    fmu::pack(unit, &fmu::library(unit, Linker::System)?, &programs())
+    let library = fmu::library(unit, Linker::System)?;
+    fmu::pack(unit, &[(fmu::host(), library)], &programs())
 }
 
 fn python() -> Result<()> {
@@ -149,22 +146,6 @@ fn masters() -> Result<()> {
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/masters"]);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
-}
-
-/// Builds the portable libraries and reads their symbol tables.
-fn portable() -> Result<()> {
-    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        println!("not run: the portable FMU is made on x86-64 Linux");
-        return Ok(());
-    }
-    let python = Environment::of(TESTS.0, TESTS.1)?;
-    for unit in fmu::UNITS {
-        let library = fmu::library(unit, Linker::Zig)?;
-        let mut check = python.program("python");
-        check.arg("tests/python/check_symbols.py").arg(library);
-        succeed(&mut check, "see its message above")?;
-    }
-    Ok(())
 }
 
 fn conformance() -> Result<()> {

@@ -1,0 +1,92 @@
+"""The portable FMUs: libraries of every platform, and Windows under wine. `cargo xtask portable` runs this.
+
+On Windows every value is that of Linux to the last bit. The libraries of macOS are inspected, not run.
+"""
+
+import os
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import test_cases
+from conftest import ROOT
+from library import problems
+from unit import Unit
+from windows import RecordingUnit, Wine
+
+PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
+DRIVER = "ROCKING_WALL_DRIVER"
+
+pytestmark = pytest.mark.skipif(DRIVER not in os.environ, reason="`cargo xtask portable` runs these tests")
+
+
+@pytest.fixture(scope="session")
+def wine():
+    program = shutil.which("wine")
+    if program is None:
+        pytest.skip("wine is missing: `apt-get install wine wine64`")
+    return Wine(program, os.environ[DRIVER])
+
+
+@pytest.mark.parametrize("platform", PLATFORMS)
+@pytest.mark.parametrize("name", ["wall", "floor"])
+def test_library(name, platform, fmu, floor_fmu, tmp_path):
+    library = f"binaries/{platform}/{name}.{PLATFORMS[platform]}"
+    with zipfile.ZipFile({"wall": fmu, "floor": floor_fmu}[name]) as archive:
+        archive.extract(library, tmp_path)
+    assert problems(tmp_path / library) == []
+    content = (tmp_path / library).read_bytes()
+    assert str(ROOT).encode() not in content, "the folder of the build is in the library"
+
+
+@pytest.fixture(scope="session")
+def shaken(fmu, wall, tmp_path_factory):
+    """The FMU of a scene with a motion, in a folder whose name has to be escaped in a URI."""
+    path = tmp_path_factory.mktemp("scene") / "shaken.fmu"
+    command = [wall, "package", ROOT / "scenes/shaken_parapet.toml", "--base", fmu, "--output", path]
+    subprocess.run(command, check=True, cwd=ROOT)
+    with Unit.unpack(path) as unpacked:
+        folder = Path(unpacked.folder)
+        unpacked.folder = str(folder.rename(folder.with_name(folder.name + " ü 100%")))
+        yield unpacked
+
+
+def test_scenes_keep_the_platforms(shaken):
+    libraries = {path.name for path in Path(shaken.folder).glob("binaries/*/*")}
+    assert libraries == {f"wall.{ending}" for ending in PLATFORMS.values()}
+
+
+def check(unit, wine):
+    count, different = unit.repeat(wine)
+    largest = {}
+    for name, linux, windows in different:
+        largest[name] = max(largest.get(name, 0.0), abs(linux - windows))
+    assert not different, f"{len(different)} of {count} values differ, at most by {largest}"
+    assert count > 100
+
+
+@pytest.mark.parametrize("name", test_cases.NAMES)
+def test_reference_case_on_windows(name, unpacked, wine):
+    with RecordingUnit(unpacked) as unit:
+        test_cases.test_case(name, unit)
+        check(unit, wine)
+
+
+def test_resources_on_windows(shaken, wine):
+    with RecordingUnit(shaken) as unit:
+        unit.start()
+        for _ in range(500):
+            unit.step(0.02)
+        assert unit.get("u_max") > 0
+        check(unit, wine)
+
+
+def test_floor_on_windows(unpacked_floor, wine):
+    with RecordingUnit(unpacked_floor) as unit:
+        unit.start(hysteresis="bilinear", yield_force=6e4, hardening_ratio=0.1)
+        for index in range(500):
+            unit.set(a_g=3.0 * (-1) ** (index // 20)).step(0.01)
+        check(unit, wine)

@@ -1,0 +1,151 @@
+//! The machines that libraries and programs are built for, and zig, which links for all of them.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::command::{Result, output, program, root, target};
+use crate::python::Environment;
+
+/// A machine that users have.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Platform {
+    /// Rust's name for it.
+    pub(crate) target: &'static str,
+    /// The oldest C library that it may have, as a suffix of the target.
+    glibc: &'static str,
+    /// Its folder in FMI 2.0, which two processors may share and which some machines lack.
+    pub(crate) fmi2: Option<&'static str>,
+    /// Its folder in FMI 3.0.
+    pub(crate) fmi3: &'static str,
+    /// Beginning and ending of the name of a library.
+    pub(crate) library: (&'static str, &'static str),
+    /// What the linker is told, so that the bytes depend on no folder and no clock.
+    link: &'static [&'static str],
+}
+
+/// A library has a name of its own instead of the path of its build.
+const MACOS: &[&str] = &["-Clink-arg=-Wl,-install_name,@rpath/library.dylib"];
+/// Zig leaves the time out of what it links as optimised.
+const WINDOWS: &[&str] = &["-Clink-arg=-O2"];
+
+/// Every platform.
+pub(crate) const PLATFORMS: [Platform; 5] = [
+    Platform {
+        target: "x86_64-unknown-linux-gnu",
+        glibc: ".2.17",
+        fmi2: Some("linux64"),
+        fmi3: "x86_64-linux",
+        library: ("lib", ".so"),
+        link: &[],
+    },
+    Platform {
+        target: "aarch64-unknown-linux-gnu",
+        glibc: ".2.17",
+        fmi2: None,
+        fmi3: "aarch64-linux",
+        library: ("lib", ".so"),
+        link: &[],
+    },
+    Platform {
+        target: "x86_64-pc-windows-gnu",
+        glibc: "",
+        fmi2: Some("win64"),
+        fmi3: "x86_64-windows",
+        library: ("", ".dll"),
+        link: WINDOWS,
+    },
+    Platform {
+        target: "x86_64-apple-darwin",
+        glibc: "",
+        fmi2: Some("darwin64"),
+        fmi3: "x86_64-darwin",
+        library: ("lib", ".dylib"),
+        link: MACOS,
+    },
+    Platform {
+        target: "aarch64-apple-darwin",
+        glibc: "",
+        fmi2: Some("darwin64"),
+        fmi3: "aarch64-darwin",
+        library: ("lib", ".dylib"),
+        link: MACOS,
+    },
+];
+
+/// Oldest macOS that libraries and programs run on.
+const OLDEST_MACOS: &str = "11.0";
+
+impl Platform {
+    /// Returns the platforms of a list of names such as `linux64,win64`, in the order of the table. A name is
+    /// that of FMI 2.0 or of FMI 3.0.
+    ///
+    /// # Errors
+    /// If a name is not in the table, or the Rust library for a platform is not installed.
+    pub(crate) fn named(names: &str) -> Result<Vec<&'static Self>> {
+        let is_named = |platform: &Self, name| platform.fmi2 == Some(name) || platform.fmi3 == name;
+        for name in names.split(',') {
+            if !PLATFORMS.iter().any(|platform| is_named(platform, name)) {
+                let known = "linux64, win64, darwin64, or FMI 3.0's x86_64-linux, aarch64-linux, …";
+                return Err(format!("`{name}` is not a platform: expected {known}"));
+            }
+        }
+        let wanted = PLATFORMS.iter().filter(|one| names.split(',').any(|name| is_named(one, name)));
+        installed(wanted.collect())
+    }
+
+    /// Prepares a job of cargo for this platform, linked with zig.
+    ///
+    /// # Errors
+    /// If zig cannot be installed.
+    pub(crate) fn cargo(&self, subcommand: &str) -> Result<Command> {
+        let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
+        let mut build = zig.program("cargo-zigbuild");
+        build.args([subcommand, "--target", &format!("{}{}", self.target, self.glibc)]);
+        let mut path = zig.programs().into_os_string();
+        if let Some(rest) = std::env::var_os("PATH") {
+            path.push(":");
+            path.push(rest);
+        }
+        build.env("PATH", path).env("MACOSX_DEPLOYMENT_TARGET", OLDEST_MACOS);
+        reproducible(&mut build, self.link);
+        Ok(build)
+    }
+}
+
+/// Returns the platforms if this machine has the Rust libraries for them.
+fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>> {
+    let mut missing = Vec::new();
+    for platform in &platforms {
+        let mut rustc = program("rustc");
+        rustc.args(["--print", "target-libdir", "--target", platform.target]);
+        if !Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir() {
+            missing.push(platform.target);
+        }
+    }
+    if missing.is_empty() {
+        return Ok(platforms);
+    }
+    Err(format!(
+        "the Rust libraries for {} are missing: run `rustup target add {}`, or choose other platforms with \
+         `--platforms`",
+        missing.join(", "),
+        missing.join(" ")
+    ))
+}
+
+/// Makes what a build gives independent of its folders, with more flags of the linker.
+pub(crate) fn reproducible(build: &mut Command, link: &[&str]) {
+    let cargo_home = std::env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::var_os("HOME").map(|home| Path::new(&home).join(".cargo")));
+    let mut flags = vec![
+        "-Cstrip=symbols".to_owned(),
+        format!("--remap-path-prefix={}=/target", target().join("fmu").display()),
+        format!("--remap-path-prefix={}=/rocking-wall", root().display()),
+    ];
+    if let Some(cargo_home) = cargo_home {
+        flags.push(format!("--remap-path-prefix={}=/cargo", cargo_home.display()));
+    }
+    flags.extend(link.iter().map(ToString::to_string));
+    build.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
+}
