@@ -1,38 +1,60 @@
-//! The notices inside the FMU name every crate in it.
+//! The notices inside the FMU and the Python package name every crate in them.
 
 use std::collections::BTreeSet;
 use std::process::Command;
 
-#[test]
-fn every_linked_crate_is_named() {
-    let root = crate::root();
+/// Crates of this workspace.
+const OURS: [&str; 9] = [
+    "fmu-export",
+    "fmu-export-build",
+    "ground-motion",
+    "rocking-figures",
+    "rocking-oscillator",
+    "rocking-scene-fmu",
+    "rocking-study",
+    "rocking-wall",
+    "rocking-wall-python",
+];
+
+/// The crates that a package links.
+fn crates(package: &[&str]) -> BTreeSet<String> {
     let output = Command::new(env!("CARGO"))
-        .current_dir(root)
-        .args(["tree", "--offline", "--locked", "--package", "rocking-wall"])
-        .args([
-            "--features",
-            "fmu",
-            "--edges",
-            "normal,no-proc-macro",
-            "--prefix",
-            "none",
-            "--format",
-            "{p} {l}",
-        ])
+        .current_dir(crate::root())
+        .args(["tree", "--offline", "--locked", "--edges", "normal,no-proc-macro"])
+        .args(["--prefix", "none", "--format", "{p} {l}", "--package"])
+        .args(package)
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let tree = String::from_utf8(output.stdout).unwrap();
-    let crates: BTreeSet<_> = tree.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    let notices = root.join("modelDescription/documentation/licenses/notices.txt");
-    let notices = std::fs::read_to_string(notices).unwrap();
-    let named: BTreeSet<_> = notices.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    for name in &crates {
-        let own = ["rocking-wall", "fmu-export", "ground-motion", "rocking-oscillator"].contains(name);
-        assert!(own || named.contains(name), "notices.txt does not name {name}");
+    tree.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
+}
+
+/// Checks that a file names crates.
+fn check_names(crates: &BTreeSet<String>, notices: &str) {
+    let text = std::fs::read_to_string(crate::root().join(notices)).unwrap();
+    let named: BTreeSet<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    for name in crates {
+        assert!(
+            OURS.contains(&name.as_str()) || named.contains(name.as_str()),
+            "{notices} does not name {name}"
+        );
     }
+}
+
+#[test]
+fn every_linked_crate_is_named() {
+    let crates = crates(&["rocking-wall", "--features", "fmu"]);
+    check_names(&crates, "modelDescription/documentation/licenses/notices.txt");
     assert!(crates.contains("nalgebra"), "{crates:?}");
     for other in ["clap", "kuva", "argmin", "schemars", "rocking-study"] {
         assert!(!crates.contains(other), "the unit links {other}");
     }
+}
+
+#[test]
+fn every_crate_in_the_python_package_is_named() {
+    let crates = crates(&["rocking-wall-python"]);
+    check_names(&crates, "crates/python/licenses/notices.txt");
+    assert!(crates.contains("pyo3") && !crates.contains("rocking-wall-cli"), "{crates:?}");
 }

@@ -1,4 +1,4 @@
-//! The jobs of the project: `cargo xtask fmu | demo | test | portable | fuzz …`.
+//! The jobs of the project: `cargo xtask fmu | wheel | demo | test | portable | fuzz …`.
 //!
 //! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
 //! packages that a job needs under the target folder, pinned by hash.
@@ -17,6 +17,7 @@ mod portable;
 mod python;
 mod test;
 mod universal;
+mod wheel;
 
 use std::process::ExitCode;
 
@@ -26,11 +27,12 @@ The jobs of the project.
   cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
                                    --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig
                                    --platforms linux64,win64: for some of them
+  cargo xtask wheel                build the Python package into target/wheels/release, with wall.fmu inside
   cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
                                    a record (UNIT if the file states none); write histories and pages
                                    to fmu_out/
-  cargo xtask test                 run every test: Rust, the FMU through FMPy, the C interface against
-                                   fmi-sys
+  cargo xtask test                 run every test: Rust, the FMU through FMPy, the Python package, the C
+                                   interface against fmi-sys
   cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
                                    Windows library under wine
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
         ["fmu"] => fmu::build_all(None).map(drop),
         ["fmu", "--portable"] => fmu::build_all(Some(fmu::PORTABLE)).map(drop),
         ["fmu", "--platforms", names] => fmu::build_all(Some(names)).map(drop),
+        ["wheel"] => wheel::run(),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", record] => figures::run(Some(record)),

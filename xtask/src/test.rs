@@ -6,12 +6,16 @@ use std::time::Instant;
 use crate::command::{Result, cargo, find, output, program, root, succeed, target};
 use crate::fmu::{self, Linker};
 use crate::python::Environment;
+use crate::wheel;
 
 /// Folder of real accelerograms unless `ROCKING_WALL_RECORDS` names one.
 const RECORDS: &str = "../shared/records";
 
 /// Python environments by name, with their locks.
 pub(crate) const TESTS: (&str, &str) = ("tests", "tests/python/requirements.lock");
+const WHEEL: (&str, &str) = ("wheel", "tests/wheel/requirements.lock");
+const BARE: (&str, &str) = ("bare", "tests/wheel/bare.lock");
+const MATURIN: (&str, &str) = ("maturin", "xtask/locks/maturin.lock");
 const MASTERS: (&str, &str) = ("masters", "xtask/locks/masters.lock");
 const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
 
@@ -23,10 +27,11 @@ type Part = fn() -> Result<()>;
 /// # Errors
 /// If a part failed.
 pub(crate) fn run() -> Result<()> {
-    let parts: [(&str, Part); 5] = [
+    let parts: [(&str, Part); 6] = [
         ("Rust tests", rust),
         ("the examples", examples),
         ("the FMU through FMPy", python),
+        ("the Python package", python_package),
         ("systems in other masters", masters),
         ("the C boundary", conformance),
     ];
@@ -92,7 +97,7 @@ fn browser() -> Option<PathBuf> {
 
 /// Installs and builds what the later parts need.
 fn prepare() {
-    for (name, lock) in [TESTS, MASTERS, CLANG] {
+    for (name, lock) in [TESTS, MATURIN, WHEEL, BARE, MASTERS, CLANG] {
         let _ = Environment::of(name, lock);
     }
     for unit in fmu::UNITS {
@@ -133,6 +138,23 @@ fn python() -> Result<()> {
     pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    succeed(&mut pytest, "see the failures above")
+}
+
+/// Tests the wheel; it is also installed where there is nothing but numpy, and beside `FMPy`.
+fn python_package() -> Result<()> {
+    let unit = packed(fmu::WALL)?;
+    let package = wheel::build("dev", &unit)?;
+    let [python, bare, fmpy] = [WHEEL, BARE, TESTS].map(|(name, lock)| Environment::of(name, lock));
+    let (python, bare, fmpy) = (python?, bare?, fmpy?);
+    for environment in [&python, &bare, &fmpy] {
+        wheel::install(&package, environment)?;
+    }
+    let mut pytest = python.program("python");
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/wheel"]);
+    pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", programs().join("wall"));
+    pytest.env("ROCKING_WALL_BARE_PYTHON", bare.programs().join("python"));
+    pytest.env("ROCKING_WALL_FMPY_PYTHON", fmpy.programs().join("python"));
     succeed(&mut pytest, "see the failures above")
 }
 

@@ -1,0 +1,54 @@
+"""Out-of-plane rocking of masonry walls under earthquakes.
+
+>>> import rocking_wall as rw
+>>> wall = rw.Wall(height=3, thickness=0.25)
+>>> response = wall.simulate(rw.synthetic_record(pga=1.0))
+>>> response.overturned
+False
+
+Parameters have the names, units and defaults of the FMU's variables: `help(rw.Wall)` lists them. All numbers
+are in SI units, except for the columns of a study whose names end in `_g`. What cannot be used raises
+`ValueError`, a file that is missing `FileNotFoundError`, and an unknown parameter `TypeError`.
+"""
+
+from ._native import VERSION as __version__
+from ._parameters import Parameters
+from ._records import (
+    Record,
+    half_sine,
+    harmonic,
+    read_channels,
+    read_record,
+    ricker,
+    sine_cycle,
+    synthetic_record,
+)
+from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
+from ._studies import Study, StudyResults
+from ._tables import Table
+from ._walls import Description, Wall, package
+
+__all__ = [
+    "Demands",
+    "Description",
+    "Extremes",
+    "Instant",
+    "Parameters",
+    "Peaks",
+    "Record",
+    "Response",
+    "Study",
+    "StudyResults",
+    "Table",
+    "Threshold",
+    "Wall",
+    "__version__",
+    "half_sine",
+    "harmonic",
+    "package",
+    "read_channels",
+    "read_record",
+    "ricker",
+    "sine_cycle",
+    "synthetic_record",
+]

@@ -1,0 +1,108 @@
+"""The parameters of a wall, written by `tests/wheel/parameters.py` from the model description."""
+
+from collections.abc import Sequence
+from typing import Literal, TypedDict
+
+
+class Parameters(TypedDict, total=False):
+    """The parameters of a wall, by the names of the FMU's variables; in SI units."""
+
+    mechanism: Literal["parapet", "vertical_spanning"]
+    """Rocking mechanism; default parapet."""
+
+    height: float
+    """Height of the wall [m], at least 0.001, at most 1000; default 4.0."""
+
+    thickness: float
+    """Thickness of the wall [m], at least 0.0001, at most 100; default 0.4."""
+
+    width: float
+    """Length along the wall; mass and self-weight are proportional to it [m], at least 0.001, at most 1000;
+    default 1.0."""
+
+    density: float
+    """Density of the masonry [kg/m3], at least 1, at most 100000; default 1800.0."""
+
+    gravity: float
+    """Acceleration of gravity [m/s2], at least 0.001, at most 1000; default 9.81."""
+
+    hinge_ratio: float
+    """Height of the intermediate hinge as a fraction of height; vertical_spanning only, at least 0.01, at
+    most 0.99; default 0.5."""
+
+    overburden: float
+    """Vertical force on the top section, without mass, for the whole width [N], at least 0, at most 1e+12;
+    default 0.0."""
+
+    overburden_eccentricity: float
+    """Distance of the overburden from the centre of the top section, positive towards +u [m], at least -100,
+    at most 100; default 0.0."""
+
+    eccentricity_mode: Literal["fixed_to_wall", "follows_pivot"]
+    """Whether the eccentricity changes sides with the wall; used with overburden_eccentricity; default
+    fixed_to_wall."""
+
+    force_law: Literal["rigid_linear", "bilinear", "trilinear", "multilinear"]
+    """Shape of the restoring force; default bilinear."""
+
+    a1: float
+    """End of the elastic branch as a fraction of u_ins; ignored by rigid_linear, at least 1e-09, at most 1;
+    default 0.03."""
+
+    a3: float
+    """End of the softening branch as a fraction of u_ins, at least 1e-09, at most 1; default 1.0."""
+
+    d1: float
+    """Plateau force as a fraction of F0; trilinear only, at least 1e-09, at most 1; default 0.85."""
+
+    softening: Literal["parallel", "rotated", "chord"]
+    """What the softening branch keeps to end at a3; no difference where a3 is 1; default parallel."""
+
+    damping_model: Literal[
+        "none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"
+    ]
+    """Continuous damping; default constant_ratio."""
+
+    damping_source: Literal["given", "predicted"]
+    """Where xi or c_bar comes from; ignored by the damping model none; default predicted."""
+
+    xi: float
+    """Damping ratio; used only where damping_source is given, ignored by free_standing_block, at least 0, at
+    most 10; default 0.03."""
+
+    c_bar: float
+    """Damping constant of free_standing_block; used only where damping_source is given, at least 0, at most
+    100; default 0.1."""
+
+    impact: Literal["none", "restitution"]
+    """What happens when the wall passes through zero displacement; default none."""
+
+    restitution_source: Literal["given", "analytic", "calibrated", "momentum"]
+    """Where the coefficient of restitution comes from, for impacts and for predicted damping; default
+    calibrated."""
+
+    restitution: float
+    """Coefficient of restitution; used only where restitution_source is given, at least 0, at most 1; default
+    0.9."""
+
+    u_start: float
+    """Displacement at the start; zero for a coupled or shaken wall [m], at least -1000, at most 1000; default
+    0.18."""
+
+    u_dot_start: float
+    """Velocity at the start [m/s], at least -10000, at most 10000; default 0.0."""
+
+    solver: Literal["automatic", "exact", "adaptive", "newmark"]
+    """Integration method; default automatic."""
+
+    tolerance: float
+    """Relative tolerance of the adaptive solver; the tighter of this and the importer's applies, at least
+    1e-15, at most 0.01; default 1e-08."""
+
+    newmark_step: float
+    """Integration step of the newmark solver [s], at least 1e-09, at most 1; default 0.001."""
+
+    kinematics: Literal["linear", "trigonometric"]
+    """Small rotations, or full ones (rigid-linear walls with restitution)."""
+    points: Sequence[Sequence[float]]
+    """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""

@@ -1,0 +1,223 @@
+"""Records and pulses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+from warnings import warn
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Unit = Literal["m/s2", "cm/s2", "mm/s2", "g"]
+Maxima = Literal["everywhere", "at_samples"]
+
+AVERAGE_PERIODS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4)
+"""Usual periods of AvgSA [s]."""
+
+DRAWN_PERIODS = 0.01 + 3.99 * np.linspace(0.0, 1.0, 201) ** 2
+"""Periods of the spectra that are drawn [s]."""
+
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class Record:
+    """An accelerogram at a uniform step.
+
+    The acceleration is linear between samples and zero outside. Samples are copied: a list, a slice of an
+    array, an array of another type of real numbers or in another byte order will do.
+
+    >>> import numpy as np
+    >>> record = Record(0.01, np.sin(np.arange(0, 10, 0.01))[::2])
+    >>> record.duration, len(record.a)
+    (4.99, 500)
+    """
+
+    dt: float
+    """Time between samples [s]."""
+    a: NDArray[np.float64]
+    """Ground acceleration at the samples [m/s²]; read-only."""
+    name: str
+    """Name, for people."""
+    warnings: tuple[str, ...]
+    """What a quick check of the file has found."""
+
+    def __init__(
+        self, dt: float, a: ArrayLike, *, name: str = "record", warnings: tuple[str, ...] = ()
+    ) -> None:
+        # a factor of 1 copies the samples, and checks them and the step
+        dt, a = _native.scaled((dt, a), 1.0)
+        a.flags.writeable = False
+        for attribute, value in (("dt", dt), ("a", a), ("name", name), ("warnings", tuple(warnings))):
+            object.__setattr__(self, attribute, value)
+
+    def __repr__(self) -> str:
+        return f"Record({self.name!r}, {len(self.a)} samples of {self.dt:g} s, PGA {self.pga:.4g} m/s²)"
+
+    @property
+    def _motion(self) -> tuple[float, NDArray[np.float64]]:
+        return self.dt, self.a
+
+    def _with(self, motion: tuple[float, NDArray[np.float64]]) -> Record:
+        return Record(*motion, name=self.name, warnings=self.warnings)
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Times of the samples [s], from 0."""
+        return np.arange(len(self.a), dtype=np.float64) * self.dt
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample [s]."""
+        return (len(self.a) - 1) * self.dt
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration [m/s²]."""
+        return float(np.abs(self.a).max())
+
+    def scaled(self, factor: float) -> Record:
+        """Returns the record with every sample multiplied by `factor`."""
+        return self._with(_native.scaled(self._motion, factor))
+
+    def scaled_to(self, pga: float) -> Record:
+        """Returns the record scaled to a peak ground acceleration [m/s²]."""
+        return self._with(_native.scaled_to(self._motion, pga))
+
+    def trimmed(self, start: float, end: float) -> Record:
+        """Returns the part between two times [s]; it starts again at time 0."""
+        return self._with(_native.trimmed(self._motion, start, end))
+
+    def spectrum(
+        self, periods: ArrayLike, *, damping: float = 0.05, maxima: Maxima = "everywhere"
+    ) -> NDArray[np.float64]:
+        """Computes the pseudo-spectral acceleration Sa [m/s²] at periods [s]; at 0 it is the PGA.
+
+        Maxima are searched `everywhere` or, as many programs do, only `at_samples`.
+
+        >>> record = synthetic_record()
+        >>> record.spectrum([0.0]) == record.pga
+        array([ True])
+        """
+        return _native.spectrum(self._motion, periods, damping, at_samples(maxima))
+
+    def average_sa(
+        self, periods: ArrayLike = AVERAGE_PERIODS, *, damping: float = 0.05, maxima: Maxima = "everywhere"
+    ) -> float:
+        """Computes AvgSA [m/s²], the geometric mean of Sa over periods [s]."""
+        return _native.average_sa(self._motion, periods, damping, at_samples(maxima))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the record with matplotlib, which has to be installed."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.subplots()[1]
+        ax.plot(self.time, self.a, linewidth=0.8, label=self.name)
+        ax.set(xlabel="time (s)", ylabel="a_g (m/s²)")
+        return ax
+
+    def _repr_svg_(self) -> str:
+        return _native.picture(self._motion, DRAWN_PERIODS, self.name)
+
+
+def at_samples(maxima: Maxima) -> bool:
+    """Tells whether maxima are searched at the samples only."""
+    if maxima not in ("everywhere", "at_samples"):
+        raise ValueError(f"maxima = {maxima!r} is not one of everywhere, at_samples")
+    return maxima == "at_samples"
+
+
+def read_channels(
+    path: str | PathLike[str],
+    *,
+    unit: Unit | None = None,
+    dt: float | None = None,
+    column: str | None = None,
+    channel: str | None = None,
+    format: str | None = None,
+) -> list[Record]:
+    """Reads every channel of a record file, or the one that is asked for; see `read_record`."""
+    records = []
+    for found in _native.read_channels(fspath(path), unit, dt, column, channel, format):
+        name = Path(path).name + (f" [{found['channel']}]" if found["channel"] else "")
+        records.append(Record(*found["motion"], name=name, warnings=tuple(found["warnings"])))
+    return records
+
+
+def read_record(
+    path: str | PathLike[str],
+    *,
+    unit: Unit | None = None,
+    dt: float | None = None,
+    column: str | None = None,
+    channel: str | None = None,
+    format: str | None = None,
+) -> Record:
+    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC or CSV.
+
+    The format is found from the content. State `unit` or `dt` [s] where the file does not, the `column` of
+    a CSV table with several, and the `channel` of a file with several. Warns of what a quick check finds.
+    """
+    records = read_channels(path, unit=unit, dt=dt, column=column, channel=channel, format=format)
+    if len(records) != 1:
+        names = ", ".join(record.name for record in records)
+        raise ValueError(f"{fspath(path)}: expected one channel, found {names}; state channel=")
+    for warning in records[0].warnings:
+        warn(f"{fspath(path)}: {warning}", stacklevel=2)
+    return records[0]
+
+
+def synthetic_record(
+    seed: int = 1, *, duration: float = 30.0, dt: float = 0.005, pga: float = 3.5
+) -> Record:
+    """Makes filtered noise with an envelope: another `seed` gives another record of the same kind.
+
+    >>> synthetic_record(7, pga=2.0)
+    Record('synthetic 7', 6001 samples of 0.005 s, PGA 2 m/s²)
+    """
+    return Record(*_native.synthetic(seed, duration, dt, pga), name=f"synthetic {seed}")
+
+
+def ricker(amplitude: float, frequency: float, *, centre: float | None = None) -> Record:
+    """Makes a Ricker pulse with its peak `amplitude` [m/s²] at `centre` [s], by default 1.5/`frequency`.
+
+    >>> round(ricker(2.0, 1.0).pga, 6)
+    2.0
+    """
+    return pulse("ricker", amplitude, frequency, centre=centre)
+
+
+def harmonic(amplitude: float, frequency: float, duration: float, *, phase: float = 0.0) -> Record:
+    """Makes a harmonic motion A sin(2π f t + φ) of some duration [s]; the `phase` is in rad."""
+    return pulse("harmonic", amplitude, frequency, phase=phase, duration=duration)
+
+
+def sine_cycle(amplitude: float, frequency: float) -> Record:
+    """Makes one cycle of a sine [m/s², Hz]."""
+    return pulse("sine_cycle", amplitude, frequency)
+
+
+def half_sine(amplitude: float, frequency: float) -> Record:
+    """Makes half a cycle of a sine [m/s², Hz]."""
+    return pulse("half_sine", amplitude, frequency)
+
+
+def pulse(
+    shape: str,
+    amplitude: float,
+    frequency: float,
+    *,
+    centre: float | None = None,
+    phase: float = 0.0,
+    duration: float | None = None,
+) -> Record:
+    """Samples a motion given by a formula."""
+    motion = _native.pulse(shape, amplitude, frequency, centre, phase, duration)
+    return Record(*motion, name=shape.replace("_", " "))

@@ -1,0 +1,187 @@
+"""What runs have come to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._tables import Table
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+
+class Instant(TypedDict):
+    """A value and its time [s]."""
+
+    value: float
+    time: float
+
+
+class Extremes(TypedDict):
+    """The highest and the lowest value of a quantity, located between samples too."""
+
+    highest: Instant
+    lowest: Instant
+
+
+class Threshold(TypedDict):
+    """The first time [s] at which |u| reached a fraction of u_ins, and u there [m]; None for never."""
+
+    fraction: float
+    time: float | None
+    u: float | None
+
+
+class Demands(TypedDict):
+    """Demands of a motion on a wall, up to overturning; in SI units."""
+
+    u: Extremes
+    u_dot: Extremes
+    u_ddot: Extremes
+    reaction_bottom: Extremes
+    reaction_top: Extremes
+    thresholds: list[Threshold]
+    half_cycles: int
+    residual: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """The response of a wall: its history, and its peaks, which are located between samples too.
+
+    >>> from rocking_wall import Wall
+    >>> response = Wall().simulate()
+    >>> response.u_max, len(response.u)
+    (0.18, 3001)
+    """
+
+    time: Array
+    """Time [s]."""
+    u: Array
+    """Displacement relative to the supports [m]."""
+    u_dot: Array
+    """Its velocity [m/s]."""
+    u_ddot: Array
+    """Its acceleration [m/s²]."""
+    u_ratio: Array
+    """u/u_ins of its side [-]."""
+    restoring_force: Array
+    """Restoring force [N]."""
+    damping_force: Array
+    """Damping force [N]."""
+    reaction_bottom: Array
+    """Force of the bottom support on the wall [N]."""
+    reaction_top: Array
+    """Force of the top support on the wall [N]; 0 for a parapet."""
+    a_bottom: Array
+    """Acceleration of the bottom support [m/s²]."""
+    a_top: Array
+    """Acceleration of the top support [m/s²]."""
+    u_max: float
+    """Largest |u| [m]."""
+    u_ratio_max: float
+    """Largest |u|/u_ins [-]."""
+    overturned: bool
+    """Whether |u| exceeded u_ins."""
+    overturn_time: float | None
+    """When it did [s]."""
+    demands: Demands
+    """Extremes, first crossings of thresholds, half cycles and the residual displacement."""
+    pieces: int
+    """Pieces of motion that the solver took."""
+    corners: int
+    """Corners of the force that the motion passed."""
+    impacts: int
+    """Impacts."""
+
+    def __repr__(self) -> str:
+        fate = f"overturned at {self.overturn_time:.4g} s" if self.overturned else "standing"
+        return (
+            f"Response({self.time[-1]:g} s, largest |u| {self.u_max:.4g} m = {self.u_ratio_max:.4g} u_ins, "
+            f"{fate})"
+        )
+
+    @property
+    def history(self) -> Table:
+        """The history as a table, with the columns of `wall simulate --csv`."""
+        return Table({name: getattr(self, name) for name in COLUMNS})
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the history as a DataFrame of pandas, which has to be installed, over the time."""
+        return self.history.to_pandas().set_index("time")
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws u/u_ins over time with matplotlib, which has to be installed."""
+        if ax is None:
+            from matplotlib import pyplot
+
+            ax = pyplot.subplots()[1]
+        ax.plot(self.time, self.u_ratio, linewidth=1.0)
+        for limit in (-1.0, 1.0):
+            ax.axhline(limit, color="tab:red", linestyle="--", linewidth=0.8)
+        ax.set(xlabel="time (s)", ylabel="u / u_ins")
+        return ax
+
+    def _repr_svg_(self) -> str:
+        return _native.picture_of_response(self.time, self.a_bottom, self.u_ratio)
+
+
+COLUMNS = (
+    "time",
+    "u",
+    "u_dot",
+    "u_ddot",
+    "u_ratio",
+    "restoring_force",
+    "damping_force",
+    "reaction_bottom",
+    "reaction_top",
+    "a_bottom",
+    "a_top",
+)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Peaks:
+    """Peaks of a wall under a record multiplied by factors, one for each."""
+
+    factor: Array
+    """The factors."""
+    u_max: Array
+    """Largest |u| [m]; of a wall that overturned, that at which its run stopped."""
+    u_ratio_max: Array
+    """Largest |u|/u_ins [-]; likewise."""
+    overturn_time: Array
+    """Time of overturning [s]; NaN for none."""
+
+    def __repr__(self) -> str:
+        return f"Peaks({len(self.factor)} runs, {int(self.overturned.sum())} overturned)"
+
+    def __len__(self) -> int:
+        return len(self.factor)
+
+    @property
+    def overturned(self) -> NDArray[np.bool_]:
+        """Whether |u| exceeded u_ins."""
+        return ~np.isnan(self.overturn_time)
+
+    @property
+    def table(self) -> Table:
+        """All of it as a table."""
+        columns = ("factor", "u_max", "u_ratio_max", "overturned", "overturn_time")
+        return Table({name: getattr(self, name) for name in columns})
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the table as a DataFrame of pandas, which has to be installed."""
+        return self.table.to_pandas()
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()

@@ -1,0 +1,51 @@
+"""Tables: columns by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Table(dict[str, NDArray[Any]]):
+    """A table: a dictionary of columns, which are arrays of one length.
+
+    >>> table = Table({"wall": ["a", "b"], "theta_g": [0.5, 0.75]})
+    >>> table["theta_g"][1]
+    np.float64(0.75)
+    """
+
+    def __init__(self, columns: Mapping[str, Sequence[Any] | NDArray[Any]]) -> None:
+        super().__init__((name, np.asarray(column)) for name, column in columns.items())
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Returns the rows as dictionaries."""
+        return [dict(zip(self, row)) for row in zip(*self.values())]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the table as a DataFrame of pandas, which has to be installed."""
+        import pandas
+
+        return pandas.DataFrame(dict(self))
+
+    def _repr_html_(self) -> str:
+        def row(cells: Sequence[Any], tag: str) -> str:
+            return "<tr>" + "".join(f"<{tag}>{escape(shown(cell))}</{tag}>" for cell in cells) + "</tr>"
+
+        body = "".join(row(list(cells.values()), "td") for cells in self.rows()[:MOST_ROWS])
+        return f"<table><thead>{row(list(self), 'th')}</thead><tbody>{body}</tbody></table>"
+
+
+MOST_ROWS = 100
+"""Rows that a notebook shows."""
+
+
+def shown(value: object) -> str:
+    """Formats a value of a table for people: numbers with five digits."""
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,193 @@
+"""Walls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from importlib.resources import as_file, files
+from os import PathLike, fspath
+from typing import Any, Unpack
+from warnings import warn
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._parameters import Parameters
+from ._records import Record
+from ._responses import Peaks, Response
+from ._tables import shown
+
+
+class Description(dict[str, Any]):
+    """What follows from the parameters of a wall: numbers in SI units, by the names of `wall describe`."""
+
+    def __init__(self, wall: _native.Wall) -> None:
+        self._facts = wall.facts()
+        super().__init__((name, value) for name, _, value, _ in self._facts)
+        u, force = wall.backbone()
+        self["solver"] = wall.method()
+        self["backbone"] = np.column_stack([u, force])
+        self["warnings"] = wall.warnings
+        self._picture = wall.picture()
+
+    def __repr__(self) -> str:
+        lines = [f"{name:<22}{symbol:<8}{shown(value)} {unit}" for name, symbol, value, unit in self._facts]
+        return "\n".join(lines + [f"warning: {warning}" for warning in self["warnings"]])
+
+    def _repr_html_(self) -> str:
+        rows = (
+            f"<tr><td>{name}</td><td>{escape(symbol)}</td><td>{shown(value)} {unit}</td></tr>"
+            for name, symbol, value, unit in self._facts
+        )
+        return f"<table><tbody>{''.join(rows)}</tbody></table>{self._picture}"
+
+
+class Wall:
+    def __init__(self, **parameters: Unpack[Parameters]) -> None:
+        self._native = _native.Wall(dict(parameters))
+
+    @classmethod
+    def _of(cls, native: _native.Wall) -> Wall:
+        wall = cls.__new__(cls)
+        wall._native = native
+        return wall
+
+    @classmethod
+    def from_toml(cls, path: str | PathLike[str]) -> Wall:
+        """Reads a scene: a wall and, if it has one, its motion."""
+        return cls._of(_native.Wall.from_toml(fspath(path)))
+
+    def replace(self, **parameters: Unpack[Parameters]) -> Wall:
+        """Returns the same wall with other values of some parameters.
+
+        >>> Wall(height=3).replace(height=4).parameters == Wall().parameters
+        True
+        """
+        return self._of(self._native.replaced(dict(parameters)))
+
+    @property
+    def parameters(self) -> dict[str, float | str]:
+        """All parameters by their names."""
+        return {name: value_of(text) for name, text in self._native.parameters}
+
+    def __repr__(self) -> str:
+        names = ("mechanism", "height", "thickness", "force_law", "damping_model", "impact")
+        return f"Wall({', '.join(f'{name}={self.parameters[name]!r}' for name in names)}, ...)"
+
+    def describe(self) -> Description:
+        """Computes masses, strength, instability displacement, periods and damping.
+
+        >>> wall = Wall(height=3, thickness=0.25)
+        >>> round(wall.describe()["u_ins"], 9)
+        0.125
+        """
+        return Description(self._native)
+
+    def simulate(
+        self,
+        record: Record | None = None,
+        *,
+        scale: float = 1.0,
+        top: Record | None = None,
+        tail: float = 10.0,
+        stop_time: float | None = None,
+        output_step: float | None = None,
+        thresholds: Sequence[float] | None = None,
+        hold: bool = False,
+    ) -> Response:
+        """Runs the wall under a record, under the motion of its scene, or in free vibration.
+
+        Under a record the wall starts upright unless `u_start` was given.
+
+        :param scale: Factor on the record, and on `top`.
+        :param top: Record of the top support, where it has its own.
+        :param tail: Free vibration after the record [s].
+        :param stop_time: End of the run [s]; by default that of record and tail, or 30 s.
+        :param output_step: Step of the history [s]; by default that of the record, or 0.01 s.
+        :param thresholds: Fractions of u_ins whose first crossings are reported.
+        :param hold: Hold each sample until the next, as most FMI importers do.
+        """
+        for name, given in (("scale", scale != 1.0), ("top", top is not None)):
+            if record is None and given:
+                raise ValueError(f"{name} needs a record beside it")
+        values = self._native.simulate(
+            None if record is None else record.scaled(scale)._motion,
+            top=None if top is None else top.scaled(scale)._motion,
+            tail=tail,
+            stop_time=stop_time,
+            output_step=output_step,
+            thresholds=None if thresholds is None else list(thresholds),
+            hold=hold,
+        )
+        for warning in values.pop("warnings"):
+            warn(warning, stacklevel=2)
+        if values.pop("put_to_rest"):
+            warn("impacts accumulated beyond their bound: the wall was put to rest", stacklevel=2)
+        return Response(**values.pop("history"), **values)
+
+    def peaks(self, record: Record, factors: ArrayLike, *, tail: float = 10.0) -> Peaks:
+        """Computes the peaks under a record multiplied by each of many factors, side by side.
+
+        Each run goes on for `tail` [s] in free vibration, and stops where the wall overturns. It starts as
+        that of `simulate`.
+
+        >>> from rocking_wall import synthetic_record
+        >>> peaks = Wall(height=3, thickness=0.25).peaks(synthetic_record(), [0.2, 0.5, 1.0])
+        >>> peaks.overturned
+        array([False, False,  True])
+        """
+        u_max, u_ratio_max, overturn_time = self._native.peaks(record._motion, factors, tail)
+        return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
+
+
+def value_of(text: str) -> float | str:
+    """Returns the value of a parameter from its text in a scene file."""
+    return text.strip('"') if text.startswith('"') else float(text)
+
+
+def package(
+    scene: str | PathLike[str] | Wall,
+    path: str | PathLike[str],
+    *,
+    base: str | PathLike[str] | None = None,
+) -> int:
+    """Writes the FMU of a scene file, or of a wall, and returns the number of its variables.
+
+    It needs no compiler. It starts from the general FMU, which the wheel brings; `base` names another one.
+    """
+    wall = scene if isinstance(scene, Wall) else Wall.from_toml(scene)
+    if base is not None:
+        return wall._native.package(fspath(path), fspath(base))
+    with as_file(files(__package__) / "wall.fmu") as general:
+        return wall._native.package(fspath(path), fspath(general))
+
+
+def parameter_lines() -> str:
+    """Lists all parameters with their units, limits and defaults."""
+    lines = []
+    for group in dict.fromkeys(variable["group"] for variable in _native.variables()):
+        lines.append(f"\n{group.replace('_', ' ').capitalize()}:\n")
+        for variable in _native.variables():
+            if variable["group"] == group:
+                unit = f" [{variable['unit']}]" if variable["unit"] else ""
+                choices = ", ".join(variable["choices"])
+                limits = f"one of {choices}; " if choices else ""
+                told = f"{variable['description']}; {limits}default {variable['default']}"
+                lines.append(f"- {variable['name']}{unit}: {told}")
+    return "\n".join(lines)
+
+
+Wall.__doc__ = f"""A wall: a parapet, or a vertical spanning strip.
+
+Parameters are given by their names; what is not given has its default. A wall that exists is valid and
+never changes.
+
+>>> Wall(height=3, thickness=0.25, damping_model="none", impact="restitution")
+Wall(mechanism='parapet', height=3.0, thickness=0.25, force_law='bilinear', damping_model='none', \
+impact='restitution', ...)
+{parameter_lines()}
+
+Two parameters are those of scenes only: `kinematics` {{linear, trigonometric}}, and `points`
+[[u/u_ins, F/F0], ...] of `force_law="multilinear"`.
+"""

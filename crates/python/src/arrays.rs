@@ -1,0 +1,49 @@
+//! Samples from Python, and arrays to Python.
+
+use ground_motion::GroundMotion;
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::errors::of_motion;
+
+/// A motion as Python has it: the time between samples \[s\] and the samples \[m/s²\].
+pub(crate) type Given<'py> = (f64, Bound<'py, PyAny>);
+
+/// An array of numbers for Python.
+pub(crate) type Numbers<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Copies the numbers of anything that numpy makes a one-dimensional array of: a list, a slice with strides,
+/// an array that is misaligned, in another byte order or of another type of real numbers.
+///
+/// # Errors
+/// `TypeError` for values that are not real numbers, `ValueError` for another shape or for masked values.
+pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let numpy = given.py().import("numpy")?;
+    if numpy.getattr("ma")?.call_method1("is_masked", (given,))?.is_truthy()? {
+        return Err(PyValueError::new_err("samples are masked; fill or cut out what is missing"));
+    }
+    let array = numpy.call_method1("asarray", (given,))?;
+    let dtype = array.getattr("dtype")?;
+    if !["i", "u", "f"].contains(&dtype.getattr("kind")?.extract::<String>()?.as_str()) {
+        return Err(PyTypeError::new_err(format!("expected real numbers, found values of the type {dtype}")));
+    }
+    let array = numpy.call_method1("require", (array, "float64", ["C", "A"]))?;
+    let Ok(array) = array.cast::<PyArray1<f64>>() else {
+        let shape = array.getattr("shape")?;
+        return Err(PyValueError::new_err(format!(
+            "expected numbers in one dimension, found the shape {shape}"
+        )));
+    };
+    Ok(array.readonly().as_slice()?.to_vec())
+}
+
+/// Makes a motion of its values.
+pub(crate) fn motion((step, given): &Given<'_>) -> PyResult<GroundMotion> {
+    GroundMotion::new(*step, samples(given)?).map_err(of_motion)
+}
+
+/// Returns a motion as Python has it.
+pub(crate) fn of_motion_values<'py>(py: Python<'py>, motion: &GroundMotion) -> (f64, Numbers<'py>) {
+    (motion.step(), PyArray1::from_slice(py, motion.samples()))
+}

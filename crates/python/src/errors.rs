@@ -1,0 +1,42 @@
+//! Errors of the libraries as exceptions with the same messages.
+
+use std::fmt::Display;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use ground_motion::GroundMotionError;
+use pyo3::PyErr;
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
+use rocking_wall::scene::SceneError;
+
+/// Makes a `ValueError`: something given cannot be used.
+pub(crate) fn refused(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Makes a `RuntimeError`: a run could not be followed to its end.
+pub(crate) fn failed(error: impl Display) -> PyErr {
+    PyRuntimeError::new_err(error.to_string())
+}
+
+/// Makes the exception of a record: `OSError` where its file cannot be read.
+pub(crate) fn of_motion(error: GroundMotionError) -> PyErr {
+    match &error {
+        GroundMotionError::Io { reason, .. } if reason.kind() == ErrorKind::NotFound => {
+            PyFileNotFoundError::new_err(error.to_string())
+        }
+        GroundMotionError::Io { .. } => PyOSError::new_err(error.to_string()),
+        _ => refused(error),
+    }
+}
+
+/// Makes the exception of a scene or a study: `FileNotFoundError` where there is no such file.
+pub(crate) fn of_scene(error: SceneError) -> PyErr {
+    match &error {
+        SceneError::File { file, .. } if !Path::new(file).exists() => {
+            PyFileNotFoundError::new_err(error.to_string())
+        }
+        SceneError::Run(_) => failed(error),
+        _ => refused(error),
+    }
+}

@@ -1,0 +1,45 @@
+//! The part of the Python package `rocking_wall` that is in Rust.
+//!
+//! The module `_native` passes plain values to the libraries and back: numbers, texts, arrays and
+//! dictionaries. The classes that people use stand in `python/rocking_wall`, where their arguments, types and
+//! documentation are.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `errors` | errors of the libraries as exceptions |
+//! | `arrays` | samples from Python, arrays to Python |
+//! | `motions` | records, pulses, response spectra |
+//! | `variables` | the parameters of the model description |
+//! | `responses` | what a run has come to |
+//! | `walls` | the class `Wall` |
+//! | `studies` | the class `Study` |
+
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands over what it has made of the arguments")]
+#![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+
+mod arrays;
+mod errors;
+mod motions;
+mod responses;
+mod studies;
+mod variables;
+mod walls;
+
+/// The part of `rocking_wall` that is in Rust.
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::motions::{
+        average_sa, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
+    };
+    #[pymodule_export]
+    use crate::responses::picture_of_response;
+    #[pymodule_export]
+    use crate::studies::Study;
+    #[pymodule_export]
+    use crate::variables::variables;
+    #[pymodule_export]
+    use crate::walls::Wall;
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

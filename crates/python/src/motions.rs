@@ -1,0 +1,167 @@
+//! Records, pulses and response spectra.
+
+use std::path::PathBuf;
+
+use figures::records;
+use ground_motion::{
+    GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
+    SyntheticMotion,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
+use crate::errors::{of_motion, refused};
+
+/// Reads the channels of a record file.
+#[pyfunction]
+pub(crate) fn read_channels<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    unit: Option<&str>,
+    dt: Option<f64>,
+    column: Option<String>,
+    channel: Option<String>,
+    format: Option<&str>,
+) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let options = RecordOptions {
+        unit: unit.map(str::parse).transpose().map_err(of_motion)?,
+        step: dt,
+        column,
+        channel,
+        format: format.map(str::parse).transpose().map_err(of_motion)?,
+    };
+    let records = py.detach(|| ground_motion::read_channels(path, &options)).map_err(of_motion)?;
+    records.iter().map(|record| channel_of(py, record)).collect()
+}
+
+fn channel_of<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyDict>> {
+    let warnings: Vec<_> = record.check().warnings.iter().map(ToString::to_string).collect();
+    let values = PyDict::new(py);
+    values.set_item("motion", of_motion_values(py, &record.motion))?;
+    values.set_item("channel", &record.channel)?;
+    values.set_item("format", record.format.name())?;
+    values.set_item("unit", record.unit.name())?;
+    values.set_item("header", &record.header)?;
+    values.set_item("warnings", warnings)?;
+    Ok(values)
+}
+
+/// Samples a motion given by a formula.
+#[pyfunction]
+pub(crate) fn pulse<'py>(
+    py: Python<'py>,
+    shape: &str,
+    amplitude: f64,
+    frequency: f64,
+    centre: Option<f64>,
+    phase: f64,
+    duration: Option<f64>,
+) -> PyResult<(f64, Numbers<'py>)> {
+    let shape = match shape {
+        "ricker" => Shape::Ricker { centre: centre.unwrap_or(1.5 / frequency) },
+        "harmonic" => Shape::Harmonic { phase, end: duration },
+        "sine_cycle" => Shape::SineCycle,
+        "half_sine" => Shape::HalfSine,
+        _ => {
+            return Err(refused(format!(
+                "shape = {shape:?} is not one of ricker, harmonic, sine_cycle, half_sine"
+            )));
+        }
+    };
+    let pulse = Pulse { shape, amplitude, frequency };
+    made(py, pulse.motion(duration))
+}
+
+/// Makes a synthetic motion.
+#[pyfunction]
+pub(crate) fn synthetic(
+    py: Python<'_>,
+    seed: u64,
+    duration: f64,
+    dt: f64,
+    pga: f64,
+) -> PyResult<(f64, Numbers<'_>)> {
+    made(py, SyntheticMotion { seed, duration, step: dt, peak: pga }.motion())
+}
+
+/// Multiplies a motion by a factor.
+#[pyfunction]
+pub(crate) fn scaled<'py>(py: Python<'py>, given: Given<'py>, factor: f64) -> PyResult<(f64, Numbers<'py>)> {
+    made(py, motion(&given)?.checked_scaled(factor))
+}
+
+/// Scales a motion to a peak acceleration.
+#[pyfunction]
+pub(crate) fn scaled_to<'py>(py: Python<'py>, given: Given<'py>, pga: f64) -> PyResult<(f64, Numbers<'py>)> {
+    made(py, motion(&given)?.scaled_to_peak(pga))
+}
+
+/// Cuts out the part of a motion between two times.
+#[pyfunction]
+pub(crate) fn trimmed<'py>(
+    py: Python<'py>,
+    given: Given<'py>,
+    start: f64,
+    end: f64,
+) -> PyResult<(f64, Numbers<'py>)> {
+    made(py, motion(&given)?.trimmed(start, end))
+}
+
+fn made(py: Python<'_>, motion: Result<GroundMotion, GroundMotionError>) -> PyResult<(f64, Numbers<'_>)> {
+    Ok(of_motion_values(py, &motion.map_err(of_motion)?))
+}
+
+/// Computes Sa at periods.
+#[pyfunction]
+pub(crate) fn spectrum<'py>(
+    py: Python<'py>,
+    given: Given<'py>,
+    periods: &Bound<'py, PyAny>,
+    damping: f64,
+    at_samples: bool,
+) -> PyResult<Numbers<'py>> {
+    let (motion, periods) = (motion(&given)?, samples(periods)?);
+    let of = of_damping(damping, at_samples)?;
+    let accelerations = py.detach(|| of.accelerations(&motion, &periods)).map_err(of_motion)?;
+    Ok(PyArray1::from_vec(py, accelerations))
+}
+
+/// Computes `AvgSA` over periods.
+#[pyfunction]
+pub(crate) fn average_sa<'py>(
+    py: Python<'py>,
+    given: Given<'py>,
+    periods: &Bound<'py, PyAny>,
+    damping: f64,
+    at_samples: bool,
+) -> PyResult<f64> {
+    let (motion, periods) = (motion(&given)?, samples(periods)?);
+    let of = of_damping(damping, at_samples)?;
+    py.detach(|| of.average(&motion, &periods)).map_err(of_motion)
+}
+
+fn of_damping(damping: f64, at_samples: bool) -> PyResult<Spectrum> {
+    let maxima = if at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
+    Spectrum::new(damping, maxima).map_err(of_motion)
+}
+
+/// Draws a record above its response spectrum at some periods, as SVG.
+#[pyfunction]
+pub(crate) fn picture<'py>(
+    py: Python<'py>,
+    given: Given<'py>,
+    periods: &Bound<'py, PyAny>,
+    name: String,
+) -> PyResult<String> {
+    let (motion, periods) = (motion(&given)?, samples(periods)?);
+    let in_g = |a: f64| a / STANDARD_GRAVITY;
+    let of = Spectrum::default();
+    let accelerations = py.detach(|| of.accelerations(&motion, &periods)).map_err(of_motion)?;
+    let times = (0..motion.samples().len()).map(|index| index as f64 * motion.step());
+    let history = times.zip(motion.samples().iter().map(|a| in_g(*a))).collect();
+    let spectrum = periods.into_iter().zip(accelerations.into_iter().map(in_g)).collect();
+    let record = records::Record { name, history, spectrum, is_vertical: false };
+    Ok(records::picture(&[record], ground_motion::spectrum::DAMPING).svg())
+}

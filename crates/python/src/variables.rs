@@ -1,0 +1,43 @@
+//! The parameters of the model description.
+
+use fmu_export::{Kind, Variable, VariableId};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rocking_wall::scene::GROUPS;
+use rocking_wall::variables::{IntegerVariable, RealVariable};
+
+/// Lists the parameters: name, group, unit, description, limits or choices, default.
+#[pyfunction]
+pub(crate) fn variables(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let names = GROUPS.iter().flat_map(|(group, names)| names.iter().map(move |name| (*group, *name)));
+    names.filter_map(|(group, name)| Some(entry(py, group, find(name)?))).collect()
+}
+
+fn find(name: &str) -> Option<&'static Variable> {
+    let real = RealVariable::from_name(name).map(VariableId::variable);
+    real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable))
+}
+
+fn entry<'py>(py: Python<'py>, group: &str, variable: &Variable) -> PyResult<Bound<'py, PyDict>> {
+    let values = PyDict::new(py);
+    values.set_item("name", variable.name)?;
+    values.set_item("group", group)?;
+    values.set_item("description", variable.description)?;
+    // the description writes "1" for what has no unit
+    values.set_item("unit", variable.unit.filter(|unit| *unit != "1").unwrap_or_default())?;
+    match variable.kind {
+        Kind::Real { start, min, max } => {
+            values.set_item("default", start)?;
+            values.set_item("limits", (min, max))?;
+            values.set_item("choices", Vec::<&str>::new())?;
+        }
+        Kind::Enumeration { start, items } => {
+            let default = items.iter().find(|item| Some(item.value) == start);
+            values.set_item("default", default.map(|item| item.name))?;
+            values.set_item("limits", (None::<f64>, None::<f64>))?;
+            values.set_item("choices", items.iter().map(|item| item.name).collect::<Vec<_>>())?;
+        }
+        Kind::Integer { .. } | Kind::Boolean { .. } | Kind::String { .. } => {}
+    }
+    Ok(values)
+}

@@ -1,0 +1,253 @@
+//! The class `Wall`: a scene whose motion is given run by run.
+
+use std::path::PathBuf;
+
+use figures::capacity::{Curve, plot};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyFileNotFoundError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rocking_wall::response::Response;
+use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, check_thresholds, parameter_text};
+use rocking_wall::simulation::Excitation;
+use rocking_wall::solver::record::RecordSolver;
+use rocking_wall::solver::{Method, Motion};
+use rocking_wall::wall::{Wall as Equation, Warning};
+use scene_fmu::General;
+use study::ida::Shaking;
+
+use crate::arrays::{Given, Numbers, motion, samples};
+use crate::errors::{failed, of_scene, refused};
+use crate::responses;
+
+/// Runs of a batch between two looks at Ctrl-C: the time of a blink.
+const RUNS_AT_ONCE: usize = 1024;
+/// Longest run and longest free vibration after a record \[s\].
+const LONGEST: f64 = 1e7;
+const LONGEST_TAIL: f64 = 1e6;
+
+/// A wall, valid since it was made.
+#[pyclass(frozen, module = "rocking_wall._native")]
+pub(crate) struct Wall {
+    scene: Scene,
+    equation: Equation,
+    /// The start where it was given by name; else a record finds the wall upright.
+    start: Option<f64>,
+}
+
+#[pymethods]
+impl Wall {
+    #[new]
+    fn new(parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+        Self::of(Scene { title: "rocking wall".into(), ..Scene::default() }, None, parameters)
+    }
+
+    /// Reads a scene file.
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let scene = Scene::read(&path).map_err(of_scene)?;
+        Self::of(scene, None, &PyDict::new(py))
+    }
+
+    /// Returns the same wall with other values of some parameters.
+    fn replaced(&self, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+        Self::of(self.scene.clone(), self.start, parameters)
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.scene.title
+    }
+
+    /// Returns what is unusual about the wall; a run warns of its start.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        let of_start = |warning: &&Warning| matches!(warning, Warning::StartsOverturned { .. });
+        let warnings = self.equation.warnings().iter().filter(|warning| !of_start(warning));
+        warnings.map(ToString::to_string).collect()
+    }
+
+    /// Returns the parameters as texts of a scene file.
+    #[getter]
+    fn parameters(&self) -> Vec<(&'static str, String)> {
+        let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
+        names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
+    }
+
+    /// Returns name, symbol, value and unit of the numbers that follow from the parameters.
+    fn facts(&self) -> Vec<(&'static str, &'static str, f64, &'static str)> {
+        let facts = self.equation.facts().into_iter();
+        facts.map(|fact| (fact.name, fact.symbol, fact.value, fact.unit)).collect()
+    }
+
+    /// Returns the solver in words.
+    fn method(&self) -> PyResult<String> {
+        let parameters = &self.scene.parameters;
+        let method = Method::new(parameters, &self.equation, parameters.tolerance).map_err(refused)?;
+        Ok(method.to_string())
+    }
+
+    /// Returns u and F at the corners of the restoring force.
+    fn backbone<'py>(&self, py: Python<'py>) -> [Numbers<'py>; 2] {
+        let (u, force): (Vec<_>, Vec<_>) = self.equation.backbone().into_iter().unzip();
+        [u, force].map(|values| PyArray1::from_vec(py, values))
+    }
+
+    /// Draws the capacity curve of u > 0, as SVG.
+    fn picture(&self) -> String {
+        let corners = self.equation.capacity_corners(1.0);
+        let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
+        plot(&[Curve { name: "u > 0", points }], Vec::new()).picture().svg()
+    }
+
+    /// Runs the wall under a motion, under that of its scene, or in free vibration.
+    #[pyo3(signature = (record, *, top, tail, stop_time, output_step, thresholds, hold))]
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        record: Option<Given<'py>>,
+        top: Option<Given<'py>>,
+        tail: f64,
+        stop_time: Option<f64>,
+        output_step: Option<f64>,
+        thresholds: Option<Vec<f64>>,
+        hold: bool,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let mut scene = self.scene.clone();
+        if let Some(record) = &record {
+            let top = top.as_ref().map(motion).transpose()?;
+            check("tail", tail, LONGEST_TAIL)?;
+            scene.shake(Excitation::new(motion(record)?, top), tail, Vec::new());
+            scene.parameters.u_start = self.start.unwrap_or(0.0);
+        } else if top.is_some() {
+            return Err(refused("top needs a record for the bottom support beside it"));
+        }
+        if hold {
+            scene.excitation = scene.excitation.map(Excitation::held);
+        }
+        for (name, given, value) in [
+            ("stop_time", stop_time, &mut scene.stop_time),
+            ("output_step", output_step, &mut scene.output_step),
+        ] {
+            if let Some(given) = given {
+                check(name, given, LONGEST)?;
+                *value = given;
+            }
+        }
+        if let Some(thresholds) = thresholds {
+            check_thresholds(&thresholds).map_err(of_scene)?;
+            scene.thresholds = thresholds;
+        }
+        let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
+        responses::values(py, &response)
+    }
+
+    /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none) under a
+    /// motion multiplied by each factor.
+    fn peaks<'py>(
+        &self,
+        py: Python<'py>,
+        record: Given<'py>,
+        factors: &Bound<'py, PyAny>,
+        tail: f64,
+    ) -> PyResult<[Numbers<'py>; 3]> {
+        let (record, factors) = (motion(&record)?, samples(factors)?);
+        check("tail", tail, LONGEST_TAIL)?;
+        if let Some(factor) = factors.iter().find(|factor| !(*factor * record.peak()).is_finite()) {
+            return Err(refused(format!(
+                "a factor is {factor}; give finite factors that keep the record finite"
+            )));
+        }
+        let mut parameters = self.scene.parameters.clone();
+        parameters.u_start = self.start.unwrap_or(0.0);
+        let motion = Motion::of(&parameters, parameters.tolerance).map_err(refused)?;
+        let solver = RecordSolver::new(&motion, record.step());
+        let shaking = Shaking::new(&motion, &solver, &record, tail);
+        let start = [parameters.u_start, parameters.u_dot_start];
+        let mut outcomes = Vec::with_capacity(factors.len());
+        for factors in factors.chunks(RUNS_AT_ONCE) {
+            outcomes.extend(py.detach(|| shaking.runs(start, factors)).map_err(failed)?);
+            py.check_signals()?;
+        }
+        let instability = self.equation.body().instability;
+        let largest = outcomes.iter().map(|outcome| outcome.state.peaks.largest());
+        let ratio = outcomes.iter().map(|outcome| outcome.state.peaks.ratio(instability));
+        let time = outcomes.iter().map(|outcome| outcome.overturning.unwrap_or(f64::NAN));
+        Ok([PyArray1::from_iter(py, largest), PyArray1::from_iter(py, ratio), PyArray1::from_iter(py, time)])
+    }
+
+    /// Writes the FMU of the scene, made from the general one at `base`; returns the number of its variables.
+    fn package(&self, py: Python<'_>, path: PathBuf, base: PathBuf) -> PyResult<usize> {
+        py.detach(|| {
+            let unit = scene_fmu::of_scene(&self.scene, General::open(&base)?)?;
+            unit.archive.write(&path)?;
+            Ok(unit.variables)
+        })
+        .map_err(|error: scene_fmu::SceneFmuError| {
+            if base.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
+        })
+    }
+}
+
+impl Wall {
+    fn of(mut scene: Scene, start: Option<f64>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+        set_all(&mut scene, parameters)?;
+        let start = if parameters.contains("u_start")? { Some(scene.parameters.u_start) } else { start };
+        let equation = Equation::new(&scene.parameters).map_err(refused)?;
+        Method::new(&scene.parameters, &equation, scene.parameters.tolerance).map_err(refused)?;
+        Ok(Self { scene, equation, start })
+    }
+}
+
+/// Sets parameters by name, as a scene file does.
+fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyResult<()> {
+    let mut law_of_points = scene.parameters.multilinear.is_some();
+    for (name, value) in parameters {
+        let name: String = name.extract()?;
+        if name == POINTS {
+            continue;
+        }
+        let text = match value.extract::<String>() {
+            Ok(text) => text,
+            Err(_) => format!("{:?}", value.extract::<f64>().map_err(|_| not_a_value(&name, &value))?),
+        };
+        if name == "force_law" {
+            law_of_points = text == "multilinear";
+            if law_of_points {
+                continue;
+            }
+        }
+        let known = name == KINEMATICS || GROUPS.iter().any(|(_, names)| names.contains(&name.as_str()));
+        let unknown = |error: rocking_wall::scene::SceneError| PyTypeError::new_err(error.to_string());
+        scene.set(&name, &text).map_err(if known { of_scene } else { unknown })?;
+    }
+    let points = parameters.get_item(POINTS)?.map(|points| points.extract::<Vec<[f64; 2]>>()).transpose()?;
+    match (law_of_points, points) {
+        (true, Some(points)) => scene.parameters.multilinear = Some(points.into()),
+        (true, None) if scene.parameters.multilinear.is_none() => {
+            return Err(refused(format!(
+                "force_law = \"multilinear\" needs {POINTS} = [[u/u_ins, F/F0], ...] beside it"
+            )));
+        }
+        (false, Some(_)) => {
+            return Err(refused(format!("{POINTS} needs force_law = \"multilinear\" beside it")));
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+fn not_a_value(name: &str, value: &Bound<'_, PyAny>) -> PyErr {
+    let found = value.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("{name} must be a number or a name, found a value of the type {found}"))
+}
+
+/// Refuses a time that is not from 0 to a limit \[s\].
+fn check(name: &str, value: f64, limit: f64) -> PyResult<()> {
+    let least = if name == "tail" { 0.0 } else { f64::MIN_POSITIVE };
+    if (least..=limit).contains(&value) {
+        return Ok(());
+    }
+    let from = if name == "tail" { "from 0 to" } else { "above 0 and at most" };
+    Err(refused(format!("{name} = {value} s must be {from} {limit:e} s")))
+}

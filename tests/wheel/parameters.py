@@ -1,0 +1,56 @@
+"""Writes `_parameters.py`, the parameters of a wall for type checkers, from the model description.
+
+Run it in an environment with the wheel: python tests/wheel/parameters.py
+"""
+
+import textwrap
+from pathlib import Path
+
+from rocking_wall import _native
+
+FILE = Path(__file__).parents[2] / "crates/python/python/rocking_wall/_parameters.py"
+
+HEAD = '''"""The parameters of a wall, written by `tests/wheel/parameters.py` from the model description."""
+
+from collections.abc import Sequence
+from typing import Literal, TypedDict
+
+
+class Parameters(TypedDict, total=False):
+    """The parameters of a wall, by the names of the FMU's variables; in SI units."""
+'''
+TAIL = '''
+    kinematics: Literal["linear", "trigonometric"]
+    """Small rotations, or full ones (rigid-linear walls with restitution)."""
+    points: Sequence[Sequence[float]]
+    """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
+'''
+
+
+def text() -> str:
+    """Returns the text of the file."""
+    lines = []
+    for variable in _native.variables():
+        # a scene has one law more than the FMU
+        more = ["multilinear"] if variable["name"] == "force_law" else []
+        choices = ", ".join(f'"{choice}"' for choice in variable["choices"] + more)
+        kind = f"Literal[{choices}]" if choices else "float"
+        unit = f" [{variable['unit']}]" if variable["unit"] else ""
+        low, high = variable["limits"]
+        limits = (f", at least {low:g}" if low is not None else "") + (
+            f", at most {high:g}" if high is not None else ""
+        )
+        told = f"{variable['description']}{unit}{limits}; default {variable['default']}."
+        lines.append("")
+        if len(f"    {variable['name']}: {kind}") <= 110:
+            lines.append(f"    {variable['name']}: {kind}")
+        else:
+            lines.append(f"    {variable['name']}: Literal[")
+            lines += textwrap.wrap(choices, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
+            lines.append("    ]")
+        lines += textwrap.wrap(f'"""{told}"""', 110, initial_indent=" " * 4, subsequent_indent=" " * 4)
+    return HEAD + "\n".join(lines) + "\n" + TAIL
+
+
+if __name__ == "__main__":
+    FILE.write_text(text(), encoding="utf-8")

@@ -1,0 +1,68 @@
+"""What cannot be used raises an exception with the message of the program."""
+
+import warnings
+
+import pytest
+
+import rocking_wall as rw
+
+
+@pytest.mark.parametrize(
+    "name, value, error",
+    [
+        ("hight", 3, TypeError),
+        ("height", -1, ValueError),
+        ("height", "tall", ValueError),
+        ("force_law", "straight", ValueError),
+        ("kinematics", "curved", ValueError),
+    ],
+)
+def test_messages_are_those_of_the_program(program, name, value, error):
+    with pytest.raises(error) as caught:
+        rw.Wall(**{name: value})
+    assert str(caught.value) in program("simulate", "--set", f"{name}={value}", code=2)
+
+
+def test_other_values():
+    with pytest.raises(TypeError, match="height must be a number or a name, found a value of the type list"):
+        rw.Wall(height=[3])
+    with pytest.raises(TypeError, match="positional"):
+        rw.Wall(3)
+    with pytest.raises(ValueError, match="exact"):
+        rw.Wall(solver="exact", damping_model="constant_ratio")
+
+
+def test_files(tmp_path):
+    for read in (rw.read_record, rw.Wall.from_toml, rw.Study.from_toml):
+        with pytest.raises(FileNotFoundError, match="none.toml: cannot be read"):
+            read(tmp_path / "none.toml")
+    path = tmp_path / "scene.toml"
+    path.write_text("[geometry]\nhight = 3\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"scene.toml, line 2: unknown key \"hight\""):
+        rw.Wall.from_toml(path)
+    with pytest.raises(FileNotFoundError, match="cannot be read"):
+        rw.package("scenes/shaken_parapet.toml", tmp_path / "a.fmu", base=tmp_path / "none.fmu")
+
+
+def test_runs(record):
+    wall = rw.Wall(height=3, thickness=0.25)
+    for arguments, words in [
+        ({"tail": -1.0}, "tail = -1 s must be from 0 to"),
+        ({"stop_time": 0.0}, "stop_time = 0 s must be above 0"),
+        ({"thresholds": [2.0]}, "2 is not a fraction of u_ins"),
+        ({"scale": float("nan")}, "cannot be scaled by NaN"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            wall.simulate(record, **arguments)
+    with pytest.raises(ValueError, match="scale needs a record"):
+        wall.simulate(scale=2.0)
+    with pytest.raises(ValueError, match="a factor is inf"):
+        wall.peaks(record, [1.0, float("inf")])
+
+
+def test_warnings():
+    with pytest.warns(UserWarning, match="u_start = 0.2 m is beyond u_ins"):
+        rw.Wall(height=3, thickness=0.25, u_start=0.2).simulate()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rw.Wall(height=3, thickness=0.25).simulate(rw.sine_cycle(1.0, 2.0))

@@ -1,0 +1,77 @@
+"""A study leaves Python to other threads, reports progress, and stops at Ctrl-C."""
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import rocking_wall as rw
+
+LONG = """
+models = ["CR", "SDR"]
+levels = { method = "step", step = 0.01, top = 10 }
+records = { synthetic = { count = 500 } }
+walls = [{ name = "1", geometry = { height = 3, thickness = 0.25 } }]
+"""
+
+SCRIPT = """
+import sys, rocking_wall as rw
+study = rw.Study.from_toml(sys.argv[1])
+print("started", flush=True)
+try:
+    study.run(progress=False)
+except KeyboardInterrupt:
+    print("stopped")
+"""
+
+
+def study(folder, text):
+    path = folder / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_ctrl_c_stops_a_study(tmp_path):
+    command = [sys.executable, "-c", SCRIPT, str(study(tmp_path, LONG))]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "started\n"
+        time.sleep(0.5)
+        assert process.poll() is None, "the study is not long enough"
+        process.send_signal(signal.SIGINT)
+        # a study to its end would take minutes
+        told, _ = process.communicate(timeout=30)
+    assert told == "stopped\n" and process.returncode == 0
+
+
+def test_other_threads_run_beside_a_study(tmp_path):
+    short = LONG.replace("count = 500", "count = 4").replace("0.01", "0.2")
+    counted, finished = 0, threading.Event()
+
+    def count():
+        nonlocal counted
+        while not finished.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    beside = threading.Thread(target=count)
+    beside.start()
+    reports = []
+    native = rw.Study.from_toml(study(tmp_path, short))._native
+    native.run(None, reports.append)
+    finished.set()
+    beside.join()
+    assert counted > 1 and reports == sorted(reports) and max(reports) <= 8
+
+
+def test_an_error_in_the_report_stops_the_study(tmp_path):
+    def report(done):
+        raise LookupError("enough")
+
+    native = rw.Study.from_toml(study(tmp_path, LONG))._native
+    try:
+        native.run(1, report)
+    except LookupError as error:
+        assert str(error) == "enough"
+    else:
+        raise AssertionError("the study went on")

@@ -1,0 +1,121 @@
+"""The package as it is installed: types, documentation, examples, and what it needs."""
+
+import doctest
+import importlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import parameters
+import rocking_wall as rw
+from rocking_wall import _native
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("records", "responses", "studies", "tables", "walls")
+MODULES = ["rocking_wall"] + [f"rocking_wall._{part}" for part in PARTS]
+CONFIG = ROOT / "tests/wheel/mypy.ini"
+EXAMPLES = sorted(path.name for path in (ROOT / "examples/python").glob("*.py"))
+
+
+def run(*command, **options):
+    """Runs a program; its output is in the message of a failure."""
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_the_parameters_are_those_of_the_model_description():
+    written = parameters.FILE.read_text(encoding="utf-8")
+    assert written == parameters.text(), "run tests/wheel/parameters.py"
+
+
+def test_help_names_every_parameter_with_its_unit():
+    for variable in _native.variables():
+        unit = f" [{variable['unit']}]" if variable["unit"] else ""
+        assert f"- {variable['name']}{unit}: {variable['description']}" in rw.Wall.__doc__
+    assert set(rw.Wall().parameters) == {variable["name"] for variable in _native.variables()}
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_examples_in_the_documentation(module):
+    module = importlib.import_module(module)
+    names = {**vars(rw), **vars(module)}
+    assert doctest.testmod(module, extraglobs=names).failed == 0
+
+
+def test_every_public_name_is_documented():
+    for name in rw.__all__:
+        assert getattr(rw, name).__doc__, name
+
+
+def test_stubs_are_those_of_the_module(tmp_path):
+    stubtest = [sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", CONFIG]
+    run(*stubtest, "rocking_wall._native", cwd=tmp_path)
+
+
+def test_types(tmp_path):
+    code = tmp_path / "code.py"
+    code.write_text(
+        "import rocking_wall as rw\n"
+        "u: float = rw.Wall(height=3, damping_model='none').simulate(rw.synthetic_record()).u_max\n"
+        "rw.Wall(hight=3)  # type: ignore[call-arg]\n"
+        "rw.Wall(impact='hard')  # type: ignore[arg-type]\n",
+        encoding="utf-8",
+    )
+    mypy = [sys.executable, "-m", "mypy", "--config-file", CONFIG]
+    run(*mypy, "-p", "rocking_wall", cwd=tmp_path)
+    run(*mypy, code, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_examples(example, tmp_path):
+    told = run(sys.executable, ROOT / "examples/python" / example, cwd=tmp_path)
+    assert "skipped" not in told or example == "fmu.py"
+
+
+def other_python(variable):
+    """Returns the path of a Python that has the wheel too."""
+    if variable not in os.environ:
+        pytest.skip(f"{variable} is not set; `cargo xtask test` sets it")
+    return os.environ[variable]
+
+
+def test_an_fmu_of_a_scene_in_fmpy(tmp_path):
+    python = other_python("ROCKING_WALL_FMPY_PYTHON")
+    told = run(python, ROOT / "examples/python/fmu.py", cwd=tmp_path).split()
+    there, here = (float(told[told.index("m") - 1]), float(told[-3]))
+    assert there == pytest.approx(here, rel=1e-9)
+
+
+def test_the_wheel_needs_numpy_alone():
+    python = other_python("ROCKING_WALL_BARE_PYTHON")
+    listed = run(python, "-m", "pip", "list", "--format", "freeze").lower().split()
+    names = {line.split("==")[0] for line in listed}
+    assert names - {"pip", "setuptools", "wheel"} == {"numpy", "rocking-wall"}
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_examples_with_numpy_alone(example, tmp_path):
+    run(other_python("ROCKING_WALL_BARE_PYTHON"), ROOT / "examples/python" / example, cwd=tmp_path)
+
+
+def test_pictures(record):
+    wall = rw.Wall(height=3, thickness=0.25)
+    for shown in (record._repr_svg_(), wall.simulate(record)._repr_svg_()):
+        assert shown.startswith("<svg") or "<svg" in shown[:200]
+    assert "u_ins" in wall.describe()._repr_html_() and "<svg" in wall.describe()._repr_html_()
+
+
+def test_tables_and_plots(record):
+    pytest.importorskip("pandas")
+    pytest.importorskip("matplotlib").use("agg")
+    response = rw.Wall(height=3, thickness=0.25).simulate(record)
+    frame = response.to_pandas()
+    assert frame.index.name == "time" and frame["u"].abs().max() <= response.u_max
+    assert response.plot().get_ylabel() == "u / u_ins"
+    assert record.plot().get_xlabel() == "time (s)"
+    peaks = rw.Wall(height=3, thickness=0.25).peaks(record, [0.5, 9.0])
+    assert peaks.to_pandas()["overturned"].tolist() == [False, True]
