@@ -85,6 +85,16 @@ fn plots_are_svg_or_png() {
     assert!(fs::read_to_string(folder.join("many.svg")).unwrap().contains("median of 6 horizontal records"));
 }
 
+/// 100 times 0.07 is 7.000000000000001.
+#[test]
+fn percentages_are_printed_as_people_write_them() {
+    let folder = records("record_percent");
+    let output = wall(&folder, &["record", "one.AT2", "--damping", "0.07", "--plot", "plot.svg"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("Sa in g at 7 % damping"), "{}", text(&output.stdout));
+    assert!(fs::read_to_string(folder.join("plot.svg")).unwrap().contains("Sa (g) at 7 % damping"));
+}
+
 #[test]
 fn one_bad_file_does_not_hide_the_others() {
     let folder = records("record_some");

@@ -100,6 +100,65 @@ fn two_motions_are_both_shown() {
     }
 }
 
+/// Writes a study into a folder of its own and returns what `wall ida` warns of.
+fn warned_of_study(name: &str, study: &str) -> String {
+    let folder = folder(name);
+    std::fs::write(folder.join("study.toml"), study).unwrap();
+    let output = wall(&folder, &["ida", "study.toml"]);
+    let message = text(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    message
+}
+
+/// The PGA at which a rigid wall starts to rock hardly depends on the record; that of its collapse does.
+#[test]
+fn contradictions_of_a_common_beta_are_warned_of() {
+    let study = |fractions: &str| {
+        format!(
+            "models = [\"CR rigid\"]\nintensity = {{ measure = \"PGA\" }}\n\
+             report = {{ fractions = {fractions} }}\n\
+             records = {{ synthetic = {{ count = 8, duration = 10 }} }}\n\
+             levels = {{ method = \"hunt\", first = 0.02, increase = 0.1, top = 4, gap = 0.1 }}\n\
+             [[walls]]\nname = \"parapet\"\ngeometry = {{ height = 3, thickness = 0.3 }}\n"
+        )
+    };
+    let message = warned_of_study("contradicted", &study("[0.001, 1]"));
+    for words in [
+        "warning: limit states contradict a common beta in 1 of 1 fits",
+        ": wall \"parapet\" with CR rigid (0.08, 0.30); their fitted curves are rough",
+        "see the steps on the page and beta_alone in fragilities.csv",
+    ] {
+        assert!(message.contains(words), "no {words:?} in {message}");
+    }
+    let alike = warned_of_study("not_contradicted", &study("[0.9, 1]"));
+    assert!(!alike.contains("beta"), "{alike}");
+}
+
+/// Steps of Newmark and elastic frequencies that make a study slow are named before its runs.
+#[test]
+fn a_study_warns_of_much_work() {
+    // each run overturns within the first steps
+    let study = |wall: &str| {
+        format!(
+            "models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [50] }}\n\
+             records = {{ synthetic = {{ count = 1, duration = 10 }} }}\n\
+             [[walls]]\nname = \"slow\"\n{wall}\n"
+        )
+    };
+    for (name, settings, words) in [
+        (
+            "newmark",
+            "solver = { solver = \"newmark\", newmark_step = 1e-7 }",
+            "newmark_step = 1e-7 s: 100000 ",
+        ),
+        ("stiff", "force_law = { a1 = 1e-9 }", "omega1 = "),
+    ] {
+        let message = warned_of_study(&format!("work_{name}"), &study(settings));
+        assert!(message.contains(&format!("warning: wall \"slow\": {words}")), "{message}");
+        assert!(message.contains("computing takes as much longer than usual"), "{message}");
+    }
+}
+
 /// A study shakes its walls with its own records.
 #[test]
 fn a_study_says_that_it_ignores_a_motion() {
