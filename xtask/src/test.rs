@@ -135,7 +135,9 @@ fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of(TESTS.0, TESTS.1)?;
     let mut pytest = python.program("python");
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/python"]);
+    // two processes, each with whole files: what a file builds or unpacks is made once
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "-n", "2", "--dist", "loadfile"]);
+    pytest.arg("tests/python");
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     succeed(&mut pytest, "see the failures above")
