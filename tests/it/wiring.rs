@@ -27,13 +27,14 @@ fn every_variable_is_named_where_it_is_wired() {
     assert!(wiring.contains("BooleanVariable::Overturned =>"));
 }
 
-/// Copies the library's sources with another description.
+/// Compiles the copied library with another description. It takes its dependencies from the build of these
+/// tests: the target folder is the same, and with this package selected too, so are their features.
 fn check_with(folder: &Path, xml: &str) -> (bool, String) {
     std::fs::write(folder.join(XML), xml).unwrap();
     let output = Command::new(env!("CARGO"))
         .current_dir(folder)
-        .args(["check", "--quiet", "--offline", "--lib", "--package", "rocking-wall"])
-        .env("CARGO_TARGET_DIR", folder.join("target"))
+        .args(["check", "--quiet", "--offline", "--lib", "-p", "rocking-wall", "-p", "rocking-wall-cli"])
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap())
         .output()
         .unwrap();
     (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
@@ -54,6 +55,8 @@ fn copy(from: &Path, to: &Path) {
 
 fn workspace_copy() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wiring");
+    // nothing may stay of an earlier copy
+    let _ = std::fs::remove_dir_all(&folder);
     for part in ["src", "crates", "examples", "modelDescription", "xtask", "tests/conformance"] {
         copy(&crate::root().join(part), &folder.join(part));
     }
