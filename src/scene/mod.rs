@@ -29,7 +29,7 @@ pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 
 pub use document::parse_toml;
 pub use error::Place;
-pub use nearest::nearest;
+pub use nearest::suggestion;
 pub use parameter::apply_group;
 
 /// A wall, its motion, and how long it is watched.

@@ -1,38 +1,21 @@
 //! The name that a mistyped one stands for.
 
+use strsim::osa_distance;
+
+/// Longest name that is compared.
+const LONGEST: usize = 64;
+
+/// Returns words that suggest the name nearest to a mistyped one, or none.
+pub fn suggestion<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(mistyped, names).map_or_else(String::new, |name| format!(" (did you mean {name:?}?)"))
+}
+
 /// Returns the name that takes the fewest changes of a letter, if these are few for its length.
-pub fn nearest<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    const LONGEST: usize = 64;
-    let typed: Vec<char> = mistyped.chars().take(LONGEST + 1).collect();
-    let most = (typed.len() / 3).max(1);
-    let distances = names.into_iter().map(|name| (changes(&typed, name), name));
-    distances.filter(|(changes, _)| typed.len() <= LONGEST && *changes <= most).min().map(|(_, name)| name)
-}
-
-/// Counts the letters inserted, removed, replaced or swapped with the next: the optimal string alignment
-/// distance.
-fn changes(typed: &[char], name: &str) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=typed.len()).collect();
-    let mut previous = None;
-    for (row, letter) in name.chars().enumerate() {
-        let mut next = vec![row + 1];
-        for (column, &own) in typed.iter().enumerate() {
-            let mut best =
-                (last[column] + usize::from(own != letter)).min(last[column + 1] + 1).min(next[column] + 1);
-            if column > 0 && own != letter && previous == Some(own) && typed[column - 1] == letter {
-                best = best.min(before[column - 1] + 1);
-            }
-            next.push(best);
-        }
-        (before, last, previous) = (last, next, Some(letter));
-    }
-    last[typed.len()]
-}
-
-/// Returns the words that suggest the nearest name, or none.
-pub(super) fn suggestion<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(mistyped, names).map_or_else(String::new, |name| format!("; did you mean {name:?}?"))
+fn nearest<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = mistyped.chars().take(LONGEST + 1).count();
+    let names = names.into_iter().filter(|_| length <= LONGEST);
+    let distances = names.map(|name| (osa_distance(mistyped, name), name));
+    distances.filter(|(changes, _)| *changes <= (length / 3).max(1)).min().map(|(_, name)| name)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use toml::{Spanned, Value};
 
 use crate::ida::{Damping, Model, RatioSource};
-use rocking_wall::scene::{Place, SceneError, nearest};
+use rocking_wall::scene::{Place, SceneError, suggestion};
 
 /// Short names, for messages.
 const MODELS: &str =
@@ -36,8 +36,7 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
         }
         Value::Table(table) => {
             if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
-                let meant =
-                    nearest(key, KEYS).map_or_else(String::new, |name| format!("; did you mean {name:?}?"));
+                let meant = suggestion(key, KEYS);
                 return Err(refuse(format!(
                     "unknown key {key:?} of a model{meant}; it holds {}",
                     KEYS.join(", ")
