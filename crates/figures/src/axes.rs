@@ -1,6 +1,19 @@
-//! Round numbers and texts for the axes of drawings by hand.
+//! Numbers and texts for axes.
 
 use std::fmt::Write;
+
+/// Writes a number as people do: with so many digits or less, and with a power of ten where it is far from 1.
+///
+/// ```
+/// assert_eq!(figures::number(100.0 * 0.07, 6), "7");
+/// assert_eq!(figures::number(1.0 / 3.0, 3), "0.333");
+/// assert_eq!(figures::number(2.5e-9, 6), "2.5e-9");
+/// ```
+pub fn number(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    let is_near = rounded == 0.0 || (1e-6..1e9).contains(&rounded.abs());
+    if is_near { rounded.to_string() } else { format!("{rounded:e}") }
+}
 
 /// Adds a text at a place \[px\]: its start, middle or end, as `anchor` says.
 pub(crate) fn write_text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, text: &str) {

@@ -30,6 +30,8 @@ pub mod records;
 pub mod response;
 pub mod work_precision;
 
+pub use axes::number;
+
 /// Escapes text for markup.
 ///
 /// ```

@@ -29,6 +29,7 @@ use kuva::render::render::{Scene, render_multiple};
 
 pub use study::chart::Axis;
 
+use crate::axes::number;
 use crate::palette::Mark;
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
@@ -170,6 +171,7 @@ impl Plot {
             .with_y_label(y.label.as_str())
             .with_label_size(14)
             .with_tick_size(tick_size)
+            .with_tick_format(TickFormat::Custom(Arc::new(|value| number(value, 9))))
             .with_font_family("system-ui, sans-serif");
         if let Some([low, high]) = x.range {
             layout = layout.with_x_axis_min(low).with_x_axis_max(high);
@@ -178,7 +180,10 @@ impl Plot {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
         }
         if self.scale == Scale::Logarithmic {
-            let power = TickFormat::Custom(Arc::new(|exponent| format!("1e{exponent:.0}")));
+            let power = TickFormat::Custom(Arc::new(|exponent| match exponent {
+                0.0 => "1".to_owned(),
+                _ => format!("1e{exponent:.0}"),
+            }));
             layout = layout.with_log_x().with_y_tick_step(3.0).with_y_tick_format(power);
         }
         for &(limit, color) in &self.limits {

@@ -9,6 +9,7 @@
 //! assert!(picture(&[record], 0.05).svg().contains("Sa (g) at 5 % damping"));
 //! ```
 
+use crate::axes::number;
 use crate::palette::{BLACK, BROWN, PALE, SERIES, TEAL};
 use crate::plot::{Axis, Picture, Plot, Series};
 use crate::points::decimated;
@@ -60,15 +61,10 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
         spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(&level)) });
     }
     let longest = records.iter().map(|record| end(&record.spectrum)).fold(0.0, f64::max);
-    let label = format!("Sa (g) at {} % damping", rounded(100.0 * damping));
+    let label = format!("Sa (g) at {} % damping", number(100.0 * damping, 6));
     let axes = [Axis::over("period T (s)", [0.0, longest]), Axis { label, range: None }];
     panels.push(Plot::new([WIDTH, SPECTRA], axes, spectra));
     Picture::stacked(&panels)
-}
-
-/// A number without the last digits, which are those of its rounding.
-fn rounded(value: f64) -> f64 {
-    (1e9 * value).round() / 1e9
 }
 
 /// The median of the spectra.

@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         "{}: {note}, {} samples of {} s, peak {:.4} m/s²\n",
         arguments.csv.display(),
         motion.samples().len(),
-        output::number(motion.step(), 6),
+        figures::number(motion.step(), 6),
         motion.peak()
     ))
 }

@@ -9,7 +9,7 @@ use anyhow::{Result, anyhow, bail};
 use figures::plot::Picture;
 
 pub(crate) use file::{check_distinct, to_file, to_file_unsynced};
-pub(crate) use terminal::{message, number, report, report_all, to_stderr, to_stdout, warn};
+pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
 
 /// Writes a text to the file that an option names, if it is given.
 pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {

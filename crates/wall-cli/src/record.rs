@@ -182,7 +182,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
             row.name(),
             row.record.format.description(),
             motion.samples().len(),
-            output::number(motion.step(), 6),
+            figures::number(motion.step(), 6),
             motion.duration(),
             row.peak(),
             row.average
@@ -193,7 +193,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
         text.push('\n');
     }
     let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let percent = output::number(100.0 * arguments.damping, 6);
+    let percent = figures::number(100.0 * arguments.damping, 6);
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
         for warning in &row.check.warnings {

@@ -183,7 +183,7 @@ fn table(scene: &Scene, response: &Response) -> String {
         "overturned",
         summary.overturn_time.map_or_else(|| "no".to_owned(), |time| format!("at t = {time:.4} s")),
     );
-    line("run", format!("{} s", output::number(summary.end_time, 6)));
+    line("run", format!("{} s", figures::number(summary.end_time, 6)));
     line(
         "work",
         format!(

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write as _};
 
 use anyhow::{Context, Result};
+use figures::number;
 
 /// Most lines and characters of a message, and most messages of one kind.
 const MOST_LINES: usize = 9;
@@ -74,13 +75,6 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
         }
     }
     text
-}
-
-/// Writes a number as people do: with so many digits or less, and with a power of ten where it is far from 1.
-pub(crate) fn number(value: f64, digits: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
-    let is_near = rounded == 0.0 || (1e-6..1e9).contains(&rounded.abs());
-    if is_near { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 /// Writes the numbers of a message that have more digits than people write as [`number`] does; words that
