@@ -25,6 +25,8 @@ const LEFT: f64 = 62.0;
 const RIGHT: f64 = 8.0;
 const BOTTOM: f64 = 44.0;
 const TOP: f64 = 6.0;
+/// Half the width of a character, with some space \[px\].
+const HALF_CHARACTER: f64 = 4.5;
 
 /// A map of cells, the first row at the bottom.
 pub struct HeatMap<'a> {
@@ -100,8 +102,14 @@ impl HeatMap<'_> {
         for (place, text) in &self.rows.ticks {
             write_text(&mut svg, [LEFT - 5.0, bottom - height * place + 4.0], "end", text);
         }
+        // a text that would touch the one before it is left out
+        let mut free = 0.0;
         for (place, text) in &self.columns.ticks {
-            write_text(&mut svg, [LEFT + width * place, bottom + 15.0], "middle", text);
+            let (x, half) = (LEFT + width * place, HALF_CHARACTER * text.chars().count() as f64);
+            if x - half >= free {
+                write_text(&mut svg, [x, bottom + 15.0], "middle", text);
+                free = x + half;
+            }
         }
         write_text(&mut svg, [0.5 * (LEFT + right), bottom + 34.0], "middle", &self.columns.label);
         write_upwards(&mut svg, [12.0, 0.5 * (TOP + bottom)], &self.rows.label);

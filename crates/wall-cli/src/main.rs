@@ -63,7 +63,7 @@ enum Command {
     Ida(ida::Arguments),
     /// Merge the shards of an incremental dynamic analysis and write its results
     Merge(ida::MergeArguments),
-    /// Rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
+    /// Compute rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
     #[command(allow_negative_numbers = true)]
     Spectrum(spectrum::Arguments),
     /// Match viscous damping to restitution, as section 5 of the paper does, for any wall

@@ -165,19 +165,18 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ),
         ("u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
         ("F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
-        ("force law", format!("{}, ω1 = {:.2} rad/s", law.replace('_', " "), wall.omega1())),
-        (
-            "damping",
-            format!(
-                "{}, ξ = {:.2} %",
-                parameters.damping_model.name().replace('_', " "),
-                100.0 * wall.damping_ratio()
-            ),
-        ),
+        ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
+        ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("kinematics", parameters.kinematics.name().to_owned()),
         ("impact", impact(parameters, wall.restitution())),
     ];
     rows.iter().map(|(name, value)| row(name, value)).collect()
+}
+
+/// A name, and a number that belongs to it unless it is 0: a rigid wall has no ω₁.
+fn if_any(name: &str, symbol: &str, value: f64, unit: &str) -> String {
+    let name = name.replace('_', " ");
+    if value == 0.0 { name } else { format!("{name}, {symbol} = {value:.2} {unit}") }
 }
 
 /// What happens at u = 0. Without impacts e matters only where the damping is predicted from it.

@@ -8,7 +8,7 @@ use clap::{Args, value_parser};
 use study::stability::{Extreme, MAPS, Map, RowQuantity, extremes, map};
 
 use crate::output;
-use crate::stability_page::{axis_words, page};
+use crate::stability_page::{axis_words, page, scientific};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -56,8 +56,9 @@ fn table(extremes: &[Extreme]) -> String {
     let mut text = String::from("\n");
     for extreme in extremes {
         let Extreme { name, criterion, value, limit } = extreme;
+        let (value, limit) = (scientific(*value, 1), scientific(*limit, 0));
         let verdict = if extreme.holds() { "holds" } else { "BROKEN" };
-        let _ = writeln!(text, "{verdict:<7}{name:<33}{value:>9.1e} of {limit:.0e}: {criterion}");
+        let _ = writeln!(text, "{verdict:<7}{name:<33}{value:>9} of {limit}: {criterion}");
     }
     text
 }

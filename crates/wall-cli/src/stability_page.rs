@@ -25,11 +25,11 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
         let class = if extreme.holds() { "holds" } else { "broken" };
         let _ = writeln!(
             rows,
-            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{:.1e}</td><td>{:.0e}</td><td>{class}</td></tr>",
+            "<tr class=\"{class}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{class}</td></tr>",
             escaped(extreme.name),
             escaped(extreme.criterion),
-            extreme.value,
-            extreme.limit
+            scientific(extreme.value, 1),
+            scientific(extreme.limit, 0)
         );
     }
     filled(
@@ -41,6 +41,11 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
             ("extremes", &rows),
         ],
     )
+}
+
+/// Writes a number with an exponent, and 0 without.
+pub(crate) fn scientific(value: f64, decimals: usize) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.decimals$e}") }
 }
 
 /// Words for the second axis.
@@ -128,7 +133,11 @@ fn colours() -> String {
     let swatches: Vec<_> = (0..=steps)
         .map(|step| {
             let exponent = low + (high - low) * f64::from(step) / f64::from(steps);
-            (colour(10.0_f64.powf(exponent)), (step % 2 == 0).then(|| format!("1e{exponent:.0}")))
+            (
+                colour(10.0_f64.powf(exponent)),
+                (step % 2 == 0)
+                    .then(|| if exponent == 0.0 { "1".to_owned() } else { format!("1e{exponent:.0}") }),
+            )
         })
         .collect();
     scale("colours of the error", &swatches)

@@ -268,7 +268,7 @@ fn summary(results: &Results) -> String {
     let ratio_name = format!("median/{}", report.reference);
     let _ = writeln!(
         text,
-        "{:<wall_width$}{:<model_width$}{:>12}{:>26}{:>12}{:>7}{:>10}{ratio_name:>36}",
+        "{:<wall_width$}{:<model_width$}{:>12}{:>26}{:>14}{:>7}{:>10}{ratio_name:>36}",
         "wall", "model", "median", "", "theta", "beta", "censored"
     );
     for (w, wall) in contents.walls.iter().enumerate() {
@@ -279,7 +279,7 @@ fn summary(results: &Results) -> String {
             let [ratio, ratio_low, ratio_high] = summary.median_ratio.texts(1.0, Some(3));
             let _ = writeln!(
                 text,
-                "{:<wall_width$}{:<model_width$}{median:>12}{:>26}{theta:>12}{beta:>7}{:>10}{:>36}",
+                "{:<wall_width$}{:<model_width$}{median:>12}{:>26}{theta:>14}{beta:>7}{:>10}{:>36}",
                 wall.name,
                 model.name,
                 format!("{low} … {high}"),

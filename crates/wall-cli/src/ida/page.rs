@@ -17,7 +17,7 @@ const KNOWN: [(&str, &str); 6] =
     [("CR", BLACK), ("CDC", BLUE), ("CDR", GREEN), ("SDR", AMBER), ("CDR Eq. 14", RED), ("none", GREY)];
 const OTHERS: [&str; 5] = [PURPLE, TEAL, BROWN, "#c2185b", "#5c6bc0"];
 /// Sizes of the plots \[px\].
-const LARGE: [f64; 2] = [520.0, 330.0];
+const LARGE: [f64; 2] = [420.0, 280.0];
 const SMALL: [f64; 2] = [300.0, 250.0];
 /// Demand at the right end of IDA curves.
 const DEMAND_END: f64 = 1.08;
@@ -94,15 +94,16 @@ fn reading(results: &Results) -> String {
     let observed = if results.contents().grid.is_some() {
         "the numbers of exceedances at each level (Baker 2015, Eq. 11)"
     } else {
-        "the records' own intensities, those that stood at the highest level counted as censored (Baker \
+        "the records' own intensities; those that stood at the highest level count as censored (Baker \
          2015, Eq. 8)"
     };
     format!(
-        "Fragilities: steps are the records, lines the lognormal curves of greatest likelihood given \
-         {observed}, with one β for all limit states of a wall and model, so that their curves do not cross \
-         (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of likelihoods, \
-         5&nbsp;%). Intervals hold 95&nbsp;% of {} resamples of the records, drawn with all their results, \
-         so that ratios are paired. Ratios are to {}. What the levels leave open has its bound.",
+        "Fragilities: the steps are the records. The lines are lognormal curves, fitted by maximum \
+         likelihood to {observed}. All limit states of a wall and model share one β, so that their curves do \
+         not cross (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of \
+         likelihoods, 5&nbsp;%). Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all \
+         their results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels \
+         leave open, with its bound.",
         report.resamples,
         escaped(&report.reference)
     )
