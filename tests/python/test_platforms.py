@@ -15,7 +15,7 @@ import test_cases
 from conftest import ROOT
 from library import problems
 from unit import Unit
-from windows import RecordingUnit, Wine
+from windows import RecordingUnit, Wine, windows_path
 
 PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
 DRIVER = "ROCKING_WALL_DRIVER"
@@ -28,7 +28,7 @@ def wine():
     program = shutil.which("wine")
     if program is None:
         pytest.skip("wine is missing: `apt-get install wine wine64`")
-    return Wine(program, os.environ[DRIVER])
+    return Wine(program, os.environ[DRIVER], os.environ["ROCKING_WALL_EXE"])
 
 
 @pytest.mark.parametrize("platform", PLATFORMS)
@@ -90,3 +90,11 @@ def test_floor_on_windows(unpacked_floor, wine):
         for index in range(500):
             unit.set(a_g=3.0 * (-1) ** (index // 20)).step(0.01)
         check(unit, wine)
+
+
+@pytest.mark.parametrize("scene", ["shaken_parapet", "plain_parapet"])
+def test_histories_on_windows(scene, wall, wine, tmp_path):
+    scene = ROOT / f"scenes/{scene}.toml"
+    subprocess.run([wall, "simulate", scene, "--csv", tmp_path / "linux.csv"], check=True, cwd=ROOT)
+    wine.run(wine.wall, "simulate", windows_path(scene), "--csv", windows_path(tmp_path / "windows.csv"))
+    assert (tmp_path / "windows.csv").read_bytes() == (tmp_path / "linux.csv").read_bytes()

@@ -107,10 +107,10 @@ def windows_path(path):
 
 
 class Wine:
-    """Runs programs for Windows."""
+    """Runs programs for Windows: the driver of libraries and `wall.exe`."""
 
-    def __init__(self, program, driver):
-        self.program, self.driver = program, driver
+    def __init__(self, program, driver, wall):
+        self.program, self.driver, self.wall = program, driver, wall
 
     def run(self, program, *arguments, input=""):
         """Runs a program to its end and returns what it prints."""
