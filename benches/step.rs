@@ -85,7 +85,8 @@ fn do_step(record: &[f64], step: f64) -> f64 {
         let mut from = 0.0;
         for acceleration in &black_box(record)[1..] {
             unit.set_real(RealVariable::AG, 0.05 * acceleration);
-            unit.do_step(Step { from, duration: step }, &mut log).expect("a bounded motion");
+            unit.do_step(Step { from, duration: step, may_end_early: false }, &mut log)
+                .expect("a bounded motion");
             from += step;
         }
         unit.real(RealVariable::U)

@@ -148,7 +148,8 @@ fn a_step_allocates_nothing() {
                 unit.set_input_derivative(input, 27.0 * (9.0 * time).cos());
             }
             unit.set_real(RealVariable::Drift, 1e-3 * (2.0 * time).sin());
-            unit.do_step(Step { from: time, duration: 0.005 }, &mut Log::silent()).unwrap();
+            unit.do_step(Step { from: time, duration: 0.005, may_end_early: false }, &mut Log::silent())
+                .unwrap();
         }
         let allocations = COUNT.with(Cell::get) - before;
         assert!((unit.real(RealVariable::U) - 0.18).abs() > 1e-3, "{name}: the wall has moved");

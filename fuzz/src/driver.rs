@@ -200,7 +200,7 @@ impl<M: ModelExchange> Instance<M> {
                 4 => {
                     let status = states::serialized_fmu_state_size::<M>(c, state, &mut size);
                     self.bytes.resize(size, 0);
-                    let bytes = self.bytes.as_mut_ptr().cast();
+                    let bytes = self.bytes.as_mut_ptr();
                     if status == OK {
                         states::serialize_fmu_state::<M>(c, state, bytes, size)
                     } else {
@@ -212,7 +212,7 @@ impl<M: ModelExchange> Instance<M> {
                         let at = random.below(self.bytes.len());
                         self.bytes[at] ^= 1 << random.below(8);
                     }
-                    let bytes = self.bytes.as_ptr().cast();
+                    let bytes = self.bytes.as_ptr();
                     let status = states::de_serialize_fmu_state::<M>(c, bytes, self.bytes.len(), &mut state);
                     if status == OK && self.saved.len() < MOST {
                         self.saved.push(state);

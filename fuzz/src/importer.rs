@@ -67,7 +67,7 @@ impl<M: Model> Importer<M> {
             let mut bytes = Vec::new();
             if states::serialized_fmu_state_size::<M>(c, state, &mut size) == OK {
                 bytes.resize(size, 0_u8);
-                assert_eq!(states::serialize_fmu_state::<M>(c, state, bytes.as_mut_ptr().cast(), size), OK);
+                assert_eq!(states::serialize_fmu_state::<M>(c, state, bytes.as_mut_ptr(), size), OK);
             }
             assert_eq!(states::free_fmu_state::<M>(c, &mut state), OK);
             Some(bytes)
@@ -79,12 +79,7 @@ impl<M: Model> Importer<M> {
         let mut state = ptr::null_mut();
         // SAFETY: the instance lives; the array is as long as stated.
         let status = unsafe {
-            states::de_serialize_fmu_state::<M>(
-                self.component,
-                bytes.as_ptr().cast(),
-                bytes.len(),
-                &mut state,
-            )
+            states::de_serialize_fmu_state::<M>(self.component, bytes.as_ptr(), bytes.len(), &mut state)
         };
         (status == OK).then_some(state)
     }

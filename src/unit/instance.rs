@@ -6,7 +6,7 @@ use std::sync::Arc;
 use fmu_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, VariableId};
 
 use crate::choices::Mechanism;
-use crate::simulation::{Excitation, Outputs, Simulation, segment_of};
+use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
 use crate::solver::Segment;
 use crate::variables::RealVariable;
 use crate::wall::{Ends, Parameters, Support, Wall};
@@ -106,30 +106,42 @@ impl Unit {
         }
     }
 
-    /// Makes one communication step, through the samples of the scene's own motion. On an error the unit is
-    /// as it was.
-    pub(super) fn advance(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
+    /// Makes one communication step, through the samples of the scene's own motion. A step that may end early
+    /// does so just after overturning, and its end is returned. On an error the unit is as it was.
+    pub(super) fn advance(
+        &mut self,
+        mut step: CommunicationStep,
+        log: &mut Log<'_>,
+    ) -> Result<Option<f64>, Failure> {
         let before = *self.simulation.progress();
-        self.simulation.set_time(step.from);
-        match self.follow(step, log) {
-            Ok(impulses) => {
-                self.impulses = impulses;
-                self.simulation.set_time(step.from + step.duration);
-                for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
-                    input.pass(step.duration);
-                }
-                self.refresh();
-                Ok(())
-            }
-            Err(error) => {
+        let mut done = self.follow(step);
+        let mut event = None;
+        if let (true, Some(duration)) = (step.may_end_early, self.duration_to_overturning(before, step)) {
+            self.simulation.restore(before);
+            let early = self.follow(CommunicationStep { duration, ..step });
+            if early.as_ref().is_ok_and(|done| done.overturned) {
+                (step.duration, event) = (duration, Some(step.from + duration));
+                done = early;
+            } else {
                 self.simulation.restore(before);
-                Err(error)
+                done = self.follow(step);
             }
         }
+        let done = done.inspect_err(|_| self.simulation.restore(before))?;
+        self.impulses = done.impulses;
+        let end = step.from + step.duration;
+        self.simulation.set_time(end);
+        for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
+            input.pass(step.duration);
+        }
+        self.refresh();
+        self.tell(&done, end, log);
+        Ok(event)
     }
 
-    /// Moves the wall through a step, and logs what happened.
-    fn follow(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<Ends, Failure> {
+    /// Moves the wall through a step.
+    fn follow(&mut self, step: CommunicationStep) -> Result<Step, Failure> {
+        self.simulation.set_time(step.from);
         let (inputs, motion, start) = (self.inputs, self.excitation.as_deref(), self.experiment.start);
         let next = |time: f64, done: f64| {
             let remaining = step.duration - done;
@@ -137,8 +149,19 @@ impl Unit {
             let (from, to) = (inputs.support(own.from, done), inputs.support(own.to, done + own.duration));
             (Segment { duration: own.duration, from, to }, remaining)
         };
-        let done = self.simulation.advance_through(next, None).map_err(|error| error.to_string())?;
-        let end = step.from + step.duration;
+        self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
+    }
+
+    /// How long the step from the progress `before` takes to just after overturning, if that is inside it.
+    fn duration_to_overturning(&self, before: Progress, step: CommunicationStep) -> Option<f64> {
+        let overturning =
+            self.simulation.progress().overturn_time.filter(|_| before.overturn_time.is_none())?;
+        let margin = OVERTURNED_SINCE.max(4.0 * f64::EPSILON * overturning.abs());
+        Some(overturning - step.from + margin).filter(|&duration| duration < step.duration)
+    }
+
+    /// Logs what happened in a step.
+    fn tell(&self, done: &Step, end: f64, log: &mut Log<'_>) {
         if done.put_to_rest {
             log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
         }
@@ -151,7 +174,6 @@ impl Unit {
                 "left the supports by t = {end} s: reactions and impulses are 0 from there on"
             ));
         }
-        Ok(done.impulses)
     }
 
     /// Warns once where `a_top` is given to a wall without a top support.
@@ -165,6 +187,9 @@ impl Unit {
         }
     }
 }
+
+/// How long after overturning a step ends that ends early \[s\]: rounding cannot hide it there.
+const OVERTURNED_SINCE: f64 = 1e-10;
 
 fn start(parameters: &Parameters, experiment: Experiment, support: Support) -> Result<Simulation, Failure> {
     // an importer may ask for less than rounding, which no step would reach

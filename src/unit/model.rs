@@ -195,7 +195,7 @@ impl Model for Unit {
         Ok(())
     }
 
-    fn do_step(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<(), Failure> {
+    fn do_step(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
         self.warn_of_unused_top(log);
         self.advance(step, log)
     }

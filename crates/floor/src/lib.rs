@@ -28,7 +28,7 @@
 //! let mut floor = Unit::new()?;
 //! floor.set_real(V::DisplacementStart, 0.01);
 //! floor.initialize(&mut Log::silent())?;
-//! floor.do_step(Step { from: 0.0, duration: 0.05 }, &mut Log::silent())?;
+//! floor.do_step(Step { from: 0.0, duration: 0.05, may_end_early: false }, &mut Log::silent())?;
 //! assert!(floor.real(V::Displacement) < 0.01, "it swings back");
 //! # Ok::<(), fmu_export::Failure>(())
 //! ```

@@ -99,7 +99,7 @@ impl Unit {
 
     /// One step; on an error `state` is unusable.
     fn advance(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure> {
-        let Step { from, duration } = step;
+        let Step { from, duration, .. } = step;
         let coupling = self.parameters.coupling;
         let load = self.inputs.ahead(&self.floor, coupling, duration);
         let velocity = self.state.velocity;
@@ -343,10 +343,10 @@ impl Model for Unit {
         Ok(())
     }
 
-    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure> {
+    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
         self.tell_about_ignored_inputs(log);
         let before = self.state;
-        self.advance(step, log).inspect_err(|_| self.state = before)
+        self.advance(step, log).map(|()| None).inspect_err(|_| self.state = before)
     }
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {

@@ -10,47 +10,47 @@ pub(crate) fn find<V: VariableId>(reference: u32) -> Result<V, Failure> {
 }
 
 #[cold]
-fn unknown(reference: u32) -> Failure {
+pub(crate) fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
-/// Whether `variable` may be set in `phase`, which is one that has sets.
-pub(crate) fn is_settable(variable: &Variable, phase: Phase) -> bool {
+/// Whether `variable` may be set in `phase`, which is one that has sets. Where `event_mode` is used, inputs
+/// that are not continuous are set there.
+pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -> bool {
     match (variable.causality, variable.variability) {
         (_, Variability::Constant) => false,
-        (Causality::Input, _) => true,
+        (Causality::Input, Variability::Continuous) => true,
+        (Causality::Input, _) => !(event_mode && phase == Phase::StepMode),
         (Causality::Parameter, Variability::Tunable) => phase != Phase::ContinuousTimeMode,
         (Causality::Parameter, _) => phase.is_before_the_start(),
         _ => false,
     }
 }
 
-/// Refuses what may not be set in `phase`.
-pub(crate) fn check_settable(variable: &Variable, phase: Phase) -> Result<(), Failure> {
-    if is_settable(variable, phase) { Ok(()) } else { Err(not_settable(variable, phase)) }
-}
-
+/// Why `variable` cannot be set; `now` says in which phase.
 #[cold]
-fn not_settable(variable: &Variable, phase: Phase) -> Failure {
+pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
     let name = variable.name;
-    let what = match variable.causality {
-        Causality::Parameter | Causality::Input if variable.variability == Variability::Constant => {
-            "a constant"
+    let what = match (variable.causality, variable.variability) {
+        (Causality::Parameter | Causality::Input, Variability::Constant) => "a constant",
+        (Causality::Parameter, Variability::Tunable) => {
+            return Failure(format!("{name} is tunable and cannot be set {now}: set it in Event Mode"));
         }
-        Causality::Parameter if variable.variability == Variability::Tunable => {
-            return Failure(format!("{name} is tunable and cannot be set {phase}: set it in Event Mode"));
-        }
-        Causality::Parameter => {
+        (Causality::Parameter, _) => {
             return Failure(format!(
-                "{name} is a fixed parameter and cannot be set {phase}: set it before \
-                 fmi2ExitInitializationMode"
+                "{name} is a fixed parameter and cannot be set {now}: set it before the end of \
+                 Initialization Mode"
             ));
         }
-        Causality::CalculatedParameter => "a calculated parameter",
-        Causality::Input => "an input",
-        Causality::Output => "an output",
-        Causality::Local => "a local variable",
-        Causality::Independent => "the independent variable",
+        (Causality::Input, _) => {
+            return Failure(format!(
+                "{name} is not continuous and cannot be set {now}: set it in Event Mode"
+            ));
+        }
+        (Causality::CalculatedParameter, _) => "a calculated parameter",
+        (Causality::Output, _) => "an output",
+        (Causality::Local, _) => "a local variable",
+        (Causality::Independent, _) => "the independent variable",
     };
     Failure(format!("{name} is {what} and cannot be set: only parameters and inputs can"))
 }

@@ -1,4 +1,4 @@
-//! FMI 2.0 export layer: everything between the C functions of an FMU and a Rust model.
+//! FMI 2.0 and 3.0 export layer: everything between the C functions of an FMU and a Rust model.
 //!
 //! # How a model becomes an FMU
 //!
@@ -8,7 +8,7 @@
 //!    not wired does not compile; compute a step; write and read the state.
 //! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
 //! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be
-//!    `"unwind"`.
+//!    `"unwind"`. A model for both kinds is exported for FMI 3.0 as well, by the same library.
 //!
 //! ```
 //! use fmu_export::*;
@@ -61,9 +61,9 @@
 //!     fn calculate(&mut self) -> Result<(), Failure> { Ok(()) }
 //!     fn setup_experiment(&mut self, _: Experiment) {}
 //!     fn initialize(&mut self, _: &mut Log<'_>) -> Result<(), Failure> { Ok(()) }
-//!     fn do_step(&mut self, step: Step, _: &mut Log<'_>) -> Result<(), Failure> {
+//!     fn do_step(&mut self, step: Step, _: &mut Log<'_>) -> Result<Option<f64>, Failure> {
 //!         self.count += step.duration;
-//!         Ok(())
+//!         Ok(None)
 //!     }
 //!     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
 //!         codec.f64(&mut self.count)
@@ -76,7 +76,7 @@
 //!
 //! # What the layer sees to
 //!
-//! - Call order, from one table. A call that returns `fmi2Error` ends the simulation: then only getters,
+//! - Call order, from one table. A call that returns an error ends the simulation: then only getters,
 //!   reset, saved states and free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes)
 //!   leave an instance as it was.
 //! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets
@@ -96,8 +96,10 @@
 //! Instances share nothing. Nothing here allocates in a step, a get or a set of numbers that succeeds.
 //!
 //! # Map
-//! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's;
-//! between them one instance with its table of allowed calls.
+//! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's,
+//! with one boundary for each version of FMI; between them one instance with its table of allowed calls.
+//! Functions that are alike in both versions are the same generic function; what differs is in
+//! [`ffi::fmi3`].
 
 mod access;
 mod call;
@@ -119,4 +121,6 @@ pub use log::{Category, Filter, Log, Sink, Status};
 pub use model::{Environment, Experiment, Interface, Model, ModelExchange, Step, Update};
 pub use state::StateCodec;
 pub use uri::path_from_location;
-pub use variable::{Causality, Item, Kind, Variability, Variable, VariableId};
+pub use variable::{
+    Causality, FIRST_INDICATOR_REFERENCE, Item, Kind, TIME_REFERENCE, Variability, Variable, VariableId,
+};

@@ -27,19 +27,20 @@ pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure>
     }
 }
 
-/// Whether `value` is within the limits of `variable`, or one of its items.
-pub(crate) fn check_integer(variable: &Variable, value: i32) -> Result<(), Failure> {
-    match variable.kind {
-        Kind::Integer { min: Some(min), .. } if value < min => {
-            Err(beyond(variable, value, "below its minimum", min))
+/// Returns `value` if it is within the limits of `variable`, or one of its items.
+pub(crate) fn check_integer(variable: &Variable, value: i64) -> Result<i32, Failure> {
+    match (variable.kind, i32::try_from(value)) {
+        (Kind::Integer { min: Some(min), .. }, _) if value < i64::from(min) => {
+            Err(beyond(variable, value, "below its minimum", min.into()))
         }
-        Kind::Integer { max: Some(max), .. } if value > max => {
-            Err(beyond(variable, value, "above its maximum", max))
+        (Kind::Integer { max: Some(max), .. }, _) if value > i64::from(max) => {
+            Err(beyond(variable, value, "above its maximum", max.into()))
         }
-        Kind::Enumeration { items, .. } if items.iter().all(|item| item.value != value) => {
+        (Kind::Enumeration { items, .. }, _) if items.iter().all(|item| i64::from(item.value) != value) => {
             Err(no_item(variable, value, items))
         }
-        _ => Ok(()),
+        (_, Ok(value)) => Ok(value),
+        (_, Err(_)) => Err(Failure(format!("{} = {value} needs more than 32 bits", variable.name))),
     }
 }
 
@@ -54,7 +55,7 @@ fn beyond<T: std::fmt::Debug>(variable: &Variable, value: T, beyond: &str, limit
 }
 
 #[cold]
-fn no_item(variable: &Variable, value: i32, items: &[Item]) -> Failure {
+fn no_item(variable: &Variable, value: i64, items: &[Item]) -> Failure {
     let items: Vec<_> = items.iter().map(|item| format!("{} = {}", item.name, item.value)).collect();
     Failure(format!("{} = {value} is not one of its items: {}", variable.name, items.join(", ")))
 }

@@ -84,9 +84,11 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// Computes one step. It must be bounded, and should not allocate. A model exported for Model Exchange
     /// alone is never asked.
     ///
+    /// Returns the time \[s\] of an event at which it ended early, where [`Step::may_end_early`] allows that.
+    ///
     /// # Errors
     /// When it cannot be computed. The model is then as it was before the step.
-    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure>;
+    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<Option<f64>, Failure>;
 
     /// Passes all that is not derived to `codec`: parameters, inputs and their derivatives, experiment,
     /// state. Reading starts from a model as instantiated, and ends with computing what is derived.
@@ -140,7 +142,8 @@ pub trait ModelExchange: Model {
     fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure>;
 }
 
-/// What an update in Event Mode did (`fmi2EventInfo`). The model never ends the simulation.
+/// What an update in Event Mode did (`fmi2EventInfo`, `fmi3UpdateDiscreteStates`). The model never ends the
+/// simulation.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Update {
     /// There is more to update, at the same time.
@@ -153,7 +156,7 @@ pub struct Update {
     pub next_event: Option<f64>,
 }
 
-/// How an importer uses an instance (`fmi2Type`).
+/// How an importer uses an instance.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Interface {
     /// The importer's solver integrates the equations.
@@ -204,4 +207,6 @@ pub struct Step {
     pub from: f64,
     /// Its length \[s\], above 0. It may be too small to change the time.
     pub duration: f64,
+    /// The importer accepts that the step ends early, at an event (FMI 3.0 `earlyReturnAllowed`).
+    pub may_end_early: bool,
 }

@@ -65,7 +65,11 @@ impl StateCodec<'_> {
     /// An Integer parameter. It is read as it would be set: within its limits.
     pub fn integer(&mut self, variable: impl VariableId, value: &mut i32) -> Result<(), Failure> {
         self.i32(value)?;
-        if self.is_reading() { limits::check_integer(variable.variable(), *value) } else { Ok(()) }
+        if self.is_reading() {
+            limits::check_integer(variable.variable(), (*value).into()).map(drop)
+        } else {
+            Ok(())
+        }
     }
 
     /// Several numbers.

@@ -2,6 +2,11 @@
 
 use std::fmt::Debug;
 
+/// The value reference of the time in FMI 3.0, for a model without an independent variable of its own.
+pub const TIME_REFERENCE: u32 = 0;
+/// The value reference of the first event indicator in FMI 3.0, where each has a variable; the others follow.
+pub const FIRST_INDICATOR_REFERENCE: u32 = 1 << 30;
+
 /// One variable of the model description.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Variable {

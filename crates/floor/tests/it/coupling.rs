@@ -97,7 +97,10 @@ fn inputs_of_the_other_coupling_are_warned_of_once() {
     driven.set("impulse_4", 1.0);
     warnings(&mut |log| {
         for n in 0..3 {
-            driven.unit.do_step(Step { from: f64::from(n), duration: 1.0 }, log).unwrap();
+            driven
+                .unit
+                .do_step(Step { from: f64::from(n), duration: 1.0, may_end_early: false }, log)
+                .unwrap();
         }
     });
     assert_eq!(texts.len(), 1, "{texts:?}");
@@ -153,7 +156,7 @@ fn output_derivatives_are_rates() {
         let step = |unit: &mut Unit, from: f64, duration: f64| {
             unit.set_input_derivative(real("a_g"), 7.0);
             unit.set_input_derivative(real("reaction_1"), -3e5);
-            unit.do_step(Step { from, duration }, &mut Log::silent()).unwrap();
+            unit.do_step(Step { from, duration, may_end_early: false }, &mut Log::silent()).unwrap();
         };
         step(&mut driven.unit, 0.0, 0.01);
         let tiny = 1e-6;
@@ -186,7 +189,8 @@ fn a_step_that_fails_leaves_all_as_it_was() {
     driven.rate("a_g", 1e300);
     let before: Vec<_> =
         RealVariable::ALL.iter().map(|&variable| driven.unit.real(variable).to_bits()).collect();
-    let failed = driven.unit.do_step(Step { from: 0.01, duration: 1e300 }, &mut Log::silent());
+    let failed =
+        driven.unit.do_step(Step { from: 0.01, duration: 1e300, may_end_early: false }, &mut Log::silent());
     assert!(failed.is_err());
     let after: Vec<_> =
         RealVariable::ALL.iter().map(|&variable| driven.unit.real(variable).to_bits()).collect();

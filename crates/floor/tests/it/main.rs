@@ -51,7 +51,7 @@ impl Driven {
 
     fn step(&mut self, duration: f64) {
         self.unit
-            .do_step(Step { from: self.time, duration }, &mut Log::silent())
+            .do_step(Step { from: self.time, duration, may_end_early: false }, &mut Log::silent())
             .expect("the step can be computed");
         self.time += duration;
     }

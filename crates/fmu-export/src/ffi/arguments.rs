@@ -99,6 +99,15 @@ pub(super) unsafe fn text<'a>(name: &str, start: Text) -> Result<Option<&'a str>
     str::from_utf8(bytes).map(Some).map_err(|_| Failure(format!("{name} is not UTF-8")))
 }
 
+/// The text at `start`, which is not NULL.
+///
+/// # Safety
+/// As for [`text`].
+pub(super) unsafe fn required_text<'a>(name: &str, start: Text) -> Result<&'a str, Failure> {
+    // SAFETY: as the caller promises.
+    unsafe { text(name, start) }?.ok_or_else(|| Failure(format!("{name} is NULL")))
+}
+
 fn check_array<T>(name: &str, start: *const T, count: usize) -> Result<(), Failure> {
     if start.is_null() {
         return Err(Failure(format!("{name} is NULL")));

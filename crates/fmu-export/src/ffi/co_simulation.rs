@@ -1,4 +1,4 @@
-//! The functions of co-simulation alone (FMI 2.0.5, section 4.2).
+//! The functions of co-simulation alone, in FMI 2.0.5 (section 4.2).
 
 use super::arguments::{array, place, to_get, to_set};
 use super::guard::{self, functions};
@@ -37,7 +37,7 @@ functions! {
     /// Never returns `fmi2Discard`: some importers would try again for ever.
     do_step<Model>(
         communication_point: Real, step_size: Real, _no_set_fmu_state_prior_to_current_point: Boolean
-    ): DoStep, |instance| instance.do_step(communication_point, step_size);
+    ): DoStep, |instance| instance.do_step(communication_point, step_size).map(drop);
     /// `fmi2CancelStep`
     ///
     /// Always an error: no step is asynchronous.

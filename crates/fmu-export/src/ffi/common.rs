@@ -1,6 +1,6 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
-use super::arguments::{array, array_mut, text, to_get, to_set};
+use super::arguments::{array, array_mut, required_text, text, to_get, to_set};
 use super::guard::{self, Slot, functions};
 use super::kinds::Kinds;
 use super::types::{
@@ -56,37 +56,30 @@ pub unsafe fn instantiate<M: Model>(
     };
     // SAFETY: as the caller promises.
     let callbacks = unsafe { array("functions", functions, 1) }.ok().and_then(<[_]>::first);
-    let logger =
-        || Logger::new(callbacks.and_then(|callbacks| sink(*callbacks, name.clone())), logging_on != 0);
-    // SAFETY: as the caller promises.
-    let texts = unsafe { (text("fmuGUID", guid), text("fmuResourceLocation", resource_location)) };
-    let checked = kinds.purpose(fmu_type).and_then(|purpose| Ok((purpose, check_texts(texts)?)));
-    let instance = guard::catch(|| match checked {
-        Ok((purpose, (guid, location))) => {
-            Instance::<M>::new(&name.to_string_lossy(), guid, location, purpose, logger())
-        }
-        Err(failure) => {
-            logger().log().error(format_args!("fmi2Instantiate: {failure}"));
-            None
-        }
-    });
-    match instance {
-        Ok(Some(instance)) => Slot::component(instance),
-        Ok(None) => ptr::null_mut(),
-        Err(panic) => {
-            logger().log().error(format_args!("fmi2Instantiate: internal error, please report it: {panic}"));
-            ptr::null_mut()
-        }
-    }
+    let sink = || callbacks.and_then(|callbacks| sink(*callbacks, name.clone()));
+    let logger = || Logger::new(sink(), logging_on != 0);
+    make("fmi2Instantiate", logger, |logger| {
+        // SAFETY: as the caller promises.
+        let (guid, location) =
+            unsafe { (required_text("fmuGUID", guid)?, text("fmuResourceLocation", resource_location)?) };
+        Instance::new(&name.to_string_lossy(), guid, location, kinds.purpose(fmu_type)?, logger)
+    })
 }
 
-type OptionalText<'a> = Result<Option<&'a str>, Failure>;
-
-fn check_texts<'a>(
-    (guid, location): (OptionalText<'a>, OptionalText<'a>),
-) -> Result<(&'a str, Option<&'a str>), Failure> {
-    let guid = guid?.ok_or("fmuGUID is NULL")?;
-    Ok((guid, location?))
+/// Makes an instance for the C function `function`; NULL, after a log, if it is refused.
+pub(super) fn make<M: Model>(
+    function: &str,
+    logger: impl Fn() -> Logger,
+    instantiate: impl FnOnce(Logger) -> Result<Instance<M>, Failure>,
+) -> Component {
+    let made = guard::catch(|| instantiate(logger()));
+    let failure = match made {
+        Ok(Ok(instance)) => return Slot::component(instance),
+        Ok(Err(failure)) => failure,
+        Err(panic) => Failure(format!("internal error, please report it: {panic}")),
+    };
+    logger().log().error(format_args!("{function}: {failure}"));
+    ptr::null_mut()
 }
 
 /// Passes messages on to the importer's logger.
@@ -111,7 +104,7 @@ fn sink(callbacks: CallbackFunctions, name: CString) -> Option<Box<Sink>> {
     }))
 }
 
-/// `fmi2FreeInstance`
+/// `fmi2FreeInstance`, `fmi3FreeInstance`
 ///
 /// From inside a call, that is from the logger, the instance is freed at the end of that call.
 ///
@@ -123,11 +116,11 @@ pub unsafe fn free_instance<M: Model>(component: Component) {
 }
 
 functions! {
-    /// `fmi2SetDebugLogging`
+    /// `fmi2SetDebugLogging`, `fmi3SetDebugLogging`
     ///
     /// Without categories all are meant. An unknown one is refused, and nothing changes then.
     set_debug_logging<Model>(
-        logging_on: Boolean, count: usize, categories: *const Text
+        logging_on: impl From<bool> + PartialEq, count: usize, categories: *const Text
     ): SetDebugLogging, |instance| {
         // SAFETY: as the caller promises.
         let categories = unsafe { array("categories", categories, count) }?;
@@ -135,7 +128,7 @@ functions! {
             // SAFETY: as the caller promises.
             unsafe { text("categories", category) }?.ok_or_else(|| Failure::from("a category is NULL"))
         });
-        instance.set_debug_logging(logging_on != 0, names)
+        instance.set_debug_logging(logging_on != false.into(), names)
     };
     /// `fmi2SetupExperiment`
     setup_experiment<Model>(
@@ -152,14 +145,14 @@ functions! {
         instance.enter_initialization_mode();
         Ok(())
     };
-    /// `fmi2ExitInitializationMode`
+    /// `fmi2ExitInitializationMode`, `fmi3ExitInitializationMode`
     exit_initialization_mode<Model>(): ExitInitializationMode, Instance::exit_initialization_mode;
-    /// `fmi2Terminate`
+    /// `fmi2Terminate`, `fmi3Terminate`
     terminate<Model>(): Terminate, |instance| {
         instance.terminate();
         Ok(())
     };
-    /// `fmi2Reset`
+    /// `fmi2Reset`, `fmi3Reset`
     reset<Model>(): Reset, |instance| {
         instance.reset();
         Ok(())
@@ -171,11 +164,7 @@ functions! {
         references: *const ValueReference, count: usize, values: *mut Text
     ): GetString, |instance| {
         // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
-            slot.write(text.as_ptr());
-        }
-        Ok(())
+        unsafe { get_texts(instance, references, values, count) }
     };
     /// `fmi2SetString`
     ///
@@ -184,12 +173,7 @@ functions! {
         references: *const ValueReference, count: usize, values: *const Text
     ): SetString, |instance| {
         // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values, count) }?;
-        let texts = values.iter().map(|&value| {
-            // SAFETY: as the caller promises.
-            unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
-        });
-        instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
+        unsafe { set_texts(instance, references, values, count) }
     };
     /// `fmi2GetDirectionalDerivative`
     get_directional_derivative<Model>(
@@ -208,10 +192,48 @@ functions! {
     };
 }
 
+/// Gets texts, which live until the next call of this for the instance.
+///
+/// # Safety
+/// As for [`to_get`].
+pub(super) unsafe fn get_texts<M: Model>(
+    instance: &mut Instance<M>,
+    references: *const ValueReference,
+    values: *mut Text,
+    count: usize,
+) -> Result<(), Failure> {
+    // SAFETY: as the caller promises.
+    let (references, values) = unsafe { to_get(references, values, count) }?;
+    for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
+        slot.write(text.as_ptr());
+    }
+    Ok(())
+}
+
+/// Sets texts.
+///
+/// # Safety
+/// As for [`to_set`]; the texts end with a NUL.
+pub(super) unsafe fn set_texts<M: Model>(
+    instance: &mut Instance<M>,
+    references: *const ValueReference,
+    values: *const Text,
+    count: usize,
+) -> Result<(), Failure> {
+    // SAFETY: as the caller promises.
+    let (references, values) = unsafe { to_set(references, values, count) }?;
+    let texts = values.iter().map(|&value| {
+        // SAFETY: as the caller promises.
+        unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
+    });
+    instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
+}
+
 /// Defines the getter and the setter of the values of a type.
 macro_rules! values {
     ($(
-        $type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal;
+        $type:ty: $get:ident $get_call:ident $get_name:literal, $set:ident $set_call:ident $set_name:literal
+            $(, $serves:expr)?;
     )*) => {
         functions! { $(
             #[doc = concat!("`", $get_name, "`")]
@@ -220,7 +242,7 @@ macro_rules! values {
             ): $get_call, |instance| {
                 // SAFETY: as the caller promises.
                 let (references, values) = unsafe { to_get(references, values, count) }?;
-                instance.$get(references, values)
+                instance.$get(references, values $(, $serves)?)
             };
             #[doc = concat!("`", $set_name, "`")]
             ///
@@ -230,7 +252,7 @@ macro_rules! values {
             ): $set_call, |instance| {
                 // SAFETY: as the caller promises.
                 let (references, values) = unsafe { to_set(references, values, count) }?;
-                instance.$set(references, values)
+                instance.$set(references, values $(, $serves)?)
             };
         )* }
     };
@@ -238,6 +260,6 @@ macro_rules! values {
 
 values! {
     Real: get_real GetReal "fmi2GetReal", set_real SetReal "fmi2SetReal";
-    Integer: get_integer GetInteger "fmi2GetInteger", set_integer SetInteger "fmi2SetInteger";
+    Integer: get_integer GetInteger "fmi2GetInteger", set_integer SetInteger "fmi2SetInteger", |_| true;
     Boolean: get_boolean GetBoolean "fmi2GetBoolean", set_boolean SetBoolean "fmi2SetBoolean";
 }

@@ -1,8 +1,9 @@
-//! The C functions of an FMU, by name.
+//! The C functions of an FMU, by name: FMI 2.0, and the macro for both versions.
 
 /// Makes the model `$model` an FMU: defines the C functions of FMI 2.0 in a module `fmi2`. For co-simulation
 /// these are 34, for Model Exchange, which asks for a [`ModelExchange`](crate::ModelExchange), 35, for both
-/// 44.
+/// 44. A model for both also gets all 75 functions of FMI 3.0, in a module `fmi3`: one library then serves
+/// the FMUs of both versions.
 ///
 /// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these
 /// names.
@@ -23,6 +24,7 @@ macro_rules! export_fmu {
     };
     ($model:ty, co_simulation + model_exchange) => {
         $crate::__fmi2_module! { $model, BOTH, __fmi2_co_simulation __fmi2_model_exchange }
+        $crate::__fmi3_module! { $model }
     };
 }
 
@@ -43,7 +45,7 @@ macro_rules! __fmi2_module {
 
             $($crate::$functions! { Exported })+
 
-            $crate::__fmi2_functions! { Exported, common,
+            $crate::__fmi_functions! { Exported, common,
                 fn fmi2GetTypesPlatform = get_types_platform() -> Text;
                 fn fmi2GetVersion = get_version() -> Text;
                 fn fmi2SetDebugLogging = set_debug_logging(
@@ -78,7 +80,7 @@ macro_rules! __fmi2_module {
                     dvKnown: *const Real, dvUnknown: *mut Real) -> Status;
             }
 
-            $crate::__fmi2_functions! { Exported, states,
+            $crate::__fmi_functions! { Exported, states,
                 fn fmi2GetFMUstate = get_fmu_state(c: Component, state: *mut FmuState) -> Status;
                 fn fmi2SetFMUstate = set_fmu_state(c: Component, state: FmuState) -> Status;
                 fn fmi2FreeFMUstate = free_fmu_state(c: Component, state: *mut FmuState) -> Status;
@@ -125,7 +127,7 @@ macro_rules! __fmi2_module {
 #[macro_export]
 macro_rules! __fmi2_co_simulation {
     ($model:ident) => {
-        $crate::__fmi2_functions! { $model, co_simulation,
+        $crate::__fmi_functions! { $model, co_simulation,
             fn fmi2SetRealInputDerivatives = set_real_input_derivatives(
                 c: Component, vr: *const ValueReference, nvr: usize,
                 order: *const Integer, value: *const Real) -> Status;
@@ -153,7 +155,7 @@ macro_rules! __fmi2_co_simulation {
 #[macro_export]
 macro_rules! __fmi2_model_exchange {
     ($model:ident) => {
-        $crate::__fmi2_functions! { $model, model_exchange,
+        $crate::__fmi_functions! { $model, model_exchange,
             fn fmi2EnterEventMode = enter_event_mode(c: Component) -> Status;
             fn fmi2NewDiscreteStates = new_discrete_states(
                 c: Component, fmi2eventInfo: *mut EventInfo) -> Status;
@@ -179,12 +181,12 @@ macro_rules! __fmi2_model_exchange {
 /// Defines C functions that pass their arguments on to the generic ones of a module of [`ffi`](crate::ffi).
 #[doc(hidden)]
 #[macro_export]
-macro_rules! __fmi2_functions {
+macro_rules! __fmi_functions {
     (
         $model:ident, $module:ident,
         $(fn $name:ident = $generic:ident($($argument:ident: $type:ty),*) -> $result:ty;)*
     ) => { $(
-        #[doc = concat!("`", stringify!($name), "` of FMI 2.0: see [`", stringify!($generic), "`].")]
+        #[doc = concat!("`", stringify!($name), "`: see [`", stringify!($generic), "`].")]
         #[doc = concat!("\n[`", stringify!($generic), "`]: fmu_export::ffi::", stringify!($module), "::",
             stringify!($generic))]
         #[unsafe(no_mangle)]

@@ -133,6 +133,7 @@ macro_rules! functions {
         /// # Safety
         /// `component` is NULL or an instance; pointers are NULL or point to what the standard says, arrays
         /// to as many elements as stated; texts end with a NUL.
+        #[allow(clippy::too_many_arguments, reason = "the standard's")]
         pub unsafe fn $name<M: $kind>(component: Component, $($argument: $type),*) -> Status {
             // SAFETY: as the caller promises.
             let instance = unsafe { $crate::ffi::guard::instance::<M>(component) };

@@ -1,6 +1,7 @@
 //! What instances an FMU can be asked for.
 
 use super::types::{CO_SIMULATION, MODEL_EXCHANGE, Type};
+use crate::call::Version;
 use crate::failure::Failure;
 use crate::instance::Purpose;
 use crate::model::{Interface, Model, ModelExchange};
@@ -17,15 +18,15 @@ impl<M: Model> Kinds<M> {
     /// Co-simulation alone.
     pub const CO_SIMULATION: Self = Self { co_simulation: true, states: None };
 
-    /// What an instance of `kind` is made for.
+    /// What an instance of `kind` is made for, in FMI 2.0.
     pub(super) fn purpose(&self, kind: Type) -> Result<Purpose<M>, Failure> {
-        match (kind, self.states) {
-            (CO_SIMULATION, _) if self.co_simulation => {
-                Ok(Purpose { interface: Interface::CoSimulation, states: &[] })
-            }
-            (MODEL_EXCHANGE, Some(states)) => Ok(Purpose { interface: Interface::ModelExchange, states }),
-            _ => Err(Failure(format!("fmuType {kind}: this FMU is for {} only", self.names()))),
-        }
+        let (interface, states) = match (kind, self.states) {
+            (CO_SIMULATION, _) if self.co_simulation => (Interface::CoSimulation, &[][..]),
+            (MODEL_EXCHANGE, Some(states)) => (Interface::ModelExchange, states),
+            _ => return Err(Failure(format!("fmuType {kind}: this FMU is for {} only", self.names()))),
+        };
+        let (event_mode, early_return) = (false, false);
+        Ok(Purpose { version: Version::Fmi2, interface, states, event_mode, early_return })
     }
 
     fn names(&self) -> String {

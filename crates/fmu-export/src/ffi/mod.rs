@@ -16,6 +16,8 @@ mod arguments;
 pub mod co_simulation;
 pub mod common;
 mod export;
+mod export3;
+pub mod fmi3;
 mod guard;
 mod kinds;
 pub mod model_exchange;

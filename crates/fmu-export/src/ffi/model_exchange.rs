@@ -1,17 +1,15 @@
-//! The functions of Model Exchange alone (FMI 2.0.5, section 3.2).
+//! The functions of Model Exchange (FMI 2.0.5, section 3.2; FMI 3.0.2, section 3.2).
 
 use super::arguments::{array, place, zeroed};
 use super::guard::functions;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
 use crate::call::Call;
+use crate::instance::Instance;
 use crate::model::{ModelExchange, Update};
 
 functions! {
-    /// `fmi2EnterEventMode`
-    enter_event_mode<ModelExchange>(): EnterEventMode, |instance| {
-        instance.enter_event_mode();
-        Ok(())
-    };
+    /// `fmi2EnterEventMode`, `fmi3EnterEventMode`
+    enter_event_mode<ModelExchange>(): EnterEventMode, Instance::enter_event_mode;
     /// `fmi2NewDiscreteStates`
     new_discrete_states<ModelExchange>(information: *mut EventInfo): NewDiscreteStates, |instance| {
         // SAFETY: as the caller promises.
@@ -27,47 +25,47 @@ functions! {
         });
         Ok(())
     };
-    /// `fmi2EnterContinuousTimeMode`
+    /// `fmi2EnterContinuousTimeMode`, `fmi3EnterContinuousTimeMode`
     enter_continuous_time_mode<ModelExchange>(): EnterContinuousTimeMode, |instance| {
         instance.enter_continuous_time_mode();
         Ok(())
     };
-    /// `fmi2CompletedIntegratorStep`
+    /// `fmi2CompletedIntegratorStep`, `fmi3CompletedIntegratorStep`
     completed_integrator_step<ModelExchange>(
-        _no_set_fmu_state_prior_to_current_point: Boolean, enter_event_mode: *mut Boolean,
-        terminate_simulation: *mut Boolean
+        _no_set_fmu_state_prior_to_current_point: impl Sized, enter_event_mode: *mut impl From<bool>,
+        terminate_simulation: *mut impl From<bool>
     ): CompletedIntegratorStep, |instance| {
         // SAFETY: as the caller promises.
         let (event, end) = unsafe {
             (place("enterEventMode", enter_event_mode)?, place("terminateSimulation", terminate_simulation)?)
         };
-        event.write(Boolean::from(instance.complete_step()?));
-        end.write(0);
+        event.write(instance.complete_step()?.into());
+        end.write(false.into());
         Ok(())
     };
-    /// `fmi2SetTime`
+    /// `fmi2SetTime`, `fmi3SetTime`
     set_time<ModelExchange>(time: Real): SetTime, |instance| instance.set_time(time);
-    /// `fmi2SetContinuousStates`
+    /// `fmi2SetContinuousStates`, `fmi3SetContinuousStates`
     set_continuous_states<ModelExchange>(states: *const Real, count: usize): SetContinuousStates, |instance| {
         // SAFETY: as the caller promises.
         instance.set_states(unsafe { array("x", states, count) }?)
     };
-    /// `fmi2GetDerivatives`
+    /// `fmi2GetDerivatives`, `fmi3GetContinuousStateDerivatives`
     get_derivatives<ModelExchange>(values: *mut Real, count: usize): GetDerivatives, |instance| {
         // SAFETY: as the caller promises.
         instance.derivatives(unsafe { zeroed("derivatives", values, count) }?)
     };
-    /// `fmi2GetEventIndicators`
+    /// `fmi2GetEventIndicators`, `fmi3GetEventIndicators`
     get_event_indicators<ModelExchange>(values: *mut Real, count: usize): GetEventIndicators, |instance| {
         // SAFETY: as the caller promises.
         instance.event_indicators(unsafe { zeroed("eventIndicators", values, count) }?)
     };
-    /// `fmi2GetContinuousStates`
+    /// `fmi2GetContinuousStates`, `fmi3GetContinuousStates`
     get_continuous_states<ModelExchange>(values: *mut Real, count: usize): GetContinuousStates, |instance| {
         // SAFETY: as the caller promises.
         instance.states(unsafe { zeroed("x", values, count) }?)
     };
-    /// `fmi2GetNominalsOfContinuousStates`
+    /// `fmi2GetNominalsOfContinuousStates`, `fmi3GetNominalsOfContinuousStates`
     get_nominals_of_continuous_states<ModelExchange>(
         values: *mut Real, count: usize
     ): GetNominalsOfContinuousStates, |instance| {

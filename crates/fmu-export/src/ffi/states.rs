@@ -1,11 +1,11 @@
-//! The functions on saved states (FMI 2.0.5, section 2.1.8).
+//! The functions on saved states (FMI 2.0.5, section 2.1.8; FMI 3.0.2, section 2.2.6).
 //!
 //! An `fmi2FMUstate` is only compared with those an instance gave out, never followed: a foreign or freed one
 //! is refused.
 
 use super::arguments::{array, array_mut, place};
 use super::guard::functions;
-use super::types::{Byte, Component, FmuState, Status};
+use super::types::{Component, FmuState, Status};
 use crate::call::Call;
 use crate::failure::Failure;
 use crate::model::Model;
@@ -13,7 +13,7 @@ use std::mem::MaybeUninit;
 use std::ptr;
 
 functions! {
-    /// `fmi2GetFMUstate`
+    /// `fmi2GetFMUstate`, `fmi3GetFMUState`
     ///
     /// A state that `state` already points to is used again.
     get_fmu_state<Model>(state: *mut FmuState): GetFmuState, |instance| {
@@ -22,9 +22,9 @@ functions! {
         *state = handle(instance.save(state.addr())?);
         Ok(())
     };
-    /// `fmi2SetFMUstate`
+    /// `fmi2SetFMUstate`, `fmi3SetFMUState`
     set_fmu_state<Model>(state: FmuState): SetFmuState, |instance| instance.restore(state.addr());
-    /// `fmi2FreeFMUstate`
+    /// `fmi2FreeFMUstate`, `fmi3FreeFMUState`
     ///
     /// NULL, and a pointer to NULL, are fine.
     free_fmu_state<Model>(state: *mut FmuState): FreeFmuState, |instance| {
@@ -39,22 +39,22 @@ functions! {
         }
         Ok(())
     };
-    /// `fmi2SerializedFMUstateSize`
+    /// `fmi2SerializedFMUstateSize`, `fmi3SerializedFMUStateSize`
     serialized_fmu_state_size<Model>(state: FmuState, size: *mut usize): SerializedFmuStateSize, |instance| {
         // SAFETY: as the caller promises.
         unsafe { place("size", size) }?.write(instance.serialize(state.addr())?.len());
         Ok(())
     };
-    /// `fmi2SerializeFMUstate`
+    /// `fmi2SerializeFMUstate`, `fmi3SerializeFMUState`
     serialize_fmu_state<Model>(
-        state: FmuState, bytes: *mut Byte, size: usize
+        state: FmuState, bytes: *mut impl Sized, size: usize
     ): SerializeFmuState, |instance| {
         // SAFETY: as the caller promises.
         let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size) }?;
         let source = instance.serialize(state.addr())?;
         if source.len() != target.len() {
             return Err(Failure(format!(
-                "size = {size}, but the state has {} bytes: ask fmi2SerializedFMUstateSize",
+                "size = {size}, but the state has {} bytes: ask for its size first",
                 source.len()
             )));
         }
@@ -63,11 +63,11 @@ functions! {
         }
         Ok(())
     };
-    /// `fmi2DeSerializeFMUstate`
+    /// `fmi2DeSerializeFMUstate`, `fmi3DeserializeFMUState`
     ///
     /// Makes a new state, whatever `state` points to. Bytes that are refused leave it as it is.
     de_serialize_fmu_state<Model>(
-        bytes: *const Byte, size: usize, state: *mut FmuState
+        bytes: *const impl Sized, size: usize, state: *mut FmuState
     ): DeSerializeFmuState, |instance| {
         // SAFETY: as the caller promises.
         let (bytes, state) =

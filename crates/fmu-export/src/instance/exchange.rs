@@ -1,19 +1,21 @@
 //! Model Exchange: time, states, derivatives and events.
 
 use super::Instance;
+use crate::access;
 use crate::call::Phase;
 use crate::failure::Failure;
 use crate::limits;
-use crate::model::{ModelExchange, Update};
-use crate::variable::VariableId;
+use crate::model::{Interface, ModelExchange, Update};
+use crate::variable::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE, VariableId};
+use std::mem::MaybeUninit;
 
 impl<M: ModelExchange> Instance<M> {
-    pub(crate) fn enter_event_mode(&mut self) {
-        self.now.phase = Phase::EventMode;
-    }
-
+    /// In co-simulation the model handles its events inside the steps, and there is nothing to update.
     pub(crate) fn update(&mut self) -> Result<Update, Failure> {
-        self.now.model.update(&mut self.logger.log())
+        match self.purpose.interface {
+            Interface::ModelExchange => self.now.model.update(&mut self.logger.log()),
+            Interface::CoSimulation => Ok(Update::default()),
+        }
     }
 
     pub(crate) fn enter_continuous_time_mode(&mut self) {
@@ -70,6 +72,32 @@ impl<M: ModelExchange> Instance<M> {
             Some(value) => Err(Failure(format!("an event indicator, {value:?}, is not a finite number"))),
             None => Ok(()),
         }
+    }
+
+    /// The values of Real variables, and of the variables that FMI 3.0 has besides those of the model.
+    pub(crate) fn get_float64(
+        &mut self,
+        references: &[u32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Failure> {
+        self.calculate()?;
+        for (&reference, slot) in references.iter().zip(values) {
+            slot.write(match M::Real::from_reference(reference) {
+                Some(variable) => limits::finite(variable.variable(), self.now.model.real(variable))?,
+                None if reference == TIME_REFERENCE => self.now.time,
+                None => self.event_indicator(reference)?,
+            });
+        }
+        Ok(())
+    }
+
+    fn event_indicator(&mut self, reference: u32) -> Result<f64, Failure> {
+        let index = reference.checked_sub(FIRST_INDICATOR_REFERENCE).map(|index| index as usize);
+        let mut indicators = vec![0.0; M::EVENT_INDICATORS];
+        let index = index.filter(|&index| index < indicators.len());
+        let index = index.ok_or_else(|| access::unknown(reference))?;
+        self.event_indicators(&mut indicators)?;
+        Ok(indicators[index])
     }
 
     fn read(&mut self, variables: &[M::Real], values: &mut [f64]) -> Result<(), Failure> {

@@ -5,14 +5,15 @@ mod saved;
 mod step;
 mod values;
 
-use crate::call::{Call, Phase};
+use crate::call::{Call, Phase, Version};
 use crate::failure::Failure;
 use crate::guid;
 use crate::log::{Category, Filter, Logger, Status};
-use crate::model::{Environment, Experiment, Interface, Model};
+use crate::model::{Environment, Experiment, Interface, Model, Step};
 use crate::uri::path_from_location;
 use std::collections::BTreeMap;
 use std::ffi::CString;
+use std::rc::Rc;
 
 /// What a state saves, and a reset restores.
 #[derive(Clone)]
@@ -21,10 +22,35 @@ struct Snapshot<M> {
     phase: Phase,
     /// Where the last step ended, or the solver is [s].
     time: f64,
-    interface: Interface,
     experiment: Experiment,
     /// Values were set that [`Model::calculate`] has not seen.
     stale: bool,
+}
+
+/// What an instance is made for.
+#[derive(Clone, Copy)]
+pub(crate) struct Purpose<M: Model> {
+    pub(crate) version: Version,
+    pub(crate) interface: Interface,
+    /// The continuous states; none in co-simulation.
+    pub(crate) states: &'static [M::Real],
+    /// FMI 3.0 co-simulation uses Event Mode.
+    pub(crate) event_mode: bool,
+    /// FMI 3.0 co-simulation lets steps end early.
+    pub(crate) early_return: bool,
+}
+
+impl<M: Model> Purpose<M> {
+    /// Whether the instance can be in `phase`.
+    fn has(&self, phase: Phase) -> bool {
+        let steps = self.interface == Interface::CoSimulation;
+        match phase {
+            Phase::StepMode => steps,
+            Phase::ContinuousTimeMode => !steps,
+            Phase::EventMode => !steps || self.event_mode,
+            _ => true,
+        }
+    }
 }
 
 /// One instance of the model `M`.
@@ -37,56 +63,52 @@ pub(crate) struct Instance<M: Model> {
     /// The states given out, by the address that is their handle. An address that is not here is never
     /// followed.
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
-    /// What the last `fmi2GetString` returned pointers to.
+    /// What the last get of texts returned pointers to.
     texts: Vec<CString>,
-    /// The variables that may be set for being states.
-    states: &'static [M::Real],
+    purpose: Purpose<M>,
+    /// Asks the importer of FMI 3.0 for the inputs at a time [s].
+    pub(crate) intermediate_update: Option<IntermediateUpdate>,
+    /// The step under way, and its end [s].
+    pending: Option<(Step, f64)>,
 }
 
-/// What an instance is made for.
-pub(crate) struct Purpose<M: Model> {
-    pub(crate) interface: Interface,
-    /// The continuous states; none in co-simulation.
-    pub(crate) states: &'static [M::Real],
-}
+/// Lets the importer set inputs for a time [s].
+pub(crate) type IntermediateUpdate = Rc<dyn Fn(f64)>;
 
 impl<M: Model> Instance<M> {
-    /// A new instance. None, with a log, if guid or model refuse.
+    /// A new instance.
+    ///
+    /// # Errors
+    /// When guid or model refuse.
     pub(crate) fn new(
         name: &str,
         guid: &str,
         location: Option<&str>,
-        Purpose { interface, states }: Purpose<M>,
+        purpose: Purpose<M>,
         mut logger: Logger,
-    ) -> Option<Self> {
+    ) -> Result<Self, Failure> {
         let resources = location.and_then(path_from_location);
         if let (Some(location), None) = (location, &resources) {
             logger.log().warning(format_args!(
                 "the resource location {location:?} is not a local folder: it is ignored"
             ));
         }
-        let instantiated = guid::check::<M>(guid, resources.as_deref()).and_then(|payload| {
-            let instance_name = if name.is_empty() { M::IDENTIFIER } else { name };
-            let (resources, payload) = (resources.as_deref(), payload.as_deref());
-            let environment = Environment { interface, instance_name, resources, payload };
-            M::instantiate(environment, &mut logger.log())
-        });
-        let model = match instantiated {
-            Ok(model) => model,
-            Err(failure) => {
-                logger.log().error(format_args!("fmi2Instantiate: {failure}"));
-                return None;
-            }
+        let payload = guid::check::<M>(guid, resources.as_deref())?;
+        let environment = Environment {
+            interface: purpose.interface,
+            instance_name: if name.is_empty() { M::IDENTIFIER } else { name },
+            resources: resources.as_deref(),
+            payload: payload.as_deref(),
         };
+        let model = M::instantiate(environment, &mut logger.log())?;
         let fresh = Snapshot {
             model,
             phase: Phase::Instantiated,
             time: 0.0,
-            interface,
             experiment: Experiment::default(),
             stale: true,
         };
-        Some(Self {
+        Ok(Self {
             now: fresh.clone(),
             fresh,
             guid: guid.to_owned(),
@@ -94,14 +116,17 @@ impl<M: Model> Instance<M> {
             last_step: Status::Ok,
             saved: BTreeMap::new(),
             texts: Vec::new(),
-            states,
+            purpose,
+            intermediate_update: None,
+            pending: None,
         })
     }
 
     /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation.
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
-        let suits = call.only_for().is_none_or(|interface| interface == self.now.interface);
-        let in_turn = suits && call.is_allowed(self.now.phase);
+        let Purpose { version, interface, .. } = self.purpose;
+        let suits = call.only_for(version).is_none_or(|only| only == interface);
+        let in_turn = suits && call.is_allowed(version, self.now.phase);
         let done = if in_turn { body(self) } else { Err(self.out_of_turn(call)) };
         match done {
             Ok(()) => Status::Ok,
@@ -117,20 +142,20 @@ impl<M: Model> Instance<M> {
             _ => (Phase::Error, Status::Error, Category::Error),
         };
         self.now.phase = phase;
-        let text = format_args!("{}: internal error, please report it: {message}", call.name());
+        let name = call.name(self.purpose.version);
+        let text = format_args!("{name}: internal error, please report it: {message}");
         self.logger.log().write(status, category, text);
         status
     }
 
     #[cold]
     fn out_of_turn(&self, call: Call) -> Failure {
-        match call {
-            _ if call.only_for().is_some_and(|interface| interface != self.now.interface) => {
-                Failure(format!("not for an instance of {}", self.now.interface))
-            }
-            Call::CancelStep => "there is no step to cancel: fmi2DoStep returns when the step is done".into(),
-            _ => Failure(format!("not allowed now: the instance is {}", self.now.phase)),
+        let Purpose { version, interface, .. } = self.purpose;
+        if call.only_for(version).is_some_and(|only| only != interface) {
+            return Failure(format!("not for an instance of {interface}"));
         }
+        let phase = || format!("not allowed now: the instance is {}", self.now.phase.describe(version));
+        Failure(call.why_never().map_or_else(phase, str::to_owned))
     }
 
     #[cold]
@@ -138,7 +163,7 @@ impl<M: Model> Instance<M> {
         if call.failure_is_final() && self.now.phase != Phase::Fatal {
             self.now.phase = Phase::Error;
         }
-        self.logger.log().error(format_args!("{}: {failure}", call.name()));
+        self.logger.log().error(format_args!("{}: {failure}", call.name(self.purpose.version)));
         Status::Error
     }
 
@@ -175,10 +200,15 @@ impl<M: Model> Instance<M> {
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
         self.calculate()?;
         self.now.model.initialize(&mut self.logger.log())?;
-        self.now.phase = match self.now.interface {
-            Interface::ModelExchange => Phase::EventMode,
-            Interface::CoSimulation => Phase::StepMode,
-        };
+        self.now.phase = if self.purpose.has(Phase::EventMode) { Phase::EventMode } else { Phase::StepMode };
+        Ok(())
+    }
+
+    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Failure> {
+        if !self.purpose.has(Phase::EventMode) {
+            return Err("the instance was made with eventModeUsed = fmi3False".into());
+        }
+        self.now.phase = Phase::EventMode;
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Saved states.
 
-use super::{Instance, Snapshot, check_experiment};
+use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
 use crate::failure::Failure;
 use crate::log::Status;
@@ -31,13 +31,13 @@ impl<M: Model> Instance<M> {
 
     pub(crate) fn serialize(&mut self, handle: usize) -> Result<Vec<u8>, Failure> {
         let snapshot = self.saved.get_mut(&handle).ok_or_else(unknown_state)?;
-        state::seal(&self.guid, |codec| snapshot.transfer(codec))
+        state::seal(&self.guid, |codec| snapshot.transfer(codec, &self.purpose))
     }
 
     pub(crate) fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Failure> {
         let mut codec = state::open(&self.guid, bytes)?;
         let mut snapshot = self.fresh.clone();
-        snapshot.transfer(&mut codec)?;
+        snapshot.transfer(&mut codec, &self.purpose)?;
         codec.finish()?;
         Ok(self.keep(snapshot))
     }
@@ -51,14 +51,14 @@ impl<M: Model> Instance<M> {
 }
 
 impl<M: Model> Snapshot<M> {
-    fn transfer(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
-        let (mut phase, mut kind) = (self.phase.number(), interface_number(self.interface));
+    fn transfer(&mut self, codec: &mut StateCodec<'_>, purpose: &Purpose<M>) -> Result<(), Failure> {
+        let (mut phase, mut kind) = (self.phase.number(), interface_number(purpose.interface));
         codec.u64(&mut phase)?;
         codec.f64(&mut self.time)?;
         codec.bool(&mut self.stale)?;
         codec.u64(&mut kind)?;
         self.phase = Phase::from_number(phase).ok_or("the state is of no known phase")?;
-        if kind != interface_number(self.interface) || !self.phase.belongs_to(self.interface) {
+        if kind != interface_number(purpose.interface) || !purpose.has(self.phase) {
             return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
         }
         let Experiment { tolerance, start, stop } = &mut self.experiment;

@@ -1,10 +1,13 @@
 //! Communication steps.
 
-use super::Instance;
-use crate::call::Call;
+use super::{Instance, IntermediateUpdate};
+use crate::access;
+use crate::call::{Call, Phase};
 use crate::failure::Failure;
+use crate::limits;
 use crate::log::{Category, Status};
 use crate::model::{Model, Step};
+use crate::variable::VariableId;
 
 /// Communication points are sums of rounded steps: they may differ from the own time by this much of it.
 const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -12,13 +15,58 @@ const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
 const CLOCK_ROUNDING: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {
-    pub(crate) fn do_step(&mut self, point: f64, size: f64) -> Result<(), Failure> {
-        let stepped = self.try_step(point, size);
-        self.last_step = if stepped.is_ok() { Status::Ok } else { Status::Error };
-        stepped
+    /// True where the step ended early, at an event.
+    pub(crate) fn do_step(&mut self, point: f64, size: f64) -> Result<bool, Failure> {
+        self.begin_step(point, size)?;
+        self.finish_step()
     }
 
-    fn try_step(&mut self, point: f64, size: f64) -> Result<(), Failure> {
+    /// Checks a step. Returns whom to ask for the inputs at its end, and that time [s], if there is somebody.
+    pub(crate) fn begin_step(
+        &mut self,
+        point: f64,
+        size: f64,
+    ) -> Result<Option<(IntermediateUpdate, f64)>, Failure> {
+        self.pending = self.checked_step(point, size).inspect_err(|_| self.last_step = Status::Error)?;
+        let asked = self.intermediate_update.clone().zip(self.pending.map(|(_, end)| end));
+        if asked.is_some() {
+            self.now.phase = Phase::IntermediateUpdateMode;
+        }
+        Ok(asked)
+    }
+
+    /// Computes the step that has begun. True where it ended early, at an event.
+    pub(crate) fn finish_step(&mut self) -> Result<bool, Failure> {
+        self.now.phase = Phase::StepMode;
+        let Some((step, end)) = self.pending.take() else {
+            self.last_step = Status::Ok;
+            return Ok(false);
+        };
+        let stepped = self.now.model.do_step(step, &mut self.logger.log());
+        self.last_step = if stepped.is_ok() { Status::Ok } else { Status::Error };
+        let event = stepped?;
+        self.now.time = event.unwrap_or(end).max(step.from);
+        Ok(event.is_some())
+    }
+
+    /// In Intermediate Update Mode: the inputs run linearly to `values` at the end of the step.
+    pub(super) fn set_at_end(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
+        let Some((step, _)) = self.pending else { return Ok(()) };
+        for (&reference, &value) in references.iter().zip(values) {
+            let variable = access::find::<M::Real>(reference)?;
+            access::check_derivable_input(variable.variable())?;
+            limits::check_real(variable.variable(), value)?;
+            let rate = (value - self.now.model.real(variable)) / step.duration;
+            if !(rate.is_finite() && self.now.model.set_input_derivative(variable, rate)) {
+                let name = variable.variable().name;
+                return Err(Failure(format!("{name} cannot change to {value:?} inside the step")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The step with its end; none if it is too small to reach the own time.
+    fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
         if !(size.is_finite() && size > 0.0) {
@@ -39,8 +87,7 @@ impl<M: Model> Instance<M> {
         let end = point + size;
         if let Some(stop) = self.now.experiment.stop.filter(|&stop| end > stop + tolerance_at(stop)) {
             return Err(Failure(format!(
-                "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s given to \
-                 fmi2SetupExperiment"
+                "the step from {point:?} s by {size:?} s ends after the stopTime {stop:?} s of the experiment"
             )));
         }
         if !end.is_finite() {
@@ -48,11 +95,16 @@ impl<M: Model> Instance<M> {
         }
         // From the own time, so that no step is computed twice or left out.
         let duration = (point - time) + size;
-        if duration > 0.0 {
-            self.now.model.do_step(Step { from: time, duration }, &mut self.logger.log())?;
-            self.now.time = end.max(time);
-        }
-        Ok(())
+        let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
+        Ok((duration > 0.0).then_some((step, end)))
+    }
+
+    pub(crate) fn enter_step_mode(&mut self) {
+        self.now.phase = Phase::StepMode;
+    }
+
+    pub(crate) fn uses_event_mode(&self) -> bool {
+        self.purpose.event_mode
     }
 
     /// How the last step ended.
@@ -67,7 +119,7 @@ impl<M: Model> Instance<M> {
 
     /// Logs that there is no such status.
     pub(crate) fn no_status(&mut self, call: Call, kind: u32) {
-        let text = format_args!("{}: there is no status of kind {kind}", call.name());
+        let text = format_args!("{}: there is no status of kind {kind}", call.name(self.purpose.version));
         self.logger.log().write(Status::Discard, Category::Discard, text);
     }
 }

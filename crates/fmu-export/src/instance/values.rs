@@ -2,10 +2,11 @@
 
 use super::Instance;
 use crate::access;
+use crate::call::Phase;
 use crate::failure::Failure;
 use crate::limits;
 use crate::model::Model;
-use crate::variable::{Variable, VariableId};
+use crate::variable::{Kind, Variable, VariableId};
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
 
@@ -19,20 +20,25 @@ impl<M: Model> Instance<M> {
         self.get(references, values, |model, id: M::Real| limits::finite(id.variable(), model.real(id)))
     }
 
-    pub(crate) fn get_integer(
+    /// Values of those Integer and Enumeration variables that the function `serves`.
+    pub(crate) fn get_integer<T: From<i32>>(
         &mut self,
         references: &[u32],
-        values: &mut [MaybeUninit<i32>],
+        values: &mut [MaybeUninit<T>],
+        serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
-        self.get(references, values, |model, id| Ok(model.integer(id)))
+        for &reference in references {
+            find_served::<M::Integer>(reference, serves)?;
+        }
+        self.get(references, values, |model, id| Ok(model.integer(id).into()))
     }
 
-    pub(crate) fn get_boolean(
+    pub(crate) fn get_boolean<T: From<bool>>(
         &mut self,
         references: &[u32],
-        values: &mut [MaybeUninit<i32>],
+        values: &mut [MaybeUninit<T>],
     ) -> Result<(), Failure> {
-        self.get(references, values, |model, id| Ok(i32::from(model.boolean(id))))
+        self.get(references, values, |model, id| Ok(model.boolean(id).into()))
     }
 
     /// The texts, which live until the next call of this.
@@ -61,39 +67,64 @@ impl<M: Model> Instance<M> {
 
     pub(crate) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let phase = self.now.phase;
+        if phase == Phase::IntermediateUpdateMode {
+            return self.set_at_end(references, values);
+        }
         for (&reference, &value) in references.iter().zip(values) {
             let id = access::find::<M::Real>(reference)?;
             let variable = id.variable();
-            if phase.is_before_the_start() || !self.states.contains(&id) {
-                access::check_settable(variable, phase)?;
+            if phase.is_before_the_start() || !self.purpose.states.contains(&id) {
+                self.check_settable(variable)?;
             }
             limits::check_real(variable, value)?;
         }
         self.set(references, values, |model, variable, &value| model.set_real(variable, value))
     }
 
-    pub(crate) fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Failure> {
-        let phase = self.now.phase;
+    /// Sets those Integer and Enumeration variables that the function `serves`.
+    pub(crate) fn set_integer<T: Into<i64> + Copy>(
+        &mut self,
+        references: &[u32],
+        values: &[T],
+        serves: fn(&Kind) -> bool,
+    ) -> Result<(), Failure> {
         for (&reference, &value) in references.iter().zip(values) {
-            let variable = access::find::<M::Integer>(reference)?.variable();
-            access::check_settable(variable, phase)?;
-            limits::check_integer(variable, value)?;
+            let variable = find_served::<M::Integer>(reference, serves)?.variable();
+            self.check_settable(variable)?;
+            limits::check_integer(variable, value.into())?;
         }
-        self.set(references, values, |model, variable, &value| model.set_integer(variable, value))
+        self.set(references, values, |model, variable, &value| {
+            if let Ok(value) = i32::try_from(value.into()) {
+                model.set_integer(variable, value);
+            }
+        })
     }
 
-    pub(crate) fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Result<(), Failure> {
+    /// 0 is false, anything else true.
+    pub(crate) fn set_boolean<T: From<bool> + PartialEq>(
+        &mut self,
+        references: &[u32],
+        values: &[T],
+    ) -> Result<(), Failure> {
         for &reference in references {
-            access::check_settable(access::find::<M::Boolean>(reference)?.variable(), self.now.phase)?;
+            self.check_settable(access::find::<M::Boolean>(reference)?.variable())?;
         }
-        self.set(references, values, |model, variable, &value| model.set_boolean(variable, value != 0))
+        self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()))
     }
 
     pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
         for &reference in references {
-            access::check_settable(access::find::<M::Text>(reference)?.variable(), self.now.phase)?;
+            self.check_settable(access::find::<M::Text>(reference)?.variable())?;
         }
         self.set(references, values, |model, variable, value| model.set_text(variable, value))
+    }
+
+    fn check_settable(&self, variable: &Variable) -> Result<(), Failure> {
+        let phase = self.now.phase;
+        if access::is_settable(variable, phase, self.purpose.event_mode) {
+            return Ok(());
+        }
+        Err(access::not_settable(variable, &phase.describe(self.purpose.version)))
     }
 
     /// Sets what has been checked as a whole: a refused value leaves all as they were.
@@ -161,28 +192,55 @@ impl<M: Model> Instance<M> {
         seeds: &[f64],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Failure> {
+        self.sum_partials([knowns, unknowns], seeds, values, false)
+    }
+
+    /// Σ seed · ∂unknown/∂known over the unknowns, for each known. Unknowns with seed 0 are not looked at.
+    pub(crate) fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seeds: &[f64],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Failure> {
+        self.sum_partials([unknowns, knowns], seeds, values, true)
+    }
+
+    /// The sum over the `seeded` for each of the `wanted`; if `adjoint`, the seeded are the unknowns.
+    fn sum_partials(
+        &mut self,
+        [seeded, wanted]: [&[u32]; 2],
+        seeds: &[f64],
+        values: &mut [MaybeUninit<f64>],
+        adjoint: bool,
+    ) -> Result<(), Failure> {
         self.calculate()?;
-        for (&unknown, slot) in unknowns.iter().zip(values) {
-            let unknown = access::find::<M::Real>(unknown)?;
+        for (&wanted, slot) in wanted.iter().zip(values) {
+            let wanted = access::find::<M::Real>(wanted)?;
             let mut sum = 0.0;
-            for (&known, &seed) in knowns.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
-                let known = access::find::<M::Real>(known)?;
+            for (&seeded, &seed) in seeded.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
+                let seeded = access::find::<M::Real>(seeded)?;
                 if !seed.is_finite() {
-                    return Err(Failure(format!(
-                        "the seed {seed:?} of {} is not a finite number",
-                        known.variable().name
-                    )));
+                    let name = seeded.variable().name;
+                    return Err(Failure(format!("the seed {seed:?} of {name} is not a finite number")));
                 }
+                let (unknown, known) = if adjoint { (seeded, wanted) } else { (wanted, seeded) };
                 let partial = self.now.model.directional_derivative(unknown, known).ok_or_else(|| {
                     let (unknown, known) = (unknown.variable().name, known.variable().name);
                     Failure(format!("there is no derivative of {unknown} by {known}"))
                 })?;
                 sum += partial * seed;
             }
-            slot.write(finite_slope(unknown.variable(), sum)?);
+            slot.write(finite_slope(wanted.variable(), sum)?);
         }
         Ok(())
     }
+}
+
+/// The variable with this value reference, if it is of a kind that is served.
+fn find_served<V: VariableId>(reference: u32, serves: fn(&Kind) -> bool) -> Result<V, Failure> {
+    let found = access::find::<V>(reference)?;
+    if serves(&found.variable().kind) { Ok(found) } else { Err(access::unknown(reference)) }
 }
 
 fn finite_slope(variable: &Variable, value: f64) -> Result<f64, Failure> {

@@ -24,6 +24,22 @@ pub struct Message {
 /// What the importer's environment pointer points to.
 pub struct Journal(Mutex<Vec<Message>>);
 
+/// `fmi3LogMessageCallback` of a journal.
+pub unsafe extern "C" fn write_down_3(
+    environment: ComponentEnvironment,
+    status: Status,
+    category: Text,
+    message: Text,
+) {
+    // SAFETY: the library passes texts that end with a NUL, and the environment it was given.
+    let (text, journal) = unsafe {
+        let text = |text| CStr::from_ptr(text).to_str().unwrap().to_owned();
+        let (category, text) = (text(category), text(message));
+        (Message { instance: String::new(), status, category, text }, &*environment.cast::<Journal>())
+    };
+    journal.0.lock().unwrap().push(text);
+}
+
 impl Journal {
     #[allow(clippy::unnecessary_box_returns, reason = "C keeps its address")]
     pub fn new() -> Box<Self> {

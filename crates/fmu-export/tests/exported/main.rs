@@ -12,6 +12,8 @@
 mod allocator;
 mod derivatives;
 mod exchange;
+mod fmi3_order;
+mod fmi3_values;
 mod importer;
 mod instantiation;
 mod logs;

@@ -14,7 +14,7 @@ use std::ffi::CStr;
 use std::ptr;
 
 /// Large letters are for co-simulation, small ones for Model Exchange.
-const PHASES: [(char, fn() -> Importer); 12] = [
+const PHASES: [Phase; 12] = [
     ('I', Importer::new),
     ('N', Importer::in_initialization_mode),
     ('S', Importer::in_step_mode),
@@ -46,7 +46,10 @@ fn lost() -> Importer {
     importer
 }
 
-type Function = unsafe fn(Component) -> Status;
+/// A letter, and an instance in that phase.
+pub type Phase = (char, fn() -> Importer);
+
+pub type Function = unsafe fn(Component) -> Status;
 
 /// Each function, the phases it is allowed in by FMI 2.0.5 (sections 3.2.3 and 4.2.4), and a call with
 /// arguments that are in order.
@@ -142,8 +145,12 @@ unsafe fn serialize_and_back(c: Component, state: *mut std::ffi::c_void) -> Stat
 
 #[test]
 fn every_function_is_served_in_its_phases_alone() {
-    for (name, allowed, function) in FUNCTIONS {
-        for (phase, in_phase) in PHASES {
+    check_order(&FUNCTIONS, &PHASES);
+}
+
+pub fn check_order(functions: &[(&str, &str, Function)], phases: &[Phase]) {
+    for &(name, allowed, function) in functions {
+        for &(phase, in_phase) in phases {
             let importer = in_phase();
             importer.journal.take();
             // SAFETY: the instance lives.

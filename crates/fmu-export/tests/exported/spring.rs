@@ -17,6 +17,8 @@ pub const FAIL_IN_STEP: i32 = 2;
 pub const TALK_IN_STEP: i32 = 3;
 /// Makes getting `v` panic.
 pub const PANIC_IN_GET: i32 = 4;
+/// Ends the next step at its middle, if it may end early.
+pub const EVENT_IN_STEP: i32 = 5;
 
 macro_rules! variables {
     ($id:ident: $(
@@ -294,7 +296,7 @@ impl Model for Spring {
         Ok(())
     }
 
-    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Failure> {
+    fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
         match self.fault {
             PANIC_IN_STEP => panic!("spring snapped in a step"),
             FAIL_IN_STEP => return Err(Failure(format!("no step from {} s", step.from))),
@@ -306,7 +308,9 @@ impl Model for Spring {
             _ => {}
         }
         assert!(step.duration > 0.0, "the layer asks for no step backwards");
-        let h = step.duration / f64::from(self.substeps);
+        let early = step.may_end_early && self.fault == EVENT_IN_STEP;
+        let duration = if early { 0.5 * step.duration } else { step.duration };
+        let h = duration / f64::from(self.substeps);
         for _ in 0..self.substeps {
             let force = self.force + self.push + self.bias;
             if !self.held {
@@ -317,7 +321,7 @@ impl Model for Spring {
         }
         self.force_rate = 0.0;
         self.count += 1;
-        Ok(())
+        Ok(early.then_some(step.from + duration))
     }
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {

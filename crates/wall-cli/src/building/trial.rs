@@ -73,7 +73,7 @@ impl<M: Model> Unit for M {
     }
 
     fn step(&mut self, step: Step) -> Result<()> {
-        self.do_step(step, &mut Log::silent()).map_err(|failure| anyhow!("{failure}"))
+        self.do_step(step, &mut Log::silent()).map(drop).map_err(|failure| anyhow!("{failure}"))
     }
 }
 
@@ -242,7 +242,7 @@ impl<'a> Plan<'a> {
                 units[to].set(input, pulse(time), rate);
             }
             for unit in &mut units {
-                unit.step(Step { from: time, duration: step })?;
+                unit.step(Step { from: time, duration: step, may_end_early: false })?;
             }
             if (index + 1).is_multiple_of(often) {
                 history.push(self.watched.iter().map(|&(of, output)| units[of].get(output)).collect());

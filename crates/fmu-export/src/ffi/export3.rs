@@ -1,0 +1,320 @@
+//! The C functions of FMI 3.0, by name.
+
+/// The module `fmi3`: every function of `fmi3Functions.h`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi3_module {
+    ($model:ty) => {
+        #[doc(hidden)]
+        type ExportedFmi3Model = $model;
+
+        /// The C functions of the FMU, FMI 3.0.
+        #[allow(unsafe_code, non_snake_case, clippy::missing_safety_doc, clippy::too_many_arguments)]
+        pub mod fmi3 {
+            use super::ExportedFmi3Model as Exported;
+            use $crate::ffi::fmi3::types::*;
+            use $crate::ffi::types::{FmuState, Status, Text, ValueReference};
+
+            $crate::__fmi_functions! { Exported, common,
+                fn fmi3SetDebugLogging = set_debug_logging(
+                    c: Instance, loggingOn: Boolean, nCategories: usize, categories: *const Text) -> Status;
+                fn fmi3FreeInstance = free_instance(c: Instance) -> ();
+                fn fmi3ExitInitializationMode = exit_initialization_mode(c: Instance) -> Status;
+                fn fmi3Terminate = terminate(c: Instance) -> Status;
+                fn fmi3Reset = reset(c: Instance) -> Status;
+            }
+
+            $crate::__fmi_functions! { Exported, states,
+                fn fmi3GetFMUState = get_fmu_state(c: Instance, FMUState: *mut FmuState) -> Status;
+                fn fmi3SetFMUState = set_fmu_state(c: Instance, FMUState: FmuState) -> Status;
+                fn fmi3FreeFMUState = free_fmu_state(c: Instance, FMUState: *mut FmuState) -> Status;
+                fn fmi3SerializedFMUStateSize = serialized_fmu_state_size(
+                    c: Instance, FMUState: FmuState, size: *mut usize) -> Status;
+                fn fmi3SerializeFMUState = serialize_fmu_state(
+                    c: Instance, FMUState: FmuState, serializedState: *mut Byte, size: usize) -> Status;
+                fn fmi3DeserializeFMUState = de_serialize_fmu_state(
+                    c: Instance, serializedState: *const Byte, size: usize,
+                    FMUState: *mut FmuState) -> Status;
+            }
+
+            $crate::__fmi_functions! { Exported, model_exchange,
+                fn fmi3EnterEventMode = enter_event_mode(c: Instance) -> Status;
+                fn fmi3EnterContinuousTimeMode = enter_continuous_time_mode(c: Instance) -> Status;
+                fn fmi3CompletedIntegratorStep = completed_integrator_step(
+                    c: Instance, noSetFMUStatePriorToCurrentPoint: Boolean, enterEventMode: *mut Boolean,
+                    terminateSimulation: *mut Boolean) -> Status;
+                fn fmi3SetTime = set_time(c: Instance, time: f64) -> Status;
+                fn fmi3SetContinuousStates = set_continuous_states(
+                    c: Instance, continuousStates: *const f64, nContinuousStates: usize) -> Status;
+                fn fmi3GetContinuousStateDerivatives = get_derivatives(
+                    c: Instance, derivatives: *mut f64, nContinuousStates: usize) -> Status;
+                fn fmi3GetEventIndicators = get_event_indicators(
+                    c: Instance, eventIndicators: *mut f64, nEventIndicators: usize) -> Status;
+                fn fmi3GetContinuousStates = get_continuous_states(
+                    c: Instance, continuousStates: *mut f64, nContinuousStates: usize) -> Status;
+                fn fmi3GetNominalsOfContinuousStates = get_nominals_of_continuous_states(
+                    c: Instance, nominals: *mut f64, nContinuousStates: usize) -> Status;
+            }
+
+            $crate::__fmi_functions! { Exported, fmi3,
+                fn fmi3EnterInitializationMode = start_initialization(
+                    c: Instance, toleranceDefined: Boolean, tolerance: f64, startTime: f64,
+                    stopTimeDefined: Boolean, stopTime: f64) -> Status;
+                fn fmi3GetFloat32 = get_float32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut f32,
+                    nValues: usize) -> Status;
+                fn fmi3GetFloat64 = get_float64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut f64,
+                    nValues: usize) -> Status;
+                fn fmi3GetInt8 = get_int8(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i8,
+                    nValues: usize) -> Status;
+                fn fmi3GetUInt8 = get_uint8(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u8,
+                    nValues: usize) -> Status;
+                fn fmi3GetInt16 = get_int16(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i16,
+                    nValues: usize) -> Status;
+                fn fmi3GetUInt16 = get_uint16(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u16,
+                    nValues: usize) -> Status;
+                fn fmi3GetInt32 = get_int32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i32,
+                    nValues: usize) -> Status;
+                fn fmi3GetUInt32 = get_uint32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u32,
+                    nValues: usize) -> Status;
+                fn fmi3GetInt64 = get_int64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i64,
+                    nValues: usize) -> Status;
+                fn fmi3GetUInt64 = get_uint64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u64,
+                    nValues: usize) -> Status;
+                fn fmi3GetBoolean = get_boolean(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Boolean,
+                    nValues: usize) -> Status;
+                fn fmi3GetString = get_string(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Text,
+                    nValues: usize) -> Status;
+                fn fmi3GetBinary = get_binary(
+                    c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *mut usize,
+                    values: *mut Binary, nValues: usize) -> Status;
+                fn fmi3SetFloat32 = set_float32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const f32,
+                    nValues: usize) -> Status;
+                fn fmi3SetFloat64 = set_float64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const f64,
+                    nValues: usize) -> Status;
+                fn fmi3SetInt8 = set_int8(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i8,
+                    nValues: usize) -> Status;
+                fn fmi3SetUInt8 = set_uint8(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u8,
+                    nValues: usize) -> Status;
+                fn fmi3SetInt16 = set_int16(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i16,
+                    nValues: usize) -> Status;
+                fn fmi3SetUInt16 = set_uint16(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u16,
+                    nValues: usize) -> Status;
+                fn fmi3SetInt32 = set_int32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i32,
+                    nValues: usize) -> Status;
+                fn fmi3SetUInt32 = set_uint32(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u32,
+                    nValues: usize) -> Status;
+                fn fmi3SetInt64 = set_int64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i64,
+                    nValues: usize) -> Status;
+                fn fmi3SetUInt64 = set_uint64(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u64,
+                    nValues: usize) -> Status;
+                fn fmi3SetBoolean = set_boolean(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Boolean,
+                    nValues: usize) -> Status;
+                fn fmi3SetString = set_string(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Text,
+                    nValues: usize) -> Status;
+                fn fmi3SetBinary = set_binary(
+                    c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *const usize,
+                    values: *const Binary, nValues: usize) -> Status;
+                fn fmi3GetDirectionalDerivative = get_directional_derivative(
+                    c: Instance, unknowns: *const ValueReference, nUnknowns: usize,
+                    knowns: *const ValueReference, nKnowns: usize, seed: *const f64, nSeed: usize,
+                    sensitivity: *mut f64, nSensitivity: usize) -> Status;
+                fn fmi3GetAdjointDerivative = get_adjoint_derivative(
+                    c: Instance, unknowns: *const ValueReference, nUnknowns: usize,
+                    knowns: *const ValueReference, nKnowns: usize, seed: *const f64, nSeed: usize,
+                    sensitivity: *mut f64, nSensitivity: usize) -> Status;
+                fn fmi3UpdateDiscreteStates = update_discrete_states(
+                    c: Instance, discreteStatesNeedUpdate: *mut Boolean, terminateSimulation: *mut Boolean,
+                    nominalsOfContinuousStatesChanged: *mut Boolean,
+                    valuesOfContinuousStatesChanged: *mut Boolean, nextEventTimeDefined: *mut Boolean,
+                    nextEventTime: *mut f64) -> Status;
+                fn fmi3GetNumberOfEventIndicators = get_number_of_event_indicators(
+                    c: Instance, nEventIndicators: *mut usize) -> Status;
+                fn fmi3GetNumberOfContinuousStates = get_number_of_continuous_states(
+                    c: Instance, nContinuousStates: *mut usize) -> Status;
+                fn fmi3EnterStepMode = enter_step_mode(c: Instance) -> Status;
+                fn fmi3GetOutputDerivatives = get_output_derivatives(
+                    c: Instance, vr: *const ValueReference, nvr: usize, orders: *const i32,
+                    values: *mut f64, nValues: usize) -> Status;
+                fn fmi3DoStep = do_step(
+                    c: Instance, currentCommunicationPoint: f64, communicationStepSize: f64,
+                    noSetFMUStatePriorToCurrentPoint: Boolean, eventHandlingNeeded: *mut Boolean,
+                    terminateSimulation: *mut Boolean, earlyReturn: *mut Boolean,
+                    lastSuccessfulTime: *mut f64) -> Status;
+            }
+
+            $crate::__fmi3_unsupported! { Exported,
+                fn fmi3GetClock = get_clock(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Clock);
+                fn fmi3SetClock = set_clock(
+                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Clock);
+                fn fmi3GetNumberOfVariableDependencies = get_number_of_variable_dependencies(
+                    c: Instance, valueReference: ValueReference, nDependencies: *mut usize);
+                fn fmi3GetVariableDependencies = get_variable_dependencies(
+                    c: Instance, dependent: ValueReference, elementIndicesOfDependent: *mut usize,
+                    independents: *mut ValueReference, elementIndicesOfIndependents: *mut usize,
+                    dependencyKinds: *mut DependencyKind, nDependencies: usize);
+                fn fmi3EnterConfigurationMode = enter_configuration_mode(c: Instance);
+                fn fmi3ExitConfigurationMode = exit_configuration_mode(c: Instance);
+                fn fmi3GetIntervalDecimal = get_interval_decimal(
+                    c: Instance, vr: *const ValueReference, nvr: usize, intervals: *mut f64,
+                    qualifiers: *mut IntervalQualifier);
+                fn fmi3GetIntervalFraction = get_interval_fraction(
+                    c: Instance, vr: *const ValueReference, nvr: usize, counters: *mut u64,
+                    resolutions: *mut u64, qualifiers: *mut IntervalQualifier);
+                fn fmi3GetShiftDecimal = get_shift_decimal(
+                    c: Instance, vr: *const ValueReference, nvr: usize, shifts: *mut f64);
+                fn fmi3GetShiftFraction = get_shift_fraction(
+                    c: Instance, vr: *const ValueReference, nvr: usize, counters: *mut u64,
+                    resolutions: *mut u64);
+                fn fmi3SetIntervalDecimal = set_interval_decimal(
+                    c: Instance, vr: *const ValueReference, nvr: usize, intervals: *const f64);
+                fn fmi3SetIntervalFraction = set_interval_fraction(
+                    c: Instance, vr: *const ValueReference, nvr: usize, counters: *const u64,
+                    resolutions: *const u64);
+                fn fmi3SetShiftDecimal = set_shift_decimal(
+                    c: Instance, vr: *const ValueReference, nvr: usize, shifts: *const f64);
+                fn fmi3SetShiftFraction = set_shift_fraction(
+                    c: Instance, vr: *const ValueReference, nvr: usize, counters: *const u64,
+                    resolutions: *const u64);
+                fn fmi3EvaluateDiscreteStates = evaluate_discrete_states(c: Instance);
+                fn fmi3ActivateModelPartition = activate_model_partition(
+                    c: Instance, clockReference: ValueReference, activationTime: f64);
+            }
+
+            $crate::__fmi_functions! { Exported, fmi3,
+                fn fmi3GetVersion = get_version() -> Text;
+            }
+
+            #[doc = "`fmi3InstantiateModelExchange`. The first call also makes panics silent."]
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn fmi3InstantiateModelExchange(
+                instanceName: Text,
+                instantiationToken: Text,
+                resourcePath: Text,
+                visible: Boolean,
+                loggingOn: Boolean,
+                instanceEnvironment: InstanceEnvironment,
+                logMessage: LogMessageCallback,
+            ) -> Instance {
+                $crate::ffi::install_panic_hook();
+                let _ = visible;
+                // SAFETY: C promises what the standard asks for.
+                unsafe {
+                    $crate::ffi::fmi3::instantiate_model_exchange::<Exported>(
+                        instanceName,
+                        instantiationToken,
+                        resourcePath,
+                        loggingOn,
+                        instanceEnvironment,
+                        logMessage,
+                    )
+                }
+            }
+
+            #[doc = "`fmi3InstantiateCoSimulation`. The first call also makes panics silent."]
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
+                instanceName: Text,
+                instantiationToken: Text,
+                resourcePath: Text,
+                visible: Boolean,
+                loggingOn: Boolean,
+                eventModeUsed: Boolean,
+                earlyReturnAllowed: Boolean,
+                requiredIntermediateVariables: *const ValueReference,
+                nRequiredIntermediateVariables: usize,
+                instanceEnvironment: InstanceEnvironment,
+                logMessage: LogMessageCallback,
+                intermediateUpdate: IntermediateUpdateCallback,
+            ) -> Instance {
+                $crate::ffi::install_panic_hook();
+                let _ = visible;
+                // SAFETY: C promises what the standard asks for.
+                unsafe {
+                    $crate::ffi::fmi3::instantiate_co_simulation::<Exported>(
+                        instanceName,
+                        instantiationToken,
+                        resourcePath,
+                        loggingOn,
+                        eventModeUsed,
+                        earlyReturnAllowed,
+                        requiredIntermediateVariables,
+                        nRequiredIntermediateVariables,
+                        instanceEnvironment,
+                        logMessage,
+                        intermediateUpdate,
+                    )
+                }
+            }
+
+            #[doc = "`fmi3InstantiateScheduledExecution`: always NULL."]
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
+                instanceName: Text,
+                instantiationToken: Text,
+                resourcePath: Text,
+                visible: Boolean,
+                loggingOn: Boolean,
+                instanceEnvironment: InstanceEnvironment,
+                logMessage: LogMessageCallback,
+                clockUpdate: ClockUpdateCallback,
+                lockPreemption: PreemptionCallback,
+                unlockPreemption: PreemptionCallback,
+            ) -> Instance {
+                $crate::ffi::install_panic_hook();
+                let _ = (instanceName, instantiationToken, resourcePath, visible);
+                let _ = (clockUpdate, lockPreemption, unlockPreemption);
+                // SAFETY: C promises what the standard asks for.
+                unsafe {
+                    $crate::ffi::fmi3::instantiate_scheduled_execution::<Exported>(
+                        loggingOn,
+                        instanceEnvironment,
+                        logMessage,
+                    )
+                }
+            }
+        }
+    };
+}
+
+/// Defines C functions that refuse, whatever their arguments after the instance.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi3_unsupported {
+    (
+        $model:ident,
+        $(fn $name:ident = $generic:ident($c:ident: $c_type:ty $(, $unused:ident: $type:ty)*);)*
+    ) => { $(
+        #[doc = concat!("`", stringify!($name), "`: always an error.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name($c: $c_type $(, $unused: $type)*) -> Status {
+            $(let _ = $unused;)*
+            // SAFETY: C promises what the standard asks for.
+            unsafe { $crate::ffi::fmi3::$generic::<$model>($c) }
+        }
+    )* };
+}

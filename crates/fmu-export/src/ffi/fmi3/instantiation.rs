@@ -1,0 +1,149 @@
+//! Making instances (FMI 3.0.2, section 2.3.1).
+
+use super::types::{
+    Instance, InstanceEnvironment, IntermediateUpdate, IntermediateUpdateCallback, LogMessageCallback,
+};
+use crate::access;
+use crate::call::Version;
+use crate::ffi::arguments::{array, required_text, text};
+use crate::ffi::common::make;
+use crate::ffi::types::{Text, ValueReference, status};
+use crate::instance::{self, Purpose};
+use crate::log::{Logger, Sink};
+use crate::model::{Interface, ModelExchange};
+use crate::variable::VariableId;
+use std::ffi::CString;
+use std::rc::Rc;
+
+/// `fmi3GetVersion`
+///
+/// # Safety
+/// None needed; unsafe like its siblings.
+pub unsafe fn get_version<M: ModelExchange>() -> Text {
+    c"3.0".as_ptr()
+}
+
+/// `fmi3InstantiateModelExchange`
+///
+/// NULL is returned, after a log, when token or environment do not suit.
+///
+/// # Safety
+/// The texts are NULL or end with a NUL; `log_message` is NULL or a function of its type.
+pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
+    name: Text,
+    token: Text,
+    resource_path: Text,
+    logging_on: bool,
+    environment: InstanceEnvironment,
+    log_message: LogMessageCallback,
+) -> Instance {
+    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    make("fmi3InstantiateModelExchange", logger, |logger| {
+        let purpose = Purpose {
+            version: Version::Fmi3,
+            interface: Interface::ModelExchange,
+            states: M::STATES,
+            event_mode: true,
+            early_return: false,
+        };
+        // SAFETY: as the caller promises.
+        let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
+        instance::Instance::<M>::new(name, token, path, purpose, logger)
+    })
+}
+
+/// `fmi3InstantiateCoSimulation`
+///
+/// NULL is returned, after a log, when token or environment do not suit, or an intermediate variable is not a
+/// continuous input.
+///
+/// # Safety
+/// As for [`instantiate_model_exchange`]; `intermediate_variables` is NULL or points to as many references.
+#[allow(clippy::too_many_arguments, reason = "the standard's")]
+pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
+    name: Text,
+    token: Text,
+    resource_path: Text,
+    logging_on: bool,
+    event_mode_used: bool,
+    early_return_allowed: bool,
+    intermediate_variables: *const ValueReference,
+    intermediate_variable_count: usize,
+    environment: InstanceEnvironment,
+    log_message: LogMessageCallback,
+    intermediate_update: IntermediateUpdateCallback,
+) -> Instance {
+    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    make("fmi3InstantiateCoSimulation", logger, |logger| {
+        // SAFETY: as the caller promises.
+        let intermediate = unsafe {
+            array("requiredIntermediateVariables", intermediate_variables, intermediate_variable_count)
+        }?;
+        for &reference in intermediate {
+            access::check_derivable_input(access::find::<M::Real>(reference)?.variable())?;
+        }
+        let purpose = Purpose {
+            version: Version::Fmi3,
+            interface: Interface::CoSimulation,
+            states: &[],
+            event_mode: event_mode_used,
+            early_return: early_return_allowed,
+        };
+        // SAFETY: as the caller promises.
+        let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
+        let mut made = instance::Instance::<M>::new(name, token, path, purpose, logger)?;
+        made.intermediate_update = intermediate_update.map(|callback| asking(environment, callback));
+        Ok(made)
+    })
+}
+
+/// Asks the importer for inputs, by its callback.
+fn asking(environment: InstanceEnvironment, callback: IntermediateUpdate) -> instance::IntermediateUpdate {
+    Rc::new(move |time| {
+        let (mut early, mut early_time) = (false, time);
+        // SAFETY: the importer promised a callback of this type; the places live until it returns.
+        unsafe {
+            callback(environment, time, true, false, false, false, &raw mut early, &raw mut early_time);
+        }
+    })
+}
+
+/// `fmi3InstantiateScheduledExecution`: always NULL, after a log.
+///
+/// # Safety
+/// As for [`instantiate_model_exchange`].
+pub unsafe fn instantiate_scheduled_execution<M: ModelExchange>(
+    logging_on: bool,
+    environment: InstanceEnvironment,
+    log_message: LogMessageCallback,
+) -> Instance {
+    let logger = || Logger::new(sink(environment, log_message), logging_on);
+    make::<M>("fmi3InstantiateScheduledExecution", logger, |_| {
+        Err("this FMU is for Model Exchange and co-simulation only".into())
+    })
+}
+
+/// # Safety
+/// The texts are NULL or end with a NUL, and nobody changes them during `'a`.
+unsafe fn texts<'a>(
+    name: Text,
+    token: Text,
+    path: Text,
+) -> Result<(&'a str, &'a str, Option<&'a str>), crate::Failure> {
+    // SAFETY: as the caller promises.
+    unsafe {
+        let name = text("instanceName", name)?.unwrap_or_default();
+        Ok((name, required_text("instantiationToken", token)?, text("resourcePath", path)?))
+    }
+}
+
+/// Passes messages on to the importer's callback.
+fn sink(environment: InstanceEnvironment, log_message: LogMessageCallback) -> Option<Box<Sink>> {
+    let log_message = log_message?;
+    Some(Box::new(move |weight, category, message| {
+        let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let category = CString::new(category.name()).unwrap_or_default();
+        // SAFETY: the importer promised a callback of this type; the texts live until it returns.
+        unsafe { log_message(environment, status(weight), category.as_ptr(), message.as_ptr()) };
+    }))
+}

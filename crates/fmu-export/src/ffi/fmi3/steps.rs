@@ -1,0 +1,163 @@
+//! Initialisation, steps, events and derivatives (FMI 3.0.2, sections 2.2.11, 2.3, 3.2 and 4.2).
+
+use super::types::Boolean;
+use super::values::check_count;
+use crate::call::Call;
+use crate::ffi::arguments::{array, array_mut, place, to_get};
+use crate::ffi::guard::{self, functions};
+use crate::ffi::types::{Component, OK, Status, ValueReference};
+use crate::model::{Experiment, Model, ModelExchange, Update};
+
+/// `fmi3DoStep`
+///
+/// Never returns `fmi3Discard`. A step that ends early does so just after an event. Where the importer gave
+/// an `intermediateUpdate`, that is called once, before the step is computed, and may set continuous inputs
+/// for the end of the step: they run there linearly.
+///
+/// # Safety
+/// `component` is NULL or an instance, which `intermediateUpdate` does not free; pointers are NULL or point
+/// to room for one value.
+#[allow(clippy::too_many_arguments, reason = "the standard's")]
+pub unsafe fn do_step<M: Model>(
+    component: Component,
+    communication_point: f64,
+    step_size: f64,
+    _no_set_fmu_state_prior_to_current_point: Boolean,
+    event_handling_needed: *mut Boolean,
+    terminate_simulation: *mut Boolean,
+    early_return: *mut Boolean,
+    last_successful_time: *mut f64,
+) -> Status {
+    // SAFETY: as the caller promises.
+    let instance = || unsafe { guard::instance::<M>(component) };
+    // SAFETY: as the caller promises.
+    let answer = |event: bool, early: bool, time: f64| unsafe {
+        place("eventHandlingNeeded", event_handling_needed)?.write(event);
+        place("terminateSimulation", terminate_simulation)?.write(false);
+        place("earlyReturn", early_return)?.write(early);
+        place("lastSuccessfulTime", last_successful_time)?.write(time);
+        Ok(())
+    };
+    let mut asked = None;
+    let begun = guard::run(instance(), Call::DoStep, |instance| {
+        answer(false, false, instance.time())?;
+        asked = instance.begin_step(communication_point, step_size)?;
+        Ok(())
+    });
+    if begun != OK {
+        return begun;
+    }
+    // No call is under way now, so that the importer can set inputs.
+    if let Some((update, end)) = asked {
+        update(end);
+    }
+    guard::run(instance(), Call::FinishStep, |instance| {
+        let early = instance.finish_step()?;
+        answer(early && instance.uses_event_mode(), early, instance.time())
+    })
+}
+
+functions! {
+    /// `fmi3EnterInitializationMode`
+    start_initialization<Model>(
+        tolerance_defined: Boolean, tolerance: f64, start: f64, stop_defined: Boolean, stop: f64
+    ): EnterInitializationMode, |instance| {
+        let (tolerance, stop) = (tolerance_defined.then_some(tolerance), stop_defined.then_some(stop));
+        instance.setup_experiment(Experiment { tolerance, start, stop })?;
+        instance.enter_initialization_mode();
+        Ok(())
+    };
+    /// `fmi3EnterStepMode`
+    enter_step_mode<Model>(): EnterStepMode, |instance| {
+        instance.enter_step_mode();
+        Ok(())
+    };
+    /// `fmi3UpdateDiscreteStates`
+    update_discrete_states<ModelExchange>(
+        discrete_states_need_update: *mut Boolean, terminate_simulation: *mut Boolean,
+        nominals_of_continuous_states_changed: *mut Boolean,
+        values_of_continuous_states_changed: *mut Boolean,
+        next_event_time_defined: *mut Boolean, next_event_time: *mut f64
+    ): NewDiscreteStates, |instance| {
+        // SAFETY: as the caller promises.
+        let places = unsafe {
+            [
+                place("discreteStatesNeedUpdate", discrete_states_need_update)?,
+                place("terminateSimulation", terminate_simulation)?,
+                place("nominalsOfContinuousStatesChanged", nominals_of_continuous_states_changed)?,
+                place("valuesOfContinuousStatesChanged", values_of_continuous_states_changed)?,
+                place("nextEventTimeDefined", next_event_time_defined)?,
+            ]
+        };
+        // SAFETY: as the caller promises.
+        let time = unsafe { place("nextEventTime", next_event_time) }?;
+        let Update { again, states_changed, nominals_changed, next_event } = instance.update()?;
+        let found = [again, false, nominals_changed, states_changed, next_event.is_some()];
+        for (place, value) in places.into_iter().zip(found) {
+            place.write(value);
+        }
+        time.write(next_event.unwrap_or(0.0));
+        Ok(())
+    };
+    /// `fmi3GetOutputDerivatives`
+    get_output_derivatives<Model>(
+        references: *const ValueReference, count: usize, orders: *const i32,
+        values: *mut f64, value_count: usize
+    ): GetRealOutputDerivatives, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        let (orders, (references, values)) =
+            unsafe { (array("orders", orders, count)?, to_get(references, values, count)?) };
+        instance.output_derivatives(references, orders, values)
+    };
+    /// `fmi3GetNumberOfEventIndicators`
+    get_number_of_event_indicators<ModelExchange>(
+        count: *mut usize
+    ): GetNumberOfEventIndicators, |_| {
+        // SAFETY: as the caller promises.
+        unsafe { place("nEventIndicators", count) }?.write(M::EVENT_INDICATORS);
+        Ok(())
+    };
+    /// `fmi3GetNumberOfContinuousStates`
+    get_number_of_continuous_states<ModelExchange>(
+        count: *mut usize
+    ): GetNumberOfContinuousStates, |_| {
+        // SAFETY: as the caller promises.
+        unsafe { place("nContinuousStates", count) }?.write(M::STATES.len());
+        Ok(())
+    };
+    /// `fmi3GetDirectionalDerivative`
+    get_directional_derivative<Model>(
+        unknowns: *const ValueReference, unknown_count: usize,
+        knowns: *const ValueReference, known_count: usize,
+        seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
+    ): GetDirectionalDerivative, |instance| {
+        check_count("nSeed", seed_count, known_count)?;
+        check_count("nSensitivity", sensitivity_count, unknown_count)?;
+        // SAFETY: as the caller promises.
+        let (unknowns, knowns) =
+            unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
+        // SAFETY: as the caller promises.
+        let (seeds, values) = unsafe {
+            (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
+        };
+        instance.directional_derivative(unknowns, knowns, seeds, values)
+    };
+    /// `fmi3GetAdjointDerivative`
+    get_adjoint_derivative<Model>(
+        unknowns: *const ValueReference, unknown_count: usize,
+        knowns: *const ValueReference, known_count: usize,
+        seeds: *const f64, seed_count: usize, sensitivity: *mut f64, sensitivity_count: usize
+    ): GetAdjointDerivative, |instance| {
+        check_count("nSeed", seed_count, unknown_count)?;
+        check_count("nSensitivity", sensitivity_count, known_count)?;
+        // SAFETY: as the caller promises.
+        let (unknowns, knowns) =
+            unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
+        // SAFETY: as the caller promises.
+        let (seeds, values) = unsafe {
+            (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
+        };
+        instance.adjoint_derivative(unknowns, knowns, seeds, values)
+    };
+}

@@ -1,0 +1,173 @@
+//! Getting and setting values (FMI 3.0.2, section 2.2.6). All variables are scalars.
+
+use super::types::{Binary, Boolean};
+use crate::access;
+use crate::call::Call;
+use crate::failure::Failure;
+use crate::ffi::arguments::{array, to_get, to_set};
+use crate::ffi::common::{get_texts, set_texts};
+use crate::ffi::guard::functions;
+use crate::ffi::types::{Component, Status, Text, ValueReference};
+use crate::model::{Model, ModelExchange};
+use crate::variable::Kind;
+
+functions! {
+    /// `fmi3GetFloat64`
+    get_float64<ModelExchange>(
+        references: *const ValueReference, count: usize, values: *mut f64, value_count: usize
+    ): GetReal, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        instance.get_float64(references, values)
+    };
+    /// `fmi3SetFloat64`
+    set_float64<Model>(
+        references: *const ValueReference, count: usize, values: *const f64, value_count: usize
+    ): SetReal, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_set(references, values, count) }?;
+        instance.set_real(references, values)
+    };
+    /// `fmi3GetBoolean`
+    get_boolean<Model>(
+        references: *const ValueReference, count: usize, values: *mut Boolean, value_count: usize
+    ): GetBoolean, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_get(references, values, count) }?;
+        instance.get_boolean(references, values)
+    };
+    /// `fmi3SetBoolean`
+    set_boolean<Model>(
+        references: *const ValueReference, count: usize, values: *const Boolean, value_count: usize
+    ): SetBoolean, |instance| {
+        check_count("nValues", value_count, count)?;
+        // A byte of C that is neither 0 nor 1 is no `bool` of Rust.
+        // SAFETY: as the caller promises.
+        let (references, values) = unsafe { to_set(references, values.cast::<u8>(), count) }?;
+        instance.set_boolean(references, values)
+    };
+    /// `fmi3GetString`
+    ///
+    /// The texts live until the next call of this for the instance.
+    get_string<Model>(
+        references: *const ValueReference, count: usize, values: *mut Text, value_count: usize
+    ): GetString, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        unsafe { get_texts(instance, references, values, count) }
+    };
+    /// `fmi3SetString`
+    set_string<Model>(
+        references: *const ValueReference, count: usize, values: *const Text, value_count: usize
+    ): SetString, |instance| {
+        check_count("nValues", value_count, count)?;
+        // SAFETY: as the caller promises.
+        unsafe { set_texts(instance, references, values, count) }
+    };
+    /// `fmi3GetBinary`
+    ///
+    /// There are no binary variables.
+    get_binary<Model>(
+        references: *const ValueReference, count: usize, _sizes: *mut usize, _values: *mut Binary,
+        _value_count: usize
+    ): GetBinary, |_| {
+        // SAFETY: as the caller promises.
+        unsafe { none_served(references, count) }
+    };
+    /// `fmi3SetBinary`
+    ///
+    /// There are no binary variables.
+    set_binary<Model>(
+        references: *const ValueReference, count: usize, _sizes: *const usize, _values: *const Binary,
+        _value_count: usize
+    ): SetBinary, |_| {
+        // SAFETY: as the caller promises.
+        unsafe { none_served(references, count) }
+    };
+}
+
+/// Defines getters and setters of Integer and Enumeration variables.
+macro_rules! integers {
+    ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident, $kind:ident;)*) => {
+        functions! { $(
+            #[doc = concat!("Gets the variables of type `", stringify!($kind), "`.")]
+            $get<Model>(
+                references: *const ValueReference, count: usize, values: *mut $type, value_count: usize
+            ): $get_call, |instance| {
+                check_count("nValues", value_count, count)?;
+                // SAFETY: as the caller promises.
+                let (references, values) = unsafe { to_get(references, values, count) }?;
+                instance.get_integer(references, values, |kind| matches!(kind, Kind::$kind { .. }))
+            };
+            #[doc = concat!("Sets variables of type `", stringify!($kind), "`.")]
+            $set<Model>(
+                references: *const ValueReference, count: usize, values: *const $type, value_count: usize
+            ): $set_call, |instance| {
+                check_count("nValues", value_count, count)?;
+                // SAFETY: as the caller promises.
+                let (references, values) = unsafe { to_set(references, values, count) }?;
+                instance.set_integer(references, values, |kind| matches!(kind, Kind::$kind { .. }))
+            };
+        )* }
+    };
+}
+
+integers! {
+    i32: get_int32 GetInteger, set_int32 SetInteger, Integer;
+    i64: get_int64 GetInt64, set_int64 SetInt64, Enumeration;
+}
+
+/// Defines getters and setters of types that no variable has.
+macro_rules! unused_types {
+    ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident;)*) => {
+        functions! { $(
+            #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
+            $get<Model>(
+                references: *const ValueReference, count: usize, _values: *mut $type, _value_count: usize
+            ): $get_call, |_| {
+                // SAFETY: as the caller promises.
+                unsafe { none_served(references, count) }
+            };
+            #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
+            $set<Model>(
+                references: *const ValueReference, count: usize, _values: *const $type, _value_count: usize
+            ): $set_call, |_| {
+                // SAFETY: as the caller promises.
+                unsafe { none_served(references, count) }
+            };
+        )* }
+    };
+}
+
+unused_types! {
+    f32: get_float32 GetFloat32, set_float32 SetFloat32;
+    i8: get_int8 GetInt8, set_int8 SetInt8;
+    u8: get_uint8 GetUInt8, set_uint8 SetUInt8;
+    i16: get_int16 GetInt16, set_int16 SetInt16;
+    u16: get_uint16 GetUInt16, set_uint16 SetUInt16;
+    u32: get_uint32 GetUInt32, set_uint32 SetUInt32;
+    u64: get_uint64 GetUInt64, set_uint64 SetUInt64;
+}
+
+/// Refuses all references.
+///
+/// # Safety
+/// As for [`array`].
+unsafe fn none_served(references: *const ValueReference, count: usize) -> Result<(), Failure> {
+    // SAFETY: as the caller promises.
+    match unsafe { array("valueReferences", references, count) }?.first() {
+        Some(&reference) => Err(access::unknown(reference)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a number of values that is not that of the scalars they belong to.
+pub(super) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
+    if given == scalars {
+        return Ok(());
+    }
+    Err(Failure(format!("{name} = {given}, but the value references are of {scalars} scalars")))
+}
