@@ -19,7 +19,7 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
         (joined(library), programs, joined(python))
     });
     let (programs, python) = (programs?, python?);
-    let unit = fmu::pack(fmu::WALL, &[(fmu::host(), library?)], &programs)?;
+    let unit = fmu::pack_version(fmu::WALL, &[(fmu::host(), library?)], &programs, "2")?;
     let wall = programs.join("wall");
     let out = root().join("fmu_out");
     shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;

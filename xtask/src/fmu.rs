@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::command::{Result, cargo, program, root, succeed, target};
-use crate::platform::{Platform, reproducible};
+use crate::platform::{self, Platform, reproducible};
 use crate::universal;
 
 /// The linker of the library.
@@ -69,11 +69,12 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
     Ok(built)
 }
 
-/// Builds the library for each platform, and returns folders of FMI 2.0 with their libraries.
+/// Builds the library for each platform, and returns platforms with their libraries, as [`pack`] takes
+/// them.
 fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'static str, PathBuf)>> {
     let mut libraries: Vec<(&str, PathBuf)> = Vec::new();
     for platform in platforms {
-        let Some(folder) = platform.fmi2 else { continue };
+        let folder = platform.fmi2.unwrap_or(platform.fmi3);
         let library = library(unit, Linker::Zig(platform))?;
         match libraries.iter_mut().find(|(other, _)| *other == folder) {
             Some((_, joined)) => {
@@ -122,18 +123,37 @@ pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     Ok(built.join("release").join(format!("{beginning}{name}{ending}")))
 }
 
-/// Zips the FMU with `fmu-pack` of a folder of programs, and returns its path. `libraries` are folders of FMI
-/// 2.0 with their libraries.
+/// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 and, below `fmi3/`, for FMI 3.0. Returns
+/// the path of the first. `libraries` are platforms by their names in FMI 2.0, if they have one there, with
+/// their libraries.
+///
+/// # Errors
+/// If an archive cannot be written.
+pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
+    pack_version(unit, libraries, programs, "3")?;
+    pack_version(unit, libraries, programs, "2")
+}
+
+/// Zips the FMU for one version of FMI, and returns its path.
 ///
 /// # Errors
 /// If the archive cannot be written.
-pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
-    let output = root().join("fmu_out").join(unit.file);
+pub(crate) fn pack_version(
+    unit: Unit,
+    libraries: &[(&str, PathBuf)],
+    programs: &Path,
+    version: &str,
+) -> Result<PathBuf> {
+    let folder = root().join(if version == "3" { "fmu_out/fmi3" } else { "fmu_out" });
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let output = folder.join(unit.file);
     let mut pack = program(programs.join("fmu-pack"));
     let description = Path::new(unit.description);
+    pack.args(["--fmi", version]);
     pack.arg("--description").arg(description.join("modelDescription.xml"));
     pack.arg("--documentation").arg(description.join("documentation"));
-    for (platform, library) in libraries {
+    let is_of_2 = |name: &str| platform::PLATFORMS.iter().any(|platform| platform.fmi2 == Some(name));
+    for (platform, library) in libraries.iter().filter(|(name, _)| version == "3" || is_of_2(name)) {
         pack.arg("--binary").arg(library).args(["--platform", platform]);
     }
     pack.arg("--output").arg(&output);

@@ -24,7 +24,8 @@ use std::process::ExitCode;
 const HELP: &str = "\
 The jobs of the project.
 
-  cargo xtask fmu [--portable]     build the libraries, zip fmu_out/wall.fmu and floor.fmu
+  cargo xtask fmu [--portable]     build the libraries, zip wall.fmu and floor.fmu into fmu_out/ (FMI 2.0) and
+                                   fmu_out/fmi3/ (FMI 3.0)
                                    --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig
                                    --platforms linux64,win64: for some of them
   cargo xtask wheel                build the Python package into target/wheels/release, with wall.fmu inside

@@ -49,6 +49,10 @@ pub enum Problem {
     MissingAttribute { element: String, attribute: &'static str },
     #[error("{attribute}=\"{value}\" is not {expected}")]
     BadValue { attribute: String, value: String, expected: &'static str },
+    #[error("there is no variable `{name}`")]
+    NoSuchVariable { name: String },
+    #[error("FMI 3.0 needs the name `{name}` or the value reference {reference} for a variable of its own")]
+    Reserved { name: String, reference: u32 },
     #[error("fmiVersion is {found:?}: only \"2.0\" is understood")]
     Version { found: String },
     #[error("the name `{name}` was used on line {first} already")]

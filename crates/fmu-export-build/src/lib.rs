@@ -3,7 +3,8 @@
 //! The description is the one source of an FMU's variables. [`build_script`], the `build.rs` of a model,
 //! refuses a description that contradicts itself and names the line. It writes one enum per FMI base type, so
 //! that a variable which is declared but not wired does not compile. [`Description::reduced`] makes the
-//! description of an FMU with fewer variables, and the feature `archive` reads and writes the FMU itself.
+//! description of an FMU with fewer variables, [`Description::to_fmi3`] that of an FMI 3.0 unit, and the
+//! feature `archive` reads and writes the FMU itself.
 //!
 //! ```
 //! use fmu_export_build::Description;
@@ -35,7 +36,9 @@
 //! description  Description: what has passed every check
 //! choices      Description ─► choices.rs; code: ─► variables.rs
 //! reduced      Description ─► Description of a subset
+//! fmi3         Description ─► description and terminals of FMI 3.0
 //! archive      FMU ◄─► files in memory, the same bytes for the same content
+//! sources      FMI 3.0 unit ◄─► the description it is made from
 //! pack         files of a build ─► FMU
 //! ```
 
@@ -48,16 +51,20 @@ mod description;
 mod element;
 mod error;
 mod fingerprint;
+mod fmi3;
 mod names;
 #[cfg(feature = "archive")]
 pub mod pack;
 mod reduced;
+#[cfg(feature = "archive")]
+pub mod sources;
 mod structure;
 mod variable;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
 pub use fingerprint::fingerprint;
+pub use fmi3::Additions;
 pub use reduced::{DefaultExperiment, Reduction, ReductionError};
 
 use std::path::Path;

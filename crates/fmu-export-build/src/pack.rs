@@ -8,25 +8,29 @@
 //!     binaries: vec![("linux64".to_owned(), "target/release/libclock.so".into())],
 //!     documentation: "modelDescription/documentation".into(),
 //!     resources: None,
+//!     fmi3: false,
 //! };
 //! // there are no such files beside this example
 //! assert!(package.archive().unwrap_err().to_string().contains("cannot be read"));
 //! ```
 
 use crate::archive::Archive;
+use crate::sources::Sources;
 use crate::{Description, DescriptionError};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// FMI 2.0's platforms and the ending of their libraries.
-const PLATFORMS: [(&str, &str); 6] = [
-    ("linux64", "so"),
-    ("win64", "dll"),
-    ("darwin64", "dylib"),
-    ("linux32", "so"),
-    ("win32", "dll"),
-    ("darwin32", "dylib"),
+/// FMI 2.0's platforms, the ending of their libraries, and FMI 3.0's folders for these. A library for
+/// `darwin64` is taken for both processors.
+const PLATFORMS: [(&str, &str, &[&str]); 7] = [
+    ("linux64", "so", &["x86_64-linux"]),
+    ("win64", "dll", &["x86_64-windows"]),
+    ("darwin64", "dylib", &["x86_64-darwin", "aarch64-darwin"]),
+    ("linux32", "so", &["x86-linux"]),
+    ("win32", "dll", &["x86-windows"]),
+    ("darwin32", "dylib", &["x86-darwin"]),
+    ("aarch64-linux", "so", &["aarch64-linux"]),
 ];
 
 /// Deeper folders than this are a mistake, or a link to a folder above.
@@ -37,12 +41,14 @@ const MAX_DEPTH: usize = 8;
 pub struct Package {
     /// The model description; a `model.png` beside it goes in as well.
     pub description: PathBuf,
-    /// Platform (such as `linux64`) and library.
+    /// Platform by its name in FMI 2.0 (such as `linux64`), or `aarch64-linux`, and library.
     pub binaries: Vec<(String, PathBuf)>,
     /// Folder that becomes `documentation/`.
     pub documentation: PathBuf,
     /// Folder that becomes `resources/`.
     pub resources: Option<PathBuf>,
+    /// An FMI 3.0 unit; a `fmi3.xml` beside the description says what that leaves open.
+    pub fmi3: bool,
 }
 
 /// Why an FMU cannot be put together.
@@ -62,7 +68,7 @@ pub enum PackError {
     /// A file's name is not valid Unicode, or not usable in an archive.
     #[error("{}: this name cannot be used inside an FMU", path.display())]
     BadName { path: PathBuf },
-    /// The platform is not one of FMI 2.0.
+    /// The platform is not one of FMI.
     #[error(
         "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
          darwin32"
@@ -80,27 +86,37 @@ impl Package {
     /// A description that contradicts itself, files that cannot be read, an unknown platform, no
     /// `index.html`.
     pub fn archive(&self) -> Result<Archive, PackError> {
-        let text = String::from_utf8(read(&self.description)?).map_err(|error| PackError::Read {
-            path: self.description.clone(),
-            source: io::Error::new(io::ErrorKind::InvalidData, error),
-        })?;
-        let description = Description::parse(&text).map_err(|fault| DescriptionError::Invalid {
-            path: self.description.clone(),
+        let text = read_text(&self.description)?;
+        let invalid = |path: &Path, fault| DescriptionError::Invalid {
+            path: path.to_path_buf(),
             fault: Box::new(fault),
-        })?;
+        };
+        let description = Description::parse(&text).map_err(|fault| invalid(&self.description, fault))?;
         let mut archive = Archive::default();
-        archive.insert("modelDescription.xml", description.text_with_guid(&description.guid()));
         let icon = self.description.with_file_name("model.png");
         if icon.exists() {
-            archive.insert("model.png", read(&icon)?);
+            let name = if self.fmi3 { "terminalsAndIcons/icon.png" } else { "model.png" };
+            archive.insert(name, read(&icon)?);
+        }
+        let text = description.text_with_guid(&description.guid());
+        if self.fmi3 {
+            let path = self.description.with_file_name("fmi3.xml");
+            let additions = if path.exists() { read_text(&path)? } else { "<fmi3/>".to_owned() };
+            let sources = Sources::parse(text, additions).map_err(|fault| invalid(&path, fault))?;
+            sources.check().map_err(|fault| invalid(&path, fault))?;
+            let whole = &sources.description;
+            sources
+                .describe(whole, whole.declared_guid(), &mut archive)
+                .map_err(|fault| invalid(&self.description, fault))?;
+            sources.keep(&mut archive);
+        } else {
+            archive.insert("modelDescription.xml", text);
         }
         for (platform, library) in &self.binaries {
-            let (_, ending) = PLATFORMS
-                .iter()
-                .find(|(name, _)| name == platform)
-                .ok_or_else(|| PackError::UnknownPlatform { platform: platform.clone() })?;
             let name = description.model_identifier();
-            archive.insert(format!("binaries/{platform}/{name}.{ending}"), read(library)?);
+            for file in self.libraries(platform, name)? {
+                archive.insert(file, read(library)?);
+            }
         }
         add_folder(&mut archive, "documentation", &self.documentation, MAX_DEPTH)?;
         if archive.get("documentation/index.html").is_none() {
@@ -111,6 +127,24 @@ impl Package {
         }
         Ok(archive)
     }
+
+    /// The paths of the library `name` for `platform`.
+    fn libraries(&self, platform: &str, name: &str) -> Result<Vec<String>, PackError> {
+        let found = PLATFORMS
+            .iter()
+            .find(|(known, _, of_3)| *known == platform && (self.fmi3 || !of_3.contains(&platform)));
+        let unknown = || PackError::UnknownPlatform { platform: platform.to_owned() };
+        let &(of_2, ending, of_3) = found.ok_or_else(unknown)?;
+        let folders = if self.fmi3 { of_3 } else { &[of_2][..] };
+        Ok(folders.iter().map(|folder| format!("binaries/{folder}/{name}.{ending}")).collect())
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, PackError> {
+    String::from_utf8(read(path)?).map_err(|error| PackError::Read {
+        path: path.to_path_buf(),
+        source: io::Error::new(io::ErrorKind::InvalidData, error),
+    })
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, PackError> {

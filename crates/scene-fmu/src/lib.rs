@@ -65,9 +65,9 @@ pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFm
     }
     let text = scene::to_toml(scene, &motion);
     let reduced = reduce(&general.description, scene, &general.guid_with(&text))?;
+    general.describe(&reduced)?;
     let General { mut archive, description, .. } = general;
     archive.insert("resources/scene.toml", text.as_str());
-    archive.insert("modelDescription.xml", reduced.to_xml());
     Ok(SceneFmu {
         archive,
         scene: text,

@@ -17,23 +17,25 @@ pub(crate) struct Arguments {
     /// The FMU to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The general FMU to start from
-    #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
-    base: PathBuf,
+    /// Version of FMI
+    #[arg(long, value_name = "VERSION", default_value = "2", value_parser = ["2", "3"])]
+    fmi: String,
+    /// The general FMU to start from, whose version counts (`fmu_out/wall.fmu`, `fmu_out/fmi3/wall.fmu`)
+    #[arg(long, value_name = "FILE", conflicts_with = "fmi")]
+    base: Option<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
-    output::check_distinct(
-        [&arguments.scene, &arguments.base].into_iter().chain(&scene.records),
-        [&arguments.output],
-    )?;
+    let made = if arguments.fmi == "3" { "fmu_out/fmi3/wall.fmu" } else { "fmu_out/wall.fmu" };
+    let base = arguments.base.clone().unwrap_or_else(|| made.into());
+    output::check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
     let named = || arguments.scene.display().to_string();
     let wall = Wall::new(&scene.parameters).with_context(named)?;
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
     }
-    let unit = of_scene(&scene, general(&arguments.base, "--base")?).with_context(named)?;
+    let unit = of_scene(&scene, general(&base, "--base")?).with_context(named)?;
     output::to_file(&arguments.output, &unit.archive.to_bytes()?)?;
     output::to_stdout(&format!(
         "{}: {}, {} of {} variables\n",

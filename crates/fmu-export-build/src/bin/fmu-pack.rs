@@ -10,13 +10,15 @@ const HELP: &str = "\
 Puts an FMU together; the same files give the same bytes.
 
 fmu-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR [--resources DIR]
-          --output FILE
+          [--fmi 3] --output FILE
 
   --description FILE    the modelDescription.xml; its guid is filled in, and a model.png beside it goes in too
   --binary LIBRARY      the shared library; may be repeated, each followed by its
-  --platform NAME       linux64, win64, darwin64, linux32, win32 or darwin32
+  --platform NAME       linux64, win64, darwin64, linux32, win32 or darwin32; for FMI 3.0 also aarch64-linux
   --documentation DIR   becomes documentation/ and needs an index.html
   --resources DIR       becomes resources/
+  --fmi 3               an FMI 3.0 unit instead of FMI 2.0; a fmi3.xml beside the description says what that
+                        leaves open: attributes of CoSimulation, and terminals
   --output FILE         the FMU to write
 
 Hidden files are left out. The exit code is 0, or 2 if nothing was written.";
@@ -44,7 +46,7 @@ fn run(arguments: Vec<OsString>) -> Result<(), String> {
 
 fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {
     let (mut description, mut documentation, mut resources, mut output) = (None, None, None, None);
-    let (mut libraries, mut platforms) = (Vec::new(), Vec::new());
+    let (mut libraries, mut platforms, mut fmi3) = (Vec::new(), Vec::new(), false);
     let mut arguments = arguments.into_iter();
     while let Some(option) = arguments.next() {
         let option = option.to_string_lossy().into_owned();
@@ -56,6 +58,14 @@ fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {
             "--output" => &mut output,
             "--binary" => {
                 libraries.push(PathBuf::from(value()?));
+                continue;
+            }
+            "--fmi" => {
+                fmi3 = match value()?.to_string_lossy().as_ref() {
+                    "2" => false,
+                    "3" => true,
+                    other => return Err(format!("--fmi {other}: there are 2 and 3")),
+                };
                 continue;
             }
             "--platform" => {
@@ -81,6 +91,7 @@ fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {
         binaries: platforms.into_iter().zip(libraries).collect(),
         documentation: documentation.ok_or_else(|| missing("--documentation"))?,
         resources,
+        fmi3,
     };
     Ok((package, output.ok_or_else(|| missing("--output"))?))
 }

@@ -3,6 +3,7 @@
 use crate::BLOCK;
 use fmu_export_build::Description;
 use fmu_export_build::archive::Archive;
+use fmu_export_build::sources::Sources;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -87,6 +88,42 @@ fn an_fmu_has_its_files_in_their_places() {
 }
 
 #[test]
+fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
+    let build = Build::new("fmi3");
+    let output = build.path("a.fmu");
+    fs::write(build.path("fmi3.xml"), "<fmi3 mightReturnEarlyFromDoStep=\"true\"/>").unwrap();
+    let done = build.pack(&output, &["--platform", "darwin64", "--fmi", "3"]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let mut archive = Archive::open(&output).unwrap();
+    let names: Vec<_> = archive.names().collect();
+    assert_eq!(
+        names,
+        [
+            "binaries/aarch64-darwin/block.dylib",
+            "binaries/x86_64-darwin/block.dylib",
+            "documentation/index.html",
+            "documentation/licenses/notices.txt",
+            "extra/fmu-export/fmi3.xml",
+            "extra/fmu-export/modelDescription.xml",
+            "modelDescription.xml",
+            "terminalsAndIcons/icon.png"
+        ]
+    );
+    let guid = Description::parse(BLOCK).unwrap().guid();
+    let text =
+        |archive: &Archive| String::from_utf8(archive.get("modelDescription.xml").unwrap().to_vec()).unwrap();
+    let whole = text(&archive);
+    assert!(whole.contains(&format!("instantiationToken=\"{guid}\"")));
+    assert!(whole.contains("mightReturnEarlyFromDoStep=\"true\""));
+    // a unit made from it is described in the same way, and keeps no sources
+    let sources = Sources::of(&archive).unwrap().unwrap();
+    assert_eq!(sources.description.declared_guid(), guid);
+    sources.describe(&sources.description, &guid, &mut archive).unwrap();
+    assert_eq!(text(&archive), whole);
+    assert!(Sources::of(&archive).is_none());
+}
+
+#[test]
 fn bad_input_gives_one_message_exit_code_2_and_no_file() {
     let build = Build::new("bad");
     let output = build.path("a.fmu");
@@ -107,6 +144,14 @@ fn bad_input_gives_one_message_exit_code_2_and_no_file() {
         &["--platform", "linux"],
         "the platform \"linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32",
     );
+    refused(&["--platform", "linux64", "--fmi", "1"], "--fmi 1: there are 2 and 3");
+    refused(
+        &["--platform", "aarch64-linux"],
+        "the platform \"aarch64-linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
+         darwin32",
+    );
+    fs::write(build.path("fmi3.xml"), "\n<fmi2/>").unwrap();
+    refused(&["--platform", "linux64", "--fmi", "3"], "fmi3.xml:2: expected <fmi3>, found <fmi2>");
     fs::remove_file(build.path("documentation/index.html")).unwrap();
     refused(&platform, "has no index.html, the page that importers open");
     fs::write(build.path("modelDescription.xml"), BLOCK.replace("start=\"3\"", "start=\"30\"")).unwrap();
@@ -120,7 +165,9 @@ fn help_names_every_option() {
     let done = Command::new(env!("CARGO_BIN_EXE_fmu-pack")).arg("--help").output().unwrap();
     let help = String::from_utf8(done.stdout).unwrap();
     assert!(done.status.success());
-    for option in ["--description", "--binary", "--platform", "--documentation", "--resources", "--output"] {
+    for option in
+        ["--description", "--binary", "--platform", "--documentation", "--resources", "--fmi", "--output"]
+    {
         assert!(help.contains(&format!("\n  {option} ")), "{option}");
     }
 }

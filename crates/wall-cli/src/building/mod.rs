@@ -33,10 +33,10 @@ pub(crate) struct Arguments {
     /// The SSP to write
     #[arg(short, long, value_name = "FILE", default_value = "fmu_out/building.ssp")]
     output: PathBuf,
-    /// The general FMU of walls
+    /// The general FMU of walls; `fmu_out/fmi3/wall.fmu` makes FMI 3.0 units
     #[arg(long, value_name = "FILE", default_value = "fmu_out/wall.fmu")]
     wall_fmu: PathBuf,
-    /// The FMU of floors
+    /// The FMU of floors; `fmu_out/fmi3/floor.fmu` makes FMI 3.0 units
     #[arg(long, value_name = "FILE", default_value = "fmu_out/floor.fmu")]
     floor_fmu: PathBuf,
 }
@@ -133,7 +133,7 @@ fn scene(path: &Path, wall: &Member, warnings: &mut Vec<String>) -> Result<Scene
 
 /// The FMU of a storey and its `resources/floor.toml`, made from the general one.
 fn storey(building: &Building, floor: &Floor, path: &Path) -> Result<(Archive, String)> {
-    let general = general(path, "--floor-fmu")?;
+    let mut general = general(path, "--floor-fmu")?;
     if general.description.model_identifier() != "floor" {
         let found = general.description.model_identifier();
         bail!(
@@ -163,8 +163,8 @@ fn storey(building: &Building, floor: &Floor, path: &Path) -> Result<(Archive, S
             tolerance: Parameters::default().tolerance,
         },
     })?;
+    general.describe(&reduced)?;
     let mut archive = general.archive;
     archive.insert("resources/floor.toml", payload.as_str());
-    archive.insert("modelDescription.xml", reduced.to_xml());
     Ok((archive, payload))
 }

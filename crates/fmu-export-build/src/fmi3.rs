@@ -1,0 +1,310 @@
+//! The description and the terminals of an FMI 3.0 unit, from the FMI 2.0 description.
+//!
+//! ```
+//! use fmu_export_build::{Additions, Description};
+//!
+//! let description = Description::parse(r#"
+//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="">
+//!       <CoSimulation modelIdentifier="clock"/>
+//!       <ModelVariables>
+//!         <ScalarVariable name="rate" valueReference="1" causality="parameter" variability="fixed">
+//!           <Real start="1"/>
+//!         </ScalarVariable>
+//!       </ModelVariables>
+//!       <ModelStructure/>
+//!     </fmiModelDescription>"#)?;
+//! let additions = Additions::parse("<fmi3/>")?;
+//! let (xml, terminals) = description.to_fmi3(&additions, "{0}")?;
+//! assert!(xml.contains(r#"<Float64 name="rate" valueReference="1""#));
+//! assert_eq!(terminals, None);
+//! # Ok::<(), fmu_export_build::Fault>(())
+//! ```
+
+use crate::description::Description;
+use crate::element::Element;
+use crate::error::{Fault, Problem};
+use crate::variable::{Causality, Variable};
+use fmu_export::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE};
+
+/// What an FMI 3.0 unit says beyond its FMI 2.0 description: an element `<fmi3>` with attributes of
+/// `<CoSimulation>` and with `<Terminals>`.
+#[derive(Clone, Debug)]
+pub struct Additions {
+    root: Element,
+}
+
+impl Additions {
+    /// Reads the additions `text`.
+    ///
+    /// # Errors
+    /// Text that is not an element `<fmi3>`, with its line.
+    pub fn parse(text: &str) -> Result<Self, Fault> {
+        let root = Element::parse(text)?;
+        if root.name != "fmi3" {
+            let found = root.name.clone();
+            return Err(root.fault(Problem::UnexpectedElement { expected: "fmi3", found }));
+        }
+        Ok(Self { root })
+    }
+
+    /// Checks that the terminals have variables of `description` alone.
+    ///
+    /// # Errors
+    /// The first variable that is not there, with its line.
+    pub fn check(&self, description: &Description) -> Result<(), Fault> {
+        for member in self.root.children_of("Terminals").iter().flat_map(|terminal| &terminal.children) {
+            let name = member.required("variableName")?;
+            if description.variable_names().all(|variable| variable != name) {
+                return Err(member.fault(Problem::NoSuchVariable { name: name.to_owned() }));
+            }
+        }
+        Ok(())
+    }
+
+    /// `terminalsAndIcons.xml` with those members whose variables `is_there`; none without terminals.
+    fn terminals(&self, is_there: impl Fn(&str) -> bool) -> Option<String> {
+        let mut terminals = self.root.child("Terminals")?.clone();
+        for terminal in &mut terminals.children {
+            terminal.children.retain(|member| member.attribute("variableName").is_some_and(&is_there));
+        }
+        terminals.children.retain(|terminal| !terminal.children.is_empty());
+        let any = !terminals.children.is_empty();
+        let mut root = element("fmiTerminalsAndIcons", &[("fmiVersion", "3.0")]);
+        root.children.push(terminals);
+        any.then(|| root.to_xml())
+    }
+}
+
+impl Description {
+    /// The FMI 3.0 description, with `token` as its instantiation token, and `terminalsAndIcons.xml` if there
+    /// are terminals.
+    ///
+    /// Variables keep their value references. The independent variable `time` is added if there is none, and
+    /// one variable for each event indicator, as `fmu-export` serves them. Capabilities that FMI 2.0 does not
+    /// know are those of `fmu-export`, and those of `additions`.
+    ///
+    /// # Errors
+    /// A variable that takes a name or a value reference of the added ones, with its line.
+    pub fn to_fmi3(&self, additions: &Additions, token: &str) -> Result<(String, Option<String>), Fault> {
+        self.check_reserved()?;
+        let mut root = element("fmiModelDescription", &[]);
+        for (name, value) in &self.root.attributes {
+            match name.as_str() {
+                "fmiVersion" => root.set_attribute(name, "3.0".to_owned()),
+                "guid" => root.set_attribute("instantiationToken", token.to_owned()),
+                "numberOfEventIndicators" => {}
+                _ => root.set_attribute(name, value.clone()),
+            }
+        }
+        for child in &self.root.children {
+            match child.name.as_str() {
+                "ModelExchange" | "CoSimulation" => root.children.push(interface(child, &additions.root)),
+                "TypeDefinitions" => root.children.push(type_definitions(child)),
+                "ModelVariables" => root.children.push(self.variables3(child)),
+                "ModelStructure" => root.children.push(self.structure3(child)),
+                "VendorAnnotations" => {}
+                _ => root.children.push(child.clone()),
+            }
+        }
+        let is_there = |name: &str| self.variable_names().any(|variable| variable == name);
+        Ok((root.to_xml(), additions.terminals(is_there)))
+    }
+
+    /// The event indicators as their numbers, from 1 on; none where Model Exchange is not offered.
+    fn indicators(&self) -> std::ops::RangeInclusive<u32> {
+        let count = self.root.child("ModelExchange").map_or(0, |_| self.event_indicators());
+        1..=u32::try_from(count).unwrap_or_default()
+    }
+
+    /// Whether continuous inputs may change inside a step.
+    fn interpolates(&self) -> bool {
+        let steps = self.root.child("CoSimulation");
+        steps.is_some_and(|steps| matches!(steps.attribute("canInterpolateInputs"), Some("true" | "1")))
+    }
+
+    fn has_time(&self) -> bool {
+        self.variables.iter().any(|variable| variable.causality == Causality::Independent)
+    }
+
+    fn check_reserved(&self) -> Result<(), Fault> {
+        let taken = |variable: &&Variable| {
+            let time = variable.reference == TIME_REFERENCE || variable.name == "time";
+            variable.reference >= FIRST_INDICATOR_REFERENCE
+                || self.indicators().any(|number| variable.name == indicator_name(number))
+                || (time && !self.has_time())
+        };
+        match self.variables.iter().find(taken) {
+            None => Ok(()),
+            Some(variable) => {
+                let (name, reference) = (variable.name.clone(), variable.reference);
+                Err(variable.fault(Problem::Reserved { name, reference }))
+            }
+        }
+    }
+
+    fn variables3(&self, variables: &Element) -> Element {
+        let mut list = element("ModelVariables", &[]);
+        if !self.has_time() {
+            list.children.push(self.time());
+        }
+        list.children.extend(variables.children.iter().map(|variable| self.variable3(variable)));
+        for number in self.indicators() {
+            let reference = (FIRST_INDICATOR_REFERENCE + number - 1).to_string();
+            list.children.push(element(
+                "Float64",
+                &[
+                    ("name", &indicator_name(number)),
+                    ("valueReference", &reference),
+                    ("description", &format!("Event indicator {number} of Model Exchange")),
+                    ("causality", "local"),
+                    ("variability", "continuous"),
+                    ("initial", "calculated"),
+                ],
+            ));
+        }
+        list
+    }
+
+    fn time(&self) -> Element {
+        let mut time = element(
+            "Float64",
+            &[
+                ("name", "time"),
+                ("valueReference", &TIME_REFERENCE.to_string()),
+                ("description", "Time"),
+                ("causality", "independent"),
+                ("variability", "continuous"),
+            ],
+        );
+        let units = self.root.children_of("UnitDefinitions");
+        if units.iter().any(|unit| unit.attribute("name") == Some("s")) {
+            time.set_attribute("unit", "s".to_owned());
+        }
+        time
+    }
+
+    /// `<ScalarVariable>` and the element of its type become one element.
+    fn variable3(&self, variable: &Element) -> Element {
+        let Some(typed) = variable.children.iter().find(|child| child.name != "Annotations") else {
+            return variable.clone();
+        };
+        let mut written = Element { name: type_name(&typed.name).to_owned(), ..variable.clone() };
+        written.children.clear();
+        let continuous = variable.attribute("variability").is_none_or(|name| name == "continuous");
+        let input = variable.attribute("causality") == Some("input") && typed.name == "Real";
+        if input && continuous && self.interpolates() {
+            written.set_attribute("intermediateUpdate", "true".to_owned());
+        }
+        for (name, value) in &typed.attributes {
+            match name.as_str() {
+                "derivative" => written.set_attribute(name, self.references(value)),
+                "start" if typed.name == "String" => {
+                    written.children.push(element("Start", &[("value", value)]));
+                }
+                _ => written.set_attribute(name, value.clone()),
+            }
+        }
+        written
+    }
+
+    /// The lists of unknowns become one list, and indices value references.
+    fn structure3(&self, structure: &Element) -> Element {
+        let mut written = element("ModelStructure", &[]);
+        for (list, name) in [
+            ("Outputs", "Output"),
+            ("Derivatives", "ContinuousStateDerivative"),
+            ("InitialUnknowns", "InitialUnknown"),
+        ] {
+            for unknown in structure.children_of(list) {
+                let mut new = element(name, &[]);
+                for (attribute, value) in &unknown.attributes {
+                    match attribute.as_str() {
+                        "index" => new.set_attribute("valueReference", self.references(value)),
+                        "dependencies" => new.set_attribute(attribute, self.references(value)),
+                        _ => new.set_attribute(attribute, value.clone()),
+                    }
+                }
+                written.children.push(new);
+            }
+        }
+        for number in self.indicators() {
+            let reference = (FIRST_INDICATOR_REFERENCE + number - 1).to_string();
+            written.children.push(element("EventIndicator", &[("valueReference", &reference)]));
+        }
+        written
+    }
+
+    /// The value references of the variables with these 1-based indices.
+    fn references(&self, indices: &str) -> String {
+        let reference = |index: &str| {
+            let at = index.parse::<usize>().ok()?.checked_sub(1)?;
+            Some(self.variables.get(at)?.reference.to_string())
+        };
+        indices.split_ascii_whitespace().filter_map(reference).collect::<Vec<_>>().join(" ")
+    }
+}
+
+fn indicator_name(number: u32) -> String {
+    format!("event_indicator_{number}")
+}
+
+/// `<ModelExchange>` or `<CoSimulation>` with the names of FMI 3.0.
+fn interface(old: &Element, additions: &Element) -> Element {
+    let mut new = element(&old.name, &[]);
+    for (name, value) in &old.attributes {
+        let (name, value) = match name.as_str() {
+            "canGetAndSetFMUstate" => ("canGetAndSetFMUState", value.as_str()),
+            "canSerializeFMUstate" => ("canSerializeFMUState", value.as_str()),
+            "providesDirectionalDerivative" => {
+                new.set_attribute("providesDirectionalDerivatives", value.clone());
+                ("providesAdjointDerivatives", value.as_str())
+            }
+            "completedIntegratorStepNotNeeded" => (
+                "needsCompletedIntegratorStep",
+                if matches!(value.as_str(), "true" | "1") { "false" } else { "true" },
+            ),
+            // inputs run linearly to the values that the importer sets for the end of a step
+            "canInterpolateInputs" => ("providesIntermediateUpdate", value.as_str()),
+            "canNotUseMemoryManagementFunctions" | "canRunAsynchronuously" => continue,
+            name => (name, value.as_str()),
+        };
+        new.set_attribute(name, value.to_owned());
+    }
+    if old.name == "ModelExchange" && old.attribute("completedIntegratorStepNotNeeded").is_none() {
+        new.set_attribute("needsCompletedIntegratorStep", "true".to_owned());
+    }
+    if old.name == "CoSimulation" {
+        new.set_attribute("hasEventMode", "true".to_owned());
+        for (name, value) in &additions.attributes {
+            new.set_attribute(name, value.clone());
+        }
+    }
+    new
+}
+
+/// `<SimpleType>` and the element inside become one element.
+fn type_definitions(old: &Element) -> Element {
+    let mut new = element("TypeDefinitions", &[]);
+    for simple in &old.children {
+        let Some(inner) = simple.children.first() else { continue };
+        let mut written = Element { name: format!("{}Type", type_name(&inner.name)), ..simple.clone() };
+        written.attributes.extend(inner.attributes.iter().cloned());
+        written.children.clone_from(&inner.children);
+        new.children.push(written);
+    }
+    new
+}
+
+/// FMI 3.0's name of a type of FMI 2.0.
+fn type_name(name: &str) -> &str {
+    match name {
+        "Real" => "Float64",
+        "Integer" => "Int32",
+        other => other,
+    }
+}
+
+fn element(name: &str, attributes: &[(&str, &str)]) -> Element {
+    let attributes = attributes.iter().map(|&(name, value)| (name.to_owned(), value.to_owned())).collect();
+    Element { name: name.to_owned(), line: 0, attributes, children: Vec::new() }
+}
