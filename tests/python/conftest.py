@@ -29,11 +29,41 @@ def wall():
     return built("ROCKING_WALL_BIN", "target/release/wall", "cargo build --release --bin wall")
 
 
+def of_fmi3(fmu):
+    """Path of the FMI 3.0 unit that is made beside an FMI 2.0 one."""
+    return fmu.parent / "fmi3" / fmu.name
+
+
 @pytest.fixture(scope="session")
-def unpacked(fmu):
-    """The general FMU, unpacked once."""
+def fmu3(fmu):
+    """Path of the general FMU, FMI 3.0."""
+    return of_fmi3(fmu)
+
+
+@pytest.fixture(scope="session")
+def unpacked2(fmu):
+    """The general FMU, FMI 2.0, unpacked once."""
     with Unit.unpack(fmu) as unpacked:
         yield unpacked
+
+
+@pytest.fixture(scope="session")
+def unpacked3(fmu3):
+    """The general FMU, FMI 3.0, unpacked once."""
+    with Unit.unpack(fmu3) as unpacked:
+        yield unpacked
+
+
+@pytest.fixture(scope="session")
+def unpacked(unpacked2):
+    """The general FMU; modules that test both versions have their own."""
+    return unpacked2
+
+
+@pytest.fixture(params=["2.0", "3.0"])
+def either(request):
+    """The general FMU in each version of FMI."""
+    return request.getfixturevalue("unpacked2" if request.param == "2.0" else "unpacked3")
 
 
 @pytest.fixture

@@ -23,12 +23,14 @@ SYSTEM = {
 }
 # parts of Windows 10 and newer
 WINDOWS = "api-ms-win-"
+# the functions of FMI 2.0 and FMI 3.0, for co-simulation and Model Exchange
+FUNCTIONS = {"fmi2": 44, "fmi3": 75}
 
 
 def exports(binary):
     """Returns the functions of FMI and the other names that a library exports."""
     names = {function.name.removeprefix("_") for function in binary.exported_functions}
-    functions = {name for name in names if name.startswith("fmi2")}
+    functions = {name for name in names if name[:4] in FUNCTIONS}
     return functions, names - functions
 
 
@@ -67,9 +69,10 @@ def _problems(binary):
         if not (name in SYSTEM or name.lower() in SYSTEM or name.startswith((WINDOWS, "@rpath/")))
     ]
     functions, _ = exports(binary)
-    # co-simulation has 34 functions, Model Exchange adds 10
-    if len(functions) != 44:
-        found.append(f"exports {len(functions)} functions, expected 44")
+    for version, expected in FUNCTIONS.items():
+        count = sum(name.startswith(version) for name in functions)
+        if count != expected:
+            found.append(f"exports {count} functions of {version}, expected {expected}")
     return found
 
 

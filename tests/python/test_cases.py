@@ -25,6 +25,12 @@ MODELS = {
 }
 
 
+@pytest.fixture
+def unpacked(either):
+    """Each case runs in both versions of FMI; in FMI 3.0 the instance asks for the inputs at each end."""
+    return either
+
+
 def parameters(case):
     wall, law, damping = case["wall"], case["law"], case["damping"]
     values = {

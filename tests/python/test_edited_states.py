@@ -52,7 +52,13 @@ def used(unit, edited):
 
 @pytest.mark.parametrize(
     ("archive", "settings"),
-    [("unpacked", WALL), ("unpacked", STRIP), ("unpacked_floor", LINEAR), ("unpacked_floor", BILINEAR)],
+    [
+        ("unpacked", WALL),
+        ("unpacked", STRIP),
+        ("unpacked3", STRIP),
+        ("unpacked_floor", LINEAR),
+        ("unpacked_floor", BILINEAR),
+    ],
 )
 def test_edited_states_are_refused_or_work(request, archive, settings):
     unpacked = request.getfixturevalue(archive)

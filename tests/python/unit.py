@@ -1,4 +1,4 @@
-"""Wraps FMPy's FMU2Slave, so that variables have names instead of value references."""
+"""Wraps FMPy's FMU2Slave and FMU3Slave, so that variables have names instead of value references."""
 
 import contextlib
 import itertools
@@ -8,6 +8,7 @@ from ctypes import byref
 
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi3 import FMU3Slave
 from fmpy.logging import addLoggerProxy
 
 
@@ -23,10 +24,80 @@ def _logger(environment, _name, status, category, message):
         _units[environment].messages.append((status, category.decode(), message.decode()))
 
 
+# what FMI 3.0 calls the types of FMI 2.0
+TYPES = {"Float64": "Real", "Int32": "Integer"}
+
+
 class Unpacked:
+    """An FMU of either version; its description has the types of FMI 2.0."""
+
     def __init__(self, path):
+        self.path = path
         self.folder = extract(str(path))
         self.description = read_model_description(self.folder)
+        for variable in self.description.modelVariables:
+            variable.type = TYPES.get(variable.type, variable.type)
+
+
+class Slave3(FMU3Slave):
+    """An FMI 3.0 instance with the methods of FMU2Slave; enumerations are its only integers.
+
+    FMI 3.0 has no input derivatives: the instance asks for the inputs at the end of a step.
+    """
+
+    experiment = {}
+
+    def instantiate(self, callbacks=None, loggingOn=False, **options):
+        self.slopes = {}
+
+        def log(_environment, status, category, message):
+            _units[callbacks.componentEnvironment].messages.append(
+                (status, category.decode(), message.decode())
+            )
+
+        super().instantiate(
+            loggingOn=loggingOn, logMessage=log, intermediateUpdate=self.intermediate_update, **options
+        )
+
+    def intermediate_update(self, _environment, time, asked, *_):
+        if asked:
+            for reference, (value, rate) in self.slopes.items():
+                self.setFloat64([reference], [value + rate * (time - self.point)])
+
+    def setupExperiment(self, **experiment):
+        self.experiment = experiment
+
+    def enterInitializationMode(self):
+        super().enterInitializationMode(**self.experiment)
+
+    def getReal(self, references):
+        return self.getFloat64(references)
+
+    def setReal(self, references, values):
+        for reference in references:
+            self.slopes.pop(reference, None)
+        self.setFloat64(references, values)
+
+    def getInteger(self, references):
+        return self.getInt64(references)
+
+    def setInteger(self, references, values):
+        self.setInt64(references, values)
+
+    def setRealInputDerivatives(self, references, orders, rates):
+        assert set(orders) <= {1}
+        for reference, rate in zip(references, rates, strict=True):
+            self.slopes[reference] = (self.getFloat64([reference])[0], rate)
+
+    def getRealOutputDerivatives(self, references, orders):
+        return self.getOutputDerivatives(references, orders)
+
+    def doStep(self, currentCommunicationPoint, communicationStepSize):
+        self.point = currentCommunicationPoint
+        try:
+            return super().doStep(currentCommunicationPoint, communicationStepSize)
+        finally:
+            self.slopes = {}
 
 
 class Unit:
@@ -34,7 +105,7 @@ class Unit:
 
     KIND = FMU2Slave
 
-    def __init__(self, unpacked, name="wall", logging=False):
+    def __init__(self, unpacked, name="wall", logging=False, **options):
         self.description = unpacked.description
         self.variables = {variable.name: variable for variable in self.description.modelVariables}
         self.items = {
@@ -48,13 +119,14 @@ class Unit:
         self.callbacks.componentEnvironment = next(_environments)
         _units[self.callbacks.componentEnvironment] = self
         addLoggerProxy(byref(self.callbacks))
-        self.slave = self.KIND(
+        kind = Slave3 if self.description.fmiVersion == "3.0" else self.KIND
+        self.slave = kind(
             guid=self.description.guid,
             unzipDirectory=unpacked.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
-        self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging)
+        self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging, **options)
         self.time = 0.0
 
     @staticmethod

@@ -1,0 +1,189 @@
+"""Tests what FMI 3.0 adds to FMI 2.0, and that both versions give the same results."""
+
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+from lxml import etree
+
+from conftest import ROOT, of_fmi3
+from unit import Unit
+
+SCHEMA = Path(fmpy.__file__).parent / "schema/fmi3/fmi3TerminalsAndIcons.xsd"
+OVERTURNING = {"u_start": 0.15, "u_dot_start": 1.0}
+
+
+@pytest.fixture(params=["wall", "floor"])
+def units(request, fmu, floor_fmu):
+    """The FMI 2.0 and the FMI 3.0 unit of each model."""
+    path = fmu if request.param == "wall" else floor_fmu
+    return path, of_fmi3(path)
+
+
+def terminals(path):
+    with zipfile.ZipFile(path) as archive:
+        return etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+
+
+def test_fmpy_finds_nothing(units):
+    assert validate_fmu(str(units[1])) == []
+
+
+def test_terminals_are_valid_and_join_variables_that_fit(fmu, floor_fmu):
+    schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
+    found = {}
+    for path in (of_fmi3(fmu), of_fmi3(floor_fmu)):
+        xml = terminals(path)
+        schema.assertValid(xml)
+        description = read_model_description(str(path))
+        variables = {variable.name: variable for variable in description.modelVariables}
+        for terminal in xml.iter("Terminal"):
+            found[description.modelName, terminal.get("name")] = {
+                member.get("memberName"): variables[member.get("variableName")] for member in terminal
+            }
+    # a wall's support, and the floor's own, fit each wall_i of a floor: inputs to outputs, of the same unit
+    plugs = [members for (_, name), members in found.items() if not name.startswith("wall_")]
+    sockets = [members for (_, name), members in found.items() if name.startswith("wall_")]
+    assert (len(plugs), len(sockets)) == (3, 8)
+    for plug in plugs:
+        for socket in sockets:
+            assert set(plug) == set(socket) == {"acceleration", "reaction", "impulse"}
+            for name, variable in plug.items():
+                assert {variable.causality, socket[name].causality} == {"input", "output"}
+                assert variable.unit == socket[name].unit
+
+
+def test_the_archive_is_complete(units):
+    with zipfile.ZipFile(units[1]) as archive, zipfile.ZipFile(units[0]) as old:
+        names = archive.namelist()
+        assert names == sorted(names)
+        folder = Path(units[0]).stem
+        libraries = [
+            archive.read(f"binaries/x86_64-linux/{folder}.so"),
+            old.read(f"binaries/linux64/{folder}.so"),
+        ]
+        assert libraries[0] == libraries[1], "one library serves both versions"
+    assert {"documentation/index.html", "terminalsAndIcons/icon.png"} <= set(names)
+
+
+def test_capabilities(units):
+    with zipfile.ZipFile(units[1]) as archive:
+        xml = etree.fromstring(archive.read("modelDescription.xml"))
+    steps, exchange = xml.find("CoSimulation"), xml.find("ModelExchange")
+    for name in (
+        "canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives",
+        "providesAdjointDerivatives",
+    ):  # fmt: skip
+        assert steps.get(name) == exchange.get(name) == "true", name
+    for name in ("hasEventMode", "providesIntermediateUpdate", "canHandleVariableCommunicationStepSize"):
+        assert steps.get(name) == "true", name
+    is_wall = units[1].stem == "wall"
+    assert steps.get("mightReturnEarlyFromDoStep", "false") == ("true" if is_wall else "false")
+    assert exchange.get("needsCompletedIntegratorStep") == "true"
+    assert xml.find("ScheduledExecution") is None
+
+
+STARTS = {"wall": {}, "floor": {"displacement_start": 0.02, "hysteresis": 2}}
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_both_versions_give_the_same_history(units, kind):
+    name = units[0].stem
+    output = ["u", "u_max", "reaction_bottom"] if name == "wall" else ["displacement", "energy_hysteretic"]
+    old, new = (
+        simulate_fmu(
+            str(path), fmi_type=kind, stop_time=5.0, output_interval=0.01, start_values=STARTS[name],
+            output=output, relative_tolerance=1e-8, record_events=False,
+        )
+        for path in units
+    )  # fmt: skip
+    assert len(old) == len(new) == 501
+    for variable in output:
+        assert np.array_equal(old[variable], new[variable]), variable
+    assert np.abs(new[output[0]]).max() > 0.01, "it moves"
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{}, {"damping_model": "none"}, {"damping_model": "stiffness_proportional"}],
+    ids=["default", "exact", "adaptive"],
+)
+@pytest.mark.parametrize("step", [0.01, 0.3])
+def test_a_step_ends_early_where_the_wall_overturns(unpacked3, settings, step):
+    def until_overturning(early):
+        with Unit(unpacked3, earlyReturnAllowed=early, eventModeUsed=early) as unit:
+            unit.start(**OVERTURNING | settings)
+            if early:
+                unit.slave.updateDiscreteStates()
+                unit.slave.enterStepMode()
+            for _ in range(1000):
+                event, terminate, returned, time = unit.slave.doStep(unit.time, step)
+                unit.time = time
+                assert not terminate and event == returned
+                if unit.get("overturned"):
+                    return (returned, time, *unit.get("overturn_time", "u", "u_ins"), unit.get("time"))
+            raise AssertionError("it does not overturn")
+
+    _, _, expected, *_ = until_overturning(False)
+    returned, time, located, u, u_ins, now = until_overturning(True)
+    assert returned
+    assert located == pytest.approx(expected, abs=1e-9)
+    assert 0.0 <= time - expected <= 1e-9
+    assert now == time
+    # at 0.3 m/s or more, 1e-9 s is 1e-9 m
+    assert abs(u) == pytest.approx(u_ins, abs=1e-8)
+
+
+def test_a_run_with_early_return_goes_on(fmu3):
+    result = simulate_fmu(
+        str(fmu3), stop_time=3.0, output_interval=0.01, start_values=OVERTURNING, early_return_allowed=True,
+        use_event_mode=True, output=["u", "overturned", "overturn_time"],
+    )  # fmt: skip
+    at = result["overturn_time"][-1]
+    assert 0 < at < 1
+    assert np.abs(result["time"] - at).min() < 1e-9, "overturning is one of the samples"
+    assert result["time"][-1] == pytest.approx(3.0) and result["u"][-1] == pytest.approx(2.0)
+
+
+def test_the_adjoint_is_the_transposed(unpacked3):
+    unknowns = ["u_ddot", "restoring_force", "reaction_bottom"]
+    knowns = ["u", "u_dot", "a_g", "a_bottom"]
+    with Unit(unpacked3) as unit:
+        unit.start(u_start=0.12, u_dot_start=0.1)
+        rows, columns = ([unit.reference(name) for name in names] for names in (unknowns, knowns))
+        directional = np.array(
+            [unit.slave.getDirectionalDerivative(rows, [known], [1.0]) for known in columns]
+        ).T
+        adjoint = np.array(
+            [unit.slave.getAdjointDerivative([unknown], columns, [1.0], 4) for unknown in rows]
+        )
+        assert np.array_equal(directional, adjoint)
+        both = unit.slave.getAdjointDerivative(rows, columns, [1.0, -2.0, 0.5], 4)
+        assert both == pytest.approx([1.0, -2.0, 0.5] @ directional, rel=1e-14)
+
+
+@pytest.mark.parametrize("scene", ["plain_parapet", "shaken_parapet", "strip_between_floors"])
+def test_a_scene_has_the_variables_of_fmi_2(fmu, fmu3, wall, tmp_path, scene):
+    made = []
+    for base in (fmu, fmu3):
+        made.append(tmp_path / f"{len(made)}.fmu")
+        command = [wall, "package", ROOT / f"scenes/{scene}.toml", "-o", made[-1], "--base", base]
+        subprocess.run(command, check=True, capture_output=True)
+    old, new = made
+    assert validate_fmu(str(new)) == []
+    names = [[v.name for v in read_model_description(str(path)).modelVariables] for path in made]
+    added = {"time", "event_indicator_1", "event_indicator_2", "event_indicator_3"}
+    assert set(names[1]) - set(names[0]) == added and set(names[0]) <= set(names[1])
+    for member in terminals(new).iter("TerminalMemberVariable"):
+        assert member.get("variableName") in names[1]
+    results = [simulate_fmu(str(path), output=["u", "u_max"]) for path in (old, new)]
+    assert np.array_equal(results[0]["u"], results[1]["u"])
+    # it is no general FMU any more
+    command = [wall, "package", ROOT / f"scenes/{scene}.toml", "-o", tmp_path / "x.fmu", "--base", new]
+    refused = subprocess.run(command, capture_output=True, text=True)
+    assert refused.returncode == 2 and "itself an FMU of a scene" in refused.stderr
