@@ -1,28 +1,20 @@
-//! Taylor series of variable order, for damping that follows the secant stiffness.
+//! Taylor series of variable order, for motion that has no closed form.
 //!
 //! On a branch u is an analytic function of time, and its Taylor coefficients follow from the equation of
-//! motion by recurrence. With the law F/m = f₀ + k (u − uₐ), the secant ω² = (F/m)/u and c = 2ξ ω or (2ξ₁/ω₁)
-//! ω²,
-//! ```text
-//! (n+1)(n+2) uₙ₊₂ = pₙ − (F/m)ₙ − Σ cᵢ u̇ₙ₋ᵢ
-//! ω²ₙ = ((F/m)ₙ − Σ_{i≥1} uᵢ ω²ₙ₋ᵢ)/u₀           ωₙ = (ω²ₙ − Σ_{0<i<n} ωᵢ ωₙ₋ᵢ)/(2 ω₀)
-//! ```
+//! motion by recurrence: for constant damping here, for full rotations in `trigonometric`, for secant damping
+//! in `secant`.
+//!
 //! The order grows until two consecutive terms fall below the tolerance at the end of the step. Where the
 //! highest order does not suffice the step shrinks instead (Jorba and Zou, Experimental Mathematics 14,
 //! 2005). The series is its own dense output, on which events are located.
 
-use crate::wall::{Branch, BranchDamping};
+use crate::wall::Branch;
 
 use oscillator::{HIGHEST_ORDER, KinematicState, Polynomial};
 
 use super::event::Piece;
-
-/// The largest terms in u \[m\] and in u̇ \[m/s\] that may be left out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Tolerances {
-    pub(super) displacement: f64,
-    pub(super) velocity: f64,
-}
+use super::secant::SecantBranch;
+use super::tolerances::Tolerances;
 
 /// A piece of motion by its Taylor series.
 #[derive(Clone, Copy, Debug)]
@@ -43,85 +35,34 @@ pub(super) trait Recurrence {
     fn sign(&self) -> f64;
 }
 
-/// Work arrays for a branch.
-pub(super) struct Damped<'a> {
+/// The recurrence on a branch with constant damping.
+pub(super) struct Viscous<'a> {
     branch: &'a Branch,
+    damping: f64,
     /// p₀ and p₁.
     forcing: [f64; 2],
     displacement: [f64; HIGHEST_ORDER + 1],
-    /// ω² of the secant.
-    secant: [f64; HIGHEST_ORDER + 1],
-    /// ω of the secant.
-    frequency: [f64; HIGHEST_ORDER + 1],
 }
 
-impl<'a> Damped<'a> {
+impl<'a> Viscous<'a> {
     /// The motion from `start` under the forcing p₀ + p₁ t.
     pub(super) fn new(branch: &'a Branch, start: KinematicState, forcing: [f64; 2]) -> Self {
-        let zero = [0.0; HIGHEST_ORDER + 1];
-        let mut displacement = zero;
+        let mut displacement = [0.0; HIGHEST_ORDER + 1];
         [displacement[0], displacement[1]] = [start.displacement, start.velocity];
-        Self { branch, forcing, displacement, secant: zero, frequency: zero }
-    }
-
-    /// (F/m)ₙ
-    fn restoring(&self, n: usize) -> f64 {
-        if n == 0 {
-            self.branch.restoring(self.displacement[0])
-        } else {
-            self.branch.stiffness * self.displacement[n]
-        }
-    }
-
-    /// u̇ₙ
-    fn velocity(&self, n: usize) -> f64 {
-        (n + 1) as f64 * self.displacement[n + 1]
-    }
-
-    /// (c u̇)ₙ, once uₙ₊₁ is known.
-    fn damping(&mut self, n: usize) -> f64 {
-        if let BranchDamping::Constant(c) = self.branch.damping {
-            return c * self.velocity(n);
-        }
-        // ω² u = F/m
-        let mut sum = self.restoring(n);
-        for i in 1..=n {
-            sum -= self.displacement[i] * self.secant[n - i];
-        }
-        self.secant[n] = sum / self.displacement[0];
-        match self.branch.damping {
-            BranchDamping::Constant(_) => 0.0,
-            BranchDamping::SecantStiffness(factor) => factor * self.product(&self.secant, n),
-            BranchDamping::SecantRatio(twice_xi) => {
-                // ω ω = ω²
-                self.frequency[n] = if n == 0 {
-                    self.secant[0].max(0.0).sqrt()
-                } else {
-                    let mut sum = self.secant[n];
-                    for i in 1..n {
-                        sum -= self.frequency[i] * self.frequency[n - i];
-                    }
-                    sum / (2.0 * self.frequency[0])
-                };
-                twice_xi * self.product(&self.frequency, n)
-            }
-        }
-    }
-
-    /// Σ factorᵢ u̇ₙ₋ᵢ
-    fn product(&self, factor: &[f64; HIGHEST_ORDER + 1], n: usize) -> f64 {
-        (0..=n).map(|i| factor[i] * self.velocity(n - i)).sum()
+        Self { branch, damping: branch.damping_at(start.displacement), forcing, displacement }
     }
 }
 
-impl Recurrence for Damped<'_> {
+impl Recurrence for Viscous<'_> {
     fn displacement(&mut self) -> &mut [f64; HIGHEST_ORDER + 1] {
         &mut self.displacement
     }
 
     fn acceleration(&mut self, n: usize) -> f64 {
-        let forcing = self.forcing.get(n).copied().unwrap_or(0.0);
-        forcing - self.restoring(n) - self.damping(n)
+        let Self { branch, damping, forcing, displacement: u } = self;
+        let forcing = forcing.get(n).copied().unwrap_or(0.0);
+        let restoring = if n == 0 { branch.restoring(u[0]) } else { branch.stiffness * u[n] };
+        forcing - restoring - *damping * ((n + 1) as f64 * u[n + 1])
     }
 
     fn sign(&self) -> f64 {
@@ -153,6 +94,18 @@ impl Series {
         }
         let horizon = longest_step(work.displacement(), tolerances).min(remaining);
         Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon }
+    }
+
+    /// The motion on a branch with secant damping under a forcing from p₀ to p₁.
+    pub(super) fn secant(
+        branch: &SecantBranch,
+        now: [f64; 2],
+        forcing: [f64; 2],
+        remaining: f64,
+        tolerances: Tolerances,
+    ) -> Self {
+        let (polynomial, horizon) = branch.series(now, forcing, remaining, tolerances);
+        Self { polynomial, horizon }
     }
 
     /// The cubic of constant d³u/dt³.

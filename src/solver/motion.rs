@@ -7,7 +7,8 @@ use oscillator::Oscillator;
 use crate::choices::Solver;
 use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
 
-use super::adaptive::Tolerances;
+use super::secant::SecantBranch;
+use super::tolerances::Tolerances;
 
 /// Part of the tolerance for the terms that a Taylor step leaves out. A run of 10⁴ steps then stays within
 /// it.
@@ -68,6 +69,8 @@ pub struct Motion {
     pub(super) wall: Wall,
     pub(super) method: Method,
     pub(super) oscillators: Vec<Oscillator>,
+    /// Branches with secant damping.
+    pub(super) secants: Vec<Option<SecantBranch>>,
     pub(super) tolerances: Tolerances,
     pub(super) rest_band: [f64; 2],
     pub(super) rest_speed: f64,
@@ -104,13 +107,16 @@ impl Motion {
         };
         let oscillators =
             wall.branches().iter().map(|b| Oscillator::new(constant(b.damping), b.stiffness)).collect();
+        let fully = wall.rotations().is_some();
+        let secant = |branch| if fully { None } else { SecantBranch::new(branch) };
+        let secants = wall.branches().iter().map(secant).collect();
         let local = match method {
             Method::Adaptive { tolerance } => LOCAL_SHARE * tolerance * wall.displacement_scale(),
             _ => 0.0,
         };
         let tolerances = Tolerances { displacement: local, velocity: local * wall.rocking_rate() };
         let (rest_band, rest_speed) = (wall.rest_band(), wall.rest_speed());
-        Self { wall, method, oscillators, tolerances, rest_band, rest_speed }
+        Self { wall, method, oscillators, secants, tolerances, rest_band, rest_speed }
     }
 
     /// The wall.
@@ -122,8 +128,4 @@ impl Motion {
     pub fn method(&self) -> &Method {
         &self.method
     }
-}
-
-pub(super) fn is_constant(damping: BranchDamping) -> bool {
-    matches!(damping, BranchDamping::Constant(_))
 }

@@ -2,11 +2,11 @@
 
 use oscillator::KinematicState;
 
-use super::adaptive::{Damped, Series};
+use super::adaptive::{Series, Viscous};
 use super::demand::Demands;
 use super::event::{self, Ending, Exit, Piece};
 use super::exact::{ClosedForm, Memo};
-use super::motion::{Method, Motion, is_constant};
+use super::motion::{Method, Motion};
 use super::newmark;
 use super::state::{Phase, Report, Segment, SolverError, State};
 use super::transition::{self, Rebound};
@@ -159,14 +159,20 @@ impl<'a> Run<'a> {
             velocity,
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
-        let (remaining, forcing) = (self.duration - self.time, [forcing, self.rate]);
+        let remaining = self.duration - self.time;
+        if let (Method::Adaptive { .. }, Some(secant)) = (&motion.method, &motion.secants[index]) {
+            let forcing = [forcing, forcing + self.rate * remaining];
+            let now = [displacement, velocity];
+            return self.follow(&Series::secant(secant, now, forcing, remaining, motion.tolerances));
+        }
+        let forcing = [forcing, self.rate];
         match (&motion.method, motion.wall.rotations()) {
             (Method::Adaptive { .. }, Some(rotations)) => {
                 let rotation = Rotation::new(rotations, branch.side(), start, forcing);
                 self.follow(&Series::new(rotation, remaining, motion.tolerances))
             }
-            (Method::Adaptive { .. }, None) if branch.stiffness <= 0.0 || !is_constant(branch.damping) => {
-                self.follow(&Series::new(Damped::new(branch, start, forcing), remaining, motion.tolerances))
+            (Method::Adaptive { .. }, None) if branch.stiffness <= 0.0 => {
+                self.follow(&Series::new(Viscous::new(branch, start, forcing), remaining, motion.tolerances))
             }
             (Method::Exact | Method::Adaptive { .. }, _) => {
                 let piece = self.closed_form(index, start, remaining);

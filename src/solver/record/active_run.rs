@@ -3,12 +3,13 @@
 mod careful;
 mod follow;
 
+use super::super::secant::SecantBranch;
 use super::super::{Memo, Phase, State, Work};
 use super::block::{Block, Nodes};
 use super::bounds::{Bounds, Range};
 use super::forcing::{BLOCK, Blocks};
 use super::solver::{Outcome, RecordSolver, RunStart};
-use super::step_map::StepMap;
+use super::step_map::{DAMPING_SHARE, StepMap};
 
 /// A run under way.
 pub(super) struct ActiveRun<'a> {
@@ -39,11 +40,13 @@ pub(super) struct PlainSteps {
     pub(super) at_once: usize,
     /// The least γ over them to reckon with: that of steps a batch takes for the run.
     pub(super) growth: f64,
+    /// Whether lanes take parts of steps on branches with secant damping.
+    pub(super) parts: bool,
 }
 
 impl PlainSteps {
     /// Of a run by itself.
-    pub(super) const PAIRS: Self = Self { at_once: 2, growth: 0.0 };
+    pub(super) const PAIRS: Self = Self { at_once: 2, growth: 0.0, parts: false };
 }
 
 /// The place of a run in its record.
@@ -52,6 +55,8 @@ struct Cursor {
     /// The sample, and the forcing there \[m/s²\].
     index: usize,
     forcing: f64,
+    /// The share of the step from that sample that the run has taken already.
+    share: f64,
     /// The first sample at which no plain steps begin.
     limit: usize,
     /// The samples at which this block and this pass through the record end.
@@ -92,6 +97,22 @@ pub(super) struct LaneValues {
     /// The |u| beyond which f̂ is taken anew \[m\].
     pub(super) half_reach: f64,
     /// Where u is known to stay \[m\].
+    pub(super) limits: [f64; 2],
+}
+
+/// What the lanes of a batch hold of a run on a branch with secant damping.
+pub(super) struct CurvedValues {
+    pub(super) index: usize,
+    pub(super) limit: usize,
+    pub(super) share: f64,
+    pub(super) now: [f64; 2],
+    pub(super) nodes: Nodes,
+    pub(super) secant: SecantBranch,
+    /// D = P + f̂ \[m/s²\], the largest c of the branch \[1/s\], and γ.
+    pub(super) driving: f64,
+    pub(super) damping: f64,
+    pub(super) growth: f64,
+    /// Where u may be \[m\].
     pub(super) limits: [f64; 2],
 }
 
@@ -152,7 +173,7 @@ impl<'a> ActiveRun<'a> {
     fn bound_motion(&mut self) {
         if let Some(map) = self.map {
             self.bounds.take_branch(map, self.solver.step);
-            self.block.raise(self.bounds.driving(), map.growth[1]);
+            self.block.raise(DAMPING_SHARE * self.bounds.driving(), map.growth[1]);
         }
     }
 
@@ -214,10 +235,45 @@ impl<'a> ActiveRun<'a> {
         })
     }
 
-    /// Goes on from where lanes have taken the run, past `corners` corners.
-    pub(super) fn resume(&mut self, index: usize, now: [f64; 2], branch: usize, nodes: Nodes, corners: u64) {
-        self.tally.work.add(Work { pieces: 2 * corners, corners, impacts: 0 });
-        self.tally.steps += corners;
+    /// Returns what lanes need to go on along a branch with secant damping; `None` where the run is not on
+    /// one.
+    pub(super) fn curved_values(&self) -> Option<CurvedValues> {
+        let map = self.map.filter(|_| self.cursor.index < self.cursor.limit)?;
+        let (Cursor { index, limit, share, .. }, limits) = (self.cursor, self.limits());
+        Some(CurvedValues {
+            index,
+            limit,
+            share,
+            now: self.now,
+            nodes: self.block.nodes,
+            secant: *map.secant()?,
+            driving: self.bounds.driving(),
+            damping: map.damping,
+            growth: map.growth[0],
+            limits: [map.corners[0].max(limits[0]), map.corners[1].min(limits[1])],
+        })
+    }
+
+    /// Goes on from where lanes have taken the run along a branch with secant damping, at u̇ up to `fastest`.
+    pub(super) fn resume_curved(
+        &mut self,
+        (index, share): (usize, f64),
+        now: [f64; 2],
+        nodes: Nodes,
+        fastest: f64,
+    ) {
+        self.cursor.forcing = self.factor * self.record.forcing.at(index);
+        (self.cursor.index, self.cursor.share) = (index, share);
+        (self.now, self.block.nodes) = (now, nodes);
+        if let Some(map) = self.map {
+            self.block.raise(map.damping * fastest, map.growth[0]);
+        }
+    }
+
+    /// Goes on from where lanes have taken the run, and the work of the corners they passed.
+    pub(super) fn resume(&mut self, index: usize, now: [f64; 2], branch: usize, nodes: Nodes, work: Work) {
+        self.tally.work.add(work);
+        self.tally.steps += work.corners;
         self.cursor.index = index;
         self.cursor.forcing = self.factor * self.record.forcing.at(index);
         self.block.nodes = nodes;
@@ -332,7 +388,8 @@ impl<'a> ActiveRun<'a> {
     /// Notes that the wall has overturned in this step, `offset` \[s\] after its start; stops after it where
     /// asked to.
     fn overturn(&mut self, offset: f64) {
-        self.tally.overturning = Some(self.cursor.index as f64 * self.solver.step + offset);
+        self.tally.overturning =
+            Some((self.cursor.index as f64 + self.cursor.share) * self.solver.step + offset);
         if self.until_overturning && !self.seeks_extremes() {
             // the extremes of the step itself are known
             self.close_block();

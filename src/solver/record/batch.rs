@@ -10,6 +10,7 @@
 //! level of vectors, and agrees with [`RecordSolver::run`] to rounding; one by one it is that run.
 
 mod corners;
+mod curved;
 mod lanes;
 mod responses;
 mod rounds;
@@ -21,6 +22,8 @@ use fearless_simd::{Level, dispatch};
 use super::super::SolverError;
 use super::forcing::{Blocks, Forcing};
 use super::solver::{Outcome, RecordSolver, RunStart};
+use super::step_map::StepMap;
+use curved::CurvedLanes;
 use lanes::Lanes;
 use responses::Responses;
 
@@ -32,7 +35,26 @@ pub const LANES: usize = vector::WIDTH;
 pub struct Batch<'a> {
     solver: &'a RecordSolver<'a>,
     record: Blocks<'a>,
-    side_by_side: Option<(Level, Responses)>,
+    side_by_side: Option<(Level, SideBySide)>,
+}
+
+/// How runs go side by side.
+#[derive(Debug)]
+enum SideBySide {
+    /// All branches have affine maps: four steps at once.
+    Affine(Box<Responses>),
+    /// Some have secant damping: there by Taylor series, elsewhere one by one.
+    Curved { is_ratio: bool },
+}
+
+impl SideBySide {
+    fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
+        let secants = || solver.maps.iter().flatten().filter_map(StepMap::secant);
+        match secants().next() {
+            Some(secant) => Some(Self::Curved { is_ratio: secant.is_ratio }),
+            None => Some(Self::Affine(Box::new(Responses::new(solver, forcing)?))),
+        }
+    }
 }
 
 impl RecordSolver<'_> {
@@ -43,7 +65,7 @@ impl RecordSolver<'_> {
 
     /// Prepares a record on a processor with vectors of that level; `None` lets runs go one by one.
     fn batch_on<'a>(&'a self, forcing: Forcing<'a>, level: Option<Level>) -> Batch<'a> {
-        let side_by_side = level.and_then(|level| Some((level, Responses::new(self, forcing)?)));
+        let side_by_side = level.and_then(|level| Some((level, SideBySide::new(self, forcing)?)));
         Batch { solver: self, record: Blocks::new(forcing), side_by_side }
     }
 }
@@ -61,13 +83,24 @@ impl Batch<'_> {
     /// [`SolverError`] of the first run that could not be followed.
     pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
         let Self { solver, record, .. } = self;
-        let Some((level, responses)) = &self.side_by_side else {
+        let Some((level, way)) = &self.side_by_side else {
             let run = |&start| solver.run_through(start, record, until_overturning, &mut |_, _, _| {});
             return starts.iter().map(run).collect();
         };
-        let mut lanes = Lanes::new(solver, record, responses, starts, until_overturning);
-        dispatch!(*level, simd => lanes.follow(simd));
-        lanes.outcomes()
+        let curved = || CurvedLanes::new(solver, record, starts, until_overturning);
+        match way {
+            SideBySide::Affine(responses) => {
+                let mut lanes = Lanes::new(solver, record, responses, starts, until_overturning);
+                dispatch!(*level, simd => lanes.follow(simd));
+                lanes.outcomes()
+            }
+            SideBySide::Curved { is_ratio: true } => {
+                dispatch!(*level, simd => curved().follow::<_, true>(simd))
+            }
+            SideBySide::Curved { is_ratio: false } => {
+                dispatch!(*level, simd => curved().follow::<_, false>(simd))
+            }
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! A block gone through, and the extremes of its plain steps.
 
 use super::super::{Peaks, State};
-use super::step_map::DAMPING_SHARE;
 
 /// The extremes of u at the ends of plain steps \[m\].
 #[derive(Clone, Copy, Debug)]
@@ -41,21 +40,21 @@ pub(super) struct Block {
     pub(super) nodes: Nodes,
     /// P \[m/s²\].
     forcing: f64,
-    /// The largest D = P + f̂ \[m/s²\], and the largest γ over the plain steps.
-    driving: f64,
+    /// The largest c V \[m/s²\], and the largest γ over the plain steps.
+    damping: f64,
     growth: f64,
 }
 
 impl Block {
     /// Enters a block at a sample; `growth` is the least γ to reckon with.
     pub(super) fn enter(start: State, first: usize, forcing: f64, growth: f64) -> Self {
-        Self { start, first, nodes: Nodes::NONE, forcing, driving: 0.0, growth }
+        Self { start, first, nodes: Nodes::NONE, forcing, damping: 0.0, growth }
     }
 
-    /// Takes the bounds of another branch, or of another f̂.
+    /// Takes the c V and γ of more plain steps.
     #[inline(always)]
-    pub(super) fn raise(&mut self, driving: f64, growth: f64) {
-        self.driving = self.driving.max(driving);
+    pub(super) fn raise(&mut self, damping: f64, growth: f64) {
+        self.damping = self.damping.max(damping);
         self.growth = self.growth.max(growth);
     }
 
@@ -63,7 +62,7 @@ impl Block {
     /// being up to `force`.
     pub(super) fn may_exceed(&self, peaks: &Peaks, force: f64, length: f64) -> bool {
         // A L²/8, docs/record-path.md, §5
-        let most = self.growth * (self.forcing + force + DAMPING_SHARE * self.driving);
+        let most = self.growth * (self.forcing + force + self.damping);
         let margin = 0.125 * length * length * most;
         self.nodes.highest + margin > peaks.positive || margin - self.nodes.lowest > peaks.negative
     }

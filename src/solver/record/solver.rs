@@ -1,7 +1,8 @@
 //! A motion prepared for steps of one length.
 
-use super::super::{Method, Motion, State, Work, is_constant};
+use super::super::{Method, Motion, State, Work};
 use super::step_map::StepMap;
+use crate::wall::Branch;
 
 /// A run through a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,27 +32,23 @@ pub struct RecordSolver<'a> {
     pub(super) motion: &'a Motion,
     /// \[s\]
     pub(super) step: f64,
-    /// For each branch, unless its steps are no affine maps.
+    /// For each branch, unless its steps are left to the general search.
     pub(super) maps: Vec<Option<StepMap>>,
 }
 
 impl<'a> RecordSolver<'a> {
     /// Prepares steps of `step` \[s\].
     pub fn new(motion: &'a Motion, step: f64) -> Self {
-        let mut maps: Vec<Option<StepMap>> = Vec::with_capacity(motion.oscillators.len());
-        for (branch, &oscillator) in motion.wall.branches().iter().zip(&motion.oscillators) {
-            let affine = match motion.method {
-                Method::Exact => true,
-                Method::Adaptive { .. } => branch.stiffness > 0.0 && is_constant(branch.damping),
-                Method::Newmark { .. } => false,
-            };
-            let map = (affine && !oscillator.is_spread(2.0 * step)).then(|| {
-                // branches on both sides of the wall share their oscillator
-                let known = maps.iter().flatten().find(|map| map.oscillator == oscillator);
-                known.copied().unwrap_or_else(|| StepMap::new(oscillator, step)).on(branch)
-            });
-            maps.push(map);
-        }
+        let all_constant = motion.wall.has_constant_damping();
+        let adaptive = matches!(motion.method, Method::Adaptive { .. });
+        let map = |(index, branch): (usize, &Branch)| match (&motion.method, &motion.secants[index]) {
+            (Method::Newmark { .. }, _) => None,
+            (_, Some(secant)) => StepMap::curved(branch, *secant, step),
+            // where nothing but the method asks for series, it has them on all but the elastic branch
+            (_, None) if adaptive && all_constant && branch.stiffness <= 0.0 => None,
+            (_, None) => StepMap::affine(branch, motion.oscillators[index], step),
+        };
+        let maps = motion.wall.branches().iter().enumerate().map(map).collect();
         Self { motion, step, maps }
     }
 

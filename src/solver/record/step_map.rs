@@ -1,5 +1,6 @@
-//! Steps of one length on one branch, as affine maps.
+//! Steps of one length on one branch.
 
+use super::super::secant::SecantBranch;
 use super::short::Short;
 use crate::wall::Branch;
 use oscillator::Oscillator;
@@ -72,52 +73,93 @@ impl Affine {
 }
 
 /// What steps on one branch need.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct StepMap {
-    pub(super) single: Affine,
-    pub(super) double: Affine,
+    pub(super) way: Way,
     /// Corners of the branch \[m\].
     pub(super) corners: [f64; 2],
-    /// [`growth`] over one step and over two.
+    /// A over P + c V + f̂, for one step and for two at once; on a curved branch that of one (§7).
     pub(super) growth: [f64; 2],
-    pub(super) oscillator: Oscillator,
     /// V over P + f̂ \[s\].
     pub(super) speed_share: f64,
-    /// f(0), of the branch's line \[m/s²\].
+    /// The largest c of the branch \[1/s\].
+    pub(super) damping: f64,
+    /// f(0) of the branch's line \[m/s²\], and its stiffness \[1/s²\].
     pub(super) force_at_zero: f64,
+    pub(super) stiffness: f64,
+}
+
+/// How steps on a branch are made.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
+    /// As affine maps: damping is constant.
+    Affine(Box<AffineSteps>),
+    /// As Taylor series: damping follows the secant stiffness.
+    Curved(SecantBranch),
+}
+
+/// Steps on a branch with constant damping.
+#[derive(Clone, Debug)]
+pub(super) struct AffineSteps {
+    pub(super) single: Affine,
+    pub(super) double: Affine,
+    pub(super) oscillator: Oscillator,
     pub(super) short: Option<Short>,
 }
 
-impl StepMap {
-    /// Makes the maps on a branch through u = 0 without ends.
+impl AffineSteps {
     pub(super) fn new(oscillator: Oscillator, step: f64) -> Self {
         let single = Affine::single(&oscillator, step);
+        let double = Affine::double(&single, &oscillator, step);
+        Self { single, double, oscillator, short: Short::new(&oscillator, step) }
+    }
+}
+
+impl StepMap {
+    /// Prepares steps on a branch with constant damping; `None` where its modes part during two of them.
+    pub(super) fn affine(branch: &Branch, oscillator: Oscillator, step: f64) -> Option<Self> {
+        let growth = [growth(&oscillator, step), growth(&oscillator, 2.0 * step)];
+        let way = Way::Affine(Box::new(AffineSteps::new(oscillator, step)));
+        (!oscillator.is_spread(2.0 * step)).then(|| Self::on(branch, way, oscillator.damping(), growth))
+    }
+
+    /// Prepares steps on a branch with secant damping; `None` where they are longer than 1/c.
+    pub(super) fn curved(branch: &Branch, secant: SecantBranch, step: f64) -> Option<Self> {
+        // c is monotone in u
+        let damping = branch.damping_at(branch.lower).max(branch.damping_at(branch.upper));
+        let slack = 1.0 - damping * step;
+        (slack > 0.0).then(|| Self::on(branch, Way::Curved(secant), damping, [1.0 / slack; 2]))
+    }
+
+    fn on(branch: &Branch, way: Way, damping: f64, growth: [f64; 2]) -> Self {
         Self {
-            single,
-            double: Affine::double(&single, &oscillator, step),
-            corners: [f64::NEG_INFINITY, f64::INFINITY],
-            growth: [growth(&oscillator, step), growth(&oscillator, 2.0 * step)],
-            oscillator,
-            speed_share: DAMPING_SHARE * (1.0 / oscillator.damping()),
-            force_at_zero: 0.0,
-            short: Short::new(&oscillator, step),
+            way,
+            corners: [branch.lower, branch.upper],
+            growth,
+            speed_share: DAMPING_SHARE * (1.0 / damping),
+            damping,
+            force_at_zero: branch.restoring(0.0),
+            stiffness: branch.stiffness,
         }
     }
 
-    /// Moves the maps to a branch with that oscillator.
-    pub(super) fn on(mut self, branch: &Branch) -> Self {
-        self.corners = [branch.lower, branch.upper];
-        self.force_at_zero = branch.restoring(0.0);
-        self
+    /// Returns the affine maps of a branch that has them.
+    pub(super) fn affine_steps(&self) -> Option<&AffineSteps> {
+        if let Way::Affine(steps) = &self.way { Some(steps) } else { None }
+    }
+
+    /// Returns the law of a branch with secant damping.
+    pub(super) fn secant(&self) -> Option<&SecantBranch> {
+        if let Way::Curved(secant) = &self.way { Some(secant) } else { None }
     }
 
     /// Returns c V over P + f̂: none without damping.
     pub(super) fn damping_share(&self) -> f64 {
-        if self.oscillator.damping() > 0.0 { DAMPING_SHARE } else { 0.0 }
+        if self.damping > 0.0 { DAMPING_SHARE } else { 0.0 }
     }
 
     /// Returns f at u on the branch's line \[m/s²\].
     pub(super) fn force(&self, displacement: f64) -> f64 {
-        self.force_at_zero + self.oscillator.stiffness() * displacement
+        self.force_at_zero + self.stiffness * displacement
     }
 }

@@ -2,9 +2,8 @@
 
 use super::super::Peaks;
 use super::super::event::{Verdict, crossing, settle};
-use super::short::Short;
-use super::step_map::StepMap;
-use oscillator::KinematicState;
+use super::step_map::AffineSteps;
+use oscillator::{KinematicState, Polynomial};
 
 /// Largest correction δ of a first guess, over the step h: beyond, the general search takes over
 /// (docs/record-path.md, §4).
@@ -19,16 +18,36 @@ pub(super) const EVEN: std::ops::Range<f64> = 0.3..3.0;
 
 /// The part of a step that lies on one branch.
 #[derive(Clone, Copy)]
-pub(super) struct StepPart {
+pub(super) struct StepPart<'a> {
+    pub(super) flow: Flow<'a>,
     pub(super) from: KinematicState,
     pub(super) to: KinematicState,
     /// \[s\]
     pub(super) length: f64,
-    /// Rate of the forcing \[m/s³\].
+    /// The forcing at the start of the part \[m/s²\], and its rate \[m/s³\].
+    pub(super) forcing: f64,
     pub(super) rate: f64,
 }
 
+/// The motion over a part of a step.
+#[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "measured: a series is read where it is made")]
+pub(super) enum Flow<'a> {
+    /// That of a linear oscillator.
+    Linear(&'a AffineSteps),
+    /// A Taylor series from the start of the part on.
+    Series(Polynomial),
+}
+
+/// The motion at one instant, with its third and fourth derivatives.
+struct Near {
+    motion: KinematicState,
+    jerk: f64,
+    snap: f64,
+}
+
 /// How a part of a step ends.
+#[derive(Clone, Copy)]
 pub(super) enum Course {
     /// It ends on its branch.
     Stays,
@@ -38,41 +57,63 @@ pub(super) enum Course {
     Unclear,
 }
 
-impl StepPart {
+impl StepPart<'_> {
     /// Tells how the part ends, and takes the extreme at a turning point inside it into the peaks.
     #[inline(always)]
-    pub(super) fn course(&self, map: &StepMap, peaks: &mut Peaks) -> Course {
-        let Self { from, to, length, rate } = *self;
-        let within = to.displacement > map.corners[0] && to.displacement < map.corners[1];
-        let bounds = map.oscillator.bounds(from, rate, length);
-        match settle([from, to], length, bounds, map.corners, peaks) {
+    pub(super) fn course(&self, corners: [f64; 2], peaks: &mut Peaks) -> Course {
+        let Self { from, to, length, rate, .. } = *self;
+        let within = to.displacement > corners[0] && to.displacement < corners[1];
+        let bounds = match &self.flow {
+            Flow::Linear(steps) => steps.oscillator.bounds(from, rate, length),
+            Flow::Series(polynomial) => polynomial.bounds(length),
+        };
+        match settle([from, to], length, bounds, corners, peaks) {
             Verdict::Quiet => Course::Stays,
             Verdict::Monotone if within => Course::Stays,
             Verdict::Monotone => Course::Leaves,
-            Verdict::Turning if within && self.turn(map, peaks) => Course::Stays,
+            Verdict::Turning if within && self.turn(corners, peaks).is_some() => Course::Stays,
             Verdict::Turning | Verdict::Split => Course::Unclear,
         }
     }
 
-    /// Takes the extreme at the one turning point of a part that ends on its branch into the peaks; tells
-    /// whether it was an ordinary one, inside the branch.
+    /// Returns the forcing some time after the start of the part \[m/s²\].
     #[inline(always)]
-    fn turn(&self, map: &StepMap, peaks: &mut Peaks) -> bool {
-        let Self { from, to, length, rate } = *self;
-        let Some(short) = &map.short else { return false };
-        let near = short.after(self.turning_time(), from, rate);
-        let shift = -near.velocity / near.acceleration;
+    pub(super) fn forcing_after(&self, time: f64) -> f64 {
+        self.forcing + self.rate * time
+    }
+
+    /// Returns the motion some time after the start of the part; `None` where that needs the general search.
+    #[inline(always)]
+    fn near(&self, time: f64) -> Option<Near> {
+        match &self.flow {
+            Flow::Linear(steps) => {
+                let motion = steps.short.as_ref()?.after(time, self.from, self.rate);
+                let jerk = steps.oscillator.jerk(motion, self.rate);
+                // d⁴u/dt⁴ = −c d³u/dt³ − k ü
+                let (c, k) = (steps.oscillator.damping(), steps.oscillator.stiffness());
+                Some(Near { motion, jerk, snap: -c * jerk - k * motion.acceleration })
+            }
+            Flow::Series(polynomial) => {
+                let [displacement, velocity, acceleration, jerk, snap] = polynomial.derivatives(time);
+                Some(Near { motion: KinematicState { displacement, velocity, acceleration }, jerk, snap })
+            }
+        }
+    }
+
+    /// Takes the extreme at the one turning point of a part that ends on its branch into the peaks; `None`
+    /// where it is not an ordinary one, inside the branch.
+    #[inline(always)]
+    fn turn(&self, corners: [f64; 2], peaks: &mut Peaks) -> Option<()> {
+        let Self { from, to, length, .. } = *self;
+        let Near { motion, jerk, .. } = self.near(self.turning_time())?;
+        let shift = -motion.velocity / motion.acceleration;
         if !(shift.abs() <= SMALL_SHIFT * length && from.velocity * to.velocity < 0.0) {
-            return false;
+            return None;
         }
-        let jerk = map.oscillator.jerk(near, rate);
-        let extreme = near.displacement
-            + shift * (near.velocity + shift * (near.acceleration / 2.0 + shift * jerk / 6.0));
-        if extreme <= map.corners[0] || extreme >= map.corners[1] {
-            return false;
-        }
-        peaks.include(extreme);
-        true
+        let extreme = motion.displacement
+            + shift * (motion.velocity + shift * (motion.acceleration / 2.0 + shift * jerk / 6.0));
+        let inside = extreme > corners[0] && extreme < corners[1];
+        inside.then(|| peaks.include(extreme))
     }
 
     /// Returns the time of the one zero of u̇, by the cubic through u̇ and ü at the ends.
@@ -92,29 +133,23 @@ impl StepPart {
     }
 
     /// Finds when u, monotone, passes `corner`, beyond which the stiffness is greater by `change`, and the
-    /// motion there; `None` where that is not found at once. docs/record-path.md, §4, has the error.
+    /// motion there; `None` where that is not found at once. An infinite `change` asks for the corner itself.
+    /// docs/record-path.md, §4, has the error.
     #[inline(always)]
-    pub(super) fn passage(
-        &self,
-        map: &StepMap,
-        short: &Short,
-        corner: f64,
-        change: f64,
-    ) -> Option<(f64, KinematicState)> {
-        let Self { from, length, rate, .. } = *self;
+    pub(super) fn passage(&self, corner: f64, change: f64) -> Option<(f64, KinematicState)> {
+        let length = self.length;
         let mut guess = length * self.share(corner);
         for _ in 0..MOST_GUESSES {
-            let near = short.after(guess, from, rate);
-            let KinematicState { displacement, velocity, acceleration } = near;
+            let Near { motion, jerk, snap } = self.near(guess)?;
+            let KinematicState { displacement, velocity, acceleration } = motion;
             let beyond = displacement - corner;
             // close enough to change branches there, with ü for the branch ahead
             if change.abs() * beyond * beyond <= 0.5 * f64::EPSILON * velocity * velocity {
                 let acceleration = acceleration - change * beyond;
                 return (0.0..length)
                     .contains(&guess)
-                    .then_some((guess, KinematicState { acceleration, ..near }));
+                    .then_some((guess, KinematicState { acceleration, ..motion }));
             }
-            let jerk = map.oscillator.jerk(near, rate);
             // u(δ) = corner, from the value on by the derivatives there
             let pace = 1.0 / velocity;
             let first = -beyond * pace;
@@ -128,8 +163,6 @@ impl StepPart {
                 guess = time;
                 continue;
             }
-            // d⁴u/dt⁴ = −c d³u/dt³ − k ü
-            let snap = -map.oscillator.damping() * jerk - map.oscillator.stiffness() * acceleration;
             let velocity = velocity + shift * (acceleration + shift * (jerk / 2.0 + shift * snap / 6.0));
             let acceleration = acceleration + shift * (jerk + shift * snap / 2.0);
             return Some((time, KinematicState { displacement: corner, velocity, acceleration }));
@@ -163,7 +196,6 @@ impl StepPart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wall::{Branch, BranchDamping};
     use oscillator::Oscillator;
 
     /// Corners passed shortly before u turns, beyond which the force stays the same: at the end of the step
@@ -172,21 +204,13 @@ mod tests {
     fn slow_passages_are_as_exact_as_fast_ones() {
         let (damping, stiffness, step) = (0.05, 1.0, 0.5);
         let oscillator = Oscillator::new(damping, stiffness);
-        let branch = |upper| Branch {
-            lower: 0.0,
-            upper,
-            anchor: 0.0,
-            force: 0.0,
-            stiffness,
-            damping: BranchDamping::Constant(damping),
-        };
-        let ahead = StepMap::new(Oscillator::new(damping, 0.0), step);
+        let ahead = AffineSteps::new(Oscillator::new(damping, 0.0), step);
         let Some(short_ahead) = &ahead.short else { panic!("a short step") };
         let (mut found, mut worst) = (0, 0.0_f64);
         for slowness in 0..400 {
             // u̇ at the end of the step from 0.1 to 1e-5
             let last = 10.0_f64.powf(-1.0 - 0.01 * f64::from(slowness));
-            let back = StepMap::new(Oscillator::new(-damping, stiffness), step).on(&branch(2.0));
+            let back = AffineSteps::new(Oscillator::new(-damping, stiffness), step);
             let Some(short) = &back.short else { panic!("a short step") };
             // the motion back in time from there
             let start = short.after(
@@ -200,10 +224,11 @@ mod tests {
                 KinematicState { displacement, velocity, acceleration: -displacement - damping * velocity };
             for depth in 1..40 {
                 let corner = 1.0 - 10.0_f64.powf(-0.2 * f64::from(depth) - 1.5);
-                let map = StepMap::new(oscillator, step).on(&branch(corner));
-                let Some(short) = &map.short else { panic!("a short step") };
-                let part = StepPart { from, to: short.after(step, from, 0.0), length: step, rate: 0.0 };
-                let Some((time, there)) = part.passage(&map, short, corner, -stiffness) else {
+                let steps = AffineSteps::new(oscillator, step);
+                let Some(short) = &steps.short else { panic!("a short step") };
+                let (to, flow) = (short.after(step, from, 0.0), Flow::Linear(&steps));
+                let part = StepPart { flow, from, to, length: step, forcing: 0.0, rate: 0.0 };
+                let Some((time, there)) = part.passage(corner, -stiffness) else {
                     continue;
                 };
                 found += 1;

@@ -36,6 +36,8 @@ pub(super) struct Leaving<S: Simd> {
     pub(super) limits: [f64x8<S>; 2],
     /// h \[s\].
     pub(super) step: f64,
+    /// |u̇| below which a wall rests after an impact \[m/s\].
+    pub(super) rest_speed: f64,
 }
 
 /// The end of a step that passed a corner.
@@ -45,6 +47,8 @@ pub(super) struct Arrival<S: Simd> {
     pub(super) lanes: mask64x8<S>,
     pub(super) end: [f64x8<S>; 2],
     pub(super) branch: f64x8<S>,
+    /// Of these lanes those whose corner was a passage of u = 0.
+    pub(super) passages: mask64x8<S>,
 }
 
 /// The branch of each lane: c, k, f(0) and A over P + c V + f̂.
@@ -103,8 +107,8 @@ impl<S: Simd> Leaving<S> {
         self.forcing = [lanes.select(forcing[0], self.forcing[0]), lanes.select(forcing[1], self.forcing[1])];
     }
 
-    /// Passes the one corner of the step: u is monotone up to it and beyond it, and nothing but the stiffness
-    /// changes there. Other lanes are left alone.
+    /// Passes the one corner of the step, or the one passage of u = 0: u is monotone up to it and beyond it.
+    /// Other lanes are left alone.
     #[inline(always)]
     pub(super) fn pass(self, responses: &Responses) -> Arrival<S> {
         let Self { from: [u, v], to: [to_u, to_v], forcing: [p0, p1], step, .. } = self;
@@ -117,6 +121,8 @@ impl<S: Simd> Leaving<S> {
         let steady = self.keeps_its_sign(&here, [v, to_v], forces, f64x8::splat(u.simd, step));
         let upwards = u.simd_lt(to_u);
         let corner = upwards.select(branches.of(&table.ordinary_upper), branches.of(&table.ordinary_lower));
+        let rebound = upwards.select(branches.of(&table.rebound_upper), branches.of(&table.rebound_lower));
+        let passes = rebound.simd_eq(rebound);
         let share = self.share(corner, [a0, a1]);
         let sought = self.lanes & steady & share.simd_gt(0.0) & share.simd_lt(1.0);
         let Passage { found, time, velocity, acceleration } =
@@ -125,6 +131,11 @@ impl<S: Simd> Leaving<S> {
         let branch = self.lanes.select(other, self.branch);
         let branches = Branches::new(branch);
         let ahead = Law::of(&branches, table);
+        let rebounding = rebound * velocity;
+        let velocity = passes.select(rebounding, velocity);
+        let anew = p0 + rate * time - ahead.c * velocity - ahead.force(corner);
+        let acceleration = passes.select(anew, acceleration);
+        let found = found & (!passes | velocity.abs().simd_ge(self.rest_speed));
         let remaining = step - time;
         let [end_u, end_v, _] = ahead.after(terms, remaining, [corner, velocity, acceleration], rate);
         let within = branches.of(&table.lower).simd_lt(end_u)
@@ -133,7 +144,7 @@ impl<S: Simd> Leaving<S> {
             & end_u.simd_le(self.limits[1]);
         let forces = [ahead.force(corner), ahead.force(end_u)];
         let lanes = found & within & self.keeps_its_sign(&ahead, [velocity, end_v], forces, remaining);
-        Arrival { lanes, end: [end_u, end_v], branch }
+        Arrival { lanes, end: [end_u, end_v], branch, passages: lanes & passes }
     }
 
     /// Finds when lanes reach the corner, and how: from a guess by the derivatives there, again from where

@@ -6,7 +6,7 @@ use super::super::forcing::{AT_ONCE, Blocks};
 use super::super::solver::{Outcome, RecordSolver, RunStart};
 use super::responses::Responses;
 use super::vector::{Row, WIDTH};
-use crate::solver::SolverError;
+use crate::solver::{SolverError, Work};
 
 /// Runs side by side.
 pub(super) struct Lanes<'a> {
@@ -48,8 +48,9 @@ pub(super) struct Rows {
     /// The |u| beyond which f̂ is to be taken anew, and where u is known to stay \[m\].
     pub(super) half_reach: Row,
     pub(super) limits: [Row; 2],
-    /// Corners passed side by side.
+    /// Corners passed side by side, and of these passages of u = 0.
     pub(super) corners: Row,
+    pub(super) impacts: Row,
     /// Where one step, and four at once, may start and end, u and |u̇|.
     pub(super) range: [Row; 2],
     pub(super) range4: [Row; 2],
@@ -110,12 +111,12 @@ impl<'a> Lanes<'a> {
     pub(super) fn fill(&mut self, i: usize) {
         self.busy &= !(1 << i);
         while let Some(&start) = self.starts.get(self.next) {
-            let plain = PlainSteps { at_once: AT_ONCE, growth: self.responses.growth };
+            let plain = PlainSteps { at_once: AT_ONCE, growth: self.responses.growth, parts: false };
             let run = ActiveRun::new(self.solver, self.record, self.until_overturning, plain, start);
             self.runs[i] = Some(run);
             self.numbers[i] = self.next;
             self.rows.factor[i] = start.factor;
-            self.rows.corners[i] = 0.0;
+            (self.rows.corners[i], self.rows.impacts[i]) = (0.0, 0.0);
             self.next += 1;
             if self.advance(i, false) {
                 self.busy |= 1 << i;
@@ -178,8 +179,10 @@ impl<'a> Lanes<'a> {
         if let Some(run) = &mut self.runs[i] {
             let nodes = Nodes { highest: rows.highest[i], lowest: rows.lowest[i] };
             let (index, branch) = (rows.index[i] as usize, rows.branch[i] as usize);
-            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, rows.corners[i] as u64);
-            rows.corners[i] = 0.0;
+            let [corners, impacts] = [rows.corners[i], rows.impacts[i]].map(|count| count as u64);
+            let work = Work { pieces: 2 * corners, corners, impacts };
+            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, work);
+            (rows.corners[i], rows.impacts[i]) = (0.0, 0.0);
         }
     }
 }

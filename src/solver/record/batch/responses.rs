@@ -7,7 +7,7 @@
 
 use super::super::forcing::{AT_ONCE, BLOCK, Forcing};
 use super::super::solver::RecordSolver;
-use super::super::step_map::{Affine, StepMap};
+use super::super::step_map::{Affine, AffineSteps, StepMap};
 use super::table::BranchTable;
 use super::vector::WIDTH;
 
@@ -42,8 +42,11 @@ impl Responses {
         if !(4 * AT_ONCE..=MOST_SAMPLES).contains(&count) || solver.maps.len() > WIDTH {
             return None;
         }
-        let maps: Vec<&StepMap> = solver.maps.iter().map(Option::as_ref).collect::<Option<_>>()?;
-        let reach = |map: &&StepMap| map.oscillator.damping() + map.oscillator.stiffness().abs().sqrt();
+        let maps = solver.maps.iter().map(|map| Some((map.as_ref()?, map.as_ref()?.affine_steps()?)));
+        let maps: Vec<(&StepMap, &AffineSteps)> = maps.collect::<Option<_>>()?;
+        let reach = |(_, steps): &(&StepMap, &AffineSteps)| {
+            steps.oscillator.damping() + steps.oscillator.stiffness().abs().sqrt()
+        };
         let longest = solver.step * maps.iter().map(reach).fold(0.0, f64::max);
         if longest > LONGEST {
             return None;
@@ -55,24 +58,24 @@ impl Responses {
             terms: terms(longest),
             growth: 0.0,
         };
-        for (branch, map) in maps.iter().enumerate() {
-            let known = maps[..branch].iter().position(|known| known.oscillator == map.oscillator);
+        for (branch, &(map, steps)) in maps.iter().enumerate() {
+            let known = maps[..branch].iter().position(|(_, known)| known.oscillator == steps.oscillator);
             let table = &mut responses.table;
-            table.enter(branch, map, solver);
+            table.enter(branch, (map, steps), solver);
             table.response[branch] = known.map_or(responses.rows.len() as f64, |known| table.response[known]);
             // at most 1/(1 − 2 · 0.25)
             responses.growth = responses.growth.max(table.growth4[branch]);
             if known.is_none() {
-                responses.respond(map, forcing, solver.step);
+                responses.respond(steps, forcing, solver.step);
             }
         }
         Some(responses)
     }
 
     /// Adds the response of an oscillator.
-    fn respond(&mut self, map: &StepMap, forcing: Forcing<'_>, step: f64) {
-        let [_, _, first, second, third] = map.double.terms;
-        let [of_u, of_v, ..] = Affine::single(&map.oscillator, 2.0 * step).terms;
+    fn respond(&mut self, steps: &AffineSteps, forcing: Forcing<'_>, step: f64) {
+        let [_, _, first, second, third] = steps.double.terms;
+        let [of_u, of_v, ..] = Affine::single(&steps.oscillator, 2.0 * step).terms;
         let start = self.rows.len();
         self.rows.resize(start + AT_ONCE * self.stride, [0.0; 2]);
         for (offset, rows) in self.rows[start..].chunks_exact_mut(self.stride).enumerate() {

@@ -241,12 +241,14 @@ impl Lanes<'_> {
         let mut reached = Reached::start(simd, &self.rows);
         let leaving = self.stay(waits, &mut reached);
         if leaving.lanes.any_true() {
-            let Arrival { lanes, end, branch } = leaving.pass(self.responses);
+            let Arrival { lanes, end, branch, passages } = leaving.pass(self.responses);
             reached.take(lanes, end, reached.steps + 1.0);
             let rows = &mut self.rows;
             lanes.select(branch, leaving.branch).store_array(&mut rows.branch);
             let corners = load(simd, &rows.corners);
             lanes.select(corners + 1.0, corners).store_array(&mut rows.corners);
+            let impacts = load(simd, &rows.impacts);
+            passages.select(impacts + 1.0, impacts).store_array(&mut rows.impacts);
         }
         reached.store(waits, &mut self.rows);
         bits(reached.steps.simd_lt(1.0)) & waiting
@@ -282,6 +284,7 @@ impl Lanes<'_> {
             forcing_bound: load(simd, &rows.forcing),
             limits,
             step: self.solver.step,
+            rest_speed: self.solver.motion.rest_speed,
         };
         for n in 1..=AT_ONCE {
             let p1 = factor * nth(simd, samples, n);

@@ -2,8 +2,9 @@
 
 use super::super::forcing::AT_ONCE;
 use super::super::solver::RecordSolver;
-use super::super::step_map::{Affine, StepMap, growth};
+use super::super::step_map::{Affine, AffineSteps, StepMap, growth};
 use super::vector::Row;
+use crate::wall::Corner;
 
 /// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
 #[derive(Debug, Default)]
@@ -20,9 +21,12 @@ pub(super) struct BranchTable {
     /// The ends of the branch \[m\].
     pub(super) lower: Row,
     pub(super) upper: Row,
-    /// The same where nothing but the stiffness changes there, else not a number.
+    /// The same where the wall goes on beyond, else not a number.
     pub(super) ordinary_lower: Row,
     pub(super) ordinary_upper: Row,
+    /// The factor on u̇ at u = 0 where that end is a passage, else not a number.
+    pub(super) rebound_lower: Row,
+    pub(super) rebound_upper: Row,
     /// A over P + c V + f̂, over one step and over four.
     pub(super) growth: Row,
     pub(super) growth4: Row,
@@ -35,11 +39,16 @@ pub(super) struct BranchTable {
 
 impl BranchTable {
     /// Enters what belongs to a branch, but for its response.
-    pub(super) fn enter(&mut self, branch: usize, map: &StepMap, solver: &RecordSolver<'_>) {
-        let (c, k) = (map.oscillator.damping(), map.oscillator.stiffness());
+    pub(super) fn enter(
+        &mut self,
+        branch: usize,
+        (map, steps): (&StepMap, &AffineSteps),
+        solver: &RecordSolver<'_>,
+    ) {
+        let (c, k) = (steps.oscillator.damping(), steps.oscillator.stiffness());
         let four_steps = AT_ONCE as f64 * solver.step;
-        let one = map.single.terms;
-        let four = Affine::single(&map.oscillator, four_steps).terms;
+        let one = steps.single.terms;
+        let four = Affine::single(&steps.oscillator, four_steps).terms;
         // the response to a constant forcing of −1, step by step
         let force = (0..AT_ONCE).fold([0.0; 2], |[u, v], _| {
             [0, 1].map(|part| {
@@ -61,15 +70,22 @@ impl BranchTable {
         self.stiffness[branch] = k;
         self.force_at_zero[branch] = map.force_at_zero;
         [self.lower[branch], self.upper[branch]] = map.corners;
+        let wall = &solver.motion.wall;
         let ordinary = |corner: usize, next: Option<usize>| {
-            let corner = solver.motion.wall.corners().get(corner)?;
-            let ahead = solver.maps.get(next?)?.as_ref()?;
-            (!corner.is_marked() && ahead.oscillator.damping() == c).then_some(corner.displacement)
+            let Corner { displacement, overturning, departure, landing, .. } = *wall.corners().get(corner)?;
+            let ahead = solver.maps.get(next?)?.as_ref()?.affine_steps()?;
+            (!(overturning || departure || landing) && ahead.oscillator.damping() == c)
+                .then_some(displacement)
+        };
+        let rebound = |corner: usize| {
+            let passage = wall.corners().get(corner).is_some_and(|corner| corner.passage);
+            if passage { wall.passage_factor() } else { f64::NAN }
         };
         self.ordinary_lower[branch] = ordinary(branch, branch.checked_sub(1)).unwrap_or(f64::NAN);
         self.ordinary_upper[branch] = ordinary(branch + 1, Some(branch + 1)).unwrap_or(f64::NAN);
+        (self.rebound_lower[branch], self.rebound_upper[branch]) = (rebound(branch), rebound(branch + 1));
         self.growth[branch] = map.growth[0];
-        self.growth4[branch] = growth(&map.oscillator, four_steps);
+        self.growth4[branch] = growth(&steps.oscillator, four_steps);
         self.speed_share[branch] = map.speed_share;
         self.damping_share[branch] = map.damping_share();
     }
