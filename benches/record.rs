@@ -11,7 +11,7 @@ use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Motion, Segment};
-use rocking_wall::variables::DampingModel;
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support};
 
 const RUNS: usize = 200;
@@ -37,29 +37,36 @@ fn main() {
     for (number, height, thickness, a1) in
         [(6, 6.0, 0.6, 0.018), (5, 3.0, 0.6, 0.0024), (2, 1.5, 0.3, 0.0012)]
     {
-        for model in [
-            DampingModel::ConstantCoefficient,
-            DampingModel::ConstantRatio,
-            DampingModel::StiffnessProportional,
+        let wall = Parameters { height, thickness, a1, u_start: 0.0, ..Parameters::default() };
+        let damped = |damping_model| Parameters { damping_model, ..wall.clone() };
+        let bouncing = |force_law| Parameters {
+            force_law,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            ..wall.clone()
+        };
+        for (model, parameters) in [
+            ("constant coefficient", damped(DampingModel::ConstantCoefficient)),
+            ("constant ratio", damped(DampingModel::ConstantRatio)),
+            ("stiffness-proportional", damped(DampingModel::StiffnessProportional)),
+            ("restitution, bilinear", bouncing(ForceLaw::Bilinear)),
+            ("restitution, rigid", bouncing(ForceLaw::RigidLinear)),
         ] {
             for scale in [0.02, 0.8, 1.2, 1.3] {
-                wall(&record, bare, number, [height, thickness, a1], model, scale);
+                measure(&record, bare, (number, model), &parameters, scale);
             }
         }
     }
 }
 
-fn wall(
+fn measure(
     record: &GroundMotion,
     bare: f64,
-    number: u32,
-    [height, thickness, a1]: [f64; 3],
-    model: DampingModel,
+    (number, model): (u32, &str),
+    parameters: &Parameters,
     scale: f64,
 ) {
-    let parameters =
-        Parameters { height, thickness, a1, damping_model: model, u_start: 0.0, ..Parameters::default() };
-    let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
+    let motion = Motion::of(parameters, 1e-8).expect("a valid wall");
     let participation = motion.wall().body().forcing(Support::rigid(1.0));
     let samples = record.samples();
     let count = samples.len() - 1;
@@ -80,9 +87,9 @@ fn wall(
         outcomes.expect("bounded motions")[0].state.displacement
     });
     println!(
-        "wall {number}, {:<24} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
+        "wall {number}, {:<23} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
          {:>4} corners, u_max/u_ins {:.3}{}",
-        model.name(),
+        model,
         one / bare,
         outcome.work.corners,
         outcome.state.peaks.largest() / motion.wall().displacement_scale(),
