@@ -15,6 +15,7 @@ mod fuzz;
 mod platform;
 mod portable;
 mod python;
+mod release;
 mod test;
 mod universal;
 mod wheel;
@@ -36,6 +37,8 @@ The jobs of the project.
                                    interface against fmi-sys
   cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
                                    Windows library under wine
+  cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` for
+                                   each platform, components, notices, checksums; TAG is checked
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
@@ -64,6 +67,8 @@ fn main() -> ExitCode {
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
         ["portable"] => portable::run(),
+        ["release"] => release::run(None),
+        ["release", tag] => release::run(Some(tag)),
         ["fuzz"] => fuzz::run(),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
