@@ -69,7 +69,8 @@ impl Oscillator {
             Regime::Oscillating(omega)
         } else {
             // r₁ = −c/2 + √…, of the two the one that cancels comes from r₁ r₂ = k
-            let fast = -(half + omega);
+            // never 0, as compilers may divide ahead
+            let fast = -(half + omega).max(f64::MIN_POSITIVE);
             Regime::Exponential(stiffness / fast, fast)
         };
         let root = stiffness.abs().sqrt();

@@ -26,7 +26,9 @@ pub enum SceneFmuError {
     #[error("{}: is itself an FMU of a scene, not the general one", path.display())]
     OfScene { path: PathBuf },
     /// The scene moves in full rotations.
-    #[error("an FMU has small rotations only; set kinematics = linear, or simulate without an FMU")]
+    #[error(
+        "an FMU has small rotations only; set kinematics = linear, or go without an FMU, as `wall simulate` does"
+    )]
     FullRotations,
     /// The description cannot be reduced to the scene.
     #[error(transparent)]

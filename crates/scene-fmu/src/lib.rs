@@ -49,9 +49,7 @@ pub struct SceneFmu {
 /// # Errors
 /// [`SceneFmuError`] of a scene in full rotations, or where the description cannot be reduced.
 pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFmuError> {
-    if scene.parameters.kinematics != Kinematics::Linear {
-        return Err(SceneFmuError::FullRotations);
-    }
+    check(scene)?;
     let mut motion = String::new();
     if let Some(excitation) = &scene.excitation {
         motion = motion_table(&mut general.archive, "motion", excitation.bottom());
@@ -74,6 +72,17 @@ pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFm
         variables: reduced.variable_names().count(),
         general_variables: description.variable_names().count(),
     })
+}
+
+/// Checks that a scene can have an FMU.
+///
+/// # Errors
+/// [`SceneFmuError::FullRotations`].
+pub fn check(scene: &Scene) -> Result<(), SceneFmuError> {
+    match scene.parameters.kinematics {
+        Kinematics::Linear => Ok(()),
+        Kinematics::Trigonometric => Err(SceneFmuError::FullRotations),
+    }
 }
 
 /// Puts a motion into the archive and returns the keys that read it.

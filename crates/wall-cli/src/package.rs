@@ -31,6 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let base = arguments.base.clone().unwrap_or_else(|| made.into());
     output::check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
     let named = || arguments.scene.display().to_string();
+    scene_fmu::check(&scene).with_context(named)?;
     let wall = Wall::new(&scene.parameters).with_context(named)?;
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
