@@ -12,6 +12,7 @@ mod motion;
 mod newmark;
 pub mod record;
 mod run;
+mod scaled;
 mod secant;
 mod state;
 mod tolerances;

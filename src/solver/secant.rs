@@ -1,202 +1,23 @@
-//! Taylor series of the motion on a branch whose damping follows the secant stiffness.
-//!
-//! With the law f = f₀ + k u, the secant ω² = f/u and c = 2ξ ω or (2ξ₁/ω₁) ω², u is an analytic function of
-//! time. Its coefficients are taken over their values at the start, x = u/u₀, s = ω²/ω₀², w = c/c₀, with time
-//! in lengths L of the step and z = c₀ L ẋ:
-//! ```text
-//! sₙ = κ xₙ − Σ xᵢ sₙ₋ᵢ,   κ = k/ω₀² − 1 = −f₀/f(u₀)
-//! wₙ = (sₙ − Σ wᵢ wₙ₋ᵢ)/2   for c = 2ξ ω,   wₙ = sₙ   for c = (2ξ₁/ω₁) ω²
-//! (n+1)(n+2) xₙ₊₂ = L² pₙ/u₀ − k L² xₙ − (zₙ + Σ wᵢ zₙ₋ᵢ + wₙ z₀)        sums over 0 < i < n
-//! ```
-//! Nothing divides but the first term, and each sum ends with what is known last: a step is one piece of
-//! straight code. The same code serves numbers and vectors of them.
+//! Motion on a branch whose damping follows the secant stiffness: steps and pieces of Taylor series.
 
 #![allow(
     clippy::inline_always,
     reason = "measured: a series is one piece of straight code, its numbers in registers"
 )]
 
-use std::ops::{Add, Mul, Sub};
-
 use crate::wall::{Branch, BranchDamping};
 use oscillator::{HIGHEST_ORDER, Polynomial};
 
+use super::scaled::{ORDER, Scaled, Start};
 use super::tolerances::Tolerances;
 
-/// Highest order of these series.
-const ORDER: usize = 16;
-
-/// Least share of f(0) that the force is taken to be.
+/// Least force in κ, as a share of f(0).
 pub(super) const LEAST: f64 = 1e-30;
 
-/// 1/((n+1)(n+2)).
-const INVERSE: [f64; ORDER] = {
-    let mut inverse = [0.0; ORDER];
-    let mut n = 0;
-    while n < ORDER {
-        inverse[n] = 1.0 / ((n + 1) * (n + 2)) as f64;
-        n += 1;
-    }
-    inverse
-};
-
-/// A number, or a vector of them.
-pub(super) trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
-{
-}
-
-impl Number for f64 {}
-
-/// The coefficients, of time in lengths of the step.
-#[derive(Clone, Copy)]
-pub(super) struct Scaled<T> {
-    x: [T; ORDER + 1],
-    z: [T; ORDER + 1],
-    s: [T; ORDER + 1],
-    w: [T; ORDER + 1],
-    half_kappa: T,
-    /// k L², c₀ L and L² p₁/u₀.
-    stiffness: T,
-    damping: T,
-    rate: T,
-}
-
-/// What a series starts from.
-#[derive(Clone, Copy)]
-pub(super) struct Start<T> {
-    /// L u̇₀/u₀.
-    pub(super) velocity: T,
-    /// L² (p₀ − f(u₀))/u₀.
-    pub(super) driving: T,
-    /// L² p₁/u₀, p being p₀ + p₁ t with t in lengths L.
-    pub(super) rate: T,
-    /// κ/2.
-    pub(super) half_kappa: T,
-    /// k L².
-    pub(super) stiffness: T,
-    /// c₀ L.
-    pub(super) damping: T,
-}
-
-/// Computes Σ aᵢ bₙ₋ᵢ for 0 < i < N.
-#[inline(always)]
-fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
-    let middle = N / 2;
-    let mut sum = a[middle] * b[N - middle];
-    for i in (1..middle).rev() {
-        sum = sum + a[i] * b[N - i];
-    }
-    for i in middle + 1..N {
-        sum = sum + a[i] * b[N - i];
-    }
-    sum
-}
-
-/// Computes half of Σ aᵢ aₙ₋ᵢ for 0 < i < N.
-#[inline(always)]
-fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
-    let middle = a[N / 2] * a[N - N / 2];
-    let mut sum = if N.is_multiple_of(2) { middle * 0.5 } else { middle };
-    for i in (1..N / 2).rev() {
-        sum = sum + a[i] * a[N - i];
-    }
-    sum
-}
-
-/// Adds the terms n of a series; `RATIO` tells c = 2ξ ω.
-macro_rules! terms {
-    ($series:ident: $($n:literal)*) => { $($series.term::<$n, RATIO>();)* };
-}
-
-impl<T: Number> Scaled<T> {
-    /// Starts a series: coefficients up to x₂.
-    #[inline(always)]
-    pub(super) fn new(start: Start<T>, one: T) -> Self {
-        let Start { velocity, driving, rate, half_kappa, stiffness, damping } = start;
-        let ones = [one; ORDER + 1];
-        let mut series = Self { x: ones, z: ones, s: ones, w: ones, half_kappa, stiffness, damping, rate };
-        series.x[1] = velocity;
-        series.z[0] = damping * velocity;
-        let acceleration = driving - series.z[0];
-        series.z[1] = damping * acceleration;
-        series.x[2] = acceleration * 0.5;
-        series
-    }
-
-    /// Adds sₙ, wₙ, zₙ₊₁ and xₙ₊₂.
-    #[inline(always)]
-    fn term<const N: usize, const RATIO: bool>(&mut self) {
-        let x = self.x[N];
-        let mut half_s = self.half_kappa * x;
-        if N > 1 {
-            half_s = half_s - inner::<T, N>(&self.x, &self.s) * 0.5;
-        }
-        self.s[N] = half_s + half_s;
-        self.w[N] = if !RATIO {
-            self.s[N]
-        } else if N > 1 {
-            half_s - half_square::<T, N>(&self.w)
-        } else {
-            half_s
-        };
-        let mut rest = self.stiffness * x;
-        if N == 1 {
-            rest = rest - self.rate;
-        } else {
-            rest = rest + inner::<T, N>(&self.w, &self.z);
-        }
-        let slowing = self.z[N] + (rest + self.w[N] * self.z[0]);
-        self.z[N + 1] = slowing * (self.damping * (-1.0 / (N + 1) as f64));
-        self.x[N + 2] = slowing * -INVERSE[N];
-    }
-
-    /// Adds the terms up to x₈.
-    #[inline(always)]
-    pub(super) fn extend_to_8<const RATIO: bool>(&mut self) {
-        terms!(self: 1 2 3 4 5 6);
-    }
-
-    /// Adds the terms up to x₁₀.
-    #[inline(always)]
-    pub(super) fn extend_to_10<const RATIO: bool>(&mut self) {
-        terms!(self: 7 8);
-    }
-
-    /// Adds the terms up to x₁₂.
-    #[inline(always)]
-    pub(super) fn extend_to_12<const RATIO: bool>(&mut self) {
-        terms!(self: 9 10);
-    }
-
-    /// Adds the terms up to x₁₆.
-    #[inline(always)]
-    pub(super) fn extend_to_16<const RATIO: bool>(&mut self) {
-        terms!(self: 11 12 13 14);
-    }
-
-    /// Returns what x and ẋ have come to at the end of the step, by the terms up to N.
-    #[inline(always)]
-    pub(super) fn end<const N: usize>(&self) -> [T; 2] {
-        let (mut x, mut velocity) = (self.x[1], self.x[1]);
-        for n in 2..=N {
-            x = x + self.x[n];
-            velocity = velocity + self.x[n] * n as f64;
-        }
-        [x, velocity]
-    }
-
-    /// Returns the coefficients of order N − 3 to N.
-    #[inline(always)]
-    pub(super) fn last<const N: usize>(&self) -> [T; 4] {
-        [self.x[N - 3], self.x[N - 2], self.x[N - 1], self.x[N]]
-    }
-}
-
-/// Of what may be left out, the share that is.
+/// The share of a tolerance that a series may leave out.
 pub(super) const CAUTION: f64 = 0.1;
 
-/// Tells whether a series to order N leaves out no more than a share of `most` of x and of ẋ.
+/// Tells whether a series to order N leaves out no more than `CAUTION` times `most`, of x and of ẋ.
 ///
 /// Pairs of terms fall like a geometric series: from m₀, the larger of orders N − 3 and N − 2, to m₁, the
 /// larger of the last two. With q = m₁/m₀ what is left out is 2 m₁ q/(1 − q) at most, and N times that of ẋ.
@@ -206,12 +27,14 @@ fn within<const N: usize>([a, b, c, d]: [f64; 4], most: f64) -> bool {
     (2 * N) as f64 * last * last <= CAUTION * most * (before - last)
 }
 
-/// Returns the share of a step after which the last terms of the highest order are within what may be left
-/// out.
+/// Returns the share of a step, at most all of it, after which the last terms of the highest order are within
+/// what may be left out.
 fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
-    let of = |term: f64, n: usize| (most / (n as f64 * term.abs())).powf(1.0 / (n as f64 - 1.0));
+    let of = |term: f64, n: usize| {
+        (most / (n as f64 * term.abs().max(f64::MIN_POSITIVE))).powf(1.0 / (n as f64 - 1.0))
+    };
     // what is left out after the last term is a geometric series of about the same size
-    0.9 * of(before, ORDER - 1).min(of(last, ORDER))
+    (0.9 * of(before, ORDER - 1).min(of(last, ORDER))).min(1.0)
 }
 
 /// A branch with secant damping.
@@ -247,16 +70,16 @@ impl SecantBranch {
     fn start(&self, [u, v]: [f64; 2], p: [f64; 2], length: f64) -> (Scaled<f64>, f64) {
         let force = self.force + self.stiffness * (u - self.anchor);
         let inverse = 1.0 / u;
-        // where the force is zero there is no damping yet, but κ takes a number
-        let some = self.side * (self.side * force).max(LEAST * self.force_at_zero.abs());
-        let secant = some * inverse;
+        // at u₃ the force is zero, and so is c, but κ must not divide by it
+        let nonzero = self.side * (self.side * force).max(LEAST * self.force_at_zero.abs());
+        let secant = nonzero * inverse;
         let damping = self.factor * length * if self.is_ratio { secant.sqrt() } else { secant };
         let scale = length * length * inverse;
         let start = Start {
             velocity: length * v * inverse,
             driving: scale * (p[0] - force),
             rate: scale * (p[1] - p[0]),
-            half_kappa: -0.5 * self.force_at_zero / some,
+            half_kappa: -0.5 * self.force_at_zero / nonzero,
             stiffness: self.stiffness * (length * length),
             damping,
         };
@@ -296,7 +119,7 @@ impl SecantBranch {
         Some([u + u * end[0], u * rate * end[1]])
     }
 
-    /// Does the same by two halves, or four quarters, where need be.
+    /// Does the same in 2, 4 or 8 parts.
     #[cold]
     pub(super) fn step_by_parts<const RATIO: bool>(
         &self,
@@ -348,7 +171,7 @@ impl SecantBranch {
             series.extend_to_12::<RATIO>();
             series.extend_to_16::<RATIO>();
             if !within::<ORDER>(series.last::<ORDER>(), most) {
-                horizon = length * longest(series.last::<ORDER>(), most).min(1.0);
+                horizon = length * longest(series.last::<ORDER>(), most);
             }
         }
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
@@ -359,5 +182,76 @@ impl SecantBranch {
         }
         coefficients[1] = now[1];
         (Polynomial { coefficients, order }, horizon)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Follows a branch to the end of a length by one series after the other; returns their
+    /// number, too.
+    fn follow(
+        branch: &SecantBranch,
+        mut now: [f64; 2],
+        p: [f64; 2],
+        parts: u32,
+        most: Tolerances,
+    ) -> ([f64; 2], u32) {
+        let (length, mut count) = (1.0 / f64::from(parts), 0);
+        for part in 0..parts {
+            let forcing = |time: f64| p[0] + (p[1] - p[0]) * (f64::from(part) * length + time);
+            let mut time = 0.0;
+            while time < length {
+                let ends = [forcing(time), forcing(length)];
+                let (polynomial, horizon) = branch.series(now, ends, length - time, most);
+                assert!(horizon > 0.0 && horizon <= length - time, "{horizon} of {}", length - time);
+                count += 1;
+                let there = polynomial.at(horizon);
+                now = [there.displacement, there.velocity];
+                time = if horizon == length - time { length } else { time + horizon };
+            }
+        }
+        (now, count)
+    }
+
+    /// Terms that have come to rounding need not fall any more: they end no step late.
+    #[test]
+    fn no_series_goes_beyond_its_step() {
+        let last = [1.25e-14, -1.26e-14, 4.06e-15, -9.9e-16];
+        assert!(!within::<ORDER>(last, 5.2e-13));
+        assert!(longest(last, 5.2e-13) <= 1.0);
+    }
+
+    /// A step by as many series as it takes, and by fixed orders, is the same in sixteen parts, from slow
+    /// motion to one that changes u thirtyfold.
+    #[test]
+    fn series_are_within_the_tolerances() {
+        let most = Tolerances { displacement: 1e-12, velocity: 1e-12 };
+        let mut by_orders = 0;
+        for damping in [BranchDamping::SecantRatio(0.06), BranchDamping::SecantStiffness(0.02)] {
+            for speed in (0..3000).map(|i| 0.002 * 1.0025_f64.powi(i)) {
+                // from u = 0.1, where p all but balances f, on a line that ends far beyond
+                let (lower, upper) = (0.1, 100.0);
+                let branch = Branch { lower, upper, anchor: upper, force: 0.0, stiffness: -0.02, damping };
+                let branch = SecantBranch::new(&branch).expect("secant damping");
+                let p = [2.0, 2.001];
+                let (fine, many) = follow(&branch, [lower, speed], p, 16, most);
+                let (coarse, few) = follow(&branch, [lower, speed], p, 1, most);
+                let step = if branch.is_ratio {
+                    branch.step::<true>([lower, speed], p, [1.0, 1.0], most)
+                } else {
+                    branch.step::<false>([lower, speed], p, [1.0, 1.0], most)
+                };
+                by_orders += u32::from(step.is_some());
+                for end in [Some(coarse), step].into_iter().flatten() {
+                    // the tolerance of each series; what it leaves out grows by a hundredth until the end
+                    let error = (end[0] - fine[0]).abs().max((end[1] - fine[1]).abs());
+                    let allowed = 1.01e-12 * f64::from(many + few);
+                    assert!(error <= allowed, "{speed}: {error:e} of {allowed:e}");
+                }
+            }
+        }
+        assert!(by_orders > 10, "{by_orders}");
     }
 }

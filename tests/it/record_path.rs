@@ -89,6 +89,52 @@ proptest! {
         let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
         agree(&parameters, &accelerations, step)?;
     }
+
+    /// With secant damping and the default tolerance, record and segments stay within a tenth of it of the
+    /// motion at a tolerance of 1e-14.
+    #[test]
+    fn secant_damping_stays_within_the_tolerance(
+        wall in walls(),
+        proportional in any::<bool>(),
+        motion in motions(),
+        exponent in -3.0_f64..0.3,
+    ) {
+        let damping_model =
+            if proportional { DampingModel::StiffnessProportional } else { DampingModel::ConstantRatio };
+        let force_law = match wall.force_law {
+            ForceLaw::RigidLinear => ForceLaw::Bilinear,
+            law => law,
+        };
+        let tight = Parameters { damping_model, force_law, tolerance: 1e-14, ..wall };
+        prop_assume!(Wall::new(&tight).is_ok());
+        let wall = Wall::new(&tight).unwrap();
+        let body = wall.body();
+        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        let accelerations: Vec<f64> = motion.iter().map(|a| onset * a).collect();
+        let step = 10.0_f64.powf(exponent) / wall.rocking_rate();
+        let usual = Parameters { tolerance: 1e-8, ..tight.clone() };
+        let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
+        let (history, _) = alone(&usual, &forcing, step, 1.0);
+        let by_segments = segments(&usual, &accelerations, step);
+        let reference = segments(&tight, &accelerations, step);
+        let probe = 1e-8;
+        let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
+        let changed = segments(&tight, &changed, step);
+        let standing =
+            reference.iter().zip(&changed).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
+        let standing = standing.count();
+        let apart = |other: &dyn Fn(usize) -> f64| {
+            let scale = wall.displacement_scale();
+            let apart = |i: usize| (reference[i].state.displacement - other(i)).abs() / scale;
+            (0..standing).map(apart).fold(0.0, f64::max)
+        };
+        let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
+        prop_assume!(amplification < 1e5);
+        let allowed = 1e-9 * amplification;
+        for difference in [apart(&|i| history[i]), apart(&|i| by_segments[i].state.displacement)] {
+            prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
+        }
+    }
 }
 
 /// Compares a run of a batch with a single run, unless slightly more forcing changes the events.

@@ -27,7 +27,7 @@ pub enum SceneFmuError {
     OfScene { path: PathBuf },
     /// The scene moves in full rotations.
     #[error(
-        "an FMU has small rotations only; set kinematics = linear, or go without an FMU, as `wall simulate` does"
+        "an FMU has small rotations only; set kinematics = linear, or use `wall simulate`, which needs no FMU"
     )]
     FullRotations,
     /// The description cannot be reduced to the scene.

@@ -7,7 +7,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::super::super::secant::{CAUTION, LEAST, Number, Scaled, SecantBranch, Start};
+use super::super::super::scaled::{Number, Scaled, Start};
+use super::super::super::secant::{CAUTION, LEAST, SecantBranch};
 use super::super::super::tolerances::Tolerances;
 use super::super::active_run::{ActiveRun, CurvedValues, PlainSteps};
 use super::super::block::Nodes;

@@ -1,0 +1,186 @@
+//! Taylor series of the motion on a branch whose damping follows the secant stiffness.
+//!
+//! With the law f = f₀ + k u, the secant ω² = f/u and c = 2ξ ω or (2ξ₁/ω₁) ω², u is an analytic function of
+//! time. Its coefficients are taken over their values at the start, x = u/u₀, s = ω²/ω₀², w = c/c₀, with time
+//! in lengths L of the step and z = c₀ L ẋ:
+//! ```text
+//! sₙ = κ xₙ − Σ xᵢ sₙ₋ᵢ,   κ = k/ω₀² − 1 = −f₀/f(u₀)
+//! wₙ = (sₙ − Σ wᵢ wₙ₋ᵢ)/2   for c = 2ξ ω,   wₙ = sₙ   for c = (2ξ₁/ω₁) ω²
+//! (n+1)(n+2) xₙ₊₂ = L² pₙ/u₀ − k L² xₙ − (zₙ + Σ wᵢ zₙ₋ᵢ + wₙ z₀)        sums over 0 < i < n
+//! ```
+//! Nothing divides but the first term, and each sum ends with what is known last: a step is one piece of
+//! straight code. The same code serves numbers and vectors of them.
+
+#![allow(
+    clippy::inline_always,
+    reason = "measured: a series is one piece of straight code, its numbers in registers"
+)]
+
+use std::ops::{Add, Mul, Sub};
+
+/// Highest order of these series.
+pub(super) const ORDER: usize = 16;
+
+/// 1/((n+1)(n+2)).
+const INVERSE: [f64; ORDER] = {
+    let mut inverse = [0.0; ORDER];
+    let mut n = 0;
+    while n < ORDER {
+        inverse[n] = 1.0 / ((n + 1) * (n + 2)) as f64;
+        n += 1;
+    }
+    inverse
+};
+
+/// A number, or a vector of them.
+pub(super) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+{
+}
+
+impl Number for f64 {}
+
+/// The coefficients, of time in lengths of the step.
+#[derive(Clone, Copy)]
+pub(super) struct Scaled<T> {
+    pub(super) x: [T; ORDER + 1],
+    z: [T; ORDER + 1],
+    s: [T; ORDER + 1],
+    w: [T; ORDER + 1],
+    half_kappa: T,
+    /// k L², c₀ L and L² p₁/u₀.
+    stiffness: T,
+    damping: T,
+    rate: T,
+}
+
+/// What a series starts from.
+#[derive(Clone, Copy)]
+pub(super) struct Start<T> {
+    /// L u̇₀/u₀.
+    pub(super) velocity: T,
+    /// L² (p₀ − f(u₀))/u₀.
+    pub(super) driving: T,
+    /// L² p₁/u₀, p being p₀ + p₁ t with t in lengths L.
+    pub(super) rate: T,
+    /// κ/2.
+    pub(super) half_kappa: T,
+    /// k L².
+    pub(super) stiffness: T,
+    /// c₀ L.
+    pub(super) damping: T,
+}
+
+/// Computes Σ aᵢ bₙ₋ᵢ for 0 < i < N.
+#[inline(always)]
+fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
+    let middle = N / 2;
+    let mut sum = a[middle] * b[N - middle];
+    for i in (1..middle).rev() {
+        sum = sum + a[i] * b[N - i];
+    }
+    for i in middle + 1..N {
+        sum = sum + a[i] * b[N - i];
+    }
+    sum
+}
+
+/// Computes half of Σ aᵢ aₙ₋ᵢ for 0 < i < N.
+#[inline(always)]
+fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
+    let middle = a[N / 2] * a[N - N / 2];
+    let mut sum = if N.is_multiple_of(2) { middle * 0.5 } else { middle };
+    for i in (1..N / 2).rev() {
+        sum = sum + a[i] * a[N - i];
+    }
+    sum
+}
+
+/// Adds the terms n of a series; `RATIO` tells c = 2ξ ω.
+macro_rules! terms {
+    ($series:ident: $($n:literal)*) => { $($series.term::<$n, RATIO>();)* };
+}
+
+impl<T: Number> Scaled<T> {
+    /// Starts a series: coefficients up to x₂.
+    #[inline(always)]
+    pub(super) fn new(start: Start<T>, one: T) -> Self {
+        let Start { velocity, driving, rate, half_kappa, stiffness, damping } = start;
+        let ones = [one; ORDER + 1];
+        let mut series = Self { x: ones, z: ones, s: ones, w: ones, half_kappa, stiffness, damping, rate };
+        series.x[1] = velocity;
+        series.z[0] = damping * velocity;
+        let acceleration = driving - series.z[0];
+        series.z[1] = damping * acceleration;
+        series.x[2] = acceleration * 0.5;
+        series
+    }
+
+    /// Adds sₙ, wₙ, zₙ₊₁ and xₙ₊₂.
+    #[inline(always)]
+    fn term<const N: usize, const RATIO: bool>(&mut self) {
+        let x = self.x[N];
+        let mut half_s = self.half_kappa * x;
+        if N > 1 {
+            half_s = half_s - inner::<T, N>(&self.x, &self.s) * 0.5;
+        }
+        self.s[N] = half_s + half_s;
+        self.w[N] = if !RATIO {
+            self.s[N]
+        } else if N > 1 {
+            half_s - half_square::<T, N>(&self.w)
+        } else {
+            half_s
+        };
+        let mut rest = self.stiffness * x;
+        if N == 1 {
+            rest = rest - self.rate;
+        } else {
+            rest = rest + inner::<T, N>(&self.w, &self.z);
+        }
+        let slowing = self.z[N] + (rest + self.w[N] * self.z[0]);
+        self.z[N + 1] = slowing * (self.damping * (-1.0 / (N + 1) as f64));
+        self.x[N + 2] = slowing * -INVERSE[N];
+    }
+
+    /// Adds the terms up to x₈.
+    #[inline(always)]
+    pub(super) fn extend_to_8<const RATIO: bool>(&mut self) {
+        terms!(self: 1 2 3 4 5 6);
+    }
+
+    /// Adds the terms up to x₁₀.
+    #[inline(always)]
+    pub(super) fn extend_to_10<const RATIO: bool>(&mut self) {
+        terms!(self: 7 8);
+    }
+
+    /// Adds the terms up to x₁₂.
+    #[inline(always)]
+    pub(super) fn extend_to_12<const RATIO: bool>(&mut self) {
+        terms!(self: 9 10);
+    }
+
+    /// Adds the terms up to x₁₆.
+    #[inline(always)]
+    pub(super) fn extend_to_16<const RATIO: bool>(&mut self) {
+        terms!(self: 11 12 13 14);
+    }
+
+    /// Returns what x and ẋ have come to at the end of the step, by the terms up to N.
+    #[inline(always)]
+    pub(super) fn end<const N: usize>(&self) -> [T; 2] {
+        let (mut x, mut velocity) = (self.x[1], self.x[1]);
+        for n in 2..=N {
+            x = x + self.x[n];
+            velocity = velocity + self.x[n] * n as f64;
+        }
+        [x, velocity]
+    }
+
+    /// Returns the coefficients of order N − 3 to N.
+    #[inline(always)]
+    pub(super) fn last<const N: usize>(&self) -> [T; 4] {
+        [self.x[N - 3], self.x[N - 2], self.x[N - 1], self.x[N]]
+    }
+}
