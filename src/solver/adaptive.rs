@@ -131,8 +131,8 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
     for order in [HIGHEST_ORDER - 1, HIGHEST_ORDER] {
         let size = coefficients[order].abs();
         let n = order as f64;
-        step = step.min((tolerances.displacement / size).powf(1.0 / n));
-        step = step.min((tolerances.velocity / (n * size)).powf(1.0 / (n - 1.0)));
+        step = step.min(libm::pow(tolerances.displacement / size, 1.0 / n));
+        step = step.min(libm::pow(tolerances.velocity / (n * size), 1.0 / (n - 1.0)));
     }
     // what is left out after the last term is a geometric series of about the same size
     0.9 * step

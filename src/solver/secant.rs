@@ -31,7 +31,8 @@ fn within<const N: usize>([a, b, c, d]: [f64; 4], most: f64) -> bool {
 /// what may be left out.
 fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
     let of = |term: f64, n: usize| {
-        (most / (n as f64 * term.abs().max(f64::MIN_POSITIVE))).powf(1.0 / (n as f64 - 1.0))
+        // not the platform's pow: the motion is the same on all of them
+        libm::pow(most / (n as f64 * term.abs().max(f64::MIN_POSITIVE)), 1.0 / (n as f64 - 1.0))
     };
     // what is left out after the last term is a geometric series of about the same size
     (0.9 * of(before, ORDER - 1).min(of(last, ORDER))).min(1.0)
