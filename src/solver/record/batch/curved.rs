@@ -14,7 +14,7 @@ use super::super::active_run::{ActiveRun, CurvedValues, PlainSteps};
 use super::super::block::Nodes;
 use super::super::forcing::Blocks;
 use super::super::solver::{Outcome, RecordSolver, RunStart};
-use super::vector::{Row, WIDTH};
+use super::vector::{Row, WIDTH, bits, load};
 use crate::solver::SolverError;
 
 /// The way of a part, as a share of |u|: there the terms of a series fall fast enough to end at its order.
@@ -98,19 +98,6 @@ impl Rows {
 }
 
 impl<S: Simd> Number for f64x8<S> {}
-
-/// Loads the numbers of a row.
-#[inline(always)]
-fn load<S: Simd>(simd: S, row: &Row) -> f64x8<S> {
-    f64x8::load_array_ref(simd, row)
-}
-
-/// Returns a mask as bits, one for each lane.
-#[inline(always)]
-#[allow(clippy::cast_possible_truncation, reason = "eight bits")]
-fn bits<S: Simd>(mask: mask64x8<S>) -> u8 {
-    mask.to_bitmask() as u8
-}
 
 impl<'a> CurvedLanes<'a> {
     pub(super) fn new(

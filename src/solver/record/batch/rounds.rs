@@ -11,24 +11,11 @@ use super::super::forcing::AT_ONCE;
 use super::corners::{Arrival, Leaving};
 use super::lanes::{Lanes, Rows};
 use super::responses::{ROWS_AHEAD, Responses};
-use super::vector::{Branches, Row, WIDTH, indices, unzip};
+use super::vector::{Branches, Row, WIDTH, bits, indices, load, unzip};
 
 /// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much
 /// as some thirty of plain steps, however few they are.
 const FEW: u32 = 1;
-
-/// Loads the numbers of a row.
-#[inline(always)]
-fn load<S: Simd>(simd: S, row: &Row) -> f64x8<S> {
-    f64x8::load_array_ref(simd, row)
-}
-
-/// Returns a mask as bits, one for each lane.
-#[inline(always)]
-#[allow(clippy::cast_possible_truncation, reason = "eight bits")]
-fn bits<S: Simd>(mask: mask64x8<S>) -> u8 {
-    mask.to_bitmask() as u8
-}
 
 /// Returns the forcing `n` samples after those the lanes are at.
 #[inline(always)]

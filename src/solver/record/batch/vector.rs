@@ -4,13 +4,26 @@
 //! fused on some processors only, so it is never used.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f64x2, f64x8, i64x8, u8x64};
+use fearless_simd::{f64x2, f64x8, i64x8, mask64x8, u8x64};
 
 /// Lanes of a vector.
 pub(super) const WIDTH: usize = 8;
 
 /// A number for each lane, or for each branch of a wall, in memory.
 pub(super) type Row = [f64; WIDTH];
+
+/// Loads the numbers of a row.
+#[inline(always)]
+pub(super) fn load<S: Simd>(simd: S, row: &Row) -> f64x8<S> {
+    f64x8::load_array_ref(simd, row)
+}
+
+/// Returns a mask as bits, one for each lane.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation, reason = "eight bits")]
+pub(super) fn bits<S: Simd>(mask: mask64x8<S>) -> u8 {
+    mask.to_bitmask() as u8
+}
 
 /// Returns whole numbers, none negative, as indices.
 #[inline(always)]
