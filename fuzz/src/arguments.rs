@@ -1,4 +1,4 @@
-//! Calls with random arguments, of which most make sense.
+//! Calls of FMI 2.0 with random arguments, of which most make sense.
 
 use crate::random::Random;
 use fmu_export::ffi::types::{Component, EventInfo, OK, Status};
@@ -33,7 +33,7 @@ pub struct Arguments {
 
 impl Arguments {
     /// A number of about `size`, or an odd one.
-    fn number(&mut self, size: f64) -> f64 {
+    pub(crate) fn number(&mut self, size: f64) -> f64 {
         if self.random.once_in(200) {
             self.random.one_of(&ODD)
         } else {
@@ -41,7 +41,7 @@ impl Arguments {
         }
     }
 
-    fn references<V: VariableId>(&mut self) -> [u32; MOST] {
+    pub(crate) fn references<V: VariableId>(&mut self) -> [u32; MOST] {
         std::array::from_fn(|_| match V::ALL {
             all if !all.is_empty() && !self.random.once_in(200) => {
                 self.random.one_of(all).variable().reference
@@ -51,7 +51,7 @@ impl Arguments {
     }
 
     /// A value for a variable: mostly within its limits, mostly near its start.
-    fn value(&mut self, variable: &Variable) -> f64 {
+    pub(crate) fn value(&mut self, variable: &Variable) -> f64 {
         let Kind::Real { start, min, max } = variable.kind else { return 0.0 };
         let start = start.unwrap_or(0.0);
         match (self.random.below(20), min, max) {
@@ -96,7 +96,8 @@ impl Arguments {
         }
     }
 
-    pub(crate) fn step<M: Model>(&mut self, c: Component) -> Status {
+    /// The start of a step, mostly where the last one ended, and its length.
+    pub(crate) fn step_ahead(&mut self) -> [f64; 2] {
         let size = match self.random.below(60) {
             0 => 1e-17,
             1 => 10.0_f64.powf(7.0 * self.random.unit() - 1.0),
@@ -105,6 +106,11 @@ impl Arguments {
             _ => 0.01,
         };
         let point = self.time + if self.random.once_in(500) { self.number(1e-9) } else { 0.0 };
+        [point, size]
+    }
+
+    pub(crate) fn step<M: Model>(&mut self, c: Component) -> Status {
+        let [point, size] = self.step_ahead();
         // SAFETY: the instance lives.
         let status = unsafe { cs::do_step::<M>(c, point, size, 1) };
         if status == OK {
@@ -218,7 +224,7 @@ impl Arguments {
     }
 }
 
-fn not_finite(call: &str, status: Status, values: &[f64]) -> Option<String> {
+pub(crate) fn not_finite(call: &str, status: Status, values: &[f64]) -> Option<String> {
     let odd = values.iter().find(|value| !value.is_finite()).filter(|_| status == OK)?;
     Some(format!("{call} gave {odd} with fmi2OK"))
 }

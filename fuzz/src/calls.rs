@@ -1,5 +1,5 @@
-//! Calls the functions of FMI 2.0 in random order, with arguments that make sense and some that do not:
-//! several instances of each unit, moved between threads.
+//! Calls the functions of FMI 2.0 and 3.0 in random order, with arguments that make sense and some that do
+//! not: several instances of each unit, moved between threads.
 //!
 //! ```text
 //! calls [COUNT] [SEED]

@@ -3,11 +3,11 @@
 use crate::arguments::{Arguments, MOST};
 use crate::importer::Importer;
 use crate::random::Random;
-use fmu_export::ModelExchange;
 use fmu_export::ffi::types::{
     CO_SIMULATION, Component, DISCARD, ERROR, FmuState, MODEL_EXCHANGE, OK, Status,
 };
-use fmu_export::ffi::{Kinds, co_simulation as cs, common, states};
+use fmu_export::ffi::{Kinds, co_simulation as cs, common, fmi3, states};
+use fmu_export::{ModelExchange, TIME_REFERENCE};
 use std::fmt;
 use std::ptr;
 use std::time::Duration;
@@ -56,8 +56,9 @@ impl fmt::Display for Figures {
 pub struct Instance<M: ModelExchange> {
     scene: Option<(String, String)>,
     importer: Option<Importer<M>>,
-    /// The instance is one for Model Exchange.
+    /// The instance is one for Model Exchange, and one of FMI 3.0.
     exchanges: bool,
+    third: bool,
     arguments: Arguments,
     saved: Vec<FmuState>,
     bytes: Vec<u8>,
@@ -73,7 +74,8 @@ impl<M: ModelExchange> Instance<M> {
         let scene = scene.map(|(guid, folder)| (guid.to_owned(), folder.to_owned()));
         let arguments = Arguments { random: Random::new(seed), time: 0.0 };
         let (saved, bytes) = (Vec::new(), Vec::new());
-        Self { scene, importer: None, exchanges: false, arguments, saved, bytes, figures: Figures::default() }
+        let (importer, figures) = (None, Figures::default());
+        Self { scene, importer, exchanges: false, third: false, arguments, saved, bytes, figures }
     }
 
     /// Makes `count` calls.
@@ -108,17 +110,22 @@ impl<M: ModelExchange> Instance<M> {
 
     fn replace(&mut self) -> Status {
         let random = &mut self.arguments.random;
-        self.exchanges = random.once_in(3);
+        (self.exchanges, self.third) = (random.once_in(3), random.once_in(2));
         let kind = if self.exchanges { MODEL_EXCHANGE } else { CO_SIMULATION };
         let (guid, resources) = match &self.scene {
             Some((guid, folder)) => (guid.as_str(), Some(folder.as_str())),
             None => (M::GUID, None),
         };
         self.saved.clear();
-        self.importer = Importer::new(&Kinds::<M>::BOTH, kind, guid, resources, random.once_in(2));
+        let [log, event_mode, early_return, updates] = [0; 4].map(|_| random.once_in(2));
+        self.importer = if self.third {
+            Importer::fmi3(guid, resources, [self.exchanges, log, event_mode, early_return, updates])
+        } else {
+            Importer::new(&Kinds::<M>::BOTH, kind, guid, resources, log)
+        };
         self.arguments.time = 0.0;
         if self.importer.is_none() {
-            self.figures.faults.push("fmi2Instantiate gave no instance".into());
+            self.figures.faults.push("there is no instance".into());
         }
         OK
     }
@@ -137,8 +144,15 @@ impl<M: ModelExchange> Instance<M> {
             for _ in 0..self.arguments.random.below(4) {
                 self.arguments.set_real::<M>(c);
             }
-            common::enter_initialization_mode::<M>(c);
+            if self.third {
+                fmi3::start_initialization::<M>(c, false, 0.0, 0.0, false, 0.0);
+            } else {
+                common::enter_initialization_mode::<M>(c);
+            }
             common::exit_initialization_mode::<M>(c);
+            if self.third && !self.exchanges && self.arguments.random.once_in(2) {
+                fmi3::enter_step_mode::<M>(c);
+            }
         }
     }
 
@@ -152,11 +166,20 @@ impl<M: ModelExchange> Instance<M> {
         let other = arguments.random.once_in(200);
         match arguments.random.below(100) {
             0..8 => self.state(c),
+            8..14 if self.third => arguments.modes3::<M>(c),
             8..14 => arguments.modes::<M>(c),
+            14..64 if self.exchanges == other && self.third => arguments.step3::<M>(c),
             14..64 if self.exchanges == other => arguments.step::<M>(c),
+            14..64 if self.third && arguments.random.once_in(4) => arguments.update3::<M>(c),
             14..64 => arguments.exchange::<M>(c),
             64..76 => arguments.set_real::<M>(c),
+            76..80 if self.third => arguments.other_values3::<M>(c),
             76..80 => arguments.other_values::<M>(c),
+            _ if self.third => {
+                let (status, fault) = arguments.read3::<M>(c);
+                self.figures.faults.extend(fault);
+                status
+            }
             80..90 => {
                 let (status, fault) = arguments.get_real::<M>(c);
                 self.figures.faults.extend(fault);
@@ -190,7 +213,12 @@ impl<M: ModelExchange> Instance<M> {
                 1 => states::get_fmu_state::<M>(c, &mut state),
                 2 => {
                     let status = states::set_fmu_state::<M>(c, state);
-                    cs::get_real_status::<M>(c, 2, &mut self.arguments.time);
+                    let time = &mut self.arguments.time;
+                    if self.third {
+                        fmi3::get_float64::<M>(c, &TIME_REFERENCE, 1, time, 1);
+                    } else {
+                        cs::get_real_status::<M>(c, 2, time);
+                    }
                     status
                 }
                 3 => {

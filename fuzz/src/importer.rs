@@ -1,11 +1,13 @@
 //! One instance of a unit, and what an importer keeps for it.
 
 use fmu_export::Model;
+use fmu_export::ffi::types::ValueReference;
 use fmu_export::ffi::types::{
     CallbackFunctions, CallbackLogger, Component, ComponentEnvironment, ERROR, FmuState, OK, Status, Text,
     Type,
 };
-use fmu_export::ffi::{Kinds, common, states};
+use fmu_export::ffi::{Kinds, common, fmi3, states};
+use fmu_export::{Causality, ModelExchange, Variability, VariableId};
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char};
 use std::marker::PhantomData;
@@ -85,6 +87,53 @@ impl<M: Model> Importer<M> {
     }
 }
 
+impl<M: ModelExchange> Importer<M> {
+    /// Makes an instance of FMI 3.0; none if the unit refuses. `flags`: Model Exchange, logs, uses Event
+    /// Mode, lets steps end early, sets inputs in intermediate updates.
+    pub fn fmi3(token: &str, resources: Option<&str>, flags: [bool; 5]) -> Option<Self> {
+        let [exchanges, log, event_mode, early_return, updates] = flags;
+        let journal = Box::new(Journal::default());
+        let token = CString::new(token).ok()?;
+        let resources = resources.map(|folder| CString::new(format!("{folder}/"))).transpose().ok()?;
+        let environment = ptr::from_ref(&*journal).cast_mut().cast();
+        let (name, token) = (c"instance".as_ptr(), token.as_ptr());
+        let path = resources.as_ref().map_or(ptr::null(), |text| text.as_ptr());
+        let hears: fmi3::types::LogMessageCallback = Some(hear3::<M>);
+        let update: fmi3::types::IntermediateUpdateCallback = updates.then_some(set_inputs::<M>);
+        let inputs: Vec<ValueReference> = inputs::<M>().collect();
+        // SAFETY: the texts and the array live until the call returns.
+        let component = unsafe {
+            if exchanges {
+                fmi3::instantiate_model_exchange::<M>(name, token, path, log, environment, hears)
+            } else {
+                let (inputs, count) = (inputs.as_ptr(), inputs.len());
+                fmi3::instantiate_co_simulation::<M>(
+                    name,
+                    token,
+                    path,
+                    log,
+                    event_mode,
+                    early_return,
+                    inputs,
+                    count,
+                    environment,
+                    hears,
+                    update,
+                )
+            }
+        };
+        journal.component.set(component);
+        (!component.is_null()).then_some(Self { component, journal, unit: PhantomData })
+    }
+}
+
+/// Lists the continuous inputs.
+fn inputs<M: Model>() -> impl Iterator<Item = ValueReference> {
+    let variables = M::Real::ALL.iter().map(|id| id.variable());
+    let continuous = variables.filter(|variable| variable.variability == Variability::Continuous);
+    continuous.filter(|variable| variable.causality == Causality::Input).map(|variable| variable.reference)
+}
+
 impl<M: Model> Drop for Importer<M> {
     fn drop(&mut self) {
         // SAFETY: the instance lives, for the last time.
@@ -101,12 +150,46 @@ fn logger<M: Model>() -> CallbackLogger {
     unsafe { std::mem::transmute::<Fixed, CallbackLogger>(fixed) }
 }
 
-/// Writes panics down, and calls back into the instance, which has to refuse that.
 unsafe extern "C" fn hear<M: Model>(
     environment: ComponentEnvironment,
     _: Text,
-    _: Status,
+    status: Status,
     _: Text,
+    category: Text,
+    message: *const c_char,
+) {
+    // SAFETY: as for `hear3`.
+    unsafe { hear3::<M>(environment, status, category, message) }
+}
+
+/// Sets all continuous inputs for the end of a step.
+unsafe extern "C" fn set_inputs<M: ModelExchange>(
+    environment: ComponentEnvironment,
+    time: f64,
+    _: bool,
+    _: bool,
+    _: bool,
+    _: bool,
+    _: *mut bool,
+    _: *mut f64,
+) {
+    // SAFETY: the library passes the environment it was given.
+    let journal = unsafe { &*environment.cast::<Journal>() };
+    for reference in inputs::<M>() {
+        let value = time % 3.0;
+        // SAFETY: the instance lives: its step has not returned.
+        let status = unsafe { fmi3::set_float64::<M>(journal.component.get(), &reference, 1, &value, 1) };
+        // refused where a change so large in a step so short overflows
+        if status != OK && status != ERROR {
+            journal.faults.borrow_mut().push(format!("status {status} in an intermediate update"));
+        }
+    }
+}
+
+/// Writes panics down, and calls back into the instance, which has to refuse that.
+unsafe extern "C" fn hear3<M: Model>(
+    environment: ComponentEnvironment,
+    _: Status,
     _: Text,
     message: *const c_char,
 ) {

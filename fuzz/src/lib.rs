@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "importers are C")]
 
 mod arguments;
+mod arguments3;
 pub mod driver;
 pub mod importer;
 pub mod random;

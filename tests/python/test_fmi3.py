@@ -150,6 +150,15 @@ def test_a_run_with_early_return_goes_on(fmu3):
     assert result["time"][-1] == pytest.approx(3.0) and result["u"][-1] == pytest.approx(2.0)
 
 
+def test_intermediate_variables_that_are_no_inputs_are_named(unpacked3):
+    names = {variable.name: variable.valueReference for variable in unpacked3.description.modelVariables}
+    wanted = [names["a_bottom"], names["u"]]
+    with Unit(unpacked3, logging=True, requiredIntermediateVariables=wanted) as unit:
+        assert any("u is not an input" in message for _, _, message in unit.messages)
+        unit.start()
+        unit.step(0.01)
+
+
 def test_the_adjoint_is_the_transposed(unpacked3):
     unknowns = ["u_ddot", "restoring_force", "reaction_bottom"]
     knowns = ["u", "u_dot", "a_g", "a_bottom"]

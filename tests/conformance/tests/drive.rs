@@ -4,10 +4,13 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test")]
 
 use std::ffi::{CStr, CString, c_void};
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use fmi::fmi2::import::Fmi2Import;
 use fmi::fmi2::instance::{CoSimulation, Common};
+use fmi::fmi3::import::Fmi3Import;
+use fmi::fmi3::{CoSimulation as _, Common as _, Fmi3Model as _, GetSet as _};
 use fmi_sys::fmi2 as standard;
 use libloading::Library;
 
@@ -60,6 +63,64 @@ fn by_fmi() -> Vec<f64> {
     }
     wall.terminate().unwrap();
     history
+}
+
+/// Copies the FMU of FMI 3.0 without the units and nominal values of its variables, which the crate fmi 0.8
+/// does not know.
+fn readable_by_fmi3(copy: &Path) {
+    let path = archive().with_file_name("fmi3").join("wall.fmu");
+    let mut from = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
+    let mut to = zip::ZipWriter::new(std::fs::File::create(copy).unwrap());
+    for index in 0..from.len() {
+        let mut file = from.by_index(index).unwrap();
+        if file.name().unwrap() != "modelDescription.xml" {
+            to.raw_copy_file(file).unwrap();
+            continue;
+        }
+        let mut text = String::new();
+        file.read_to_string(&mut text).unwrap();
+        to.start_file("modelDescription.xml", zip::write::SimpleFileOptions::default()).unwrap();
+        for line in text.split_inclusive('\n') {
+            let is_variable = line.trim_start().starts_with("<Float64 ");
+            let unknown = |word: &str| word.starts_with("unit=") || word.starts_with("nominal=");
+            let kept = |word| match is_variable && unknown(word) {
+                true => word.find("/>").map(|end| &word[end..]),
+                false => Some(word),
+            };
+            let words: Vec<_> = line.split(' ').filter_map(kept).collect();
+            to.write_all(words.join(" ").as_bytes()).unwrap();
+        }
+    }
+    to.finish().unwrap();
+}
+
+/// u after each step of the default wall in FMI 3.0, by the crate fmi.
+fn by_fmi3() -> Vec<f64> {
+    let copy = std::env::temp_dir().join(format!("rocking-wall-fmi3-{}.fmu", std::process::id()));
+    readable_by_fmi3(&copy);
+    let import: Fmi3Import = fmi::import::from_path(&copy).unwrap();
+    std::fs::remove_file(&copy).unwrap();
+    let mut wall = import.instantiate_cs("wall", false, false, false, false, &[]).unwrap();
+    assert_eq!(wall.get_version(), "3.0");
+    wall.enter_initialization_mode(Some(1e-8), 0.0, None).unwrap();
+    wall.exit_initialization_mode().unwrap();
+    let mut history = Vec::new();
+    for index in 0..STEPS {
+        let (mut event, mut end, mut early, mut time, mut u) = (true, true, true, 0.0, [0.0]);
+        let start = f64::from(index) * STEP;
+        wall.do_step(start, STEP, true, &mut event, &mut end, &mut early, &mut time).unwrap();
+        assert_eq!((event, end, early, time), (false, false, false, start + STEP));
+        wall.get_float64(&[reference("u")], &mut u).unwrap();
+        history.push(u[0]);
+    }
+    wall.terminate().unwrap();
+    history
+}
+
+#[test]
+fn both_versions_agree_bit_for_bit() {
+    let bits = |history: Vec<f64>| history.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(by_fmi()), bits(by_fmi3()));
 }
 
 /// The library of the archive, loaded from a folder of its own.

@@ -54,8 +54,8 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
 
 /// `fmi3InstantiateCoSimulation`
 ///
-/// NULL is returned, after a log, when token or environment do not suit, or an intermediate variable is not a
-/// continuous input.
+/// NULL is returned, after a log, when token or environment do not suit. A warning names intermediate
+/// variables that are not continuous inputs: some importers list all that they record.
 ///
 /// # Safety
 /// As for [`instantiate_model_exchange`]; `intermediate_variables` is NULL or points to as many references.
@@ -74,13 +74,16 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
     intermediate_update: IntermediateUpdateCallback,
 ) -> Instance {
     let logger = || Logger::new(sink(environment, log_message), logging_on);
-    make("fmi3InstantiateCoSimulation", logger, |logger| {
+    make("fmi3InstantiateCoSimulation", logger, |mut logger| {
         // SAFETY: as the caller promises.
         let intermediate = unsafe {
             array("requiredIntermediateVariables", intermediate_variables, intermediate_variable_count)
         }?;
-        for &reference in intermediate {
-            access::check_derivable_input(access::find::<M::Real>(reference)?.variable())?;
+        let served = |&reference: &ValueReference| {
+            access::check_derivable_input(access::find::<M::Real>(reference)?.variable())
+        };
+        if let Some(failure) = intermediate.iter().find_map(|reference| served(reference).err()) {
+            logger.log().warning(format_args!("intermediate updates are for continuous inputs: {failure}"));
         }
         let purpose = Purpose {
             version: Version::Fmi3,
