@@ -16,7 +16,7 @@ use study::ida::{Damping, IntensityMeasure, Levels, Model, NamedRecord, NamedWal
 
 fn main() -> Result<(), Box<dyn Error>> {
     let parameters = Parameters { height: 3.0, thickness: 0.3, a1: 0.01, ..Parameters::default() };
-    let walls = vec![NamedWall { name: "parapet".into(), parameters }];
+    let walls = vec![NamedWall::new("parapet", parameters)];
 
     // Twenty synthetic motions stand for records.
     let record = |seed| -> Result<NamedRecord, Box<dyn Error>> {

@@ -57,8 +57,8 @@ impl Response {
     /// [`SceneError`].
     pub fn of(scene: &Scene) -> Result<Self, SceneError> {
         let count = scene.output_count()?;
-        scene.check_supports()?;
-        let excitation = scene.excitation.as_ref();
+        let motion = scene.support_motion()?;
+        let excitation = motion.as_deref();
         let support_at = |time: f64| segment_of(excitation, time, 0.0).from;
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(0.0))?;
         let mut samples = Vec::with_capacity(count + 1);

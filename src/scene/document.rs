@@ -14,6 +14,7 @@ use super::error::{Place, SceneError};
 use super::motion::MotionTable;
 use super::nearest::suggestion;
 use super::parameter::{Group, input_names};
+use super::storeys::{StoreyTable, SupportsTable};
 
 /// Largest scene file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
@@ -48,7 +49,11 @@ pub struct Document {
     pub start: Group,
     /// Solver and tolerance.
     pub solver: Group,
-    /// What moves the supports.
+    /// Storeys between the ground and the wall, the lowest first.
+    pub storeys: Vec<Spanned<StoreyTable>>,
+    /// The floors that support the wall.
+    pub supports: Option<Spanned<SupportsTable>>,
+    /// What moves the supports, or the ground below the storeys.
     pub motion: Option<Spanned<MotionTable>>,
 }
 

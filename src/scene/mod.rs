@@ -1,16 +1,19 @@
 //! A scene: a wall, its motion and what a run shows, as a TOML file.
 //!
 //! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[start]` and `[solver]` hold the
-//! parameters of the model description under the same names; `[motion]` says what moves the supports. An FMU
-//! made from a scene carries it as `resources/scene.toml`, read by the same code.
+//! parameters of the model description under the same names; `[motion]` says what moves the supports, or the
+//! ground below `[[storeys]]`. An FMU made from a scene carries it as `resources/scene.toml`, read by the
+//! same code.
 
 mod document;
 mod error;
 mod motion;
 mod nearest;
 mod parameter;
+mod storeys;
 mod used;
 
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -26,11 +29,13 @@ pub use error::SceneError;
 pub use motion::{DEFAULT_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
+pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::parse_toml;
 pub use error::Place;
 pub use nearest::suggestion;
 pub use parameter::apply_group;
+pub use storeys::read_floors;
 
 /// A wall, its motion, and how long it is watched.
 #[derive(Clone, Debug)]
@@ -39,8 +44,11 @@ pub struct Scene {
     pub title: String,
     /// The wall and its solver.
     pub parameters: Parameters,
-    /// What moves the supports; `None` for free vibration or for motion that comes through inputs.
+    /// What moves the supports, or the ground below the storeys; `None` for free vibration or for motion that
+    /// comes through inputs.
     pub excitation: Option<Excitation>,
+    /// Storeys between ground and wall.
+    pub floors: Option<Floors>,
     /// Inputs that stay variables of the scene's FMU.
     pub inputs: Vec<RealVariable>,
     /// End of the run \[s\].
@@ -62,6 +70,7 @@ impl Default for Scene {
             title: "Free rocking of the default parapet".into(),
             parameters: Parameters::default(),
             excitation: None,
+            floors: None,
             inputs: vec![RealVariable::AG],
             stop_time: 30.0,
             output_step: DEFAULT_OUTPUT_STEP,
@@ -130,6 +139,7 @@ impl Scene {
         let motion = document.motion.as_ref();
         let loaded = motion.map(|table| motion::load(table, place, folder)).transpose()?;
         let inputs = document.inputs(place)?;
+        let floors = read_floors(&document.storeys, document.supports.as_ref(), place)?;
         if motion.is_some() || !inputs.is_empty() {
             // A shaken or coupled wall starts upright unless the scene says otherwise.
             let start = document.start.keys().map(|key| key.get_ref().as_str());
@@ -142,10 +152,11 @@ impl Scene {
         {
             return Err(place.error(table.span(), message));
         }
-        let (excitation, tail, motion_notes, records) = match loaded {
+        let (excitation, tail, mut motion_notes, records) = match loaded {
             Some(loaded) => (Some(loaded.excitation), loaded.tail, loaded.notes, loaded.records),
             None => (None, 0.0, Vec::new(), Vec::new()),
         };
+        motion_notes.extend(floors.iter().map(Floors::note));
         let free = Self::default();
         let thresholds = match &document.thresholds {
             Some(given) => {
@@ -168,6 +179,7 @@ impl Scene {
             stop_time: place.within("stop_time", document.stop_time.as_ref(), natural_stop, LONGEST_RUN)?,
             output_step: place.within("output_step", document.output_step.as_ref(), natural_step, 1e3)?,
             excitation,
+            floors,
             thresholds,
             motion_notes,
             records,
@@ -188,17 +200,33 @@ impl Scene {
         self.output_step = excitation.bottom().step().max(1e-3);
         self.excitation = Some(excitation);
         self.motion_notes = notes;
+        self.motion_notes.extend(self.floors.iter().map(Floors::note));
         self.inputs.clear();
         self.parameters.u_start = 0.0;
     }
 
-    /// Checks that the supports move as the kinematics allows.
+    /// Returns the motion of the supports: that of the scene, or that of its floors under it, up to the end
+    /// of the run.
     ///
     /// # Errors
-    /// [`SceneError::Value`] where a strip wall in full rotations has another motion at its top.
-    pub fn check_supports(&self) -> Result<(), SceneError> {
-        moved_apart(&self.parameters, self.excitation.as_ref())
-            .map_or(Ok(()), |message| Err(SceneError::Value { message: message.into() }))
+    /// [`SceneError::Value`] where a strip wall in full rotations has another motion at its top, or where the
+    /// wall does not go with its floors.
+    pub fn support_motion(&self) -> Result<Option<Cow<'_, Excitation>>, SceneError> {
+        let refused = |message: &str| SceneError::Value { message: message.into() };
+        let motion = match (&self.floors, &self.excitation) {
+            (None, motion) => motion.as_ref().map(Cow::Borrowed),
+            (Some(floors), Some(ground)) => {
+                let end = self.stop_time.max(ground.duration());
+                Some(Cow::Owned(floors.motion(self.parameters.mechanism, ground, end)?))
+            }
+            (Some(_), None) => {
+                return Err(refused("storeys move under a motion of the ground; give [motion] or --record"));
+            }
+        };
+        match moved_apart(&self.parameters, motion.as_deref()) {
+            Some(message) => Err(refused(message)),
+            None => Ok(motion),
+        }
     }
 
     /// Number of output intervals of the run.
@@ -266,6 +294,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
             }
         }
     }
+    text.extend(scene.floors.iter().map(Floors::to_toml));
     if !motion.is_empty() {
         let _ = write!(text, "\n[motion]\n{motion}");
     }

@@ -1,28 +1,40 @@
 //! Recorded motion of the supports.
 
-use ground_motion::GroundMotion;
+use ground_motion::{GroundMotion, GroundMotionError};
 
 use crate::solver::Segment;
-use crate::wall::Support;
+use crate::wall::{Body, Support};
 
 /// Recorded motion of the supports: one record for both, or one for each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Excitation {
     bottom: GroundMotion,
     top: Option<GroundMotion>,
+    /// Drift between the supports \[m\].
+    drift: Option<GroundMotion>,
     held: bool,
 }
 
 impl Excitation {
     /// One motion for both supports, or `top` for the top support of a wall in an upper storey.
     pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
-        Self { bottom, top, held: false }
+        Self { bottom, top, drift: None, held: false }
+    }
+
+    /// Adds the drift between the supports, whose samples are displacements `x_top` − `x_bottom` \[m\].
+    pub fn with_drift(self, drift: GroundMotion) -> Self {
+        Self { drift: Some(drift), ..self }
     }
 
     /// Holds each sample until the next, as most importers do with an input, instead of going linearly
     /// between.
     pub fn held(self) -> Self {
         Self { held: true, ..self }
+    }
+
+    /// Whether each sample is held until the next.
+    pub fn is_held(&self) -> bool {
+        self.held
     }
 
     /// Motion of the bottom support, or of both.
@@ -35,21 +47,44 @@ impl Excitation {
         self.top.as_ref()
     }
 
+    /// Returns the shortest step of its records \[s\].
+    pub fn step(&self) -> f64 {
+        self.records().map(GroundMotion::step).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the acceleration that forces a wall as this motion does when both supports have it, at
+    /// [`step`](Self::step).
+    ///
+    /// # Errors
+    /// If a sample is not finite.
+    pub fn effective(&self, body: &Body) -> Result<GroundMotion, GroundMotionError> {
+        let step = self.step();
+        let unit = body.forcing(Support::rigid(1.0));
+        let at = |index: usize| body.forcing(self.segment(index as f64 * step, 0.0).from) / unit;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "samples of a record")]
+        let count = (self.duration() / step).round() as usize;
+        GroundMotion::new(step, (0..=count).map(at).collect())
+    }
+
+    fn records(&self) -> impl Iterator<Item = &GroundMotion> {
+        [Some(&self.bottom), self.top.as_ref(), self.drift.as_ref()].into_iter().flatten()
+    }
+
     /// Length of the longer record \[s\].
     pub fn duration(&self) -> f64 {
-        self.top.as_ref().map_or(0.0, GroundMotion::duration).max(self.bottom.duration())
+        self.records().map(GroundMotion::duration).fold(0.0, f64::max)
     }
 
     /// Returns the segment that begins `elapsed` seconds after the start, and lasts `remaining` \[s\] or to
     /// the next sample.
     pub fn segment(&self, elapsed: f64, remaining: f64) -> Segment {
         let mut duration = remaining;
-        for record in [Some(&self.bottom), self.top.as_ref()].into_iter().flatten() {
+        for record in self.records() {
             if let Some(next) = next_sample(record, elapsed) {
                 duration = duration.min(next - elapsed);
             }
         }
-        let ends = |record| {
+        let ends = |record: &GroundMotion| {
             if self.held {
                 [sample(record, sample_before(record, elapsed).max(0.0)).unwrap_or(0.0); 2]
             } else {
@@ -58,10 +93,11 @@ impl Excitation {
         };
         let [from, to] = ends(&self.bottom);
         let [from_top, to_top] = self.top.as_ref().map_or([from, to], ends);
+        let [drift, drift_to] = self.drift.as_ref().map_or([0.0; 2], ends);
         Segment {
             duration,
-            from: Support { bottom: from, top: from_top, drift: 0.0 },
-            to: Support { bottom: to, top: to_top, drift: 0.0 },
+            from: Support { bottom: from, top: from_top, drift },
+            to: Support { bottom: to, top: to_top, drift: drift_to },
         }
     }
 }

@@ -40,7 +40,9 @@ impl Model for Unit {
         if scene.parameters.kinematics != Kinematics::Linear {
             return Err("resources/scene.toml: an FMU knows kinematics = linear only".into());
         }
-        Self::new(scene.parameters, scene.excitation.map(Arc::new), exchange)
+        let motion = scene.support_motion().map_err(|error| format!("resources/scene.toml: {error}"))?;
+        let motion = motion.map(|motion| Arc::new(motion.into_owned()));
+        Self::new(scene.parameters, motion, exchange)
     }
 
     fn real(&self, variable: RealVariable) -> f64 {

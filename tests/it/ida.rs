@@ -21,7 +21,7 @@ fn walls() -> Vec<NamedWall> {
         a1: 0.02,
         ..Parameters::default()
     };
-    let named = |name: &str, parameters| NamedWall { name: name.into(), parameters };
+    let named = |name: &str, parameters| NamedWall::new(name, parameters);
     vec![named("3", parapet), named("8", strip)]
 }
 

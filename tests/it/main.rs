@@ -17,6 +17,7 @@ mod documents;
 mod extremes;
 mod figure_15;
 mod files_command;
+mod floor_motion;
 mod fragility;
 mod ground_motion;
 mod ida;

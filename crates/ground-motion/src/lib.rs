@@ -27,6 +27,7 @@
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
 //! | [`Spectrum`] | Sa at any period and damping, AvgSA |
+//! | [`Storeys`] | the motion of floors above the ground, in closed form per mode |
 //! | [`Pulse`], [`SyntheticMotion`] | Ricker pulses, sines; filtered noise from a seed |
 //!
 //! The format is found from a file's content. A file whose unit or step is not known, whose numbers are
@@ -45,6 +46,7 @@ mod pulse;
 mod readers;
 mod record;
 pub mod spectrum;
+mod storeys;
 mod synthetic;
 mod unit;
 
@@ -57,5 +59,6 @@ pub use pulse::{Pulse, Shape};
 pub use readers::CSV_HEADER;
 pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_channels};
 pub use spectrum::{Maxima, Spectrum};
+pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
 pub use unit::{STANDARD_GRAVITY, Unit};

@@ -161,6 +161,16 @@ impl Wall {
         let mut parameters = self.scene.parameters.clone();
         parameters.u_start = self.start.unwrap_or(0.0);
         let motion = Motion::of(&parameters, parameters.tolerance).map_err(refused)?;
+        // a wall on storeys feels the floors until the tail ends
+        let record = match &self.scene.floors {
+            None => record,
+            Some(floors) => {
+                let end = record.duration() + tail;
+                let ground = Excitation::new(record, None);
+                let felt = floors.motion(parameters.mechanism, &ground, end).map_err(of_scene)?;
+                felt.effective(self.equation.body()).map_err(failed)?
+            }
+        };
         let solver = RecordSolver::new(&motion, record.step());
         let shaking = Shaking::new(&motion, &solver, &record, tail);
         let start = [parameters.u_start, parameters.u_dot_start];

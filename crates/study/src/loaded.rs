@@ -74,8 +74,8 @@ fn wall(
     warnings: &mut Vec<String>,
 ) -> Result<NamedWall, SceneError> {
     let mut is_shaken = false;
-    let (parameters, own_name) = match entry.source {
-        WallSource::Inline(parameters) => (*parameters, String::new()),
+    let (parameters, own_name, own_floors) = match entry.source {
+        WallSource::Inline(parameters) => (*parameters, String::new(), None),
         WallSource::Scene(path) => {
             inputs.push(folder.join(&path));
             let scene = Scene::read(&folder.join(&path)).map_err(|error| SceneError::Line {
@@ -85,7 +85,7 @@ fn wall(
             })?;
             is_shaken = scene.excitation.is_some();
             let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            (scene.parameters, stem)
+            (scene.parameters, stem, scene.floors)
         }
     };
     let name = entry.name.unwrap_or(own_name);
@@ -93,11 +93,14 @@ fn wall(
         warnings
             .push(format!("wall {name:?}: the study ignores the motion of its scene and uses its records"));
     }
-    let made = Wall::new(&parameters).into_iter();
-    let about_work = made.flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
+    let made = Wall::new(&parameters);
+    let about_work = made.iter().flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
     warnings.extend(about_work.map(|warning| format!("wall {name:?}: {warning}")));
     warnings.extend(Warning::unusual(&parameters).map(|warning| format!("wall {name:?}: {warning}")));
-    Ok(NamedWall { name, parameters })
+    let floors = entry.floors.or(own_floors);
+    let heavy = made.ok().and_then(|wall| floors.as_ref()?.warning(&wall));
+    warnings.extend(heavy.map(|warning| format!("wall {name:?}: {warning}")));
+    Ok(NamedWall { name, parameters, floors })
 }
 
 /// Lists the record files of a study, in the order of its patterns.

@@ -23,12 +23,12 @@ pub(crate) struct SceneArguments {
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
     /// Accelerogram that replaces the scene's motion, in any format `wall record` reads
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", group = "recorded")]
     pub(crate) record: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) options: RecordOptionsArguments,
     /// Shake with the project's synthetic motion
-    #[arg(long, conflicts_with = "record")]
+    #[arg(long, conflicts_with = "recorded")]
     pub(crate) synthetic: bool,
     /// Factor on the motion given here
     #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
@@ -38,23 +38,23 @@ pub(crate) struct RecordArguments {
     pub(crate) pga: Option<f64>,
 }
 
-/// How to read a record; each of these needs the argument `record`.
+/// How to read records; each of these needs an argument of the group `recorded`.
 #[derive(Debug, Args)]
 pub(crate) struct RecordOptionsArguments {
     /// Unit of the record: m/s2, cm/s2, mm/s2 or g; needed where the file does not state its own
-    #[arg(long, requires = "record")]
+    #[arg(long, requires = "recorded")]
     unit: Option<String>,
     /// Time between samples in s, for a record that does not state it
-    #[arg(long, requires = "record", value_name = "SECONDS")]
+    #[arg(long, requires = "recorded", value_name = "SECONDS")]
     record_step: Option<f64>,
     /// Column of a CSV table
-    #[arg(long, requires = "record")]
+    #[arg(long, requires = "recorded")]
     column: Option<String>,
     /// Channel of a record with several, by its number; `wall record` without it shows all
-    #[arg(long, requires = "record")]
+    #[arg(long, requires = "recorded")]
     channel: Option<String>,
     /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
-    #[arg(long, requires = "record")]
+    #[arg(long, requires = "recorded")]
     format: Option<String>,
 }
 
@@ -143,15 +143,20 @@ impl RecordArguments {
             }
             None => return Ok(None),
         };
-        let motion = match (self.scale, self.pga) {
+        Ok(Some((self.scaled(motion)?, note)))
+    }
+
+    /// Scales a motion as the arguments say.
+    pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
+        Ok(match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
             (None, Some(pga)) => motion.scaled_to_peak(pga)?,
             (None, None) => motion,
-        };
-        Ok(Some((motion, note)))
+        })
     }
 
-    fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
+    /// Reads a record and describes it.
+    pub(crate) fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
         let record = read(path, &self.options.options()?)?;
         for warning in &record.check().warnings {
             output::warn(&format!("{}: {warning}", path.display()));

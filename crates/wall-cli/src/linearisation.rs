@@ -229,7 +229,7 @@ fn counterpart(scene: &Scene) -> Option<Scene> {
     other.parameters.kinematics = Kinematics::Trigonometric;
     // full rotations allow rigid walls without damping only
     Wall::new(&other.parameters).ok()?;
-    other.check_supports().ok()?;
+    other.support_motion().ok()?;
     if scene.parameters.kinematics == Kinematics::Trigonometric {
         other.parameters.kinematics = Kinematics::Linear;
     }

@@ -48,8 +48,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     });
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
-    let figures =
-        figures(scene, wall, response, end) + &rotations(scene, response) + &demands(wall, response);
+    let figures = figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response);
     let page = [
         ("title", &*escaped(&scene.title)),
         ("subtitle", &escaped(&subtitle)),
@@ -201,16 +200,16 @@ fn demands(wall: &Wall, response: &Response) -> String {
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
 }
 
-fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String {
+fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
         response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
     };
     let overturned = response.summary.overturn_time;
     let ratio = standing(&response.samples, overturned);
     let motion = column(&|sample| sample.support.bottom);
-    let of_top = scene.excitation.as_ref().and_then(|motion| motion.top());
-    let top_motion = of_top.map(|_| column(&|sample| sample.support.top));
-    let supports = match of_top {
+    let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
+    let top_motion = has_top.then(|| column(&|sample| sample.support.top));
+    let supports = match top_motion {
         Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
         None if wall.body().mechanism == Mechanism::VerticalSpanning => "Acceleration of both supports",
         None => "Acceleration of the support",

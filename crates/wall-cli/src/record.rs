@@ -18,7 +18,7 @@ use crate::output;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV
-    #[arg(id = "record", required = true, value_name = "FILE")]
+    #[arg(group = "recorded", required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
     options: RecordOptionsArguments,

@@ -55,6 +55,10 @@ fn scene() -> Result<Value> {
 /// Makes the schema of studies, whose walls take some tables of a scene.
 fn study() -> Result<Value> {
     let mut schema: Value = serde_json::from_str(include_str!("study.schema.json"))?;
+    let of_scene: Value = serde_json::from_str(include_str!("scene.schema.json"))?;
+    for table in ["StoreyTable", "SupportsTable"] {
+        schema["$defs"][table] = of_scene["$defs"][table].clone();
+    }
     let properties = &mut schema["$defs"]["Wall"]["properties"];
     for (group, names) in GROUPS.iter().filter(|(group, _)| !["damping", "start"].contains(group)) {
         // the models of the study set the impact
@@ -163,6 +167,8 @@ mod tests {
     #[test]
     fn the_schema_has_the_keys_of_scene_files() {
         for (table, place) in [
+            ("StoreyTable", "[[storeys]]\nx = 1"),
+            ("SupportsTable", "[supports]\nx = 1"),
             ("MotionTable", "[motion]\nx = 1"),
             ("TopTable", "[motion.top]\nx = 1"),
             ("RickerTable", "[motion]\nricker = { x = 1 }"),

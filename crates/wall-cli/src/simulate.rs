@@ -1,53 +1,24 @@
 //! `wall simulate`: run a scene, write its history and its page.
 
-use std::fmt::Write;
-use std::path::PathBuf;
+mod arguments;
+mod records;
 
-use anyhow::{Result, bail};
-use clap::Args;
+use std::fmt::Write;
+
+use anyhow::Result;
 use rocking_wall::response::Response;
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, check_thresholds};
-use rocking_wall::simulation::Excitation;
+use rocking_wall::scene::Scene;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
-use crate::args::{RecordArguments, SceneArguments};
 use crate::{demands, output, page};
 
-#[derive(Debug, Args)]
-pub(crate) struct Arguments {
-    #[command(flatten)]
-    scene: SceneArguments,
-    #[command(flatten)]
-    record: RecordArguments,
-    /// Free vibration in s after a motion given here
-    #[arg(long, value_name = "SECONDS")]
-    tail: Option<f64>,
-    /// Hold each sample until the next, as most importers do with an input, instead of interpolating
-    #[arg(long)]
-    hold: bool,
-    /// End of the run in s
-    #[arg(long, value_name = "SECONDS")]
-    stop_time: Option<f64>,
-    /// Step of the output in s
-    #[arg(long, value_name = "SECONDS")]
-    output_step: Option<f64>,
-    /// Write the history as CSV
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-    /// Write a page with the rocking wall and its history
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
-    /// Limit states as fractions of `u_ins` whose first crossings are reported, instead of the scene's
-    /// [default: 0.1,0.4,0.6,1]
-    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
-    thresholds: Option<Vec<f64>>,
-    /// Print the summary and the demands as JSON
-    #[arg(long)]
-    json: bool,
-}
+pub(crate) use arguments::Arguments;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    if !arguments.records.is_empty() {
+        return records::run(arguments);
+    }
     let scene = arguments.scene()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
@@ -57,6 +28,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         output::warn(&warning.to_string());
     }
     let response = arguments.scene.named(Response::of(&scene))?;
+    if let Some(warning) = scene.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
+        output::warn(&warning);
+    }
     if response.summary.put_to_rest {
         output::warn("impacts accumulated beyond their bound: the wall was put to rest");
     }
@@ -75,52 +49,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         text
     };
     output::to_stdout(&text)
-}
-
-impl Arguments {
-    /// The scene to run.
-    fn scene(&self) -> Result<Scene> {
-        let mut scene = self.scene.load()?;
-        if let Some((motion, note)) = self.record.load()? {
-            let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
-            let tail = self.tail.unwrap_or(DEFAULT_TAIL);
-            if !(0.0..=1e6).contains(&tail) {
-                bail!("--tail {tail}: must be between 0 and 1e6 s");
-            }
-            scene.shake(Excitation::new(motion, None), tail, vec![note, peak]);
-            if self.scene.scene.is_none() {
-                scene.title = "The default parapet, shaken".into();
-            }
-        } else if self.tail.is_some() {
-            bail!(
-                "--tail belongs to a motion given with --record or --synthetic; a scene states its own tail"
-            );
-        }
-        self.scene.apply(&mut scene)?;
-        if self.hold {
-            let Some(excitation) = scene.excitation.take() else {
-                bail!("--hold needs a motion; give --record or --synthetic, or a scene with one");
-            };
-            scene.excitation = Some(excitation.held());
-            scene.motion_notes.push("each sample held until the next".into());
-        }
-        for (name, given, value) in [
-            ("--stop-time", self.stop_time, &mut scene.stop_time),
-            ("--output-step", self.output_step, &mut scene.output_step),
-        ] {
-            if let Some(given) = given {
-                if !(given > 0.0 && given <= 1e7) {
-                    bail!("{name} {given}: must be above 0 and at most 1e7 s");
-                }
-                *value = given;
-            }
-        }
-        if let Some(thresholds) = &self.thresholds {
-            check_thresholds(thresholds)?;
-            scene.thresholds.clone_from(thresholds);
-        }
-        Ok(scene)
-    }
 }
 
 /// The columns of the history.

@@ -9,7 +9,8 @@ use figures::escaped;
 use figures::heat_map::{Axis, Cell, HeatMap, scale};
 use figures::palette::mixed;
 use ground_motion::{GroundMotion, Pulse};
-use rocking_wall::scene::Scene;
+use rocking_wall::scene::{DEFAULT_TAIL, Scene};
+use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Parameters, Wall};
 use study::parallel;
@@ -178,17 +179,18 @@ fn walls(
     })
 }
 
-/// The motion given, or the scene's own.
+/// The motion that the supports get from the one given, or from the scene's own.
 fn motion(arguments: &Arguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
+    let mut scene = scene.clone();
     if let Some((motion, note)) = arguments.record.load()? {
         let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
-        return Ok((motion, vec![note, peak]));
+        scene.shake(Excitation::new(motion, None), DEFAULT_TAIL, vec![note, peak]);
     }
-    match &scene.excitation {
-        Some(excitation) if excitation.top().is_some() => {
+    match scene.support_motion()? {
+        Some(motion) if motion.top().is_some() => {
             bail!("a rocking spectrum takes one motion for both supports; the scene has one for each")
         }
-        Some(excitation) => Ok((excitation.bottom().clone(), scene.motion_notes.clone())),
+        Some(motion) => Ok((motion.bottom().clone(), scene.motion_notes)),
         None => bail!(
             "a rocking spectrum needs a motion; give --record, --synthetic, --pulse, or a scene with one"
         ),

@@ -1,6 +1,7 @@
 //! Errors of a measurement.
 
 use ground_motion::GroundMotionError;
+use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
 
@@ -11,6 +12,9 @@ pub enum AccuracyError {
     /// The parameters make no wall.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
+    /// The wall does not go with its supports.
+    #[error(transparent)]
+    Supports(#[from] SceneError),
     /// The motion is invalid.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),

@@ -28,16 +28,18 @@ impl Problem {
     /// has none.
     ///
     /// # Errors
-    /// [`AccuracyError::Parameters`] if the parameters make no wall.
+    /// [`AccuracyError::Parameters`] if the parameters make no wall, [`AccuracyError::Supports`] if it does
+    /// not go with its floors.
     pub fn from_scene(scene: &Scene) -> Result<Self, AccuracyError> {
         let wall = Wall::new(&scene.parameters)?;
-        let step = scene.excitation.as_ref().map_or(scene.output_step, |motion| motion.bottom().step());
+        let motion = scene.support_motion()?;
+        let step = motion.as_ref().map_or(scene.output_step, |motion| motion.step());
         let count = (scene.stop_time / step).round().clamp(1.0, MOST_SAMPLES);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 1e7")]
         let count = count as usize;
         let support = |index: usize| {
             let time = index as f64 * step;
-            scene.excitation.as_ref().map_or_else(Support::default, |motion| motion.segment(time, 0.0).from)
+            motion.as_ref().map_or_else(Support::default, |motion| motion.segment(time, 0.0).from)
         };
         let forcing = (0..=count).map(|index| wall.body().forcing(support(index))).collect();
         Ok(Self { name: scene.title.clone(), parameters: scene.parameters.clone(), forcing, step })

@@ -24,7 +24,9 @@ use serde::{Deserialize, Serialize};
 use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
-use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
+use rocking_wall::scene::{
+    Floors, Group, Place, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml, read_floors,
+};
 use rocking_wall::wall::Parameters;
 
 use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model};
@@ -65,6 +67,8 @@ pub struct WallEntry {
     pub name: Option<String>,
     /// Source of its parameters.
     pub source: WallSource,
+    /// Storeys between ground and wall; if there are none, those of its scene.
+    pub floors: Option<Floors>,
     /// Line in the study file.
     pub line: usize,
 }
@@ -113,6 +117,9 @@ struct Document {
     levels: Spanned<LevelsTable>,
     records: Spanned<RecordsTable>,
     report: Option<Spanned<ReportTable>>,
+    #[serde(default)]
+    storeys: Vec<Spanned<StoreyTable>>,
+    supports: Option<Spanned<SupportsTable>>,
     walls: Vec<Spanned<WallTable>>,
 }
 
@@ -152,6 +159,7 @@ struct ReportTable {
 struct WallTable {
     name: Option<String>,
     scene: Option<PathBuf>,
+    supports: Option<Spanned<SupportsTable>>,
     #[serde(default)]
     geometry: Group,
     #[serde(default)]
@@ -178,7 +186,11 @@ impl StudyFile {
                 return Err(place.error(document.models[index].span(), message));
             }
         }
-        let walls = document.walls.iter().map(|table| wall(table, place)).collect::<Result<_, _>>()?;
+        let walls = document.walls.iter().map(|table| {
+            let supports = table.get_ref().supports.as_ref().or(document.supports.as_ref());
+            Ok(WallEntry { floors: read_floors(&document.storeys, supports, place)?, ..wall(table, place)? })
+        });
+        let walls = walls.collect::<Result<_, SceneError>>()?;
         let tail = document.tail.as_ref().map_or(DEFAULT_TAIL, |tail| *tail.get_ref());
         if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=1000.0).contains(&tail)) {
             return Err(place.error(given.span(), format!("tail = {tail} s must be from 0 to 1000 s")));
@@ -212,7 +224,7 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
             return Err(place.error(table.span(), message));
         }
         let source = WallSource::Scene(scene.clone());
-        return Ok(WallEntry { name: spec.name.clone(), source, line });
+        return Ok(WallEntry { name: spec.name.clone(), source, floors: None, line });
     }
     if let Some(key) = spec.impact.keys().find(|key| key.get_ref() == "impact") {
         let message = "impact is set by the study's models; state restitution_source and restitution only";
@@ -226,7 +238,7 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
         apply_group(&mut parameters, name, group, place)?;
     }
     let source = WallSource::Inline(Box::new(parameters));
-    Ok(WallEntry { name: spec.name.clone(), source, line })
+    Ok(WallEntry { name: spec.name.clone(), source, floors: None, line })
 }
 
 fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {

@@ -1,6 +1,7 @@
 //! Errors of an incremental dynamic analysis.
 
 use ground_motion::GroundMotionError;
+use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
 
@@ -26,6 +27,9 @@ pub enum IdaError {
     /// The free vibration after a record is outside its limits.
     #[error("the tail is {value} s; it must be from 0 to 1000 s")]
     Tail { value: f64 },
+    /// A wall does not go with its floors.
+    #[error("wall {wall:?}, record {record:?}: {source}")]
+    Floors { wall: String, record: String, source: Box<SceneError> },
     /// A run failed.
     #[error(
         "wall {wall:?}, record {record:?}, damping model {model:?}, from the level {level} m/s² on: {source}"

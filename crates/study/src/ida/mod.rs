@@ -9,7 +9,7 @@
 //! use rocking_wall::wall::Parameters;
 //! use study::ida::{Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study};
 //!
-//! let walls = vec![NamedWall { name: "parapet".into(), parameters: Parameters::default() }];
+//! let walls = vec![NamedWall::new("parapet", Parameters::default())];
 //! let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() }.motion()?;
 //! let records = vec![NamedRecord { name: "synthetic".into(), motion }];
 //! let models = vec![Model::new(Damping::Restitution)];
@@ -27,8 +27,12 @@ mod measure;
 mod model;
 mod shaking;
 
+use std::borrow::Cow;
+
 use crate::parallel;
 use ground_motion::GroundMotion;
+use rocking_wall::scene::{Floors, SceneError};
+use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::record::{Outcome, RecordSolver};
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::{Parameters, Wall};
@@ -50,6 +54,15 @@ pub struct NamedWall {
     pub name: String,
     /// Parameters. The coefficient of restitution that they state or imply serves every model.
     pub parameters: Parameters,
+    /// Storeys between ground and wall. The records shake the ground, whose intensity counts.
+    pub floors: Option<Floors>,
+}
+
+impl NamedWall {
+    /// Makes a wall on the ground.
+    pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
+        Self { name: name.into(), parameters, floors: None }
+    }
 }
 
 /// A record of a study.
@@ -197,8 +210,9 @@ impl Study {
     /// [`IdaError::Run`] if a run fails.
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
         let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record]);
-        let solver = RecordSolver::new(motion, record.motion.step());
-        let shaking = Shaking::new(motion, &solver, &record.motion, self.tail);
+        let felt = self.felt(case)?;
+        let solver = RecordSolver::new(motion, felt.step());
+        let shaking = Shaking::new(motion, &solver, &felt, self.tail);
         let runs = self.levels.trace(|levels| {
             self.runs(case, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
@@ -209,6 +223,23 @@ impl Study {
             })
         })?;
         Ok(Curve::new(runs))
+    }
+
+    /// Returns the motion that a wall feels under a record: that of the ground, or that of its floors until
+    /// the tail ends.
+    fn felt(&self, case: Case) -> Result<Cow<'_, GroundMotion>, IdaError> {
+        let (wall, record) = (&self.walls[case.wall], &self.records[case.record]);
+        let Some(floors) = &wall.floors else { return Ok(Cow::Borrowed(&record.motion)) };
+        let ground = Excitation::new(record.motion.clone(), None);
+        let end = ground.duration() + self.tail;
+        let failed = |source: SceneError| IdaError::Floors {
+            wall: wall.name.clone(),
+            record: record.name.clone(),
+            source: Box::new(source),
+        };
+        let felt = floors.motion(wall.parameters.mechanism, &ground, end).map_err(failed)?;
+        let felt = felt.effective(self.wall(case.wall, case.model).body());
+        felt.map(Cow::Owned).map_err(|error| failed(SceneError::Value { message: error.to_string() }))
     }
 
     /// Computes all curves, in the order of their numbers, on `threads` threads. The result does not depend

@@ -48,9 +48,10 @@ pub fn figure_15(
     finished: impl Fn(usize) + Sync,
 ) -> Result<Collapses, IdaError> {
     let count = records.len();
-    let walls = TABLE_5.iter().map(|row| NamedWall {
-        name: format!("wall {}", row.number),
-        parameters: Parameters { restitution_source: RestitutionSource::Calibrated, ..table_5_wall(row) },
+    let walls = TABLE_5.iter().map(|row| {
+        let restitution_source = RestitutionSource::Calibrated;
+        let parameters = Parameters { restitution_source, ..table_5_wall(row) };
+        NamedWall::new(format!("wall {}", row.number), parameters)
     });
     let models = Model::figure_15();
     let study = Study::new(walls.collect(), records, models, IntensityMeasure::default(), LEVELS)?;

@@ -89,7 +89,8 @@ impl Contents {
     fn of(study: &Study) -> Self {
         let models = study.models();
         let walls = study.walls().iter().enumerate().map(|(index, wall)| {
-            let scene = Scene { parameters: wall.parameters.clone(), ..Scene::default() };
+            let (parameters, floors) = (wall.parameters.clone(), wall.floors.clone());
+            let scene = Scene { parameters, floors, ..Scene::default() };
             let text = to_toml(&scene, "");
             WallNote {
                 name: wall.name.clone(),

@@ -1,0 +1,233 @@
+//! Storeys between ground and wall: the record shakes the ground, the wall feels the floors.
+//!
+//! The storeys move as if there were no wall (cascade), which suits walls of up to a twentieth of the mass of
+//! their floors.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::choices::Mechanism;
+use crate::simulation::Excitation;
+use crate::wall::Wall;
+
+use super::error::{Place, SceneError};
+
+/// Damping ratio of a storey that states none (-).
+const DAMPING: f64 = 0.05;
+/// Largest mass of a wall over that of its floor for which a warning is not needed.
+const LIGHT: f64 = 1.0 / 20.0;
+
+/// An item of `[[storeys]]`, the lowest first.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoreyTable {
+    /// Mass of the floor \[kg\]; not needed for a single storey with a period.
+    pub mass: Option<f64>,
+    /// Lateral stiffness of the storey \[N/m\].
+    pub stiffness: Option<f64>,
+    /// Period that the storey alone would have on the ground \[s\], instead of the stiffness.
+    pub period: Option<f64>,
+    /// Damping ratio (-), 0.05 by default.
+    pub damping_ratio: Option<f64>,
+}
+
+/// `[supports]`: the floors that a wall stands on and leans on, counted from 1; 0 is the ground.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SupportsTable {
+    /// Floor that the wall stands on: by default the roof, for a strip wall the floor below the roof.
+    pub bottom: Option<usize>,
+    /// Floor that a strip wall leans on: by default the one above the bottom.
+    pub top: Option<usize>,
+    /// Whether the drift between the supports acts on a strip wall; by default it does.
+    pub drift: Option<bool>,
+}
+
+/// Storeys, and the floors that support a wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floors {
+    storeys: Storeys,
+    bottom: Option<usize>,
+    top: Option<usize>,
+    drift: bool,
+    /// The masses are those of the floors; a single storey may have a period alone.
+    has_masses: bool,
+}
+
+impl Floors {
+    /// Makes storeys from their tables, which support a wall as `supports` says.
+    ///
+    /// # Errors
+    /// What is wrong and the remedy, with the index of the storey where there is one.
+    pub fn new(tables: &[StoreyTable], supports: SupportsTable) -> Result<Self, (Option<usize>, String)> {
+        let single = tables.len() == 1;
+        let storey = |(index, table): (usize, &StoreyTable)| {
+            let StoreyTable { mass, stiffness, period, damping_ratio } = *table;
+            let refused = |message: &str| (Some(index), message.to_owned());
+            let mass = mass.or((single && stiffness.is_none()).then_some(1.0));
+            let mass = mass.ok_or_else(|| refused("a storey needs a mass [kg]"))?;
+            let stiffness = match (stiffness, period) {
+                (Some(stiffness), None) => stiffness,
+                // k = m (2π/T)²
+                (None, Some(period)) if period > 0.0 => mass * (TAU / period) * (TAU / period),
+                (None, Some(_)) => return Err(refused("the period of a storey must be above 0 s")),
+                _ => return Err(refused("a storey needs either a stiffness [N/m] or a period [s]")),
+            };
+            Ok(Storey { mass, stiffness, damping_ratio: damping_ratio.unwrap_or(DAMPING) })
+        };
+        let storeys = tables.iter().enumerate().map(storey).collect::<Result<Vec<_>, _>>()?;
+        let storeys = Storeys::new(&storeys).map_err(|error| (None, error.to_string()))?;
+        let SupportsTable { bottom, top, drift } = supports;
+        let highest = tables.len();
+        if let Some(floor) = bottom.into_iter().chain(top).find(|floor| *floor > highest) {
+            return Err((None, format!("there is no floor {floor}; floors count from 1 to {highest}")));
+        }
+        let has_masses = tables.iter().all(|table| table.mass.is_some());
+        Ok(Self { storeys, bottom, top, drift: drift.unwrap_or(true), has_masses })
+    }
+
+    /// Returns the storeys.
+    pub fn storeys(&self) -> &Storeys {
+        &self.storeys
+    }
+
+    /// Returns the floors at the bottom and, for a strip wall, at the top.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where a parapet has a top, or a strip wall no floor above its bottom.
+    pub fn supports(&self, mechanism: Mechanism) -> Result<(usize, Option<usize>), SceneError> {
+        let highest = self.storeys.storeys().len();
+        let refused = |message: &str| Err(SceneError::Value { message: message.into() });
+        match (mechanism, self.top) {
+            (Mechanism::Parapet, None) => Ok((self.bottom.unwrap_or(highest), None)),
+            (Mechanism::Parapet, Some(_)) => {
+                refused("[supports] top: a parapet has no top support; leave it out")
+            }
+            (Mechanism::VerticalSpanning, top) => {
+                let bottom = self.bottom.or(top.map(|top| top.saturating_sub(1))).unwrap_or(highest - 1);
+                let top = top.unwrap_or(bottom + 1);
+                if top > highest {
+                    return refused("[supports]: a strip wall on the roof leans on nothing; state its top");
+                }
+                Ok((bottom, Some(top)))
+            }
+        }
+    }
+
+    /// Computes the motion of a wall's supports under a motion of the ground, up to `end` \[s\].
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where the wall does not go with its floors or the motion takes too many samples.
+    pub fn motion(
+        &self,
+        mechanism: Mechanism,
+        ground: &Excitation,
+        end: f64,
+    ) -> Result<Excitation, SceneError> {
+        let refused = |message: String| SceneError::Value { message };
+        if ground.top().is_some() || ground.is_held() {
+            let message = "storeys take one motion of the ground, linear between its samples; leave out \
+                           [motion.top] and --hold";
+            return Err(refused(message.into()));
+        }
+        let ground = ground.bottom();
+        let failed = |error: GroundMotionError| refused(format!("storeys: {error}"));
+        let floor = |floor: usize| {
+            if floor == 0 {
+                return Ok((ground.clone(), Vec::new()));
+            }
+            let motion = self.storeys.floor(ground, end, floor)?;
+            Ok((motion.acceleration, motion.displacement))
+        };
+        let (bottom, top) = self.supports(mechanism)?;
+        let (acceleration, below) = floor(bottom).map_err(failed)?;
+        let Some(top) = top.filter(|top| *top != bottom) else {
+            return Ok(Excitation::new(acceleration, None));
+        };
+        let (above_acceleration, above) = floor(top).map_err(failed)?;
+        let step = [&acceleration, &above_acceleration].map(GroundMotion::step);
+        let motion = Excitation::new(acceleration, Some(above_acceleration));
+        if !self.drift {
+            return Ok(motion);
+        }
+        let count = below.len().max(above.len());
+        let at = |floor: &[f64], index: usize| floor.get(index).copied().unwrap_or(0.0);
+        let drift = (0..count).map(|index| at(&above, index) - at(&below, index)).collect();
+        Ok(motion.with_drift(GroundMotion::new(step[0].min(step[1]), drift).map_err(failed)?))
+    }
+
+    /// Returns a warning where the wall is heavy beside a floor that supports it.
+    pub fn warning(&self, wall: &Wall) -> Option<String> {
+        let (bottom, top) = self.supports(wall.body().mechanism).ok()?;
+        let floors = [Some(bottom), top].into_iter().flatten().filter(|floor| *floor > 0);
+        let least = floors.map(|floor| self.storeys.storeys()[floor - 1].mass).fold(f64::INFINITY, f64::min);
+        let ratio = wall.body().mass / least;
+        (self.has_masses && ratio > LIGHT).then(|| {
+            format!(
+                "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; above \
+                 {LIGHT} use `wall building`, whose walls act on the floors"
+            )
+        })
+    }
+
+    /// Describes the storeys in a few words, for the facts about a motion.
+    pub fn note(&self) -> String {
+        let periods: Vec<_> = self.storeys.periods().iter().take(3).map(|t| format!("{t:.3}")).collect();
+        let storeys = self.storeys.storeys().len();
+        let more = if storeys > 3 { " …" } else { "" };
+        let name = if storeys == 1 { "a floor".to_owned() } else { format!("{storeys} storeys") };
+        format!("felt on {name}, T = {}{more} s", periods.join(", "))
+    }
+
+    /// Writes the tables that read as these storeys.
+    pub(super) fn to_toml(&self) -> String {
+        let mut text = String::from("\n[supports]\n");
+        for (name, floor) in [("bottom", self.bottom), ("top", self.top)] {
+            if let Some(floor) = floor {
+                // writing to a String cannot fail
+                let _ = writeln!(text, "{name} = {floor}");
+            }
+        }
+        let _ = writeln!(text, "drift = {}", self.drift);
+        for Storey { mass, stiffness, damping_ratio } in self.storeys.storeys() {
+            let _ = write!(text, "\n[[storeys]]\nmass = {mass:?}\nstiffness = {stiffness:?}\n");
+            let _ = writeln!(text, "damping_ratio = {damping_ratio:?}");
+        }
+        text
+    }
+}
+
+/// Reads `[[storeys]]` and `[supports]` of a scene or a study; `None` where there are none.
+///
+/// # Errors
+/// [`SceneError::Line`] with the line of the storey.
+pub fn read_floors(
+    tables: &[Spanned<StoreyTable>],
+    supports: Option<&Spanned<SupportsTable>>,
+    place: &Place<'_>,
+) -> Result<Option<Floors>, SceneError> {
+    let storeys: Vec<_> = tables.iter().map(|table| *table.get_ref()).collect();
+    match (tables, supports) {
+        ([], None) => Ok(None),
+        ([], Some(supports)) => {
+            let message = "[supports] name floors; add [[storeys]], or leave it out";
+            Err(place.error(supports.span(), message))
+        }
+        ([first, ..], supports) => {
+            let own = supports.map(|supports| *supports.get_ref()).unwrap_or_default();
+            let floors = Floors::new(&storeys, own).map_err(|(index, message)| {
+                let span = match (index, supports) {
+                    (Some(index), _) => tables[index].span(),
+                    (None, Some(supports)) => supports.span(),
+                    (None, None) => first.span(),
+                };
+                place.error(span, message)
+            })?;
+            Ok(Some(floors))
+        }
+    }
+}
