@@ -168,8 +168,8 @@ impl Floors {
         let ratio = wall.body().mass / least;
         (self.has_masses && ratio > LIGHT).then(|| {
             format!(
-                "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; above \
-                 {LIGHT} use `wall building`, whose walls act on the floors"
+                "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; \
+                 above {LIGHT} use `wall building`, whose walls act on the floors"
             )
         })
     }

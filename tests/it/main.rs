@@ -6,6 +6,7 @@
 use std::path::Path;
 
 mod building_command;
+mod building_run;
 mod calibration;
 mod capacity;
 mod cases;

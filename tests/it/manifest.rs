@@ -74,7 +74,7 @@ fn every_crate_has_what_a_registry_shows() {
 /// What each crate may know of the others; Cargo holds it to this.
 #[test]
 fn arrows_between_crates_point_one_way() {
-    let known: [(&str, &[&str]); 11] = [
+    let known: [(&str, &[&str]); 12] = [
         ("fmu-export", &[]),
         ("fmu-export-build", &["fmu-export"]),
         ("rocking-oscillator", &[]),
@@ -84,6 +84,17 @@ fn arrows_between_crates_point_one_way() {
         ("rocking-study", &["fmu-export", "ground-motion", "rocking-wall"]),
         ("rocking-figures", &["rocking-study"]),
         ("rocking-scene-fmu", &["fmu-export-build", "ground-motion", "rocking-wall"]),
+        (
+            "rocking-building",
+            &[
+                "fmu-export",
+                "fmu-export-build",
+                "ground-motion",
+                "rocking-floor",
+                "rocking-scene-fmu",
+                "rocking-wall",
+            ],
+        ),
         (
             "rocking-wall-python",
             &[
@@ -98,6 +109,7 @@ fn arrows_between_crates_point_one_way() {
         (
             "rocking-wall-cli",
             &[
+                "rocking-building",
                 "fmu-export",
                 "fmu-export-build",
                 "ground-motion",

@@ -11,9 +11,9 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = {
-    "scene": [*(ROOT / "scenes").glob("*.toml"), *(ROOT / "scenes/building").glob("[ps]*.toml")],
+    "scene": [*(ROOT / "scenes").glob("*.toml"), *(ROOT / "scenes/building").glob("[gps]*.toml")],
     "study": [*(ROOT / "studies").glob("*.toml")],
-    "building": [ROOT / "scenes/building/building.toml"],
+    "building": [ROOT / f"scenes/building/{name}.toml" for name in ("building", "three_storeys")],
 }
 
 

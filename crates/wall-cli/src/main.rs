@@ -9,7 +9,6 @@ mod csv;
 mod demands;
 mod describe;
 mod ida;
-mod input;
 mod linearisation;
 mod motion;
 mod output;
@@ -45,7 +44,7 @@ enum Command {
     Simulate(simulate::Arguments),
     /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
     Package(package::Arguments),
-    /// Make a system (SSP) of storeys and walls: each wall the FMU of its scene, connected
+    /// Run storeys and walls as one system under a record, or make it an SSP of connected FMUs
     Building(building::Arguments),
     /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
     Describe(describe::Arguments),

@@ -69,7 +69,7 @@ fn study() -> Result<Value> {
 }
 
 /// Makes the schema of buildings, whose storeys take the parameters of a floor.
-pub(crate) fn building() -> Result<Value> {
+fn building() -> Result<Value> {
     let mut schema: Value = serde_json::from_str(include_str!("building.schema.json"))?;
     let properties = &mut schema["properties"]["floor"]["items"]["properties"];
     let real = floor::RealVariable::ALL.iter().map(|id| id.variable());
@@ -146,6 +146,7 @@ fn parameter(variable: &Variable) -> Option<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ::building::Building;
     use rocking_wall::scene::Scene;
     use study::document::StudyFile;
 
@@ -219,6 +220,28 @@ mod tests {
                 assert!(default.is_null() || wall(key, default).is_ok(), "{group}.{key}");
             }
             assert!(wall("xi", &json!(0.1)).is_err() && wall("impact", &json!("none")).is_err());
+        }
+    }
+
+    /// The messages about an unknown key `x` list those known.
+    #[test]
+    fn the_schema_has_the_keys_of_building_files() {
+        let schema = building().unwrap();
+        let error = |text: &str| format!("{:#}", Building::parse("b.toml".as_ref(), text).unwrap_err());
+        let in_backquotes =
+            |text: &str| error(text).split('`').skip(3).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+        let floor = error("[[floor]]\nname = \"a\"\nx = 1");
+        let of_floor = floor.rsplit("keys are ").next().unwrap().split(", ").map(str::to_owned).collect();
+        let parts = &schema["properties"];
+        for (object, mut known) in [
+            (&schema, in_backquotes("x = 1")),
+            (&parts["wall"]["items"], in_backquotes("[[wall]]\nx = 1")),
+            (&parts["floor"]["items"], of_floor),
+        ] {
+            known.sort_unstable();
+            let mut listed: Vec<_> = object["properties"].as_object().unwrap().keys().cloned().collect();
+            listed.sort_unstable();
+            assert_eq!(listed, known);
         }
     }
 

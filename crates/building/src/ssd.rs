@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
+use crate::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
 
 const NAMESPACES: [(&str, &str); 4] = [
     ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
@@ -31,7 +31,7 @@ const UNITS: [(&str, &str); 9] = [
 ];
 
 /// The text of `SystemStructure.ssd`.
-pub(super) fn text(system: &System) -> String {
+pub(crate) fn text(system: &System) -> String {
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     // writing to a String cannot fail
     let _ = write(&mut xml, system);

@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
 use fmu_export::{Causality, Kind, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use crate::input;
+use crate::error::BuildingError;
 
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
@@ -21,7 +20,8 @@ const LONGEST_RUN: f64 = 1e7;
 
 /// What something stands on or leans on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Support {
+pub enum Support {
+    /// The ground.
     Ground,
     /// Index of a storey.
     Floor(usize),
@@ -29,44 +29,56 @@ pub(super) enum Support {
 
 /// A storey.
 #[derive(Debug)]
-pub(super) struct Floor {
-    pub(super) name: String,
-    pub(super) base: Support,
+pub struct Floor {
+    /// Name.
+    pub name: String,
+    /// What it stands on.
+    pub base: Support,
     /// In the order of the floor's description.
-    pub(super) parameters: Vec<Parameter>,
+    pub parameters: Vec<Parameter>,
 }
 
 /// A start value of a storey.
 #[derive(Clone, Debug)]
-pub(super) struct Parameter {
-    pub(super) name: &'static str,
+pub struct Parameter {
+    /// Name of the variable.
+    pub name: &'static str,
     /// As a TOML file has it: a number, or the name of a choice in quotes.
-    pub(super) text: String,
+    pub text: String,
     /// As a model description has it: a number, or that of a choice.
-    pub(super) start: String,
+    pub start: String,
 }
 
 /// A wall and its place.
 #[derive(Debug)]
-pub(super) struct Member {
-    pub(super) name: String,
-    pub(super) scene: PathBuf,
-    pub(super) bottom: Support,
-    pub(super) top: Option<Support>,
+pub struct Member {
+    /// Name.
+    pub name: String,
+    /// Its scene file.
+    pub scene: PathBuf,
+    /// What it stands on.
+    pub bottom: Support,
+    /// What a strip wall leans on.
+    pub top: Option<Support>,
     /// The storey whose displacement is the drift between the supports.
-    pub(super) drift: Option<usize>,
+    pub drift: Option<usize>,
 }
 
 /// Storeys, each on the ground or on one before it, and walls.
 #[derive(Debug)]
-pub(super) struct Building {
-    pub(super) title: String,
-    pub(super) stop_time: f64,
-    pub(super) step: f64,
+pub struct Building {
+    /// Title.
+    pub title: String,
+    /// End of the default experiment \[s\].
+    pub stop_time: f64,
+    /// Its communication step \[s\].
+    pub step: f64,
     /// The ground's acceleration is an input of the system.
-    pub(super) expose_ground: bool,
-    pub(super) floors: Vec<Floor>,
-    pub(super) walls: Vec<Member>,
+    pub expose_ground: bool,
+    /// Storeys.
+    pub floors: Vec<Floor>,
+    /// Walls.
+    pub walls: Vec<Member>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -105,6 +117,8 @@ fn default_step() -> f64 {
     0.001
 }
 
+type Result<T> = std::result::Result<T, BuildingError>;
+
 /// A file's text, to name lines in messages.
 struct Source<'a> {
     file: String,
@@ -112,21 +126,39 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    fn error(&self, span: std::ops::Range<usize>, message: impl std::fmt::Display) -> anyhow::Error {
+    /// An error of the whole file.
+    fn whole(&self, reason: String) -> BuildingError {
+        BuildingError::File { file: self.file.clone(), reason }
+    }
+
+    fn error(&self, span: std::ops::Range<usize>, message: impl Into<String>) -> BuildingError {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         let line = before.split(|&byte| byte == b'\n').count();
-        anyhow!("{}, line {line}: {message}", self.file)
+        BuildingError::Line { file: self.file.clone(), line, message: message.into() }
     }
 }
 
 impl Building {
-    /// Reads the file of a building.
-    pub(super) fn read(path: &Path) -> Result<Self> {
-        Self::parse(path, &input::read(path, "a building (TOML)", MAX_FILE_BYTES)?)
+    /// Reads the file of a building. A pipe is refused before it is opened, which would wait for its writer.
+    ///
+    /// # Errors
+    /// [`BuildingError`] with file, line and remedy.
+    pub fn read(path: &Path) -> Result<Self> {
+        let file = path.display().to_string();
+        let fail = |reason: String| BuildingError::File { file: file.clone(), reason };
+        let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
+        let metadata = std::fs::metadata(path).map_err(unreadable)?;
+        if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+            return Err(fail(format!("expected a building (TOML) of at most {MAX_FILE_BYTES} bytes")));
+        }
+        Self::parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
     }
 
-    /// Reads a building from the text of a file.
-    fn parse(path: &Path, text: &str) -> Result<Self> {
+    /// Reads a building from the text of a file; scenes are looked up beside `path`.
+    ///
+    /// # Errors
+    /// [`BuildingError`] with file, line and remedy.
+    pub fn parse(path: &Path, text: &str) -> Result<Self> {
         let source = Source { file: path.display().to_string(), text };
         let document: Document = toml::from_str(text).map_err(|error| {
             source.error(error.span().unwrap_or(0..0), error.message().replace('\n', " "))
@@ -137,17 +169,14 @@ impl Building {
     fn from_document(document: Document, source: &Source<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
         if !(stop_time > 0.0 && stop_time <= LONGEST_RUN && step > 0.0 && step <= stop_time) {
-            bail!(
-                "{}: stop_time = {stop_time} s and step = {step} s; expected 0 < step <= stop_time <= \
-                 {LONGEST_RUN} s",
-                source.file
-            );
+            return Err(source.whole(format!(
+                "stop_time = {stop_time} s and step = {step} s; expected 0 < step <= stop_time <= \
+                 {LONGEST_RUN} s"
+            )));
         }
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
-            bail!(
-                "{}: a building has at least one [[floor]] and at most {MOST_MEMBERS} members",
-                source.file
-            );
+            return Err(source
+                .whole(format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members")));
         }
         let mut names = Vec::new();
         let mut floors: Vec<Floor> = Vec::new();
@@ -162,12 +191,16 @@ impl Building {
             walls.push(read_wall(table, &floors, source)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let folder = path.parent().unwrap_or(Path::new("."));
+        for wall in &mut walls {
+            wall.scene = folder.join(&wall.scene);
+        }
         Ok(Self { title: title.unwrap_or(stem), stop_time, step, expose_ground, floors, walls })
     }
 }
 
 /// Where a member's FMU lies in the archive.
-pub(super) fn fmu_path(name: &str) -> String {
+pub fn fmu_path(name: &str) -> String {
     format!("resources/{name}.fmu")
 }
 
@@ -309,31 +342,4 @@ fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<
     }
     let drift = drift.filter(|_| wanted);
     Ok(Member { name: table.name.into_inner(), scene: table.scene, bottom, top, drift })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The messages about an unknown key `x` list those known.
-    #[test]
-    fn the_schema_has_the_keys_of_building_files() {
-        let schema = crate::schema::building().unwrap();
-        let error = |text: &str| format!("{:#}", Building::parse(Path::new("b.toml"), text).unwrap_err());
-        let in_backquotes =
-            |text: &str| error(text).split('`').skip(3).step_by(2).map(str::to_owned).collect::<Vec<_>>();
-        let floor = error("[[floor]]\nname = \"a\"\nx = 1");
-        let of_floor = floor.rsplit("keys are ").next().unwrap().split(", ").map(str::to_owned).collect();
-        let parts = &schema["properties"];
-        for (object, mut known) in [
-            (&schema, in_backquotes("x = 1")),
-            (&parts["wall"]["items"], in_backquotes("[[wall]]\nx = 1")),
-            (&parts["floor"]["items"], of_floor),
-        ] {
-            known.sort_unstable();
-            let mut listed: Vec<_> = object["properties"].as_object().unwrap().keys().cloned().collect();
-            listed.sort_unstable();
-            assert_eq!(listed, known);
-        }
-    }
 }

@@ -1,58 +1,60 @@
 //! From a building to components and connections: what moves a member, and what it loads.
 
-use anyhow::{Result, bail};
 use fmu_export::{Kind, Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable};
 
-use super::document::{Building, Floor, Member, Support, fmu_path};
+use crate::document::{Building, Floor, Member, Support, fmu_path};
+use crate::error::BuildingError;
+
+type Result<T> = std::result::Result<T, BuildingError>;
 
 /// Inputs of a floor for what stands on it.
 const MOST_LOADS: usize = 8;
 /// Name of the system's own input, the ground's acceleration.
-pub(super) const GROUND_MOTION: &str = "a_g";
+pub(crate) const GROUND_MOTION: &str = "a_g";
 
 /// Outputs of each member that are listed even if nothing is connected to them.
 const SHOWN_OF_A_FLOOR: [&str; 3] = ["displacement", "velocity", "acceleration_absolute"];
 const SHOWN_OF_A_WALL: [&str; 4] = ["u", "u_dot", "u_ratio", "overturn_time"];
 
 /// A system of FMUs.
-#[derive(Debug)]
-pub(super) struct System {
-    pub(super) title: String,
-    pub(super) stop_time: f64,
-    pub(super) step: f64,
+#[derive(Clone, Debug)]
+pub(crate) struct System {
+    pub(crate) title: String,
+    pub(crate) stop_time: f64,
+    pub(crate) step: f64,
     /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
-    pub(super) expose_ground: bool,
-    pub(super) components: Vec<Component>,
-    pub(super) connections: Vec<Connection>,
+    pub(crate) expose_ground: bool,
+    pub(crate) components: Vec<Component>,
+    pub(crate) connections: Vec<Connection>,
 }
 
 /// One FMU in it.
-#[derive(Debug)]
-pub(super) struct Component {
-    pub(super) name: String,
-    pub(super) source: String,
-    pub(super) connectors: Vec<Connector>,
+#[derive(Clone, Debug)]
+pub(crate) struct Component {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    pub(crate) connectors: Vec<Connector>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Direction {
+pub(crate) enum Direction {
     Input,
     Output,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Connector {
-    pub(super) name: &'static str,
-    pub(super) direction: Direction,
-    pub(super) kind: ConnectorKind,
+pub(crate) struct Connector {
+    pub(crate) name: &'static str,
+    pub(crate) direction: Direction,
+    pub(crate) kind: ConnectorKind,
 }
 
 /// The type of what passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ConnectorKind {
+pub(crate) enum ConnectorKind {
     Real(Option<&'static str>),
     Integer,
     Boolean,
@@ -60,16 +62,16 @@ pub(super) enum ConnectorKind {
 
 /// An output of one component to an input of another.
 #[derive(Clone, Debug)]
-pub(super) struct Connection {
+pub(crate) struct Connection {
     /// `None` for the system's own input.
-    pub(super) from: Option<usize>,
-    pub(super) output: &'static str,
-    pub(super) to: usize,
-    pub(super) input: &'static str,
+    pub(crate) from: Option<usize>,
+    pub(crate) output: &'static str,
+    pub(crate) to: usize,
+    pub(crate) input: &'static str,
 }
 
 /// Components, storeys first, and their connections.
-pub(super) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
+pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     let names = building.floors.iter().map(|floor| &floor.name);
     let names = names.chain(building.walls.iter().map(|wall| &wall.name));
     let component =
@@ -108,10 +110,10 @@ impl Loads<'_> {
         self.taken[index] += 1;
         let name = format!("reaction_{}", self.taken[index]);
         let Some(variable) = FloorVariable::from_name(&name) else {
-            bail!(
-                "floor {:?}: more than {MOST_LOADS} storeys and walls stand on it or lean on it; divide it",
-                self.floors[index].name
-            );
+            let floor = self.floors[index].name.clone();
+            let reason =
+                format!("more than {MOST_LOADS} storeys and walls stand on it or lean on it; divide it");
+            return Err(BuildingError::Floor { floor, reason });
         };
         Ok(Some((index, variable.variable().name)))
     }

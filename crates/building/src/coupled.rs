@@ -1,0 +1,338 @@
+//! A building under a record: its units run together, in process.
+//!
+//! The units are those of the SSP. At each communication point accelerations and reactions are made to agree:
+//! they depend on each other without delay, and Newton's method on the directional derivatives closes the loop
+//! (docs/coupling.md). Inputs are then linear over the step, by the derivatives of the outputs.
+
+use fmu_export::Step;
+use ground_motion::GroundMotion;
+use nalgebra::{DMatrix, DVector, Dyn, LU};
+
+use crate::document::Building;
+use crate::error::BuildingError;
+use crate::parts::Parts;
+use crate::units::{Plan, Unit, reference};
+
+/// Longest communication step \[s\].
+const LONGEST_STEP: f64 = 2e-3;
+/// Most steps of all units in one run.
+const MOST_UNIT_STEPS: f64 = 1e8;
+/// Most sweeps of Newton's method: an unchanged building needs one, a wall that comes to rest a few.
+const MOST_SWEEPS: usize = 60;
+/// Mismatch of an input over the largest of its kind so far at which the loop is closed.
+const CLOSED: f64 = 1e-10;
+
+/// How far and how well a building is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// End of the run \[s\].
+    pub end: f64,
+    /// Change of a peak by halving the step, over the peak, at which the step is short enough (-).
+    pub tolerance: f64,
+}
+
+/// A largest absolute value, and when it came.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peak {
+    /// The value, with its sign.
+    pub value: f64,
+    /// Its time \[s\].
+    pub time: f64,
+}
+
+impl Peak {
+    fn add(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value.abs() {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// A quantity over time, and its peak between the communication points too.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Values at the times of the [`Coupled`] run.
+    pub values: Vec<f64>,
+    /// Largest value at any communication point.
+    pub peak: Peak,
+}
+
+impl History {
+    fn add(&mut self, value: f64, time: f64, is_shown: bool) {
+        self.peak.add(value, time);
+        if is_shown {
+            self.values.push(value);
+        }
+    }
+}
+
+/// A storey in time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FloorHistory {
+    /// Absolute acceleration \[m/s²\].
+    pub acceleration: History,
+    /// Displacement relative to what it stands on: the drift \[m\].
+    pub drift: History,
+}
+
+/// A wall in time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WallHistory {
+    /// u \[m\].
+    pub displacement: History,
+    /// u/`u_ins` of its side (-).
+    pub ratio: History,
+    /// Force of the bottom support on the wall \[N\].
+    pub reaction_bottom: History,
+    /// Force of the top support on the wall \[N\]; 0 for a parapet.
+    pub reaction_top: History,
+    /// Largest |u| between the communication points too \[m\].
+    pub largest: f64,
+    /// When it overturned \[s\].
+    pub overturn_time: Option<f64>,
+}
+
+/// A building in time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupled {
+    /// Communication step \[s\].
+    pub step: f64,
+    /// Largest change of a peak by the last halving, over the peak (-).
+    pub change: f64,
+    /// Times of the histories \[s\]: the samples of the record, and on at its step.
+    pub times: Vec<f64>,
+    /// Acceleration of the ground \[m/s²\].
+    pub ground: History,
+    /// Storeys in the order of the file.
+    pub floors: Vec<FloorHistory>,
+    /// Walls in the order of the file.
+    pub walls: Vec<WallHistory>,
+}
+
+impl Coupled {
+    /// Runs a building under a motion of the ground, with the step halved until that changes every peak by
+    /// less than the tolerance.
+    ///
+    /// # Errors
+    /// [`BuildingError`] where a unit fails, the loop does not close, or the step would become too small.
+    pub fn run(
+        building: &Building,
+        parts: &Parts,
+        ground: &GroundMotion,
+        settings: Settings,
+    ) -> Result<Self, BuildingError> {
+        let (plan, references) = (&parts.plan, References::new(building)?);
+        let mut parts = (ground.step() / LONGEST_STEP).ceil().max(1.0);
+        let mut before: Option<Self> = None;
+        loop {
+            let unit_steps = settings.end / ground.step() * parts * plan.payloads.len() as f64;
+            if unit_steps > MOST_UNIT_STEPS {
+                let change = before.map_or(f64::INFINITY, |before| 100.0 * before.change);
+                let reason = format!(
+                    "halving the step to {} s still changes a peak by {change:.2} %; shorten the record, or \
+                     raise the tolerance",
+                    2.0 * ground.step() / parts
+                );
+                return Err(BuildingError::Run { time: settings.end, reason });
+            }
+            let mut run = Loop::new(plan, &references, ground)?.follow(parts, settings.end)?;
+            if let Some(before) = &before {
+                run.change = run.change_from(before);
+                if run.change <= settings.tolerance {
+                    return Ok(run);
+                }
+            }
+            before = Some(run);
+            parts *= 2.0;
+        }
+    }
+
+    /// Compares the peaks of two runs: the largest difference over the peak.
+    fn change_from(&self, other: &Self) -> f64 {
+        self.peaks().zip(other.peaks()).fold(0.0, |most: f64, (own, other)| {
+            let apart = (own - other).abs();
+            if apart > 0.0 { most.max(apart / own.abs().max(other.abs())) } else { most }
+        })
+    }
+
+    /// Peaks of floors and walls; a wall that overturns has reached its end.
+    fn peaks(&self) -> impl Iterator<Item = f64> {
+        let floors = self.floors.iter().flat_map(|floor| [&floor.acceleration, &floor.drift]);
+        let floors = floors.map(|history| history.peak.value.abs());
+        let walls = self.walls.iter().map(|wall| match wall.overturn_time {
+            Some(_) => 1.0,
+            None => wall.ratio.peak.value.abs(),
+        });
+        floors.chain(walls)
+    }
+}
+
+/// References of the outputs that are shown.
+struct References {
+    floors: Vec<[(usize, u32); 2]>,
+    walls: Vec<[(usize, u32); 6]>,
+}
+
+impl References {
+    fn new(building: &Building) -> Result<Self, BuildingError> {
+        let count = building.floors.len();
+        let floor = |unit| {
+            Ok([reference(count, unit, "acceleration_absolute")?, reference(count, unit, "displacement")?])
+        };
+        let wall = |unit| {
+            let of = |name| reference(count, unit, name);
+            let [u, ratio, bottom] = [of("u")?, of("u_ratio")?, of("reaction_bottom")?];
+            Ok([u, ratio, bottom, of("reaction_top")?, of("u_max")?, of("overturn_time")?])
+        };
+        Ok(Self {
+            floors: (0..count).map(floor).collect::<Result<_, BuildingError>>()?,
+            walls: (count..count + building.walls.len()).map(wall).collect::<Result<_, BuildingError>>()?,
+        })
+    }
+}
+
+/// The units on their way.
+struct Loop<'a> {
+    plan: &'a Plan,
+    references: &'a References,
+    ground: &'a GroundMotion,
+    units: Vec<Box<dyn Unit>>,
+    /// Present inputs, one for each connection, and the largest of each so far.
+    values: DVector<f64>,
+    largest: DVector<f64>,
+    /// I − ∂outputs/∂inputs, factorised, as long as it holds.
+    factors: Option<LU<f64, Dyn, Dyn>>,
+}
+
+impl<'a> Loop<'a> {
+    fn new(
+        plan: &'a Plan,
+        references: &'a References,
+        ground: &'a GroundMotion,
+    ) -> Result<Self, BuildingError> {
+        let units = plan.start().map_err(|reason| BuildingError::Run { time: 0.0, reason })?;
+        let values = DVector::zeros(plan.connections.len());
+        Ok(Self { plan, references, ground, units, largest: values.clone(), values, factors: None })
+    }
+
+    /// Runs to the end with a number of steps for each of the record.
+    fn follow(mut self, parts: f64, end: f64) -> Result<Coupled, BuildingError> {
+        let step = self.ground.step() / parts;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to MOST_UNIT_STEPS")]
+        let [parts, samples] = [parts, (end / self.ground.step()).round()].map(|count| count as usize);
+        let mut run = Coupled {
+            step,
+            change: f64::INFINITY,
+            times: Vec::with_capacity(samples + 1),
+            ground: History::default(),
+            floors: vec![FloorHistory::default(); self.references.floors.len()],
+            walls: vec![WallHistory::default(); self.references.walls.len()],
+        };
+        for sample in 0..=samples {
+            let ends =
+                self.ground.samples().get(sample..sample + 2).map_or([0.0; 2], |ends| [ends[0], ends[1]]);
+            let rate = (ends[1] - ends[0]) / self.ground.step();
+            for part in 0..parts {
+                let time = sample as f64 * self.ground.step() + part as f64 * step;
+                let fail = |reason| BuildingError::Run { time, reason };
+                let ground = ends[0] + rate * part as f64 * step;
+                self.drive(ground, 0.0);
+                self.close().map_err(fail)?;
+                self.show(&mut run, ground, time, part == 0);
+                if sample == samples {
+                    return Ok(run);
+                }
+                let rates = self.rates(rate).map_err(fail)?;
+                self.drive(ground, rate);
+                for (connection, &[_, (to, input)]) in self.plan.connections.iter().enumerate() {
+                    self.units[to].set(input, self.values[connection], Some(rates[connection]));
+                }
+                let step = Step { from: time, duration: step, may_end_early: false };
+                for unit in &mut self.units {
+                    unit.step(step).map_err(fail)?;
+                }
+                self.values += rates * step.duration;
+            }
+        }
+        Ok(run)
+    }
+
+    fn drive(&mut self, value: f64, rate: f64) {
+        for &(unit, input) in &self.plan.ground {
+            self.units[unit].set(input, value, Some(rate));
+        }
+    }
+
+    /// Makes inputs and outputs agree. Between events outputs are linear in the inputs, so one step suffices.
+    fn close(&mut self) -> Result<(), String> {
+        for sweep in 0..MOST_SWEEPS {
+            for (connection, &[_, (to, input)]) in self.plan.connections.iter().enumerate() {
+                self.units[to].set(input, self.values[connection], None);
+            }
+            let shown = |&[(from, output), _]: &[(usize, u32); 2]| self.units[from].get(output);
+            let outputs = DVector::from_iterator(self.values.len(), self.plan.connections.iter().map(shown));
+            self.largest.zip_apply(&outputs, |largest, output| *largest = largest.max(output.abs()));
+            let mismatch = outputs - &self.values;
+            if mismatch.iter().zip(&self.largest).all(|(apart, largest)| apart.abs() <= CLOSED * largest) {
+                return Ok(());
+            }
+            // what held at the last point holds here, unless a wall has changed its phase
+            if sweep > 0 {
+                self.factors = None;
+            }
+            let change = self.solve(&mismatch)?;
+            self.values += change;
+        }
+        Err("accelerations and reactions do not agree; a wall changes between rest and motion".into())
+    }
+
+    /// Computes output derivatives that agree with the input derivatives, while the ground changes at `rate`.
+    fn rates(&mut self, rate: f64) -> Result<DVector<f64>, String> {
+        let shown = |&[(from, output), _]: &[(usize, u32); 2]| {
+            let by_ground = self.plan.ground.iter().filter(|(unit, _)| *unit == from);
+            let by_ground = by_ground.map(|&(_, input)| self.units[from].derivative(output, input) * rate);
+            self.units[from].rate(output) + by_ground.sum::<f64>()
+        };
+        let rates = DVector::from_iterator(self.values.len(), self.plan.connections.iter().map(shown));
+        self.solve(&rates)
+    }
+
+    /// Solves (I − F) x = right.
+    fn solve(&mut self, right: &DVector<f64>) -> Result<DVector<f64>, String> {
+        let factors = self.factors.take().unwrap_or_else(|| {
+            let count = self.values.len();
+            let mut matrix = DMatrix::identity(count, count);
+            for (row, &[(from, output), _]) in self.plan.connections.iter().enumerate() {
+                for (column, &[_, (to, input)]) in self.plan.connections.iter().enumerate() {
+                    if from == to {
+                        matrix[(row, column)] -= self.units[from].derivative(output, input);
+                    }
+                }
+            }
+            LU::new(matrix)
+        });
+        let found = factors.solve(right);
+        self.factors = Some(factors);
+        found.ok_or_else(|| "the loop of accelerations and reactions has no solution".into())
+    }
+
+    fn show(&self, run: &mut Coupled, ground: f64, time: f64, is_shown: bool) {
+        let get = |(unit, output): (usize, u32)| self.units[unit].get(output);
+        if is_shown {
+            run.times.push(time);
+        }
+        run.ground.add(ground, time, is_shown);
+        for (floor, of) in run.floors.iter_mut().zip(&self.references.floors) {
+            floor.acceleration.add(get(of[0]), time, is_shown);
+            floor.drift.add(get(of[1]), time, is_shown);
+        }
+        for (wall, of) in run.walls.iter_mut().zip(&self.references.walls) {
+            wall.displacement.add(get(of[0]), time, is_shown);
+            wall.ratio.add(get(of[1]), time, is_shown);
+            wall.reaction_bottom.add(get(of[2]), time, is_shown);
+            wall.reaction_top.add(get(of[3]), time, is_shown);
+            wall.largest = get(of[4]);
+            wall.overturn_time = Some(get(of[5])).filter(|time| *time >= 0.0);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! What can be wrong with a building.
+
+/// Why a building cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum BuildingError {
+    /// The file.
+    #[error("{file}: {reason}")]
+    File { file: String, reason: String },
+    /// A line of the file.
+    #[error("{file}, line {line}: {message}")]
+    Line { file: String, line: usize, message: String },
+    /// A wall, or its scene.
+    #[error("wall {wall:?}: {reason}")]
+    Wall { wall: String, reason: String },
+    /// A storey.
+    #[error("floor {floor:?}: {reason}")]
+    Floor { floor: String, reason: String },
+    /// The FMU that a part is made of.
+    #[error("{file}: {reason}")]
+    General { file: String, reason: String },
+    /// The run.
+    #[error("at t = {time} s: {reason}")]
+    Run { time: f64, reason: String },
+}

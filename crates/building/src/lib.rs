@@ -1,0 +1,28 @@
+//! Storeys and rocking walls as one system: run in process under a record, or written as SSP.
+//!
+//! ```text
+//! building.toml ─► Building ─► Parts ─┬─► Coupled   under a record, accelerations and reactions in one loop
+//!                   scenes ───────────┤─► Trial     the step that other masters need
+//!                                     └─► archive   SSP of FMUs
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`document`] | the file of a building |
+//! | [`parts`] | its units and their connections, and the SSP |
+//! | [`coupled`] | the run under a record |
+//! | [`mod@trial`] | the step that a master needs for 1 % |
+
+pub mod coupled;
+pub mod document;
+pub mod error;
+pub mod parts;
+mod ssd;
+pub mod trial;
+mod units;
+mod wiring;
+
+pub use coupled::{Coupled, Settings};
+pub use document::Building;
+pub use error::BuildingError;
+pub use parts::Parts;

@@ -1,0 +1,182 @@
+//! The contents of a building's units: scenes of walls, values of storeys; and the system as an SSP archive.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use fmu_export::VariableId;
+use fmu_export_build::archive::Archive;
+use fmu_export_build::{DefaultExperiment, Reduction};
+use rocking_wall::scene::{Scene, to_toml};
+use rocking_wall::variables::{Mechanism, RealVariable};
+use rocking_wall::wall::{Parameters, Wall};
+use scene_fmu::{General, of_scene};
+
+use crate::document::{Building, Floor, Member, Parameter, fmu_path};
+use crate::error::BuildingError;
+use crate::ssd;
+use crate::units::Plan;
+use crate::wiring::{System, system};
+
+/// What a building's units hold, and how they are connected.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// Scene of each wall, with the inputs that its place moves.
+    pub scenes: Vec<Scene>,
+    /// Each wall.
+    pub walls: Vec<Wall>,
+    pub(crate) system: System,
+    /// The units for a run in process.
+    pub(crate) plan: Plan,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl Parts {
+    /// Reads the scenes of a building's walls and connects its units.
+    ///
+    /// # Errors
+    /// [`BuildingError`] of a scene that cannot be used, or of a storey that carries too much.
+    pub fn read(building: &Building) -> Result<Self, BuildingError> {
+        let (mut scenes, mut walls, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+        for member in &building.walls {
+            let (scene, wall) = scene(member, &mut warnings)
+                .map_err(|reason| BuildingError::Wall { wall: member.name.clone(), reason })?;
+            scenes.push(scene);
+            walls.push(wall);
+        }
+        let system = system(building, &scenes)?;
+        let payloads = building.floors.iter().map(payload);
+        let payloads = payloads.chain(scenes.iter().map(|scene| to_toml(scene, ""))).collect();
+        let plan = Plan::new(building, &system, payloads)?;
+        Ok(Self { scenes, walls, system, plan, warnings })
+    }
+
+    /// Returns the numbers of units and of connections.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.system.components.len(), self.system.connections.len())
+    }
+
+    /// Makes the SSP of the building from the general FMUs of walls and floors.
+    ///
+    /// # Errors
+    /// [`BuildingError::General`] where an FMU cannot be used.
+    pub fn archive(
+        &self,
+        building: &Building,
+        wall_fmu: &Path,
+        floor_fmu: &Path,
+    ) -> Result<Archive, BuildingError> {
+        let mut archive = Archive::default();
+        for (scene, member) in self.scenes.iter().zip(&building.walls) {
+            let general = general(wall_fmu, "--wall-fmu")?;
+            let unit = of_scene(scene, general).map_err(|error| wall_failed(member, &error))?;
+            let bytes = unit.archive.to_bytes().map_err(|error| wall_failed(member, &error))?;
+            archive.insert(fmu_path(&member.name), bytes);
+        }
+        for (floor, payload) in building.floors.iter().zip(&self.plan.payloads) {
+            let unit = storey(building, floor, payload, floor_fmu)?;
+            let bytes = unit.to_bytes().map_err(|error| floor_failed(floor, &error))?;
+            archive.insert(fmu_path(&floor.name), bytes);
+        }
+        archive.insert("SystemStructure.ssd", ssd::text(&self.system));
+        Ok(archive)
+    }
+}
+
+fn wall_failed(wall: &Member, error: &dyn std::fmt::Display) -> BuildingError {
+    BuildingError::Wall { wall: wall.name.clone(), reason: error.to_string() }
+}
+
+fn floor_failed(floor: &Floor, error: &dyn std::fmt::Display) -> BuildingError {
+    BuildingError::Floor { floor: floor.name.clone(), reason: error.to_string() }
+}
+
+/// The scene of a wall, with the inputs that its place in the building moves.
+fn scene(wall: &Member, warnings: &mut Vec<String>) -> Result<(Scene, Wall), String> {
+    let path = wall.scene.display();
+    let mut scene = Scene::read(&wall.scene).map_err(|error| error.to_string())?;
+    let made = Wall::new(&scene.parameters).map_err(|error| format!("{path}: {error}"))?;
+    let name = &wall.name;
+    warnings.extend(made.warnings().iter().map(|warning| format!("wall {name:?}: {warning}")));
+    if scene.parameters.u_start != 0.0 {
+        let start = scene.parameters.u_start;
+        warnings.push(format!("wall {name:?} is released from u_start = {start} m, as its scene says"));
+    }
+    let spans = scene.parameters.mechanism == Mechanism::VerticalSpanning;
+    if scene.excitation.is_some() || scene.floors.is_some() {
+        return Err(format!(
+            "{path}: the building moves its walls; remove [motion] and [[storeys]] from the scene"
+        ));
+    }
+    match (&wall.top, spans) {
+        (None, true) => return Err("a vertical spanning wall has a top support: give `top`".into()),
+        (Some(_), false) => {
+            return Err("a parapet has no top support: remove `top`, or choose vertical_spanning".into());
+        }
+        _ => {}
+    }
+    scene.inputs = vec![RealVariable::ABottom];
+    if wall.top.is_some() {
+        scene.inputs.push(RealVariable::ATop);
+    }
+    if wall.drift.is_some() {
+        scene.inputs.push(RealVariable::Drift);
+    }
+    debug_assert!(scene.inputs.iter().all(|input| scene.uses(input.variable().name)));
+    Ok((scene, made))
+}
+
+/// Opens the general FMU at `path`, which the user names with `option`.
+fn general(path: &Path, option: &str) -> Result<General, BuildingError> {
+    General::open(path).map_err(|error| {
+        let reason = format!(
+            "expected a general FMU; make it with `cargo xtask fmu`, or name it with {option}: {error}"
+        );
+        BuildingError::General { file: PathBuf::from(path).display().to_string(), reason }
+    })
+}
+
+/// The values of a storey, as its `resources/floor.toml`.
+fn payload(floor: &Floor) -> String {
+    let mut payload = String::new();
+    for Parameter { name, text, .. } in &floor.parameters {
+        // writing to a String cannot fail
+        let _ = writeln!(payload, "{name} = {text}");
+    }
+    payload
+}
+
+/// The FMU of a storey, made from the general one.
+fn storey(building: &Building, floor: &Floor, payload: &str, path: &Path) -> Result<Archive, BuildingError> {
+    let mut general = general(path, "--floor-fmu")?;
+    if general.description.model_identifier() != "floor" {
+        let found = general.description.model_identifier();
+        let reason = format!("is the FMU of `{found}`, not of a floor; name the right one with --floor-fmu");
+        return Err(BuildingError::General { file: path.display().to_string(), reason });
+    }
+    let starts: Vec<_> = floor
+        .parameters
+        .iter()
+        .map(|parameter| (parameter.name.to_owned(), parameter.start.clone()))
+        .collect();
+    let reduced = general
+        .description
+        .reduced(&Reduction {
+            model_name: &floor.name,
+            description: &format!("Storey of: {}", building.title),
+            guid: &general.guid_with(payload),
+            keep: &|_| true,
+            starts: &starts,
+            experiment: DefaultExperiment {
+                start: 0.0,
+                stop: building.stop_time,
+                step: building.step,
+                tolerance: Parameters::default().tolerance,
+            },
+        })
+        .map_err(|error| floor_failed(floor, &error))?;
+    general.describe(&reduced).map_err(|error| floor_failed(floor, &error))?;
+    let mut archive = general.archive;
+    archive.insert("resources/floor.toml", payload);
+    Ok(archive)
+}
