@@ -1,5 +1,5 @@
-//! Tests `wall building --record`: floors against their modes, walls against the cascade. The system integrated
-//! as one and the SSP in FMPy are in tests/python/test_building.py.
+//! Tests `wall building --record`: floors against their modes, walls against the cascade. The system
+//! integrated as one and the SSP in FMPy are in tests/python/test_building.py.
 
 use std::fmt::Write;
 use std::fs;
@@ -72,12 +72,12 @@ fn floors_without_walls_move_by_their_modes() {
     }
 }
 
-/// The floor's peak differs from that without a wall (the cascade) by at most C times the mass ratio m/M.
+/// The peak of the floor differs from that without a wall (the cascade) by at most C times the mass ratio.
 ///
-/// A wall on its elastic branch or rocking pushes the floor by |R| = m |a + ü|, ü = −¾ a − (C u̇ + F)/m_eff, so
-/// |R| <= m (A/4 + ¾ g b/h + c V) for a peak A of the floor and V of u̇, with c = C/m_eff. The acceleration of a
-/// floor under a force R is R/M − (2ξω ẋ + ω² x), which is at most (1 + ∫|ω e^{−ξωt} sin ωt| dt + 2ξ …) R/M; the
-/// integral is below 2/(πξ) + 1, and the damping adds 2ξ times as much. With V <= u_max ω₁ on the elastic branch.
+/// A wall on its elastic branch or rocking pushes the floor by |R| = m |a + ü| with
+/// ü = −¾ a − (C u̇ + F)/m_eff. So |R| <= m (A/4 + ¾ g b/h + c V) for a peak A of the floor and V of u̇,
+/// with c = C/m_eff. The acceleration of a floor under a force R is R/M − (2ξω ẋ + ω² x), at most (1 + ∫|ω e^{−ξωt} sin ωt| dt + …) R/M. The
+/// integral is below 2/(πξ) + 1, and the damping adds 2ξ times as much.
 #[test]
 fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
     let folder = folder("building_cascade");
@@ -129,7 +129,19 @@ fn the_program_prints_peaks_and_writes_histories() {
     fs::write(folder.join("thin.toml"), thin).unwrap();
     let roof = "bottom = \"floor_3\"";
     written(&folder, &STOREYS, 0.03, &[("light", roof), ("thin", roof)]);
-    let arguments = ["building", "b.toml", "--synthetic", "--scale", "0.4", "--csv", "h.csv", "--tail", "2"];
+    let arguments = [
+        "building",
+        "b.toml",
+        "--synthetic",
+        "--scale",
+        "0.4",
+        "--csv",
+        "h.csv",
+        "--tail",
+        "2",
+        "--html",
+        "p.html",
+    ];
     let output = wall(&folder, &arguments);
     let shown = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -142,6 +154,10 @@ fn the_program_prints_peaks_and_writes_histories() {
         &csv[..80]
     );
     assert!(!folder.join("fmu_out").exists(), "a run writes no SSP");
+    let page = fs::read_to_string(folder.join("p.html")).unwrap();
+    assert!(page.contains("<p class=\"verdict falls\">The thin falls at "));
+    let links = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(!links.contains("http") && !page.contains("{{") && !page.contains("NaN"));
     let json = wall(&folder, &[&arguments[..5], &["--tail", "2", "--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&text(&json.stdout)).unwrap();
     assert!(json["walls"][0]["overturn_time"].is_null() && json["walls"][1]["overturn_time"].is_f64());

@@ -11,6 +11,8 @@ import pytest
 from selenium import webdriver
 from selenium.webdriver.common.by import By
 
+from conftest import ROOT
+
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -138,6 +140,45 @@ def test_overturning_is_marked(browser, wall, tmp_path):
     assert browser.find_element(By.ID, "overturned").text == ""
     move(browser, 1.0)
     assert browser.find_element(By.ID, "overturned").text.startswith("overturned at t = ")
+
+
+@pytest.fixture(scope="module")
+def building(wall, tmp_path_factory):
+    page = tmp_path_factory.mktemp("page") / "building.html"
+    scene = ROOT / "scenes/building/three_storeys.toml"
+    motion = ["--synthetic", "--scale", "0.8", "--tail", "2"]
+    subprocess.run([wall, "building", scene, *motion, "--html", page], check=True, capture_output=True)
+    return page
+
+
+def test_the_page_of_a_building_opens_with_its_verdict(browser, building):
+    browser.get_log("browser"), browser.get_log("performance")
+    browser.get(building.as_uri())
+    assert browser.get_log("browser") == []
+    assert not any('"url":"http' in entry["message"] for entry in browser.get_log("performance"))
+    assert " falls at " in browser.find_element(By.CSS_SELECTOR, ".verdict").text
+    assert float(browser.find_element(By.ID, "now_0").text) > 1.0
+
+
+def test_storeys_and_walls_of_a_building_move(browser, building):
+    browser.get(building.as_uri())
+    seen = set()
+    for part in (0.0, 0.3, 0.32, 0.34):
+        move(browser, part)
+        moved = browser.find_elements(By.CSS_SELECTOR, "#scene g, #scene rect.body")
+        cursor = browser.find_element(By.CSS_SELECTOR, "#floors .cursor").get_attribute("style")
+        seen.add((cursor, *[str(element.get_attribute("transform")) for element in moved]))
+    assert len(seen) == 4
+
+
+@pytest.mark.parametrize("width", [390, 1600])
+def test_a_building_fits_the_window(browser, building, width):
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
+    )
+    browser.get(building.as_uri())
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
 
 
 STUDY = """

@@ -1,8 +1,8 @@
 //! A building under a record: its units run together, in process.
 //!
 //! The units are those of the SSP. At each communication point accelerations and reactions are made to agree:
-//! they depend on each other without delay, and Newton's method on the directional derivatives closes the loop
-//! (docs/coupling.md). Inputs are then linear over the step, by the derivatives of the outputs.
+//! they depend on each other without delay, and Newton's method on the directional derivatives closes the
+//! loop (docs/coupling.md). Inputs are then linear over the step, by the derivatives of the outputs.
 
 use fmu_export::Step;
 use ground_motion::GroundMotion;

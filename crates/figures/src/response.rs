@@ -19,7 +19,7 @@ const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
 /// Draws u/`u_ins` over the time \[s\], with the limits ±1.
 pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
     let limits = [-1.0, 1.0];
-    let plot = over_time(&[(points, BLUE)], [0.0, end], "u / u_ins", &limits);
+    let plot = histories(&[(points, BLUE)], [0.0, end], "u / u_ins", &limits);
     Plot { size: [WIDTH, 250.0], limits: limits.map(|limit| (limit, RED)).to_vec(), ..plot }
 }
 
@@ -28,11 +28,17 @@ pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
 pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Plot {
     let top = top.map(|points| (points, AMBER));
     let lines: Vec<_> = [(bottom, DARK_GREY)].into_iter().chain(top).collect();
-    over_time(&lines, [0.0, end], "a_g (m/s²)", &[])
+    histories(&lines, [0.0, end], "a_g (m/s²)", &[])
 }
 
-/// Draws lines in their colours.
-fn over_time(lines: &[(&[(f64, f64)], &'static str)], times: [f64; 2], label: &str, shown: &[f64]) -> Plot {
+/// Draws lines in their colours over the times \[s\]. The values `shown` lie within the vertical axis, which
+/// has the label.
+pub fn histories(
+    lines: &[(&[(f64, f64)], &'static str)],
+    times: [f64; 2],
+    label: &str,
+    shown: &[f64],
+) -> Plot {
     let values = lines.iter().flat_map(|(points, _)| points.iter().map(|point| point.1));
     let y_range = padded(values.chain(shown.iter().copied()));
     let axes = [Axis::over("time (s)", times), Axis::over(label, y_range)];

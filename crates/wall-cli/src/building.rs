@@ -3,6 +3,7 @@
 //! In the archive each wall is the FMU of its scene, and each storey an FMU with its values inside: importers
 //! do not agree on how an enumeration is set from outside, and some ignore the parameters of a system.
 
+mod page;
 mod run;
 
 use std::fmt::Write;

@@ -11,6 +11,7 @@ mod describe;
 mod ida;
 mod linearisation;
 mod motion;
+mod moving;
 mod output;
 mod package;
 mod page;

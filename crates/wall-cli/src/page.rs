@@ -1,9 +1,6 @@
 //! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
 
-use std::fmt::Write;
-
 use anyhow::{Result, bail};
-use figures::plot::Plot;
 use figures::{escaped, response as plots};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
@@ -12,11 +9,12 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use crate::demands;
 use crate::linearisation::Counterpart;
+use crate::moving::{SCRIPT, STYLE, frames, plot, rounded, verdict};
 use crate::template::filled;
 
 const TEMPLATE: &str = include_str!("page.html");
-/// Frames the slider moves through.
-const MOST_FRAMES: usize = 1500;
+/// Seconds that are drawn after a fall.
+const AFTER_FALL: f64 = 2.0;
 /// Exaggerations of the drawn rotation; the default is the largest that keeps it below this angle (rad).
 const FACTORS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 const LARGEST_DRAWN: f64 = 0.3;
@@ -32,25 +30,42 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     if response.samples.iter().any(|sample| !sample.outputs.displacement.is_finite()) {
         bail!("the response holds numbers that are not finite: there is nothing to draw");
     }
-    let frames = frames(&response.samples);
+    let frames: Vec<_> = frames(response.samples.len()).into_iter().map(|i| &response.samples[i]).collect();
+    let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
     let u_ins = wall.body().instability;
+    let overturned = response.summary.overturn_time;
+    let hinge = hinge(wall);
+    // the top of a parapet, or the rotation of a strip's lower body in %
+    let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
     let data = serde_json::json!({
-        "t": rounded(&frames, |sample| sample.time),
-        "u": rounded(&frames, |sample| sample.outputs.displacement),
-        "a": rounded(&frames, |sample| sample.support.bottom),
-        "f": rounded(&frames, |sample| sample.outputs.restoring_force),
+        "t": column(|sample| sample.time),
+        "u": column(|sample| sample.outputs.displacement),
+        "second": rounded(frames.iter().map(|sample| scale * second * sample.outputs.displacement)),
+        "a": column(|sample| sample.support.bottom),
+        "f": column(|sample| sample.outputs.restoring_force),
         "u_ins": [u_ins.positive, u_ins.negative],
         "height": wall.body().height,
         "thickness": scene.parameters.thickness,
-        "hinge": hinge(wall),
+        "hinge": hinge,
         "full": wall.rotations().is_some(),
-        "overturned": response.summary.overturn_time,
+        "overturned": overturned,
+        "open": telling(&frames, overturned),
     });
+    let names = match hinge {
+        None => ["u, mid-height (mm)", "top (mm)"],
+        Some(_) => ["u, hinge (mm)", "rotation (%)"],
+    };
+    let end = overturned.map_or(end, |time| end.min(time + AFTER_FALL));
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
     let figures = figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response);
     let page = [
         ("title", &*escaped(&scene.title)),
+        ("style", STYLE),
+        ("script", SCRIPT),
+        ("verdict", &said(response)),
+        ("first_name", names[0]),
+        ("second_name", names[1]),
         ("subtitle", &escaped(&subtitle)),
         ("wall", &drawing(scene, wall, response)),
         ("last_frame", &(frames.len() - 1).to_string()),
@@ -63,20 +78,22 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     Ok(filled(TEMPLATE, &page))
 }
 
-/// Evenly spaced samples, the last one among them.
-fn frames(samples: &[Sample]) -> Vec<&Sample> {
-    let every = samples.len().div_ceil(MOST_FRAMES).max(1);
-    let mut frames: Vec<_> = samples.iter().step_by(every).collect();
-    if let (Some(last), false) = (samples.last(), (samples.len() - 1).is_multiple_of(every)) {
-        frames.push(last);
-    }
-    frames
+/// The frame that tells most: that of the largest |u|, or the last one before the wall overturns.
+fn telling(frames: &[&Sample], overturned: Option<f64>) -> usize {
+    let standing = frames.iter().take_while(|sample| overturned.is_none_or(|time| sample.time < time));
+    let ratio = |sample: &Sample| sample.outputs.ratio.abs();
+    let peak = standing.enumerate().max_by(|a, b| ratio(a.1).total_cmp(&ratio(b.1)));
+    peak.map_or(0, |(frame, _)| frame)
 }
 
-/// Numbers with five significant figures: a page is not a data file.
-fn rounded(frames: &[&Sample], pick: fn(&Sample) -> f64) -> Vec<f64> {
-    let round = |value: f64| format!("{value:.4e}").parse().unwrap_or(0.0);
-    frames.iter().map(|sample| round(pick(sample))).collect()
+/// What the wall comes to.
+fn said(response: &Response) -> String {
+    let ratio = 100.0 * response.summary.u_ratio_max;
+    match response.summary.overturn_time {
+        Some(time) => verdict(&format!("The wall falls at {time:.2} s."), true),
+        None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
+        None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),
+    }
 }
 
 fn hinge(wall: &Wall) -> Option<f64> {
@@ -96,13 +113,13 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         format!("<rect {look} x=\"{x:.4}\" y=\"{y:.4}\" width=\"{width:.4}\" height=\"{height:.4}\"/>")
     };
     let body = |id: &str, from: f64, height: f64| {
-        let look = format!("id=\"{id}\" fill=\"#c9a183\" stroke=\"#6b4a33\"");
+        let look = format!("id=\"{id}\" style=\"fill:var(--wall);stroke:var(--edge)\"");
         rect([-b / 2.0, from], [b, height], &look)
     };
     let bodies = match hinge(wall) {
         None => body("lower", 0.0, h),
         Some(h1) => {
-            let look = "fill=\"#e4e1dc\" stroke=\"#555\"";
+            let look = "style=\"fill:var(--ground);stroke:var(--frame)\"";
             let support = rect([-0.6 * half, h], [1.2 * half, 0.05 * h], look);
             support + &body("lower", 0.0, h1) + &body("upper", h1, h - h1)
         }
@@ -110,7 +127,7 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
     format!(
         "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
          <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
-         <path d=\"M{:.4} 0H{far:.4}\" stroke=\"#555\"/>\
+         <path d=\"M{:.4} 0H{far:.4}\" style=\"stroke:var(--frame)\"/>\
          <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{bodies}</g></svg>",
         -half,
         -(h + top),
@@ -119,7 +136,7 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         -far,
         h + 0.6 * top,
         0.02 * h,
-        ground = rect([-far, -far], [2.0 * far, far], "fill=\"#e4e1dc\"")
+        ground = rect([-far, -far], [2.0 * far, far], "style=\"fill:var(--ground)\"")
     )
 }
 
@@ -162,11 +179,11 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
                 parameters.thickness
             ),
         ),
-        ("u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
-        ("F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
+        ("static instability u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
+        ("strength F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
         ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
-        ("kinematics", parameters.kinematics.name().to_owned()),
+        ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
         ("impact", impact(parameters, wall.restitution())),
     ];
     rows.iter().map(|(name, value)| row(name, value)).collect()
@@ -220,13 +237,20 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     let backbone: Vec<_> =
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
     [
-        plot("history", "Displacement; dashed: static instability", &plots::history(&ratio, end), overturned),
-        plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), None),
+        plot(
+            "history",
+            "Displacement; dashed: static instability u_ins",
+            &plots::history(&ratio, end),
+            &overturned.map(|time| (time, "overturned")).into_iter().collect::<Vec<_>>(),
+            true,
+        ),
+        plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
         plot(
             "force",
             "Restoring force on its backbone (dashed)",
             &plots::path_on_backbone(&backbone, range),
-            None,
+            &[],
+            false,
         ),
     ]
     .concat()
@@ -250,7 +274,7 @@ fn rotations(scene: &Scene, response: &Response) -> String {
         "Full rotations (blue) and small ones (red, dashed): at most {:.3} u_ins apart while both stand",
         twin.apart
     );
-    plot("rotations", &caption, &twin.histories, None)
+    plot("rotations", &caption, &twin.histories, &[], true)
         + &format!(
             "<figure><figcaption>Period with small rotations over that with full ones, from {:.2} u_ins; \
              dot: this wall, {:.2} % short</figcaption>{}</figure>",
@@ -258,39 +282,6 @@ fn rotations(scene: &Scene, response: &Response) -> String {
             100.0 * (1.0 - twin.ratio),
             twin.ratios.svg()
         )
-}
-
-/// A plot with what moves over it: a cursor on histories, a dot on the force.
-fn plot(id: &str, caption: &str, figure: &Plot, overturned: Option<f64>) -> String {
-    let [left, right, top, bottom] = figure.area();
-    let [from, to, _, _] = figure.ranges();
-    let span = format!("top:{:.4}%;height:{:.4}%", 100.0 * top, 100.0 * (bottom - top));
-    let mut over = if id == "force" {
-        "<div class=\"dot\"></div>".to_owned()
-    } else {
-        format!("<div class=\"cursor\" style=\"{span}\"></div>")
-    };
-    if let Some(time) = overturned {
-        let part = (time - from) / (to - from);
-        let x = 100.0 * (left + (right - left) * part);
-        let late = if part > 0.7 { " late" } else { "" };
-        let _ = write!(
-            over,
-            "<div class=\"mark{late}\" style=\"left:{x:.4}%;{span}\"><span>overturned</span></div>"
-        );
-    }
-    format!(
-        "<figure><figcaption>{caption}</figcaption><div class=\"plot\" id=\"{id}\" data-area=\"{}\" \
-         data-ranges=\"{}\">{}{over}</div></figure>",
-        json(&figure.area()),
-        json(&figure.ranges()),
-        figure.svg()
-    )
-}
-
-fn json(numbers: &[f64; 4]) -> String {
-    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
-    format!("[{}]", numbers.join(","))
 }
 
 #[cfg(test)]

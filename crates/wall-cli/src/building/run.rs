@@ -12,6 +12,7 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::DEFAULT_TAIL;
 use serde_json::json;
 
+use super::page::page;
 use crate::output;
 
 #[derive(Debug, Args)]
@@ -25,6 +26,9 @@ pub(crate) struct Options {
     /// Write the histories of floors and walls as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Write a page on which the storeys sway and the walls rock
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// Print the peaks as JSON
     #[arg(long)]
     json: bool,
@@ -33,7 +37,7 @@ pub(crate) struct Options {
 impl Options {
     /// Returns the files that a run writes.
     pub(super) fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
-        self.csv.iter()
+        self.csv.iter().chain(&self.html)
     }
 }
 
@@ -56,6 +60,7 @@ pub(super) fn run(
     let settings = Settings { end: ground.duration() + tail, tolerance };
     let run = Coupled::run(building, parts, ground, settings)?;
     output::save(options.csv.as_ref(), || csv(building, &run))?;
+    output::save(options.html.as_ref(), || page(building, parts, &run, note))?;
     if options.json {
         return Ok(serde_json::to_string_pretty(&json(building, &run))? + "\n");
     }

@@ -1,0 +1,277 @@
+//! The page of `wall building --record`: storeys that sway, walls that rock and fall, and their histories.
+
+use building::document::Support;
+use building::{Building, Coupled, Parts};
+use figures::escaped;
+use figures::palette::{DARK_GREY, RED, SERIES};
+use figures::plot::Plot;
+use figures::response::histories;
+use rocking_wall::variables::Mechanism;
+use serde_json::json;
+
+use crate::moving::{SCRIPT, STYLE, frames, plot, rounded, verdict};
+use crate::template::filled;
+
+const TEMPLATE: &str = include_str!("../building.html");
+/// Height of a storey without a wall that spans it \[m\].
+const STOREY: f64 = 3.0;
+/// Width for each wall on a floor, and least width of a floor \[m\].
+const FOR_A_WALL: f64 = 3.0;
+const LEAST_WIDTH: f64 = 7.0;
+/// Sway of the roof that is drawn, over the height; factors that it may be drawn with.
+const SWAY: f64 = 0.06;
+const FACTORS: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+/// Largest u/`u_ins` drawn.
+const EDGE: f64 = 1.25;
+/// Seconds drawn after the last fall and the last peak.
+const AFTER_ALL: f64 = 5.0;
+/// u/`u_ins` at which a wall on its way down is easily told from one that stands or lies.
+const FALLING: f64 = 3.0;
+
+/// Makes the page of a run.
+pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> String {
+    let frames = frames(run.times.len());
+    let of = |values: &[f64]| rounded(frames.iter().map(|&frame| values[frame]));
+    let open = telling(run, &frames);
+    let data = json!({
+        "t": rounded(frames.iter().map(|&frame| run.times[frame])),
+        "ground": of(&run.ground.values),
+        "floors": floors(building, parts, run, &frames),
+        "walls": walls(building, parts, run, &frames),
+        "open": open,
+        "sway": sway(building, run),
+    });
+    let end = end(run);
+    let page = [
+        ("title", &*escaped(&building.title)),
+        ("style", STYLE),
+        ("script", SCRIPT),
+        ("subtitle", &format!("{}, {:.2} m/s²", escaped(note), run.ground.peak.value.abs())),
+        ("verdict", &said(building, run)),
+        ("last_frame", &(frames.len() - 1).to_string()),
+        ("factors", &factors(sway(building, run))),
+        ("peaks", &peaks(building, run)),
+        ("figures", &figures(building, run, end)),
+        // a closing tag inside the data would end the script
+        ("data", &data.to_string().replace("</", "<\\/")),
+    ];
+    filled(TEMPLATE, &page)
+}
+
+/// Storeys: what they stand on, height, width, and displacement relative to the ground.
+fn floors(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -> Vec<serde_json::Value> {
+    let mut absolute: Vec<Vec<f64>> = Vec::new();
+    for (floor, history) in building.floors.iter().zip(&run.floors) {
+        let own = &history.drift.values;
+        absolute.push(match floor.base {
+            Support::Ground => own.clone(),
+            Support::Floor(below) => own.iter().zip(&absolute[below]).map(|(a, b)| a + b).collect(),
+        });
+    }
+    let spans = |index: usize| {
+        let mut spanning = building.walls.iter().zip(&parts.walls);
+        let base = building.floors[index].base;
+        spanning.find(|(wall, _)| wall.top == Some(Support::Floor(index)) && wall.bottom == base)
+    };
+    let on = |index: usize| building.walls.iter().filter(|w| w.bottom == Support::Floor(index)).count();
+    let most = (0..building.floors.len()).map(on).max().unwrap_or(0);
+    let width = LEAST_WIDTH.max(FOR_A_WALL * most as f64);
+    let shown = building.floors.iter().zip(&absolute).enumerate().map(|(index, (floor, x))| {
+        let below = if let Support::Floor(below) = floor.base { Some(below) } else { None };
+        json!({
+            "name": floor.name.replace('_', " "),
+            "below": below,
+            "height": spans(index).map_or(STOREY, |(_, wall)| wall.body().height),
+            "width": width,
+            "x": rounded(frames.iter().map(|&frame| x[frame])),
+            "a": rounded(frames.iter().map(|&frame| run.floors[index].acceleration.values[frame])),
+        })
+    });
+    shown.collect()
+}
+
+fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -> Vec<serde_json::Value> {
+    let index = |support: Support| if let Support::Floor(floor) = support { Some(floor) } else { None };
+    let own = parts.walls.iter().zip(&parts.scenes);
+    let shown = building.walls.iter().zip(&run.walls).zip(own).map(|((wall, history), (own, scene))| {
+        let body = own.body();
+        let beside = building.walls.iter().filter(|other| other.bottom == wall.bottom);
+        let place = beside.clone().position(|other| other.name == wall.name).unwrap_or(0);
+        json!({
+            "name": wall.name.replace('_', " "),
+            "bottom": index(wall.bottom),
+            "top": wall.top.and_then(index),
+            "place": (place as f64 + 0.5) / beside.count() as f64,
+            "height": body.height,
+            "thickness": scene.parameters.thickness,
+            "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
+            "u_ins": [body.instability.positive, body.instability.negative],
+            "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
+            "fallen": history.overturn_time,
+        })
+    });
+    shown.collect()
+}
+
+/// Largest sway of any floor over its height above the ground, without a factor.
+fn sway(building: &Building, run: &Coupled) -> f64 {
+    let drifts = run.floors.iter().map(|floor| floor.drift.peak.value.abs()).sum::<f64>();
+    let largest = drifts / (STOREY * building.floors.len() as f64);
+    let fits = FACTORS.iter().rev().find(|factor| **factor * largest <= SWAY);
+    fits.copied().unwrap_or(1.0)
+}
+
+fn factors(chosen: f64) -> String {
+    let option = |factor: f64| {
+        let selected = if factor == chosen { " selected" } else { "" };
+        let name = if factor == 1.0 { "to scale".to_owned() } else { format!("× {factor}") };
+        format!("<option value=\"{factor}\"{selected}>{name}</option>")
+    };
+    FACTORS.map(option).concat()
+}
+
+/// The walls that overturn, in order of time.
+fn falls<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str)> {
+    let fallen = building.walls.iter().zip(&run.walls);
+    let mut fallen: Vec<_> =
+        fallen.filter_map(|(wall, history)| Some((history.overturn_time?, wall.name.as_str()))).collect();
+    fallen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    fallen
+}
+
+/// The frame that tells most: just after the first fall, or that of the largest u/`u_ins`.
+fn telling(run: &Coupled, frames: &[usize]) -> usize {
+    let largest = |frame: &usize| {
+        let ratios = run.walls.iter().map(|wall| wall.ratio.values[*frame].abs());
+        let floors = run.floors.iter().map(|floor| floor.acceleration.values[*frame].abs());
+        if run.walls.is_empty() { floors.fold(0.0, f64::max) } else { ratios.fold(0.0, f64::max) }
+    };
+    let falling = frames.iter().position(|frame| largest(frame) > FALLING && !run.walls.is_empty());
+    let peak = frames.iter().enumerate().max_by(|a, b| largest(a.1).total_cmp(&largest(b.1)));
+    falling.or(peak.map(|(index, _)| index)).unwrap_or(0)
+}
+
+fn said(building: &Building, run: &Coupled) -> String {
+    let falls = falls(building, run);
+    let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
+        let ratio = |wall: &building::coupled::WallHistory| wall.ratio.peak.value.abs();
+        ratio(a.1).total_cmp(&ratio(b.1))
+    });
+    let name = |name: &str| name.replace('_', " ");
+    match (&falls[..], worst) {
+        ([], None) => verdict("No wall stands on this building.", false),
+        ([], Some((wall, history))) => {
+            let ratio = 100.0 * history.ratio.peak.value.abs();
+            let text = format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", name(&wall.name));
+            verdict(&text, false)
+        }
+        (falls, _) => {
+            let parts: Vec<_> =
+                falls.iter().map(|(time, wall)| format!("the {} falls at {time:.1} s", name(wall))).collect();
+            let text = parts.join(", ");
+            verdict(&format!("{}{}.", text[..1].to_uppercase(), &text[1..]), true)
+        }
+    }
+}
+
+/// The end of the time axes: soon after the last fall and the last of the peaks.
+fn end(run: &Coupled) -> f64 {
+    let floors = run.floors.iter().flat_map(|floor| [floor.acceleration.peak.time, floor.drift.peak.time]);
+    let walls = run.walls.iter().map(|wall| wall.overturn_time.unwrap_or(wall.ratio.peak.time));
+    let last = floors.chain(walls).fold(0.0, f64::max);
+    (last + AFTER_ALL).min(run.times.last().copied().unwrap_or(AFTER_ALL))
+}
+
+/// Peaks of floors and walls as tables.
+fn peaks(building: &Building, run: &Coupled) -> String {
+    let row = |cells: [String; 3]| {
+        let [name, first, second] = cells;
+        format!("<tr><td>{}</td><td>{first}</td><td>{second}</td></tr>", escaped(&name.replace('_', " ")))
+    };
+    let head = |cells: [&str; 3]| {
+        let cells: Vec<_> = cells.iter().map(|cell| format!("<th>{cell}</th>")).collect();
+        format!("<tr>{}</tr>", cells.concat())
+    };
+    let mut table = head(["floor", "acceleration", "drift"]);
+    for (floor, history) in building.floors.iter().zip(&run.floors) {
+        let acceleration = format!("{:.2} m/s²", history.acceleration.peak.value.abs());
+        let drift = format!("{:.1} mm", 1000.0 * history.drift.peak.value.abs());
+        table += &row([floor.name.clone(), acceleration, drift]);
+    }
+    if !building.walls.is_empty() {
+        table += &head(["wall", "largest u/u_ins", "force at its foot"]);
+    }
+    for (wall, history) in building.walls.iter().zip(&run.walls) {
+        let ratio = history.overturn_time.map_or_else(
+            || format!("{:.2}", history.ratio.peak.value.abs()),
+            |time| format!("falls at {time:.2} s"),
+        );
+        let force = format!("{:.2} kN", history.reaction_bottom.peak.value.abs() / 1000.0);
+        table += &row([wall.name.clone(), ratio, force]);
+    }
+    format!("<table>{table}</table>")
+}
+
+/// A name, a history and its colour.
+type Line = (String, Vec<(f64, f64)>, &'static str);
+
+/// Histories: floor accelerations, u/`u_ins` of each wall, the forces that support them.
+fn figures(building: &Building, run: &Coupled, end: f64) -> String {
+    let points = |values: &[f64], scale: f64, until: Option<f64>| -> Vec<(f64, f64)> {
+        let pairs = run.times.iter().copied().zip(values.iter().map(|value| scale * value));
+        pairs.take_while(|(time, _)| *time <= until.unwrap_or(end).min(end)).collect()
+    };
+    let color = |index: usize| SERIES[index % SERIES.len()].0;
+    let falls = falls(building, run);
+    let marks: Vec<_> = falls.iter().map(|(time, name)| (*time, name.replace('_', " "))).collect();
+    let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
+    let drawn = |lines: Vec<Line>, label: &str, shown: &[f64]| {
+        let keys: Vec<_> = lines
+            .iter()
+            .map(|(name, _, color)| {
+                let name = escaped(&name.replace('_', " "));
+                format!(
+                    " <span class=\"key\"><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>"
+                )
+            })
+            .collect();
+        let drawn: Vec<_> = lines.iter().map(|(_, points, color)| (&points[..], *color)).collect();
+        (keys.concat(), histories(&drawn, [0.0, end], label, shown))
+    };
+    let mut floors = vec![("ground".to_owned(), points(&run.ground.values, 1.0, None), DARK_GREY)];
+    for (index, floor) in building.floors.iter().enumerate() {
+        let history = points(&run.floors[index].acceleration.values, 1.0, None);
+        floors.push((floor.name.clone(), history, color(index)));
+    }
+    let (keys, figure) = drawn(floors, "acceleration (m/s²)", &[]);
+    let mut text = plot("floors", &format!("Floor accelerations:{keys}"), &figure, &[], true);
+    if building.walls.is_empty() {
+        return text;
+    }
+    let walls = building.walls.iter().zip(&run.walls).enumerate();
+    let ratio = walls.clone().map(|(index, (wall, history))| {
+        let mut line = points(&history.ratio.values, 1.0, None);
+        // a line that went on would look like a wall at rest
+        let left = line.iter().position(|point| point.1.abs() > EDGE).map_or(line.len(), |first| first + 1);
+        line.truncate(left);
+        for point in &mut line {
+            point.1 = point.1.clamp(-EDGE, EDGE);
+        }
+        (wall.name.clone(), line, color(index))
+    });
+    let (keys, figure) = drawn(ratio.collect(), "u / u_ins", &[-1.0, 1.0]);
+    let figure = Plot { limits: vec![(-1.0, RED), (1.0, RED)], ..figure };
+    text +=
+        &plot("ratios", &format!("Walls; they fall beyond the dashed lines:{keys}"), &figure, &marks, true);
+    let forces = walls.map(|(index, (wall, history))| {
+        (wall.name.clone(), points(&history.reaction_bottom.values, 1e-3, None), color(index))
+    });
+    let (keys, figure) = drawn(forces.collect(), "force (kN)", &[]);
+    text + &plot(
+        "forces",
+        &format!("Forces of the floors on the feet of the walls:{keys}"),
+        &figure,
+        &[],
+        true,
+    )
+}

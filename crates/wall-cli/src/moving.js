@@ -1,0 +1,51 @@
+const at = id => document.getElementById(id);
+const degrees = 180 / Math.PI;
+function place(element, x, y) {
+  element.style.left = 100 * x + "%";
+  if (y !== undefined) { element.style.top = 100 * y + "%"; }
+}
+// Moves the cursors of all plots to the time t, and the dot of one over other quantities to `point`.
+function moveCursors(t, point) {
+  for (const plot of document.querySelectorAll(".plot")) {
+    const [left, right, top, bottom] = JSON.parse(plot.dataset.area);
+    const [x0, x1, y0, y1] = JSON.parse(plot.dataset.ranges);
+    const cursor = plot.querySelector(".cursor"), dot = plot.querySelector(".dot");
+    if (cursor) {
+      const part = (t - x0) / (x1 - x0);
+      cursor.hidden = part > 1;
+      place(cursor, left + (right - left) * part);
+    }
+    if (dot) {
+      const px = (point[0] - x0) / (x1 - x0), py = (y1 - point[1]) / (y1 - y0);
+      dot.hidden = px < 0 || px > 1 || py < 0 || py > 1;
+      place(dot, left + (right - left) * px, top + (bottom - top) * py);
+    }
+  }
+}
+// Lets slider and button show the frames of the times, from the frame `open` on; page.html#t=9.2 opens there.
+function startPlayer(times, show, open) {
+  const last = times.length - 1, slider = at("time"), button = at("play");
+  const shown = frame => { slider.value = frame; show(frame); };
+  let playing = null;
+  const stop = () => { cancelAnimationFrame(playing); playing = null; button.textContent = "Play"; };
+  const play = () => {
+    let frame = Number(slider.value) >= last ? 0 : Number(slider.value);
+    let time = times[frame], before = performance.now();
+    button.textContent = "Pause";
+    const tick = now => {
+      time += (now - before) / 1000 * Number(at("speed").value);
+      before = now;
+      while (frame < last && times[frame + 1] <= time) { frame += 1; }
+      shown(frame);
+      if (frame >= last) { stop(); } else { playing = requestAnimationFrame(tick); }
+    };
+    playing = requestAnimationFrame(tick);
+  };
+  button.addEventListener("click", () => playing === null ? play() : stop());
+  slider.addEventListener("input", () => {
+    if (playing !== null) { stop(); }
+    shown(Number(slider.value));
+  });
+  const wanted = /^#t=([0-9.]+)$/.exec(location.hash);
+  shown(wanted === null ? open : Math.max(0, times.findLastIndex(t => t <= Number(wanted[1]))));
+}

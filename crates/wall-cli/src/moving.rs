@@ -1,0 +1,82 @@
+//! What pages with a moving picture share: style, player, and plots with a cursor.
+
+use std::fmt::Write;
+
+use figures::plot::Plot;
+
+/// Style of the pages.
+pub(crate) const STYLE: &str = include_str!("moving.css");
+/// Slider, button and cursors.
+pub(crate) const SCRIPT: &str = include_str!("moving.js");
+/// Frames the slider moves through.
+pub(crate) const MOST_FRAMES: usize = 1500;
+/// Width of a plot on a phone \[px\], where letters keep their size.
+const NARROW: f64 = 390.0;
+
+/// Indices of evenly spaced frames of a history, the last one among them.
+pub(crate) fn frames(count: usize) -> Vec<usize> {
+    let every = count.div_ceil(MOST_FRAMES).max(1);
+    let mut frames: Vec<_> = (0..count).step_by(every).collect();
+    if count > 0 && !(count - 1).is_multiple_of(every) {
+        frames.push(count - 1);
+    }
+    frames
+}
+
+/// Numbers with five significant figures: a page is not a data file.
+pub(crate) fn rounded(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    values.map(|value| format!("{value:.4e}").parse().unwrap_or(0.0)).collect()
+}
+
+/// A line for the verdict, which comes first.
+pub(crate) fn verdict(text: &str, falls: bool) -> String {
+    let class = if falls { "verdict falls" } else { "verdict" };
+    format!("<p class=\"{class}\">{}</p>", figures::escaped(text))
+}
+
+/// A plot with what moves over it: a cursor on histories, a dot on what is no history. It has a narrow form
+/// for phones.
+pub(crate) fn plot(
+    id: &str,
+    caption: &str,
+    figure: &Plot,
+    marks: &[(f64, &str)],
+    is_history: bool,
+) -> String {
+    let narrow = Plot { size: [NARROW, figure.size[1]], ..figure.clone() };
+    format!(
+        "<figure><figcaption>{caption}</figcaption>{}{}</figure>",
+        one(&format!("plot wide\" id=\"{id}"), figure, marks, is_history),
+        one("plot narrow", &narrow, marks, is_history)
+    )
+}
+
+fn one(class: &str, figure: &Plot, marks: &[(f64, &str)], is_history: bool) -> String {
+    let [left, right, top, bottom] = figure.area();
+    let [from, to, _, _] = figure.ranges();
+    let span = format!("top:{:.4}%;height:{:.4}%", 100.0 * top, 100.0 * (bottom - top));
+    let mut over = if is_history {
+        format!("<div class=\"cursor\" style=\"{span}\"></div>")
+    } else {
+        "<div class=\"dot\"></div>".to_owned()
+    };
+    for (time, name) in marks {
+        let part = (time - from) / (to - from);
+        let x = 100.0 * (left + (right - left) * part);
+        let late = if part > 0.7 { " late" } else { "" };
+        // writing to a String cannot fail
+        let _ =
+            write!(over, "<div class=\"mark{late}\" style=\"left:{x:.4}%;{span}\"><span>{name}</span></div>");
+    }
+    format!(
+        "<div class=\"{class}\" data-area=\"{}\" data-ranges=\"{}\">{}{over}</div>",
+        json(&figure.area()),
+        json(&figure.ranges()),
+        figure.svg()
+    )
+}
+
+fn json(numbers: &[f64; 4]) -> String {
+    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(","))
+}
