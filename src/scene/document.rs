@@ -45,6 +45,8 @@ pub struct Document {
     pub damping: Group,
     /// Restitution.
     pub impact: Group,
+    /// Tie of a parapet.
+    pub tie: Group,
     /// Initial displacement and velocity.
     pub start: Group,
     /// Solver and tolerance.
@@ -59,12 +61,13 @@ pub struct Document {
 
 impl Document {
     /// The tables of parameters with their names.
-    pub(super) fn groups(&self) -> [(&'static str, &Group); 6] {
+    pub(super) fn groups(&self) -> [(&'static str, &Group); 7] {
         [
             ("geometry", &self.geometry),
             ("force_law", &self.force_law),
             ("damping", &self.damping),
             ("impact", &self.impact),
+            ("tie", &self.tie),
             ("start", &self.start),
             ("solver", &self.solver),
         ]

@@ -49,6 +49,8 @@ impl Scene {
             V::DampingForce | V::XiUsed => damped,
             V::Restitution => needs_restitution && p.restitution_source == RestitutionSource::Given,
             V::RestitutionUsed => needs_restitution,
+            V::TieHeight | V::TieStiffness | V::TieSlack | V::TieForce => p.tie_stiffness > 0.0,
+            V::TieStrength => p.tie_stiffness > 0.0 && p.tie_strength > 0.0,
             V::NewmarkStep => p.solver == Solver::Newmark,
             V::Tolerance => match p.solver {
                 Solver::Exact | Solver::Newmark => false,

@@ -19,8 +19,10 @@ pub struct Outputs {
     pub restoring_force: f64,
     /// C u̇ \[N\].
     pub damping_force: f64,
-    /// Forces of the supports on the wall \[N\].
+    /// Forces of the supports on the wall \[N\]; that of a parapet's tie is part of the bottom one.
     pub reactions: Ends,
+    /// Force N of the tie, tension positive \[N\].
+    pub tie_force: f64,
 }
 
 impl Simulation {
@@ -60,6 +62,7 @@ impl Simulation {
             restoring_force: restoring * m,
             damping_force: damping * m,
             reactions,
+            tie_force: if departed { 0.0 } else { wall.tie_force(branch, displacement) },
         }
     }
 
@@ -82,6 +85,9 @@ impl Simulation {
         let body = wall.body();
         let m = body.effective_mass;
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
+        let pulls = if departed || phase != Phase::Moving { None } else { wall.tie_on(branch) };
+        // dN/du = ±K 2y/h
+        let tie_force = pulls.map_or(0.0, |tie| tie.stiffness * tie.lever * displacement.signum() * du);
         let branch = &wall.branches()[branch];
         let forcing = body.forcing(change);
         let pull = forcing - body.forcing(Support { drift: 0.0, ..change });
@@ -110,6 +116,7 @@ impl Simulation {
             restoring_force: restoring * m,
             damping_force: damping * m,
             reactions,
+            tie_force,
         }
     }
 }

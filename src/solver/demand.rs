@@ -50,7 +50,16 @@ pub struct Crossing {
     pub first: Option<Instant>,
 }
 
-/// The demands of a motion on a wall, up to overturning.
+/// The demands of a motion on a tie, until the wall leaves its supports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieDemands {
+    /// The largest force \[N\].
+    pub force: Instant,
+    /// When the force first reached the strength \[N\]; `None` if it never did, or where none is given.
+    pub strength: Option<Instant>,
+}
+
+/// The demands of a motion on a wall, up to overturning; those on its tie beyond.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Demands {
     /// u \[m\].
@@ -68,6 +77,8 @@ pub struct Demands {
     /// Rocking half cycles: excursions beyond the elastic branch with a passage of u = 0 between them. For
     /// the rigid-linear law each motion away from u = 0 is one.
     pub half_cycles: u64,
+    /// Of the tie; `None` without one.
+    pub tie: Option<TieDemands>,
     /// The sign of an excursion that u = 0 has not ended yet.
     pub(super) excursion: Option<f64>,
 }
@@ -95,6 +106,11 @@ impl Demands {
             reaction_top: Extremes::at(reactions.top, time),
             crossings: fractions.iter().map(crossing).collect(),
             half_cycles: 0,
+            tie: wall.tie().map(|tie| {
+                let force = Instant { value: tie.force(displacement), time };
+                let reached = tie.strength.filter(|strength| force.value >= *strength);
+                TieDemands { force, strength: reached.map(|value| Instant { value, time }) }
+            }),
             excursion: None,
         }
     }

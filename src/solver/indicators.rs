@@ -39,7 +39,15 @@ impl Motion {
             }
             Phase::Resting => {
                 let [lowest, highest] = self.rest_band;
-                [(forcing - lowest) / (highest - lowest), (highest - forcing) / (highest - lowest)]
+                let body = self.wall.body();
+                let width = if (highest - lowest).is_finite() {
+                    highest - lowest
+                } else {
+                    body.strength.of(self.wall.free_side().unwrap_or_default()) / body.effective_mass
+                };
+                // nothing ends the rest towards transverse walls
+                [forcing - lowest, highest - forcing]
+                    .map(|gap| if gap.is_finite() { gap / width } else { 1.0 })
             }
             Phase::Landed => return [1.0; INDICATORS],
         };
@@ -100,6 +108,9 @@ impl Motion {
     /// an impact at u = 0. Otherwise each bounce would gain energy, and never become low.
     fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
         let factor = self.wall.passage_factor();
+        if let Some(side) = self.wall.free_side() {
+            return self.rebound_from_walls(state, side, forcing);
+        }
         if !self.wall.is_rigid() {
             return Rebound { velocity: state.velocity * factor, rests: false };
         }
@@ -122,6 +133,20 @@ impl Motion {
             velocity: now.max(0.0).sqrt().copysign(state.velocity),
             rests: low || leaving.sqrt() < self.rest_speed,
         }
+    }
+
+    /// Returns the motion after an impact against transverse walls that is met a margin or more beyond u = 0,
+    /// as if it were met there. A wall comes to rest once its bounces are too low to follow.
+    fn rebound_from_walls(&self, state: &State, side: f64, forcing: f64) -> Rebound {
+        let late = state.displacement.abs();
+        // acceleration towards the transverse walls at u = 0
+        let pull = side * (self.wall.restoring(state.branch, 0.0) - forcing);
+        let arriving = (state.velocity * state.velocity - 2.0 * pull * late).max(0.0);
+        let leaving = arriving * self.wall.passage_factor().powi(2);
+        let lowest_bounce = REST_MARGINS * MARGIN * self.wall.displacement_scale();
+        let stiffness = self.wall.branches()[state.branch].stiffness.max(0.0);
+        let low = pull >= 0.0 && 0.5 * leaving <= (pull + 0.5 * stiffness * lowest_bounce) * lowest_bounce;
+        Rebound { velocity: leaving.sqrt().copysign(side), rests: low || leaving.sqrt() < self.rest_speed }
     }
 }
 

@@ -20,7 +20,7 @@ mod transition;
 mod trigonometric;
 mod watch;
 
-pub use demand::{Crossing, Demands, Extremes, Instant};
+pub use demand::{Crossing, Demands, Extremes, Instant, TieDemands};
 pub use exact::Memo;
 pub use indicators::INDICATORS;
 pub use motion::{Method, Motion};

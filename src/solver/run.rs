@@ -212,10 +212,13 @@ impl<'a> Run<'a> {
                 (time, places[usize::from(upwards)], velocity, Some(upwards))
             }
         };
-        if let (Some(watch), false) = (&mut self.watch, self.state.overturned) {
-            let branch = self.state.branch;
+        if let Some(watch) = &mut self.watch {
+            let State { branch, overturned, departed, .. } = self.state;
             let followed = Followed { piece, branch, from: self.time, length, displacement };
-            watch.piece(&followed).map_err(|_| self.exhausted())?;
+            let (motion, tie) = (!overturned, !departed && watch.demands.tie.is_some());
+            let watched = if motion { watch.piece(&followed) } else { Ok(()) };
+            let watched = watched.and_then(|()| if tie { watch.tie(&followed) } else { Ok(()) });
+            watched.map_err(|_| self.exhausted())?;
         }
         if self.integral && !self.state.departed {
             self.report.displacement_integral += piece.displacement_integral(length);
@@ -259,7 +262,7 @@ impl<'a> Run<'a> {
         let velocity = self.state.velocity;
         let [lowest, highest] = motion.rest_band;
         let too_many = self.report.work.impacts + 1 >= MOST_IMPACTS
-            && motion.wall.is_rigid()
+            && motion.wall.can_rest()
             && (lowest..=highest).contains(&forcing);
         let rebound = |state: &State| {
             let velocity = state.velocity * motion.wall.passage_factor();

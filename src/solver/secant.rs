@@ -5,7 +5,7 @@
     reason = "measured: a series is one piece of straight code, its numbers in registers"
 )]
 
-use crate::wall::{Branch, BranchDamping};
+use crate::wall::{Branch, BranchDamping, Line};
 use oscillator::{HIGHEST_ORDER, Polynomial};
 
 use super::scaled::{ORDER, Scaled, Start};
@@ -44,6 +44,8 @@ pub(super) struct SecantBranch {
     pub(super) anchor: f64,
     pub(super) force: f64,
     pub(super) stiffness: f64,
+    /// The line of the wall without a tie, of which c is made, and its force at u = 0.
+    pub(super) own: Line,
     pub(super) force_at_zero: f64,
     /// 1 for u > 0, −1 for u < 0.
     side: f64,
@@ -61,9 +63,9 @@ impl SecantBranch {
             BranchDamping::SecantRatio(factor) => (factor, true),
             BranchDamping::SecantStiffness(factor) => (factor, false),
         };
-        let Branch { anchor, force, stiffness, .. } = *branch;
-        let (force_at_zero, side) = (branch.restoring(0.0), branch.side());
-        Some(Self { anchor, force, stiffness, force_at_zero, side, factor, is_ratio })
+        let Branch { anchor, force, stiffness, own, .. } = *branch;
+        let (force_at_zero, side) = (own.at(0.0), branch.side());
+        Some(Self { anchor, force, stiffness, own, force_at_zero, side, factor, is_ratio })
     }
 
     /// Prepares the series from u and u̇ under a forcing from p₀ to p₁ over a length L, and 1/u.
@@ -71,8 +73,8 @@ impl SecantBranch {
     fn start(&self, [u, v]: [f64; 2], p: [f64; 2], length: f64) -> (Scaled<f64>, f64) {
         let force = self.force + self.stiffness * (u - self.anchor);
         let inverse = 1.0 / u;
-        // at u₃ the force is zero, and so is c, but κ must not divide by it
-        let nonzero = self.side * (self.side * force).max(LEAST * self.force_at_zero.abs());
+        // at u₃ the wall's own force is zero, and so is c, but κ must not divide by it
+        let nonzero = self.side * (self.side * self.own.at(u)).max(LEAST * self.force_at_zero.abs());
         let secant = nonzero * inverse;
         let damping = self.factor * length * if self.is_ratio { secant.sqrt() } else { secant };
         let scale = length * length * inverse;
@@ -234,7 +236,9 @@ mod tests {
             for speed in (0..3000).map(|i| 0.002 * 1.0025_f64.powi(i)) {
                 // from u = 0.1, where p all but balances f, on a line that ends far beyond
                 let (lower, upper) = (0.1, 100.0);
-                let branch = Branch { lower, upper, anchor: upper, force: 0.0, stiffness: -0.02, damping };
+                let own = Line { anchor: upper, force: 0.0, slope: -0.02 };
+                let branch =
+                    Branch { lower, upper, anchor: upper, force: 0.0, stiffness: -0.02, own, damping };
                 let branch = SecantBranch::new(&branch).expect("secant damping");
                 let p = [2.0, 2.001];
                 let (fine, many) = follow(&branch, [lower, speed], p, 16, most);

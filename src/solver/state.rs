@@ -25,7 +25,7 @@ impl Segment {
 pub enum Phase {
     /// It rocks or sways.
     Moving,
-    /// A rigid wall stands still at u = 0.
+    /// It stands still at u = 0, as a rigid wall or against transverse walls.
     Resting,
     /// It lies at the end of its fall.
     Landed,

@@ -7,6 +7,7 @@
 //! | departure, outwards | the wall leaves its supports, once |
 //! | landing | u̇ = 0, the end of the fall |
 //! | u = 0 with impact | u̇ → e u̇; a rigid wall may come to rest; for e = 0 the wall follows the forcing |
+//! | u = 0 at transverse walls | u̇ → −e₁ u̇ on the same branch; any wall may come to rest |
 
 use crate::wall::{Corner, Support};
 
@@ -47,6 +48,20 @@ impl Motion {
 
     /// Returns the state at the start, under a forcing p \[m/s²\].
     pub fn start_under(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
+        let mut state = self.located(displacement, velocity, forcing);
+        let behind = self.wall.free_side().is_some_and(|side| displacement == 0.0 && velocity * side < 0.0);
+        if behind {
+            // it starts with an impact
+            state.velocity *= self.wall.passage_factor();
+            if state.velocity.abs() < self.rest_speed {
+                settle(self, &mut state, [forcing, 0.0]);
+            }
+        }
+        state
+    }
+
+    /// Returns the state of a wall on the branch that its motion belongs to.
+    fn located(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
         let overturned = displacement.abs() > wall.body().instability.of(displacement);
         let departed = displacement.abs() > wall.body().departure.of(displacement);
@@ -59,7 +74,7 @@ impl Motion {
             departed,
             peaks: Peaks::at(displacement),
         };
-        if wall.is_rigid() && displacement == 0.0 && velocity == 0.0 {
+        if wall.can_rest() && displacement == 0.0 && velocity == 0.0 {
             settle(self, &mut state, [forcing, 0.0]);
         } else {
             // At a corner the motion chooses the side; the force is continuous there, but for the rigid one
@@ -75,7 +90,7 @@ impl Motion {
     /// Returns the state with another displacement \[m\] and velocity \[m/s\], on the branch they belong to
     /// under the forcing p \[m/s²\]. Marks and peaks stay.
     pub fn placed(&self, state: &State, displacement: f64, velocity: f64, forcing: f64) -> State {
-        let anew = self.start_under(displacement, velocity, forcing);
+        let anew = self.located(displacement, velocity, forcing);
         State { displacement, velocity, branch: anew.branch, phase: anew.phase, ..*state }
     }
 }
@@ -85,7 +100,7 @@ impl Motion {
 pub(super) struct Rebound {
     /// u̇ \[m/s\].
     pub(super) velocity: f64,
-    /// Whether a rigid wall comes to rest.
+    /// Whether a wall that can rest comes to rest.
     pub(super) rests: bool,
 }
 
@@ -104,7 +119,8 @@ pub(super) fn pass(
     forcing: [f64; 2],
     rebound: impl FnOnce(&State) -> Rebound,
 ) -> Event {
-    let Corner { displacement, passage, overturning, departure, landing } = motion.wall.corners()[corner];
+    let Corner { displacement, passage, stop, overturning, departure, landing } =
+        motion.wall.corners()[corner];
     let outwards = upwards == (displacement > 0.0);
     let mut event = Event {
         overturned: overturning && outwards && !state.overturned,
@@ -119,7 +135,12 @@ pub(super) fn pass(
         event.stopped = true;
         return event;
     }
-    state.branch = branch_beyond(corner, upwards);
+    if stop {
+        // an importer's solver is a little beyond
+        state.displacement = displacement;
+    } else {
+        state.branch = branch_beyond(corner, upwards);
+    }
     if passage {
         let before = state.velocity;
         let rebound = rebound(state);
@@ -134,7 +155,7 @@ pub(super) fn pass(
 /// Goes on from u = 0 after an impact.
 fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forcing, rate]: [f64; 2]) {
     state.velocity = rebound.velocity;
-    if motion.wall.is_rigid() {
+    if motion.wall.can_rest() {
         if rebound.rests {
             settle(motion, state, [forcing, rate]);
         }
@@ -146,8 +167,8 @@ fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forc
     }
 }
 
-/// Stops a rigid wall at u = 0. It rests while the forcing keeps within the band of F₀, and else follows the
-/// forcing.
+/// Stops a wall that can rest at u = 0. It rests while the forcing keeps within its band, and else follows
+/// the forcing.
 pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 2]) {
     let [lowest, highest] = motion.rest_band;
     let leaves_up = forcing > highest || (forcing == highest && rate > 0.0);
@@ -159,7 +180,7 @@ pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 
     }
 }
 
-/// Sets a rigid wall at u = 0 moving.
+/// Sets a wall at u = 0 moving.
 pub(super) fn leave_rest(motion: &Motion, state: &mut State, upwards: bool) {
     state.phase = Phase::Moving;
     state.branch = motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });

@@ -8,7 +8,7 @@ use oscillator::KinematicState;
 
 use crate::wall::{Ends, Support, Wall};
 
-use super::demand::{Demands, Extremes, Instant};
+use super::demand::{Demands, Extremes, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
@@ -119,6 +119,35 @@ impl Watch<'_> {
         Ok(())
     }
 
+    /// Takes in the force of the tie over a piece, on which it is linear in u.
+    #[inline(never)]
+    pub(super) fn tie<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
+        let &Followed { piece, branch, from, length, .. } = followed;
+        let (Some(tie), Some(TieDemands { force, strength })) =
+            (self.wall.tie_on(branch), &mut self.demands.tie)
+        else {
+            return Ok(());
+        };
+        let search = ExtremeSearch::new(piece, length, [self.time, from]);
+        let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
+        let slope = tie.stiffness * tie.lever;
+        let (acceleration, _) = piece.bounds(search.seen[0].1, length);
+        let size = slope * search.largest(|m| m.displacement);
+        let quantity = Quantity { value, curvature: slope * acceleration, size };
+        let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
+        *force = largest;
+        let (Some(reach), Some(limit)) = (tie.strength_displacement(), tie.strength) else { return Ok(()) };
+        if strength.is_none() && largest.value >= limit {
+            let time = match event::follow(piece, [-reach, reach], &mut Peaks::at(0.0))? {
+                Ending::Exit(exit) if exit.time <= length => self.time + (from + exit.time),
+                // at the turning point itself, within rounding
+                _ => largest.time,
+            };
+            *strength = Some(Instant { value: limit, time });
+        }
+        Ok(())
+    }
+
     /// Takes in first crossings on a piece.
     fn cross<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let start = self.time;
@@ -148,7 +177,8 @@ impl Watch<'_> {
     fn count<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let branch = &self.wall.branches()[followed.branch];
         let start = followed.piece.start();
-        let elastic = !self.wall.is_rigid() && branch.lower <= 0.0 && branch.upper >= 0.0;
+        // only the elastic line goes through the origin
+        let elastic = branch.own.anchor == 0.0;
         let demands = &mut *self.demands;
         if !elastic {
             if self.wall.is_rigid() && start.displacement == 0.0 {

@@ -66,6 +66,7 @@ impl Model for Unit {
             V::ImpulseTop => self.impulses.top,
             V::OverturnTime => progress.overturn_time.unwrap_or(-1.0),
             V::UMax => progress.state.peaks.largest(),
+            V::TieForce => self.outputs().tie_force,
             V::Mass => body.mass,
             V::EffectiveMass => body.effective_mass,
             V::Participation => body.participation,
@@ -136,6 +137,7 @@ impl Model for Unit {
             RealVariable::UDdot => Some(rates().acceleration),
             RealVariable::ReactionBottom => Some(rates().reactions.bottom),
             RealVariable::ReactionTop => Some(rates().reactions.top),
+            RealVariable::TieForce => Some(rates().tie_force),
             _ => None,
         }
     }
@@ -161,6 +163,7 @@ impl Model for Unit {
             V::DampingForce => Some(along.damping_force),
             V::ReactionBottom => Some(along.reactions.bottom),
             V::ReactionTop => Some(along.reactions.top),
+            V::TieForce => Some(along.tie_force),
             // memories of the past: not functions of the present state and inputs
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
             _ => None,

@@ -1,6 +1,7 @@
 //! Branches of the restoring force, and the corners between them.
 
 use super::damping::BranchDamping;
+use super::force_law::Line;
 
 /// A straight piece of the restoring force per unit effective mass, with its damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Branch {
     pub force: f64,
     /// Slope of F/`m_eff` \[1/s²\].
     pub stiffness: f64,
+    /// The force of the wall alone over `m_eff`, without a tie: secant damping follows from it.
+    pub own: Line,
     /// Damping on the branch.
     pub damping: BranchDamping,
 }
@@ -35,7 +38,7 @@ impl Branch {
         match self.damping {
             BranchDamping::Constant(c) => c,
             // ω² = F/(u m_eff); the branch through u = 0 has constant damping
-            secant => secant.coefficient(self.restoring(displacement) / displacement),
+            secant => secant.coefficient(self.own.at(displacement) / displacement),
         }
     }
 
@@ -44,9 +47,9 @@ impl Branch {
         if let BranchDamping::Constant(_) = self.damping {
             return 0.0;
         }
-        let omega_squared = self.restoring(displacement) / displacement;
+        let omega_squared = self.own.at(displacement) / displacement;
         // d(F/u)/du = (k − F/u)/u
-        self.damping.sensitivity(omega_squared) * (self.stiffness - omega_squared) / displacement
+        self.damping.sensitivity(omega_squared) * (self.own.slope - omega_squared) / displacement
     }
 
     /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
@@ -63,6 +66,8 @@ pub struct Corner {
     pub displacement: f64,
     /// Passing it is an impact, or a jump of the rigid force.
     pub passage: bool,
+    /// Transverse walls stop the wall there and turn it back.
+    pub stop: bool,
     /// Beyond it the wall has overturned.
     pub overturning: bool,
     /// Beyond it the wall has left its supports.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::equation::Wall;
-use super::force_law::Side;
+use super::tie::Tie;
 
 /// Part of F₀ below which a force is 0: a softening line ends there but for rounding.
 const ROUNDING: f64 = 1e-12;
@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-12;
 pub struct CapacityPoint {
     /// |u| \[m\].
     pub displacement: f64,
-    /// |F|, negative beyond u₃ \[N\].
+    /// |F| with that of a tie, negative beyond u₃ \[N\].
     pub force: f64,
     /// |u|/`u_ins` \[-\].
     pub displacement_ratio: f64,
@@ -41,37 +41,43 @@ impl Wall {
     /// The corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
     pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
         let u_ins = self.body().instability.of(sign);
-        let side = self.side(sign);
+        let side = self.force.side(sign);
         let mut corners = vec![0.0];
-        corners.extend(side.corners.iter().chain([&side.end, &u_ins]).filter(|corner| **corner <= u_ins));
+        corners.extend(self.tie().filter(|tie| tie.holds(sign)).map(Tie::onset));
+        corners.extend(side.corners.iter().chain([&side.end, &u_ins]));
+        corners.retain(|corner| *corner <= u_ins);
         corners.sort_by(f64::total_cmp);
         corners.dedup_by(|a, b| *a - *b <= ROUNDING * u_ins);
         corners.into_iter().map(|corner| self.capacity_point(sign, corner)).collect()
     }
 
-    /// Acceleration of the supports at which the wall leaves the vertical for good, by its static curve: the
-    /// largest a* of the force law, on the weaker side \[m/s²\].
+    /// Acceleration of the supports at which the wall leaves the vertical for good, by its static curve
+    /// without a tie: the largest a* of the force law, on the weaker side to which it can rock \[m/s²\].
     pub fn rocking_onset(&self) -> f64 {
+        let body = self.body();
         let largest = |sign: f64| {
             let corners = self.capacity_corners(sign);
-            corners.iter().map(|corner| corner.spectral_acceleration).fold(0.0, f64::max)
+            let forces = corners.iter().map(|corner| self.own_force(sign, corner.displacement));
+            forces.fold(0.0, f64::max) / (body.participation * body.effective_mass)
         };
-        largest(1.0).min(largest(-1.0))
+        self.sides().map(largest).fold(f64::INFINITY, f64::min)
     }
 
-    /// One side of the force law; the negative one is in signed displacements and forces.
-    fn side(&self, sign: f64) -> &Side {
-        if sign < 0.0 { &self.force.negative } else { &self.force.positive }
+    /// |F| of the wall alone at |u| on the side of `sign` \[N\].
+    fn own_force(&self, sign: f64, u: f64) -> f64 {
+        let side = self.force.side(sign);
+        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
+        let direction = 1.0_f64.copysign(sign);
+        let force = direction * line.at(direction * u);
+        if force.abs() <= ROUNDING * self.body().strength.of(sign) { 0.0 } else { force }
     }
 
     fn capacity_point(&self, sign: f64, u: f64) -> CapacityPoint {
         let body = self.body();
         let (m, participation) = (body.effective_mass, body.participation);
-        let (u_ins, strength, side) = (body.instability.of(sign), body.strength.of(sign), self.side(sign));
-        let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
-        let direction = 1.0_f64.copysign(sign);
-        let force = direction * line.at(direction * u);
-        let force = if force.abs() <= ROUNDING * strength { 0.0 } else { force };
+        let (u_ins, strength) = (body.instability.of(sign), body.strength.of(sign));
+        let tie = self.tie().map_or(0.0, |tie| tie.lever * tie.force(u.copysign(sign)));
+        let force = self.own_force(sign, u) + tie;
         CapacityPoint {
             displacement: u,
             force,

@@ -23,8 +23,8 @@ impl Branch {
         if let (BranchDamping::SecantStiffness(factor), true) =
             (self.damping, displacement.abs() > outer.abs())
         {
-            let omega_squared = self.restoring(displacement) / displacement;
-            return (factor * omega_squared, factor * (self.stiffness - omega_squared) / displacement);
+            let omega_squared = self.own.at(displacement) / displacement;
+            return (factor * omega_squared, factor * (self.own.slope - omega_squared) / displacement);
         }
         (self.damping_at(displacement), self.damping_slope(displacement))
     }
@@ -32,9 +32,9 @@ impl Branch {
     /// Beyond the end `inner` by the fraction s = `inwards` of it: c₀ + a t + b t² with t = s/(1 + s), which
     /// has the first and second derivative of C at s = 0.
     fn towards_zero(&self, inner: f64, inwards: f64) -> (f64, f64) {
-        let w = self.restoring(inner) / inner;
+        let w = self.own.at(inner) / inner;
         // with u = inner (1 − s): w = k + const/u, so that dw/ds = w − k and d²w/ds² = 2 (w − k)
-        let (first, second) = (w - self.stiffness, 2.0 * (w - self.stiffness));
+        let (first, second) = (w - self.own.slope, 2.0 * (w - self.own.slope));
         let c = self.damping.coefficient(w);
         let by_w = self.damping.sensitivity(w);
         let curvature = match self.damping {

@@ -1,6 +1,6 @@
 //! The validated equation of motion of a wall, Eq. (12).
 
-use crate::choices::Impact;
+use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
 use super::damping::Damping;
@@ -11,6 +11,7 @@ use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
 use super::sides::Sides;
+use super::tie::Tie;
 use super::trigonometric::FullRotations;
 use super::warning::Warning;
 
@@ -20,9 +21,11 @@ pub struct Wall {
     body: Body,
     pub(super) force: RestoringForce,
     rotations: Option<FullRotations>,
+    tie: Option<Tie>,
     damping: Damping,
     restitution: f64,
     impact: bool,
+    rocking: Rocking,
     branches: Vec<Branch>,
     corners: Vec<Corner>,
     warnings: Vec<Warning>,
@@ -49,11 +52,27 @@ impl Wall {
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
         }
-        let warnings = Warning::collect(parameters, &body, &force, impact);
-        check_start(parameters.u_start, &body)?;
-        let corners = layout::corners(&body, &force, &damping, impact, rotations.is_some());
-        let branches = layout::branches(&corners, &force, &damping, body.effective_mass);
-        Ok(Self { body, force, rotations, damping, restitution, impact, branches, corners, warnings })
+        let tie = Tie::new(parameters, &body)?;
+        let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), impact);
+        let rocking = parameters.rocking;
+        check_start(parameters.u_start, rocking, &body)?;
+        let fully = rotations.is_some();
+        let free_side = free_side(rocking);
+        let corners = layout::corners(&body, &force, &damping, tie.as_ref(), impact, fully, free_side);
+        let branches = layout::branches(&corners, &force, &damping, tie.as_ref(), body.effective_mass);
+        Ok(Self {
+            body,
+            force,
+            rotations,
+            tie,
+            damping,
+            restitution,
+            impact,
+            rocking,
+            branches,
+            corners,
+            warnings,
+        })
     }
 
     /// Masses, geometry and the rigid force.
@@ -76,9 +95,25 @@ impl Wall {
         &self.warnings
     }
 
-    /// Whether the force is rigid-linear: it jumps at u = 0, and the wall can rest.
+    /// Whether the force is rigid-linear: it jumps at u = 0.
     pub fn is_rigid(&self) -> bool {
         self.force.elastic_stiffness.is_none()
+    }
+
+    /// Whether the wall can rest at u = 0: by the jump of its force, or against transverse walls.
+    pub fn can_rest(&self) -> bool {
+        self.is_rigid() || self.free_side().is_some()
+    }
+
+    /// The sign of u to which a wall can rock that rocks to one side only.
+    pub fn free_side(&self) -> Option<f64> {
+        free_side(self.rocking)
+    }
+
+    /// The signs of u to which the wall can rock.
+    pub fn sides(&self) -> impl Iterator<Item = f64> {
+        let free = self.free_side();
+        [1.0, -1.0].into_iter().filter(move |sign| free.is_none_or(|free| free == *sign))
     }
 
     /// The wall in full rotations; `None` where they are taken as small.
@@ -114,6 +149,22 @@ impl Wall {
         }
     }
 
+    /// The tie; `None` without one.
+    pub fn tie(&self) -> Option<&Tie> {
+        self.tie.as_ref()
+    }
+
+    /// Force N of the tie on a branch \[N\]; 0 without one.
+    pub fn tie_force(&self, branch: usize, displacement: f64) -> f64 {
+        self.tie_on(branch).map_or(0.0, |tie| tie.tension(displacement))
+    }
+
+    /// The tie where it pulls on a branch.
+    pub fn tie_on(&self, branch: usize) -> Option<&Tie> {
+        let Branch { lower, upper, .. } = self.branches[branch];
+        self.tie.as_ref().filter(|tie| tie.pulls(lower, upper))
+    }
+
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.
     pub fn omega1(&self) -> f64 {
         self.force.omega1(self.body.effective_mass)
@@ -129,14 +180,19 @@ impl Wall {
         self.damping.elastic * self.body.effective_mass
     }
 
-    /// Coefficient of restitution in use, at impacts or behind predicted damping \[-\].
+    /// Coefficient of restitution in use, at impacts or behind predicted damping, e₁ against transverse walls
+    /// \[-\].
     pub fn restitution(&self) -> f64 {
         self.restitution
     }
 
-    /// Factor on u̇ at a passage of u = 0: e, or 1 without impact.
+    /// Factor on u̇ at a passage of u = 0: e, or 1 without impact; −e₁ where transverse walls turn it back.
     pub fn passage_factor(&self) -> f64 {
-        if self.impact { self.restitution } else { 1.0 }
+        match (self.impact, self.rocking) {
+            (false, _) => 1.0,
+            (true, Rocking::TwoSided) => self.restitution,
+            (true, _) => -self.restitution,
+        }
     }
 
     /// Displacements at which the force falls to zero, u₃ of each side \[m\].
@@ -144,10 +200,16 @@ impl Wall {
         Sides { positive: self.force.positive.end, negative: self.force.negative.end }
     }
 
-    /// Forces per unit effective mass within which a rigid wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff` \[m/s²\].
+    /// Forces per unit effective mass within which a wall rests, −F₀⁻/`m_eff` and F₀⁺/`m_eff`, or 0 for an
+    /// elastic branch; without a bound towards transverse walls \[m/s²\].
     pub fn rest_band(&self) -> [f64; 2] {
-        // from the branches, so that a wall beyond the band is accelerated away from it bit for bit
-        [-1.0, 1.0].map(|direction| self.restoring(self.branch_of(0.0, direction), 0.0))
+        [-1.0, 1.0].map(|direction| {
+            if self.free_side() == Some(-direction) {
+                return f64::INFINITY * direction;
+            }
+            // from the branches, so that a wall beyond the band is accelerated away from it bit for bit
+            self.restoring(self.branch_of(0.0, direction), 0.0)
+        })
     }
 
     /// Speed below which a rigid wall comes to rest at u = 0, 1e-13 `u_ins` √(k₀/`m_eff`) \[m/s\].
@@ -217,9 +279,20 @@ impl Wall {
     }
 }
 
+fn free_side(rocking: Rocking) -> Option<f64> {
+    match rocking {
+        Rocking::TwoSided => None,
+        Rocking::OneSidedPositive => Some(1.0),
+        Rocking::OneSidedNegative => Some(-1.0),
+    }
+}
+
 /// # Errors
-/// [`ParameterError::StartBeyondLanding`].
-fn check_start(u_start: f64, body: &Body) -> Result<(), ParameterError> {
+/// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartBeyondLanding`].
+fn check_start(u_start: f64, rocking: Rocking, body: &Body) -> Result<(), ParameterError> {
+    if free_side(rocking).is_some_and(|side| side * u_start < 0.0) {
+        return Err(ParameterError::StartsBehindWalls { u_start, rocking: rocking.name() });
+    }
     let limit = body.landing.of(u_start);
     if u_start.abs() < limit { Ok(()) } else { Err(ParameterError::StartBeyondLanding { u_start, limit }) }
 }

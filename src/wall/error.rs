@@ -48,6 +48,27 @@ pub enum ParameterError {
          give xi or c_bar instead"
     )]
     Prediction { restitution: f64 },
+    /// A tie of a strip.
+    #[error(
+        "tie_stiffness holds a parapet, and mechanism = {mechanism} is none; set tie_stiffness = 0, or \
+         mechanism = parapet"
+    )]
+    TieNeedsParapet { mechanism: &'static str },
+    /// A tie that is not on the wall.
+    #[error(
+        "tie_height = {tie_height} m must be above 0 and at most height = {height} m; give the height of \
+         the tie above the base"
+    )]
+    TieHeight { tie_height: f64, height: f64 },
+    /// What does not go with one-sided rocking.
+    #[error("rocking = {rocking} does not go with {name} = {value}; set {remedy}, or rocking = two_sided")]
+    OneSided { rocking: &'static str, name: &'static str, value: String, remedy: &'static str },
+    /// A start behind the transverse walls.
+    #[error(
+        "u_start = {u_start} m is behind the transverse walls of rocking = {rocking}; start the wall on the \
+         side to which it can rock, or at 0"
+    )]
+    StartsBehindWalls { u_start: f64, rocking: &'static str },
     /// The start is beyond the landing.
     #[error(
         "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to \

@@ -6,7 +6,7 @@ use super::error::ParameterError;
 use super::mechanism::Body;
 use super::parameters::Parameters;
 
-/// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`).
+/// A straight line of the restoring force, F = `force` + `slope` (u − `anchor`), or of F over `m_eff`.
 ///
 /// The anchor of the last line is its zero u₃, so that the force keeps its relative accuracy towards it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +79,11 @@ impl RestoringForce {
             None => parameters.a1,
         };
         Ok(Self { positive, negative, elastic_stiffness, elastic_fraction })
+    }
+
+    /// The side of `sign`; the negative one is in signed displacements and forces.
+    pub(super) fn side(&self, sign: f64) -> &Side {
+        if sign < 0.0 { &self.negative } else { &self.positive }
     }
 
     /// Elastic circular frequency ω₁ = √(k₁/`m_eff`) \[rad/s\]; 0 for the rigid-linear law.

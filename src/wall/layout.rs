@@ -4,9 +4,10 @@ use crate::choices::DampingModel;
 
 use super::branch::{Branch, Corner};
 use super::damping::{BranchDamping, Damping};
-use super::force_law::{RestoringForce, Side};
+use super::force_law::{Line, RestoringForce, Side};
 use super::mechanism::Body;
 use super::sides::Sides;
+use super::tie::Tie;
 
 /// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the zero of √(u₃
 /// − u).
@@ -15,17 +16,21 @@ use super::sides::Sides;
 pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations
-/// are full.
+/// are full; on the one free side, if it is only one, the corner at u = 0 is the other end.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,
     damping: &Damping,
+    tie: Option<&Tie>,
     impact: bool,
     fully: bool,
+    free_side: Option<f64>,
 ) -> Vec<Corner> {
     let passage = impact || force.elastic_stiffness.is_none();
-    let mut corners = vec![Corner { displacement: 0.0, passage, ..Corner::default() }];
-    for (side, sign) in [(&force.positive, 1.0), (&force.negative, -1.0)] {
+    let mut corners =
+        vec![Corner { displacement: 0.0, passage, stop: free_side.is_some(), ..Corner::default() }];
+    for sign in [1.0, -1.0].into_iter().filter(|sign| free_side.is_none_or(|free| free == *sign)) {
+        let side = force.side(sign);
         let of = |sides: Sides| sides.of(sign);
         let mut place = |displacement: f64, mark: fn(&mut Corner)| {
             if displacement <= of(body.landing) {
@@ -38,6 +43,9 @@ pub(super) fn corners(
             }
             place(side.end, |_| {});
         }
+        if let Some(tie) = tie.filter(|tie| tie.holds(sign) && tie.onset() < of(body.departure)) {
+            place(tie.onset(), |_| {});
+        }
         if damping.model == DampingModel::ConstantRatio {
             place(damped_end(side, damping), |_| {});
         }
@@ -46,7 +54,7 @@ pub(super) fn corners(
         place(of(body.landing), |corner| corner.landing = true);
     }
     corners.sort_by(|a, b| a.displacement.total_cmp(&b.displacement));
-    if !corners.iter().any(|corner| corner.displacement == 0.0 && corner.passage) {
+    if !passage && !tie.is_some_and(|tie| tie.onset() == 0.0) {
         // One elastic line runs through the origin.
         corners.retain(|corner| corner.displacement != 0.0);
     }
@@ -54,7 +62,13 @@ pub(super) fn corners(
 }
 
 /// Returns the branches between the corners, for the effective mass `m` \[kg\].
-pub(super) fn branches(corners: &[Corner], force: &RestoringForce, damping: &Damping, m: f64) -> Vec<Branch> {
+pub(super) fn branches(
+    corners: &[Corner],
+    force: &RestoringForce,
+    damping: &Damping,
+    tie: Option<&Tie>,
+    m: f64,
+) -> Vec<Branch> {
     let between = |pair: &[Corner]| {
         let (lower, upper) = (pair[0].displacement, pair[1].displacement);
         let middle = 0.5 * (lower + upper);
@@ -69,14 +83,10 @@ pub(super) fn branches(corners: &[Corner], force: &RestoringForce, damping: &Dam
         } else {
             damping.on_curved_branch()
         };
-        Branch {
-            lower,
-            upper,
-            anchor: line.anchor,
-            force: line.force / m,
-            stiffness: line.slope / m,
-            damping,
-        }
+        let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
+        let tie = tie.filter(|tie| tie.pulls(lower, upper));
+        let Line { anchor, force, slope: stiffness } = tie.map_or(own, |tie| tie.added_to(own, middle, m));
+        Branch { lower, upper, anchor, force, stiffness, own, damping }
     };
     corners.windows(2).map(between).collect()
 }

@@ -23,6 +23,7 @@ mod parameters;
 pub mod restitution;
 mod sides;
 mod supports;
+mod tie;
 mod trigonometric;
 mod warning;
 
@@ -37,5 +38,6 @@ pub use mechanism::Body;
 pub use parameters::{Kinematics, Parameters};
 pub use sides::Sides;
 pub use supports::{Ends, Support};
+pub use tie::Tie;
 pub use trigonometric::FullRotations;
 pub use warning::Warning;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::choices::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
-    Solver, start_values,
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking,
+    Softening, Solver, TieSide, start_values,
 };
 
 /// The parameters of a wall and of its solution, in SI units, named as in `modelDescription.xml`.
@@ -40,11 +40,17 @@ pub struct Parameters {
     pub impact: Impact,
     pub restitution_source: RestitutionSource,
     pub restitution: f64,
+    pub rocking: Rocking,
     pub u_start: f64,
     pub u_dot_start: f64,
     pub solver: Solver,
     pub tolerance: f64,
     pub newmark_step: f64,
+    pub tie_height: f64,
+    pub tie_stiffness: f64,
+    pub tie_slack: f64,
+    pub tie_strength: f64,
+    pub tie_side: TieSide,
     /// Small or full rotations. Only scenes carry it.
     pub kinematics: Kinematics,
     /// Corners `[u/u_ins, F/F0]` of a multilinear law after the origin, the same fractions on both sides;

@@ -1,6 +1,6 @@
 //! The coefficient of restitution, Eqs. (2)–(4).
 
-use crate::choices::{Mechanism, RestitutionSource};
+use crate::choices::{DampingModel, DampingSource, Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::error::ParameterError;
 use super::mechanism::Body;
@@ -35,16 +35,37 @@ pub fn calibration(mechanism: Mechanism) -> f64 {
     }
 }
 
-/// The coefficient of restitution the parameters ask for \[-\].
+/// Factor on the angular velocity of a homogeneous block that turned about one edge of its base or top and
+/// goes on about the back face's edge at the other end: 1 − (3/2) cos²α, negative for slender ones.
+pub fn toe_to_top(slenderness: f64) -> f64 {
+    1.0 - 1.5 * slenderness.cos().powi(2)
+}
+
+/// Coefficient of a parapet against transverse walls, e₁ = −(1 − (3/2) sin²α)² (1 − (3/2) cos²α), as u̇⁺ =
+/// −e₁ u̇⁻.
+///
+/// Conventional, after Sorrentino, Al Shawa and Decanini 2011. The block changes its pivot from the outer toe
+/// to the inner one ([`analytic_parapet`]), from there to the back face at the top ([`toe_to_top`]), and once
+/// more by the first factor, *assuming* that it keeps its angular velocity and turns about the inner toe
+/// again. The strict change from the top back to the outer toe has the factor −1/2 and gives no rebound.
+pub fn analytic_one_sided(slenderness: f64) -> f64 {
+    -analytic_parapet(slenderness).powi(2) * toe_to_top(slenderness)
+}
+
+/// The coefficient of restitution the parameters ask for, a positive number \[-\].
 ///
 /// # Errors
-/// [`ParameterError::Restitution`] where a squat wall makes the formula leave 0…1.
+/// [`ParameterError::Restitution`] where a squat wall makes the formula leave 0…1,
+/// [`ParameterError::OneSided`] for what does not go with one-sided rocking.
 pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, ParameterError> {
     let analytic = match body.mechanism {
         Mechanism::Parapet => analytic_parapet(body.slenderness),
         Mechanism::VerticalSpanning => analytic_vertical_spanning(body.slenderness),
     };
     let source = parameters.restitution_source;
+    if parameters.rocking != Rocking::TwoSided {
+        return one_sided(parameters, body);
+    }
     let value = match source {
         RestitutionSource::Given => parameters.restitution,
         RestitutionSource::Analytic => analytic,
@@ -56,6 +77,40 @@ pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, P
         },
     };
     if (0.0..=1.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(ParameterError::Restitution { source: source.name(), value })
+    }
+}
+
+/// e₁ of one-sided rocking \[-\].
+fn one_sided(parameters: &Parameters, body: &Body) -> Result<f64, ParameterError> {
+    let rocking = parameters.rocking.name();
+    let refuse = |name, value: String, remedy| Err(ParameterError::OneSided { rocking, name, value, remedy });
+    if parameters.impact != Impact::Restitution {
+        return refuse("impact", parameters.impact.name().into(), "impact = restitution");
+    }
+    if parameters.damping_model != DampingModel::None && parameters.damping_source != DampingSource::Given {
+        let remedy = "damping_model = none or damping_source = given";
+        return refuse("damping_source", parameters.damping_source.name().into(), remedy);
+    }
+    let source = parameters.restitution_source;
+    let value = match (source, body.mechanism) {
+        (RestitutionSource::Given, _) if parameters.restitution < 1.0 => parameters.restitution,
+        (RestitutionSource::Given, _) => {
+            return refuse("restitution", parameters.restitution.to_string(), "restitution below 1");
+        }
+        (RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
+        (_, Mechanism::Parapet) => {
+            let remedy = "restitution_source = analytic, or given and restitution";
+            return refuse("restitution_source", source.name().into(), remedy);
+        }
+        (_, Mechanism::VerticalSpanning) => {
+            let remedy = "restitution_source = given and restitution";
+            return refuse("restitution_source", source.name().into(), remedy);
+        }
+    };
+    if (0.0..1.0).contains(&value) {
         Ok(value)
     } else {
         Err(ParameterError::Restitution { source: source.name(), value })

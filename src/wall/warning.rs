@@ -6,6 +6,7 @@ use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
 use super::parameters::Parameters;
+use super::tie::Tie;
 
 /// A usual step of records and importers \[s\].
 const USUAL_STEP: f64 = 0.01;
@@ -32,6 +33,8 @@ pub enum Warning {
     SmallStep { step: f64 },
     /// A start beyond the static instability displacement.
     StartsOverturned { u_start: f64, u_ins: f64 },
+    /// A tie that holds the wall beyond its instability.
+    TieHolds { u_ins: f64 },
     /// A number that walls rarely have: a slip of the keyboard or another unit.
     Unusual { name: &'static str, value: f64, unit: &'static str, usual: [f64; 2] },
 }
@@ -73,6 +76,11 @@ impl std::fmt::Display for Warning {
                 "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: the wall has overturned at the start; \
                  set u_start = 0 or less than u_ins"
             ),
+            Self::TieHolds { u_ins } => write!(
+                f,
+                "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins \
+                 of the wall without its tie, not a collapse; compare tie_force with what the tie resists"
+            ),
             Self::Unusual { name, value, unit, usual } => {
                 let [value, least, most] = [*value, usual[0], usual[1]].map(six_digits);
                 write!(
@@ -100,6 +108,7 @@ impl Warning {
         parameters: &Parameters,
         body: &Body,
         force: &RestoringForce,
+        tie: Option<&Tie>,
         impact: bool,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
@@ -126,6 +135,10 @@ impl Warning {
         let (u_start, u_ins) = (parameters.u_start, body.instability.of(parameters.u_start));
         if u_start.abs() > u_ins {
             warnings.push(Self::StartsOverturned { u_start, u_ins });
+        }
+        let held = |sign: f64| tie.is_some_and(|tie| tie.holds(sign) && tie.steadies(force, sign));
+        if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {
+            warnings.push(Self::TieHolds { u_ins: body.instability.of(sign) });
         }
         let omega1 = force.omega1(body.effective_mass);
         if omega1 * USUAL_STEP > MOST_USUAL_ANGLE {

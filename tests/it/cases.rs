@@ -9,8 +9,8 @@ use ground_motion::{GroundMotion, Pulse, Shape};
 use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Segment, Work};
 use rocking_wall::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
-    Solver,
+    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking,
+    Softening, Solver, TieSide,
 };
 use rocking_wall::wall::{Parameters, Support};
 use serde_json::Value;
@@ -43,6 +43,13 @@ impl Case {
 
     fn required(&self, pointer: &str) -> f64 {
         self.number(pointer).unwrap_or_else(|| panic!("no number {pointer}"))
+    }
+
+    fn item<T>(&self, pointer: &str, default: T, read: fn(&str) -> Option<T>) -> T {
+        match self.json.pointer(pointer) {
+            Some(name) => read(name.as_str().unwrap()).unwrap_or_else(|| panic!("{pointer} {name}")),
+            None => default,
+        }
     }
 
     fn parameters(&self) -> Parameters {
@@ -93,6 +100,11 @@ impl Case {
             impact: if restitution.is_some() { Impact::Restitution } else { Impact::None },
             restitution_source: RestitutionSource::Given,
             restitution: restitution.unwrap_or(1.0),
+            rocking: self.item("/rocking", Rocking::TwoSided, Rocking::from_name),
+            tie_height: self.number("/tie/y").unwrap_or(0.0),
+            tie_stiffness: self.number("/tie/K").unwrap_or(0.0),
+            tie_slack: self.number("/tie/g0").unwrap_or(0.0),
+            tie_side: self.item("/tie/side", TieSide::Positive, TieSide::from_name),
             u_start: self.required("/u0"),
             u_dot_start: self.required("/v0"),
             tolerance: 1e-12,
@@ -261,6 +273,15 @@ cases!(
     c31_a3_rotated,
     c35_hf_cdc_dt005,
     c36_asym_tril_a3,
+    t01_tie_stiff_free,
+    t02_tie_sdr_record,
+    t03_tie_rigid_record,
+    t04_tie_cdr_free,
+    o01_one_sided_free,
+    o02_one_sided_pulse,
+    o03_one_sided_record,
+    o04_one_sided_elastic_record,
+    o05_one_sided_tie_record,
 );
 
 /// The adaptive solver is an independent way to solve the cases with constant damping.

@@ -3,7 +3,7 @@
 use fmu_export::{Kind, Variable, VariableId};
 use rocking_wall::variables::{
     BooleanVariable, DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, IntegerVariable,
-    Mechanism, RealVariable, RestitutionSource, Softening, Solver, StringVariable,
+    Mechanism, RealVariable, RestitutionSource, Rocking, Softening, Solver, StringVariable, TieSide,
 };
 
 const XML: &str = include_str!("../../modelDescription/modelDescription.xml");
@@ -36,11 +36,12 @@ fn the_names_others_rely_on_are_there_in_their_order() {
         impact restitution_source restitution
         u_start u_dot_start solver tolerance newmark_step
         mass effective_mass participation F0 F0_negative u_ins u_ins_negative omega1
-        xi_used restitution_used";
+        xi_used restitution_used
+        tie_height tie_stiffness tie_slack tie_strength tie_side rocking tie_force";
     let names: Vec<_> = variables().iter().map(|variable| variable.name).collect();
     assert_eq!(names, expected.split_whitespace().collect::<Vec<_>>());
     let references: Vec<_> = variables().iter().map(|variable| variable.reference).collect();
-    assert!(references.iter().copied().eq(1..=54), "{references:?}");
+    assert!(references.iter().copied().eq(1..=61), "{references:?}");
 }
 
 #[test]
@@ -66,6 +67,8 @@ fn items_have_the_names_others_rely_on_and_count_from_one() {
         DampingSource: "given predicted",
         Impact: "none restitution",
         RestitutionSource: "given analytic calibrated momentum",
+        TieSide: "positive negative both",
+        Rocking: "two_sided one_sided_positive one_sided_negative",
         Solver: "automatic exact adaptive newmark",
     }
 }

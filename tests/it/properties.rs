@@ -141,6 +141,30 @@ fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     (amplification < 1e5).then_some(amplification * (16.0 * f64::EPSILON * pieces as f64 + 1e-13))
 }
 
+/// Compares a motion with the same one in parts.
+pub(crate) fn splits(parameters: Parameters, motion: &[f64], parts: u32) -> Result<(), TestCaseError> {
+    let run = Run::new(parameters, motion);
+    let allowed = allowed(&run, motion, parts);
+    prop_assume!(allowed.is_some());
+    let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
+    prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
+    Ok(())
+}
+
+/// Compares the adaptive solver with the exact one.
+pub(crate) fn solvers_agree(parameters: &Parameters, motion: &[f64]) -> Result<(), TestCaseError> {
+    let wall = Wall::new(parameters).expect("a valid wall");
+    prop_assume!(wall.has_constant_damping());
+    let by = |solver: Solver| Run::new(Parameters { solver, ..parameters.clone() }, motion);
+    let exact = by(Solver::Exact);
+    let allowed = allowed(&exact, motion, 1);
+    prop_assume!(allowed.is_some());
+    let adaptive = by(Solver::Adaptive);
+    let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
+    prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(configuration())]
 
@@ -166,24 +190,13 @@ proptest! {
     /// Splitting a segment changes nothing.
     #[test]
     fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
-        let run = Run::new(parameters, &motion);
-        let allowed = allowed(&run, &motion, parts);
-        prop_assume!(allowed.is_some());
-        let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
-        prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
+        splits(parameters, &motion, parts)?;
     }
 
     /// The adaptive solver agrees with the exact one wherever that applies.
     #[test]
     fn exact_and_adaptive_agree(parameters in walls(), motion in motions()) {
-        let wall = Wall::new(&parameters).expect("a valid wall");
-        prop_assume!(wall.has_constant_damping());
-        let exact = Run::new(Parameters { solver: Solver::Exact, ..parameters.clone() }, &motion);
-        let allowed = allowed(&exact, &motion, 1);
-        prop_assume!(allowed.is_some());
-        let adaptive = Run::new(Parameters { solver: Solver::Adaptive, ..parameters }, &motion);
-        let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
-        prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
+        solvers_agree(&parameters, &motion)?;
     }
 
     /// A wall at rest stays at rest without motion of its supports.

@@ -47,24 +47,7 @@ proptest! {
         count in 2_usize..20,
         until in any::<bool>(),
     ) {
-        let wall = Wall::new(&parameters).unwrap();
-        let onset = wall.body().strength.positive / wall.body().effective_mass;
-        let forcing: Vec<f64> = refined(&motion, refinement).iter().map(|p| p * onset).collect();
-        let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
-        let factors: Vec<f64> = (0..count).map(|i| 1.3 - 0.15 * i as f64).collect();
-        let started: Vec<_> = factors.iter().map(|&factor| prepared(&parameters, &forcing, factor)).collect();
-        let starts: Vec<_> = started.iter().map(|(_, start)| *start).collect();
-        let solver = RecordSolver::new(&started[0].0, step);
-        let samples = Forcing::Samples(&forcing);
-        let batch = solver.batch(samples);
-        let together = batch.run(&starts, until).unwrap();
-        prop_assert_eq!(together.len(), count);
-        for (start, outcome) in starts.iter().zip(together) {
-            let one = batch.run(&[*start], until).unwrap()[0];
-            prop_assert_eq!(one, outcome);
-            prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
-            outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?;
-        }
+        lanes_agree(&parameters, &motion, refinement, count, until)?;
     }
 
     /// The same for walls that start in motion, with steps from far below any period to longer than a swing.
@@ -81,13 +64,7 @@ proptest! {
     /// Steps over a record and segments one by one agree to rounding in u, extremes and events.
     #[test]
     fn records_and_segments_agree(parameters in walls(), motion in motions(), refinement in 1_u32..40) {
-        let wall = Wall::new(&parameters).unwrap();
-        let body = wall.body();
-        let onset = body.strength.positive / (body.participation * body.effective_mass);
-        // fine steps are plain ones, coarse ones are searched
-        let accelerations: Vec<f64> = refined(&motion, refinement).iter().map(|a| onset * a).collect();
-        let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
-        agree(&parameters, &accelerations, step)?;
+        records_agree(&parameters, &motion, refinement)?;
     }
 
     /// With secant damping and the default tolerance, record and segments stay within a tenth of it of the
@@ -135,6 +112,52 @@ proptest! {
             prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
         }
     }
+}
+
+/// Compares the runs of a batch with each alone in one, and with single runs, for a motion in units of the
+/// strength.
+pub(crate) fn lanes_agree(
+    parameters: &Parameters,
+    motion: &[f64],
+    refinement: u32,
+    count: usize,
+    until: bool,
+) -> Result<(), TestCaseError> {
+    let wall = Wall::new(parameters).unwrap();
+    let onset = wall.body().strength.positive / wall.body().effective_mass;
+    let forcing: Vec<f64> = refined(motion, refinement).iter().map(|p| p * onset).collect();
+    let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
+    let factors: Vec<f64> = (0..count).map(|i| 1.3 - 0.15 * i as f64).collect();
+    let started: Vec<_> = factors.iter().map(|&factor| prepared(parameters, &forcing, factor)).collect();
+    let starts: Vec<_> = started.iter().map(|(_, start)| *start).collect();
+    let solver = RecordSolver::new(&started[0].0, step);
+    let samples = Forcing::Samples(&forcing);
+    let batch = solver.batch(samples);
+    let together = batch.run(&starts, until).unwrap();
+    prop_assert_eq!(together.len(), count);
+    for (start, outcome) in starts.iter().zip(together) {
+        let one = batch.run(&[*start], until).unwrap()[0];
+        prop_assert_eq!(one, outcome);
+        prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
+        outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?;
+    }
+    Ok(())
+}
+
+/// Compares a run over a record with segments one by one, for a motion in units of the strength; each of its
+/// intervals in a number of steps.
+pub(crate) fn records_agree(
+    parameters: &Parameters,
+    motion: &[f64],
+    refinement: u32,
+) -> Result<(), TestCaseError> {
+    let wall = Wall::new(parameters).unwrap();
+    let body = wall.body();
+    let onset = body.strength.positive / (body.participation * body.effective_mass);
+    // fine steps are plain ones, coarse ones are searched
+    let accelerations: Vec<f64> = refined(motion, refinement).iter().map(|a| onset * a).collect();
+    let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
+    agree(parameters, &accelerations, step)
 }
 
 /// Compares a run of a batch with a single run, unless slightly more forcing changes the events.

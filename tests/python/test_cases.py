@@ -62,6 +62,11 @@ def parameters(case):
         values["c_bar"] = damping["cbar"]
     if "e" in damping:
         values |= {"impact": "restitution", "restitution_source": "given", "restitution": damping["e"]}
+    if "tie" in case:
+        keys = {"y": "height", "K": "stiffness", "g0": "slack", "side": "side"}
+        values |= {f"tie_{keys[key]}": value for key, value in case["tie"].items()}
+    if "rocking" in case:
+        values["rocking"] = case["rocking"]
     return values
 
 

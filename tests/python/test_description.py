@@ -169,6 +169,7 @@ def test_dependencies_are_true(unpacked, xml, variables):
     reacts = {name: set() for name in listed}
     states = [
         {"u_start": 0.1, "u_dot_start": 0.2},
+        {"u_start": 0.1, "tie_height": 3.0, "tie_stiffness": 1e6},
         {
             "mechanism": "vertical_spanning",
             "thickness": 0.1,

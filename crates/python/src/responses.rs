@@ -6,7 +6,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::{Response, Sample};
-use rocking_wall::solver::{Crossing, Extremes, Instant};
+use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
 
 use crate::arrays::samples;
 
@@ -33,6 +33,10 @@ pub(crate) fn values<'py>(py: Python<'py>, response: &Response) -> PyResult<Boun
     let history = PyDict::new(py);
     for (name, value) in COLUMNS {
         history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
+    }
+    if response.demands.tie.is_some() {
+        let forces = response.samples.iter().map(|sample| sample.outputs.tie_force);
+        history.set_item("tie_force", PyArray1::from_iter(py, forces))?;
     }
     let summary = &response.summary;
     let warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).collect();
@@ -63,11 +67,8 @@ fn demands<'py>(py: Python<'py>, response: &Response) -> PyResult<Bound<'py, PyD
         ("reaction_top", demands.reaction_top),
     ] {
         let both = PyDict::new(py);
-        for (end, Instant { value, time }) in [("highest", highest), ("lowest", lowest)] {
-            let instant = PyDict::new(py);
-            instant.set_item("value", value)?;
-            instant.set_item("time", time)?;
-            both.set_item(end, instant)?;
+        for (end, at) in [("highest", highest), ("lowest", lowest)] {
+            both.set_item(end, instant(py, at)?)?;
         }
         values.set_item(name, both)?;
     }
@@ -80,9 +81,20 @@ fn demands<'py>(py: Python<'py>, response: &Response) -> PyResult<Bound<'py, PyD
         thresholds.push(threshold);
     }
     values.set_item("thresholds", thresholds)?;
+    if let Some(TieDemands { force, strength }) = demands.tie {
+        values.set_item("tie_force", instant(py, force)?)?;
+        values.set_item("tie_strength", strength.map(|at| instant(py, at)).transpose()?)?;
+    }
     values.set_item("half_cycles", demands.half_cycles)?;
     values.set_item("residual", response.residual)?;
     Ok(values)
+}
+
+fn instant(py: Python<'_>, Instant { value, time }: Instant) -> PyResult<Bound<'_, PyDict>> {
+    let instant = PyDict::new(py);
+    instant.set_item("value", value)?;
+    instant.set_item("time", time)?;
+    Ok(instant)
 }
 
 /// Draws the motion of the bottom support above u/`u_ins`, as SVG.

@@ -29,11 +29,10 @@ impl Capacity {
             corners: wall.capacity_corners(sign),
             limits: fractions.iter().map(|&fraction| wall.capacity_at(sign, fraction)).collect(),
         };
-        let mut sides = vec![side("u > 0", 1.0)];
-        if wall.body().strength.positive != wall.body().strength.negative {
-            sides.push(side("u < 0", -1.0));
-        }
-        Self { sides }
+        let named = |sign: f64| side(if sign > 0.0 { "u > 0" } else { "u < 0" }, sign);
+        let one_tied = wall.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
+        let alike = wall.body().strength.positive == wall.body().strength.negative && !one_tied;
+        Self { sides: wall.sides().take(if alike { 1 } else { 2 }).map(named).collect() }
     }
 
     pub(crate) fn table(&self) -> String {

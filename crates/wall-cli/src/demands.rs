@@ -1,7 +1,7 @@
 //! Demands of a run as text, for the summary and the page, and as JSON.
 
 use rocking_wall::response::Response;
-use rocking_wall::solver::{Crossing, Extremes, Instant};
+use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
 use serde_json::{Value, json};
 
 /// Names and values; a parapet has no top support.
@@ -19,6 +19,11 @@ pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)>
     peak(if has_top { "bottom force" } else { "base force" }, &demands.reaction_bottom, 1e-3, "kN");
     if has_top {
         peak("top force", &demands.reaction_top, 1e-3, "kN");
+    }
+    if let Some(TieDemands { force, strength }) = &demands.tie {
+        let reached = strength.map_or(String::new(), |at| format!(", strength reached at {:.4} s", at.time));
+        let peak = figure(1e-3 * force.value);
+        lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));
     }
     let crossing = |Crossing { fraction, first }: &Crossing| match first {
         Some(Instant { time, .. }) => format!("{fraction} u_ins at {time:.4} s"),
@@ -65,7 +70,7 @@ pub(crate) fn json(response: &Response) -> Value {
             })
         })
         .collect();
-    json!({
+    let mut values = json!({
         "u": extremes(&demands.displacement),
         "u_dot": extremes(&demands.velocity),
         "u_ddot": extremes(&demands.acceleration),
@@ -74,5 +79,10 @@ pub(crate) fn json(response: &Response) -> Value {
         "thresholds": crossings,
         "half_cycles": demands.half_cycles,
         "residual": response.residual,
-    })
+    });
+    if let Some(TieDemands { force, strength }) = &demands.tie {
+        values["tie_force"] = instant(force);
+        values["tie_strength"] = strength.as_ref().map_or(Value::Null, instant);
+    }
+    values
 }

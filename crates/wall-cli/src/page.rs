@@ -46,6 +46,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         "u_ins": [u_ins.positive, u_ins.negative],
         "height": wall.body().height,
         "thickness": scene.parameters.thickness,
+        "tie": wall.tie().map(|tie| 0.5 * tie.lever * wall.body().height),
         "hinge": hinge,
         "full": wall.rotations().is_some(),
         "overturned": overturned,
@@ -128,7 +129,7 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
          <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
          <path d=\"M{:.4} 0H{far:.4}\" style=\"stroke:var(--frame)\"/>\
-         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{bodies}</g></svg>",
+         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{ties}{bodies}</g></svg>",
         -half,
         -(h + top),
         2.0 * half,
@@ -136,8 +137,23 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         -far,
         h + 0.6 * top,
         0.02 * h,
+        ties = ties(wall, far, 2.0 * line),
         ground = rect([-far, -far], [2.0 * far, far], "style=\"fill:var(--ground)\"")
     )
+}
+
+/// Ties from the wall to beyond the view box, on the side that they pull to; the script moves their ends.
+fn ties(wall: &Wall, far: f64, stroke: f64) -> String {
+    let Some(tie) = wall.tie() else { return String::new() };
+    let y = 0.5 * tie.lever * wall.body().height;
+    let line = |sign: f64| {
+        let away = -sign * far;
+        format!(
+            "<line class=\"tie\" x1=\"{away:.4}\" y1=\"{y:.4}\" x2=\"0\" y2=\"{y:.4}\" \
+             style=\"stroke:var(--mark)\" stroke-width=\"{stroke:.4}\"/>"
+        )
+    };
+    [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)).map(line).collect()
 }
 
 /// The choices of exaggeration, the default selected.
@@ -164,6 +180,9 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         None => "no".to_owned(),
     };
     let fallen = if summary.overturned { ", in the fall" } else { "" };
+    let tie = wall.tie().map_or("none".to_owned(), |tie| {
+        format!("{} kN/mm at {} m", 1e-6 * tie.stiffness, parameters.tie_height)
+    });
     let rows = [
         (
             "largest |u|",
@@ -185,8 +204,10 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
         ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
         ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
         ("impact", impact(parameters, wall.restitution())),
+        ("tie", tie),
     ];
-    rows.iter().map(|(name, value)| row(name, value)).collect()
+    let shown = rows.iter().filter(|(name, _)| *name != "tie" || wall.tie().is_some());
+    shown.map(|(name, value)| row(name, value)).collect()
 }
 
 /// A name, and a number that belongs to it unless it is 0: a rigid wall has no ω₁.

@@ -51,12 +51,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::to_stdout(&text)
 }
 
-/// The columns of the history.
+/// The columns of the history; the force of a tie follows them where there is one.
 const COLUMNS: &str = "time,u,u_dot,u_ddot,u_ratio,restoring_force,damping_force,reaction_bottom,\
                        reaction_top,a_bottom,a_top";
 
 fn history(response: &Response) -> String {
-    let mut csv = format!("{COLUMNS}\n");
+    let tied = response.demands.tie.is_some();
+    let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force" } else { "" });
     for sample in &response.samples {
         let outputs = &sample.outputs;
         let _ = write!(csv, "{:.9}", sample.time);
@@ -73,6 +74,9 @@ fn history(response: &Response) -> String {
             sample.support.top,
         ] {
             let _ = write!(csv, ",{value:?}");
+        }
+        if tied {
+            let _ = write!(csv, ",{:?}", outputs.tie_force);
         }
         csv.push('\n');
     }

@@ -85,6 +85,9 @@ class Parameters(TypedDict, total=False):
     """Coefficient of restitution; used only where restitution_source is given, at least 0, at most 1; default
     0.9."""
 
+    rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
+    """Sides to which the wall can rock; one-sided rocking needs impact = restitution; default two_sided."""
+
     u_start: float
     """Displacement at the start; zero for a coupled or shaken wall [m], at least -1000, at most 1000; default
     0.18."""
@@ -101,6 +104,24 @@ class Parameters(TypedDict, total=False):
 
     newmark_step: float
     """Integration step of the newmark solver [s], at least 1e-09, at most 1; default 0.001."""
+
+    tie_height: float
+    """Height of the tie above the base, at most height; parapet only [m], at least 0, at most 1000; default
+    0.0."""
+
+    tie_stiffness: float
+    """Stiffness of the tie between the wall and its support; 0 for none [N/m], at least 0, at most 1e+15;
+    default 0.0."""
+
+    tie_slack: float
+    """Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; default 0.0."""
+
+    tie_strength: float
+    """Force that the tie resists, a limit state of its demand; 0 where none is given [N], at least 0, at most
+    1e+12; default 0.0."""
+
+    tie_side: Literal["positive", "negative", "both"]
+    """Side on which the tie holds the wall; default positive."""
 
     kinematics: Literal["linear", "trigonometric"]
     """Small rotations, or full ones (rigid-linear walls with restitution)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, NotRequired, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +41,10 @@ class Threshold(TypedDict):
 
 
 class Demands(TypedDict):
-    """Demands of a motion on a wall, up to overturning; in SI units."""
+    """Demands of a motion on a wall, up to overturning; in SI units.
+
+    A wall with a tie has the peak of its force, and when that first reached the strength given.
+    """
 
     u: Extremes
     u_dot: Extremes
@@ -51,6 +54,8 @@ class Demands(TypedDict):
     thresholds: list[Threshold]
     half_cycles: int
     residual: float
+    tie_force: NotRequired[Instant]
+    tie_strength: NotRequired[Instant | None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -101,6 +106,8 @@ class Response:
     """Corners of the force that the motion passed."""
     impacts: int
     """Impacts."""
+    tie_force: Array | None = None
+    """Force of the tie [N]; None without one."""
 
     def __repr__(self) -> str:
         fate = f"overturned at {self.overturn_time:.4g} s" if self.overturned else "standing"
@@ -112,7 +119,8 @@ class Response:
     @property
     def history(self) -> Table:
         """The history as a table, with the columns of `wall simulate --csv`."""
-        return Table({name: getattr(self, name) for name in COLUMNS})
+        names = COLUMNS if self.tie_force is None else (*COLUMNS, "tie_force")
+        return Table({name: getattr(self, name) for name in names})
 
     def to_pandas(self) -> pandas.DataFrame:
         """Returns the history as a DataFrame of pandas, which has to be installed, over the time."""

@@ -167,6 +167,8 @@ struct WallTable {
     #[serde(default)]
     impact: Group,
     #[serde(default)]
+    tie: Group,
+    #[serde(default)]
     solver: Group,
 }
 
@@ -214,6 +216,7 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
         ("geometry", &spec.geometry),
         ("force_law", &spec.force_law),
         ("impact", &spec.impact),
+        ("tie", &spec.tie),
         ("solver", &spec.solver),
     ];
     let line = place.line(table.span());

@@ -156,7 +156,7 @@ impl<'a> ActiveRun<'a> {
         if special || part.from.displacement == corner.displacement {
             return None;
         }
-        let next = branch_beyond(index, upwards);
+        let next = if corner.stop { state.branch } else { branch_beyond(index, upwards) };
         let (map, ahead) = (self.map_of(state.branch)?, self.map_of(next)?);
         // where more than the stiffness changes, the corner itself is asked for, and ü taken anew
         let even = !corner.passage && matches!((&map.way, &ahead.way), (Way::Affine(_), Way::Affine(_)));

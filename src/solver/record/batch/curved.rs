@@ -73,12 +73,13 @@ struct Rows {
     law: SecantRows,
 }
 
-/// The law of the branch of each lane.
+/// The law of the branch of each lane; of its own line, of which c is made, anchor, force and slope.
 #[derive(Default)]
 struct SecantRows {
     anchor: Row,
     force: Row,
     stiffness: Row,
+    own: [Row; 3],
     force_at_zero: Row,
     factor: Row,
 }
@@ -90,8 +91,11 @@ impl Rows {
         (self.fastest[i], self.share[i], self.reach[i]) = (0.0, values.share, 0.5 * REACH);
         [self.limits[0][i], self.limits[1][i]] = values.limits;
         (self.driving[i], self.damping[i], self.growth[i]) = (values.driving, values.damping, values.growth);
-        let SecantBranch { anchor, force, stiffness, force_at_zero, factor, .. } = values.secant;
+        let SecantBranch { anchor, force, stiffness, own, force_at_zero, factor, .. } = values.secant;
         let law = &mut self.law;
+        for (row, number) in law.own.iter_mut().zip([own.anchor, own.force, own.slope]) {
+            row[i] = number;
+        }
         (law.anchor[i], law.force[i], law.stiffness[i]) = (anchor, force, stiffness);
         (law.force_at_zero[i], law.factor[i]) = (force_at_zero, factor);
     }
@@ -280,8 +284,10 @@ fn end_of_part<S: Simd, const RATIO: bool>(
     let force_at_zero = load(simd, &law.force_at_zero);
     let stiffness = load(simd, &law.stiffness);
     let force = load(simd, &law.force) + stiffness * (u - load(simd, &law.anchor));
+    let [own_anchor, own_force, own_slope] = [0, 1, 2].map(|part| load(simd, &law.own[part]));
+    let own = own_force + own_slope * (u - own_anchor);
     let inverse = 1.0 / u;
-    let ratio = (force * inverse).max(LEAST * (force_at_zero * inverse).abs());
+    let ratio = (own * inverse).max(LEAST * (force_at_zero * inverse).abs());
     let secant = if RATIO { ratio.sqrt() } else { ratio };
     let scale = length * length * inverse;
     let start = Start {

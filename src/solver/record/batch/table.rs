@@ -78,7 +78,8 @@ impl BranchTable {
                 .then_some(displacement)
         };
         let rebound = |corner: usize| {
-            let passage = wall.corners().get(corner).is_some_and(|corner| corner.passage);
+            // lanes leave to the run itself what turns back there
+            let passage = wall.corners().get(corner).is_some_and(|corner| corner.passage && !corner.stop);
             if passage { wall.passage_factor() } else { f64::NAN }
         };
         self.ordinary_lower[branch] = ordinary(branch, branch.checked_sub(1)).unwrap_or(f64::NAN);

@@ -1,0 +1,232 @@
+//! Ties: the same motion by every solver and path, energy, forces, demands, refusals.
+
+use proptest::prelude::*;
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::simulation::Simulation;
+use rocking_wall::solver::Segment;
+use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, TieSide};
+use rocking_wall::wall::{Parameters, Support, Wall, Warning};
+
+use crate::properties::{configuration, motions, solvers_agree, splits, walls};
+use crate::record_path::{lanes_agree, records_agree};
+
+/// A parapet with a tie from 0.1 to 1000 times as stiff as the wall.
+pub(crate) fn tied() -> impl Strategy<Value = Parameters> {
+    let tie = (0.3_f64..1.0, -1.0_f64..3.0, prop_oneof![Just(0.0), 1e-3_f64..0.5], 0..3_usize);
+    (walls(), tie).prop_map(|(parameters, (height, exponent, onset, side))| {
+        let parapet = Parameters {
+            mechanism: Mechanism::Parapet,
+            thickness: parameters.thickness.max(0.03 * parameters.height),
+            overburden_eccentricity: 0.0,
+            ..parameters
+        };
+        let wall = Wall::new(&parapet).unwrap();
+        let body = wall.body();
+        let rigid = body.geometric_stiffness;
+        let own = (wall.omega1().powi(2) * body.effective_mass).max(rigid);
+        let lever = 2.0 * height;
+        Parameters {
+            tie_height: height * parapet.height,
+            tie_stiffness: own * 10.0_f64.powf(exponent) / (lever * lever),
+            tie_slack: lever * onset * body.instability.positive,
+            tie_side: TieSide::ALL[side],
+            ..parapet
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(configuration())]
+
+    #[test]
+    fn a_tied_wall_moves_alike_in_parts(parameters in tied(), motion in motions(), parts in 2_u32..7) {
+        splits(parameters, &motion, parts)?;
+    }
+
+    #[test]
+    fn a_tied_wall_moves_alike_by_both_solvers(parameters in tied(), motion in motions()) {
+        solvers_agree(&parameters, &motion)?;
+    }
+
+    #[test]
+    fn a_tied_wall_moves_alike_over_records(
+        parameters in tied(), motion in motions(), refinement in 1_u32..40,
+    ) {
+        records_agree(&parameters, &motion, refinement)?;
+    }
+
+    #[test]
+    fn a_tied_wall_moves_alike_in_batches(
+        parameters in tied(), motion in motions(), refinement in prop_oneof![1_u32..20, 20_u32..200],
+        count in 2_usize..20, until in any::<bool>(),
+    ) {
+        lanes_agree(&parameters, &motion, refinement, count, until)?;
+    }
+
+    /// Free motion without damping keeps ½ m u̇² + ∫F du + ½ K (elongation)², F being that of the wall alone:
+    /// the power of the tie is the rate of its energy.
+    #[test]
+    fn the_tie_stores_energy(parameters in tied(), start in -0.9_f64..0.9, step in 1e-3_f64..0.2) {
+        let free = Parameters { damping_model: DampingModel::None, impact: Impact::None, ..parameters };
+        let alone = Wall::new(&Parameters { tie_stiffness: 0.0, ..free.clone() }).unwrap();
+        let u_start = start * alone.body().instability.of(start);
+        let still = Support::default();
+        let parameters = Parameters { u_start, ..free };
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).unwrap();
+        let (m, stiffness) = (alone.body().effective_mass, parameters.tie_stiffness);
+        let energy = |simulation: &Simulation| {
+            let state = simulation.progress().state;
+            let force = simulation.outputs(still).tie_force;
+            let stored = 0.5 * force * force / stiffness;
+            (alone.energy(state.displacement, state.velocity) + stored / m, force)
+        };
+        let (first, _) = energy(&simulation);
+        for _ in 0..200 {
+            simulation.advance(&Segment { duration: step, from: still, to: still }).unwrap();
+            let (now, force) = energy(&simulation);
+            prop_assert!(force >= 0.0);
+            if simulation.progress().state.departed {
+                break;
+            }
+            let pieces = simulation.progress().work.pieces as f64;
+            // as in `energy_never_grows`
+            let allowed = 1e-12_f64.max(32.0 * f64::EPSILON * pieces);
+            prop_assert!((now - first).abs() <= allowed * first, "{:e}", (now - first) / first);
+        }
+    }
+
+    /// The force is K max(0, σ w − g₀), and the reaction is the total m (a + ü).
+    #[test]
+    fn the_tie_pulls_beyond_its_slack(parameters in tied(), u in -0.99_f64..0.99, a in -9.0_f64..9.0) {
+        let wall = Wall::new(&parameters).unwrap();
+        let u_start = u * wall.body().instability.of(u);
+        let Parameters { tie_height, tie_stiffness, tie_slack, tie_side, height, .. } = parameters;
+        let support = Support::rigid(a);
+        let parameters = Parameters { u_start, ..parameters };
+        let simulation = Simulation::new(&parameters, None, 0.0, support).unwrap();
+        let outputs = simulation.outputs(support);
+        let w = 2.0 * u_start * tie_height / height;
+        let pull = |sigma: f64| tie_stiffness * (sigma * w - tie_slack).max(0.0);
+        let expected = match tie_side {
+            TieSide::Positive => pull(1.0),
+            TieSide::Negative => pull(-1.0),
+            TieSide::Both => pull(1.0).max(pull(-1.0)),
+        };
+        let rounding = 1e-14 * tie_stiffness * (w.abs() + tie_slack);
+        prop_assert!((outputs.tie_force - expected).abs() <= rounding);
+        let free = Parameters { tie_stiffness: 0.0, ..parameters.clone() };
+        let alone = Simulation::new(&free, None, 0.0, support).unwrap().outputs(support);
+        let added = u_start.signum() * 2.0 * tie_height / height * expected;
+        let difference = outputs.restoring_force - alone.restoring_force - added;
+        prop_assert!(difference.abs() <= 1e-13 * alone.restoring_force.abs() + 4.0 * rounding);
+        let difference = outputs.damping_force - alone.damping_force;
+        prop_assert!(difference.abs() <= 1e-14 * alone.damping_force.abs());
+        prop_assert_eq!(outputs.reactions.bottom, wall.body().mass * (a + outputs.acceleration));
+    }
+}
+
+fn tied_parapet() -> Parameters {
+    Parameters {
+        tie_height: 3.0,
+        tie_stiffness: 2e6,
+        tie_slack: 0.02,
+        tie_strength: 5e3,
+        u_start: 0.0,
+        ..Parameters::default()
+    }
+}
+
+/// Peak and first reaching of the strength are those of a fine history, and the peak that of u.
+#[test]
+fn tie_force_is_a_demand() {
+    let scene = |output_step: f64| {
+        let mut scene = Scene::read(&crate::root().join("scenes/shaken_parapet.toml")).unwrap();
+        let Parameters { tie_height, tie_stiffness, tie_slack, tie_strength, .. } = tied_parapet();
+        scene.parameters =
+            Parameters { tie_height, tie_stiffness, tie_slack, tie_strength, ..scene.parameters };
+        scene.output_step = output_step;
+        scene
+    };
+    let coarse = Response::of(&scene(0.05)).unwrap();
+    let fine = Response::of(&scene(1e-4)).unwrap();
+    let tie = coarse.demands.tie.unwrap();
+    let demand = coarse.demands.displacement.highest;
+    let wall = Wall::new(&scene(0.1).parameters).unwrap();
+    let force = wall.tie().unwrap().force(demand.value);
+    assert!((tie.force.value - force).abs() <= 1e-11 * force, "{} {force}", tie.force.value);
+    assert!((tie.force.time - demand.time).abs() < 1e-6);
+    let largest = fine.samples.iter().map(|sample| sample.outputs.tie_force).fold(0.0, f64::max);
+    assert!(largest <= force * (1.0 + 1e-9) && largest > 0.999 * force, "{largest} {force}");
+    let first = fine.samples.iter().find(|sample| sample.outputs.tie_force >= 5e3).unwrap().time;
+    let reached = tie.strength.unwrap();
+    assert_eq!(reached.value, 5e3);
+    assert!(first - 1e-4 <= reached.time && reached.time <= first, "{} {first}", reached.time);
+}
+
+/// A wall without a tie, and one whose tie never pulls, move bit for bit alike; secant damping too.
+#[test]
+fn a_slack_tie_changes_nothing() {
+    let scene = |slack: f64, model: DampingModel, law: ForceLaw| {
+        let mut scene = Scene::read(&crate::root().join("scenes/shaken_parapet.toml")).unwrap();
+        let damping_source = DampingSource::Given;
+        scene.parameters = Parameters {
+            tie_height: 4.0,
+            tie_stiffness: if slack > 0.0 { 1e8 } else { 0.0 },
+            tie_slack: slack,
+            damping_model: model,
+            damping_source,
+            force_law: law,
+            ..scene.parameters
+        };
+        Response::of(&scene).unwrap().samples.last().unwrap().outputs
+    };
+    for model in [DampingModel::ConstantCoefficient, DampingModel::StiffnessProportional] {
+        assert_eq!(scene(0.0, model, ForceLaw::Bilinear), scene(100.0, model, ForceLaw::Bilinear));
+    }
+}
+
+#[test]
+fn bad_ties_are_refused_with_the_remedy() {
+    let refused = |change: fn(&mut Parameters), words: [&str; 2]| {
+        let mut parameters = tied_parapet();
+        change(&mut parameters);
+        let message = Wall::new(&parameters).unwrap_err().to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{message}");
+    };
+    refused(|p| p.mechanism = Mechanism::VerticalSpanning, ["vertical_spanning", "tie_stiffness = 0"]);
+    refused(|p| p.tie_height = 0.0, ["tie_height = 0", "at most height = 4"]);
+    refused(|p| p.tie_height = 4.1, ["tie_height = 4.1", "at most height = 4"]);
+    refused(
+        |p| {
+            p.kinematics = rocking_wall::wall::Kinematics::Trigonometric;
+            p.force_law = ForceLaw::RigidLinear;
+            p.damping_model = DampingModel::None;
+        },
+        ["tie_stiffness = 2000000", "kinematics = linear"],
+    );
+    let mut scene = Scene::default();
+    let message = scene.set("tie_stiffness", "-1").unwrap_err().to_string();
+    assert!(message.contains("tie_stiffness = -1 N/m is below its limit 0 N/m"), "{message}");
+    let message = scene.set("tie_side", "left").unwrap_err().to_string();
+    assert!(message.contains("positive, negative, both"), "{message}");
+}
+
+/// Overturning stays that of the wall alone; a tie that holds the wall beyond is told.
+#[test]
+fn a_tie_that_holds_the_wall_is_told() {
+    let warns = |parameters: &Parameters| {
+        let wall = Wall::new(parameters).unwrap();
+        wall.warnings().iter().any(|warning| matches!(warning, Warning::TieHolds { .. }))
+    };
+    assert!(warns(&tied_parapet()));
+    // too soft, or slack until the wall leaves its supports
+    assert!(!warns(&Parameters { tie_stiffness: 100.0, ..tied_parapet() }));
+    assert!(!warns(&Parameters { tie_slack: 10.0, ..tied_parapet() }));
+    assert!(!warns(&Parameters { tie_stiffness: 0.0, ..tied_parapet() }));
+    let (tied, free) = (tied_parapet(), Parameters { tie_stiffness: 0.0, ..tied_parapet() });
+    let [tied, free] = [tied, free].map(|parameters| Wall::new(&parameters).unwrap());
+    assert_eq!(tied.body(), free.body());
+    assert_eq!((tied.omega1(), tied.damping_ratio()), (free.omega1(), free.damping_ratio()));
+    assert_eq!(tied.rocking_onset(), free.rocking_onset());
+}
