@@ -76,8 +76,9 @@ fn floors_without_walls_move_by_their_modes() {
 ///
 /// A wall on its elastic branch or rocking pushes the floor by |R| = m |a + ü| with
 /// ü = −¾ a − (C u̇ + F)/m_eff. So |R| <= m (A/4 + ¾ g b/h + c V) for a peak A of the floor and V of u̇,
-/// with c = C/m_eff. The acceleration of a floor under a force R is R/M − (2ξω ẋ + ω² x), at most (1 + ∫|ω e^{−ξωt} sin ωt| dt + …) R/M. The
-/// integral is below 2/(πξ) + 1, and the damping adds 2ξ times as much.
+/// with c = C/m_eff. The acceleration of a floor under a force R is R/M − (2ξω ẋ + ω² x), at most
+/// (1 + ∫|ω e^{−ξωt} sin ωt| dt + …) R/M. The integral is below 2/(πξ) + 1, and the damping adds 2ξ times
+/// as much.
 #[test]
 fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
     let folder = folder("building_cascade");
@@ -125,7 +126,7 @@ fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
 fn the_program_prints_peaks_and_writes_histories() {
     let folder = folder("building_record");
     fs::write(folder.join("light.toml"), parapet(1.0)).unwrap();
-    let thin = parapet(1.0).replace("thickness = 0.3", "thickness = 0.12");
+    let thin = parapet(1.0).replace("thickness = 0.3", "thickness = 0.06");
     fs::write(folder.join("thin.toml"), thin).unwrap();
     let roof = "bottom = \"floor_3\"";
     written(&folder, &STOREYS, 0.03, &[("light", roof), ("thin", roof)]);
@@ -141,6 +142,8 @@ fn the_program_prints_peaks_and_writes_histories() {
         "2",
         "--html",
         "p.html",
+        "--svg",
+        "b.svg",
     ];
     let output = wall(&folder, &arguments);
     let shown = text(&output.stdout);
@@ -154,6 +157,9 @@ fn the_program_prints_peaks_and_writes_histories() {
         &csv[..80]
     );
     assert!(!folder.join("fmu_out").exists(), "a run writes no SSP");
+    let svg = fs::read_to_string(folder.join("b.svg")).unwrap();
+    assert!(svg.contains("The thin falls at ") && svg.contains("skewX") && !svg.contains("<script"));
+    assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
     let page = fs::read_to_string(folder.join("p.html")).unwrap();
     assert!(page.contains("<p class=\"verdict falls\">The thin falls at "));
     let links = page.replace("http://www.w3.org/2000/svg", "");

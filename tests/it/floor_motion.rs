@@ -344,3 +344,20 @@ fn many_records_make_a_table() {
     let html = [&["simulate"], &arguments[..], &["--unit", "m/s2", "--html", "a.html"]].concat();
     refused(&folder, &html, &["--html", "--record"]);
 }
+
+/// The picture moves by itself: no script, nothing from elsewhere, small enough for a README.
+#[test]
+fn the_animated_picture_of_a_wall_is_one_small_file() {
+    let folder = folder("animated");
+    let strip = ["--set", "mechanism=vertical_spanning", "--set", "thickness=0.2"];
+    let cases = [(&[][..], "falls at 12.6 s"), (&["--pga", "2.5"], "stands: 33 %"), (&strip, "falls")];
+    for (settings, said) in cases {
+        let svg = [&["simulate", "--synthetic", "--svg", "wall.svg"], settings].concat();
+        assert!(wall(&folder, &svg).status.success());
+        let svg = fs::read_to_string(folder.join("wall.svg")).unwrap();
+        assert!(svg.contains(said) && svg.contains("<animateTransform"), "{said}");
+        assert!(svg.len() < 40_000 && !svg.contains("<script") && !svg.contains("NaN"), "{}", svg.len());
+    }
+    let still = ["simulate", "--synthetic", "--scale", "1e-4", "--svg", "still.svg"];
+    refused(&folder, &still, &["--svg", "hardly moves"]);
+}

@@ -146,7 +146,7 @@ def test_overturning_is_marked(browser, wall, tmp_path):
 def building(wall, tmp_path_factory):
     page = tmp_path_factory.mktemp("page") / "building.html"
     scene = ROOT / "scenes/building/three_storeys.toml"
-    motion = ["--synthetic", "--scale", "0.8", "--tail", "2"]
+    motion = ["--synthetic", "--tail", "2"]
     subprocess.run([wall, "building", scene, *motion, "--html", page], check=True, capture_output=True)
     return page
 

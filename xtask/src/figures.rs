@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use crate::bench;
 use crate::command::{Result, cargo, output, root};
+use crate::images;
 
 const DOCUMENT: &str = "docs/accuracy.md";
 /// First words of the last table of `wall accuracy`.
@@ -42,7 +43,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     }
     std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
-    Ok(())
+    images::run()
 }
 
 fn wall(arguments: &[&str]) -> Result<String> {

@@ -12,6 +12,7 @@ mod demo;
 mod figures;
 mod fmu;
 mod fuzz;
+mod images;
 mod platform;
 mod portable;
 mod python;
@@ -42,7 +43,8 @@ The jobs of the project.
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
-                                   the pages
+                                   the pages, and the pictures of docs/images
+  cargo xtask figures --images     only the pictures
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page
   cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         ["wheel"] => wheel::run(),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
+        ["figures", "--images"] => images::run(),
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),

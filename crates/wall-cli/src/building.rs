@@ -3,6 +3,7 @@
 //! In the archive each wall is the FMU of its scene, and each storey an FMU with its values inside: importers
 //! do not agree on how an enumeration is set from outside, and some ignore the parameters of a system.
 
+mod animation;
 mod page;
 mod run;
 
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let fmus = output.iter().flat_map(|_| [&arguments.wall_fmu, &arguments.floor_fmu]);
     output::check_distinct(inputs.chain(fmus), output.iter().chain(arguments.run.outputs()))?;
     if motion.is_none() && arguments.run.outputs().next().is_some() {
-        bail!("--csv and --html show a run; give its motion with --record or --synthetic");
+        bail!("--csv, --html and --svg show a run; give its motion with --record or --synthetic");
     }
     let parts = Parts::read(&building)?;
     output::report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));

@@ -1,6 +1,7 @@
 //! `wall`: the command line of rocking-wall.
 
 mod accuracy;
+mod animation;
 mod args;
 mod building;
 mod calibrate;

@@ -34,6 +34,15 @@ pub(crate) fn verdict(text: &str, falls: bool) -> String {
     format!("<p class=\"{class}\">{}</p>", figures::escaped(text))
 }
 
+/// What a wall does that exceeds `u_ins` at a time \[s\] and ends at u/`u_ins`; shaking may bring it back.
+pub(crate) fn fall(time: f64, end: f64) -> String {
+    if end.abs() > 1.0 {
+        format!("falls at {time:.1} s")
+    } else {
+        format!("exceeds u_ins at {time:.1} s and comes back")
+    }
+}
+
 /// A plot with what moves over it: a cursor on histories, a dot on what is no history. It has a narrow form
 /// for phones.
 pub(crate) fn plot(

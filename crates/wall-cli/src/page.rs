@@ -9,7 +9,7 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use crate::demands;
 use crate::linearisation::Counterpart;
-use crate::moving::{SCRIPT, STYLE, frames, plot, rounded, verdict};
+use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
 use crate::template::filled;
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -91,7 +91,10 @@ fn telling(frames: &[&Sample], overturned: Option<f64>) -> usize {
 fn said(response: &Response) -> String {
     let ratio = 100.0 * response.summary.u_ratio_max;
     match response.summary.overturn_time {
-        Some(time) => verdict(&format!("The wall falls at {time:.2} s."), true),
+        Some(time) => {
+            let end = response.samples.last().map_or(0.0, |sample| sample.outputs.ratio);
+            verdict(&format!("The wall {}.", fall(time, end)), true)
+        }
         None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
         None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),
     }

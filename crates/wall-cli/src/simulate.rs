@@ -1,5 +1,6 @@
 //! `wall simulate`: run a scene, write its history and its page.
 
+mod animation;
 mod arguments;
 mod records;
 
@@ -21,7 +22,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let scene = arguments.scene()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
-    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
+    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html).chain(&arguments.svg))?;
     // before the run, which may take long
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
     for warning in wall.warnings() {
@@ -39,11 +40,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         let page = page::render(&scene, &wall, &response)?;
         output::to_file(path, page.as_bytes())?;
     }
+    if let Some(path) = &arguments.svg {
+        output::to_file(path, animation::render(&scene, &wall, &response)?.as_bytes())?;
+    }
     let text = if arguments.json {
         json(&scene, &response)?
     } else {
         let mut text = table(&scene, &response);
-        for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
+        for path in [&arguments.csv, &arguments.html, &arguments.svg].into_iter().flatten() {
             let _ = writeln!(text, "written        {}", path.display());
         }
         text

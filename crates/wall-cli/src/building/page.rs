@@ -9,7 +9,7 @@ use figures::response::histories;
 use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
-use crate::moving::{SCRIPT, STYLE, frames, plot, rounded, verdict};
+use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
 use crate::template::filled;
 
 const TEMPLATE: &str = include_str!("../building.html");
@@ -47,7 +47,7 @@ pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str
         ("style", STYLE),
         ("script", SCRIPT),
         ("subtitle", &format!("{}, {:.2} m/s²", escaped(note), run.ground.peak.value.abs())),
-        ("verdict", &said(building, run)),
+        ("verdict", &verdict(&said(building, run), !falls(building, run).is_empty())),
         ("last_frame", &(frames.len() - 1).to_string()),
         ("factors", &factors(sway(building, run))),
         ("peaks", &peaks(building, run)),
@@ -68,11 +68,7 @@ fn floors(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -
             Support::Floor(below) => own.iter().zip(&absolute[below]).map(|(a, b)| a + b).collect(),
         });
     }
-    let spans = |index: usize| {
-        let mut spanning = building.walls.iter().zip(&parts.walls);
-        let base = building.floors[index].base;
-        spanning.find(|(wall, _)| wall.top == Some(Support::Floor(index)) && wall.bottom == base)
-    };
+    let heights = heights(building, parts);
     let on = |index: usize| building.walls.iter().filter(|w| w.bottom == Support::Floor(index)).count();
     let most = (0..building.floors.len()).map(on).max().unwrap_or(0);
     let width = LEAST_WIDTH.max(FOR_A_WALL * most as f64);
@@ -81,13 +77,24 @@ fn floors(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -
         json!({
             "name": floor.name.replace('_', " "),
             "below": below,
-            "height": spans(index).map_or(STOREY, |(_, wall)| wall.body().height),
+            "height": heights[index],
             "width": width,
             "x": rounded(frames.iter().map(|&frame| x[frame])),
             "a": rounded(frames.iter().map(|&frame| run.floors[index].acceleration.values[frame])),
         })
     });
     shown.collect()
+}
+
+/// Heights of the storeys: that of a wall that spans one, or the usual \[m\].
+pub(super) fn heights(building: &Building, parts: &Parts) -> Vec<f64> {
+    let height = |index: usize| {
+        let mut spanning = building.walls.iter().zip(&parts.walls);
+        let (base, top) = (building.floors[index].base, Some(Support::Floor(index)));
+        let found = spanning.find(|(wall, _)| wall.top == top && wall.bottom == base);
+        found.map_or(STOREY, |(_, wall)| wall.body().height)
+    };
+    (0..building.floors.len()).map(height).collect()
 }
 
 fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -> Vec<serde_json::Value> {
@@ -114,7 +121,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
 }
 
 /// Largest sway of any floor over its height above the ground, without a factor.
-fn sway(building: &Building, run: &Coupled) -> f64 {
+pub(super) fn sway(building: &Building, run: &Coupled) -> f64 {
     let drifts = run.floors.iter().map(|floor| floor.drift.peak.value.abs()).sum::<f64>();
     let largest = drifts / (STOREY * building.floors.len() as f64);
     let fits = FACTORS.iter().rev().find(|factor| **factor * largest <= SWAY);
@@ -130,11 +137,13 @@ fn factors(chosen: f64) -> String {
     FACTORS.map(option).concat()
 }
 
-/// The walls that overturn, in order of time.
-fn falls<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str)> {
-    let fallen = building.walls.iter().zip(&run.walls);
-    let mut fallen: Vec<_> =
-        fallen.filter_map(|(wall, history)| Some((history.overturn_time?, wall.name.as_str()))).collect();
+/// The walls that overturn, in order of time: when, who, and u/`u_ins` at the end.
+pub(super) fn falls<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str, f64)> {
+    let fallen = building.walls.iter().zip(&run.walls).filter_map(|(wall, history)| {
+        let end = history.ratio.values.last().copied().unwrap_or_default();
+        Some((history.overturn_time?, wall.name.as_str(), end))
+    });
+    let mut fallen: Vec<_> = fallen.collect();
     fallen.sort_by(|a, b| a.0.total_cmp(&b.0));
     fallen
 }
@@ -151,7 +160,8 @@ fn telling(run: &Coupled, frames: &[usize]) -> usize {
     falling.or(peak.map(|(index, _)| index)).unwrap_or(0)
 }
 
-fn said(building: &Building, run: &Coupled) -> String {
+/// What the building comes to.
+pub(super) fn said(building: &Building, run: &Coupled) -> String {
     let falls = falls(building, run);
     let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
         let ratio = |wall: &building::coupled::WallHistory| wall.ratio.peak.value.abs();
@@ -159,23 +169,22 @@ fn said(building: &Building, run: &Coupled) -> String {
     });
     let name = |name: &str| name.replace('_', " ");
     match (&falls[..], worst) {
-        ([], None) => verdict("No wall stands on this building.", false),
+        ([], None) => "No wall stands on this building.".to_owned(),
         ([], Some((wall, history))) => {
             let ratio = 100.0 * history.ratio.peak.value.abs();
-            let text = format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", name(&wall.name));
-            verdict(&text, false)
+            format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", name(&wall.name))
         }
         (falls, _) => {
-            let parts: Vec<_> =
-                falls.iter().map(|(time, wall)| format!("the {} falls at {time:.1} s", name(wall))).collect();
-            let text = parts.join(", ");
-            verdict(&format!("{}{}.", text[..1].to_uppercase(), &text[1..]), true)
+            let part =
+                |&(time, wall, end): &(f64, &str, f64)| format!("the {} {}", name(wall), fall(time, end));
+            let text = falls.iter().map(part).collect::<Vec<_>>().join(", ");
+            format!("{}{}.", text[..1].to_uppercase(), &text[1..])
         }
     }
 }
 
 /// The end of the time axes: soon after the last fall and the last of the peaks.
-fn end(run: &Coupled) -> f64 {
+pub(super) fn end(run: &Coupled) -> f64 {
     let floors = run.floors.iter().flat_map(|floor| [floor.acceleration.peak.time, floor.drift.peak.time]);
     let walls = run.walls.iter().map(|wall| wall.overturn_time.unwrap_or(wall.ratio.peak.time));
     let last = floors.chain(walls).fold(0.0, f64::max);
@@ -204,7 +213,7 @@ fn peaks(building: &Building, run: &Coupled) -> String {
     for (wall, history) in building.walls.iter().zip(&run.walls) {
         let ratio = history.overturn_time.map_or_else(
             || format!("{:.2}", history.ratio.peak.value.abs()),
-            |time| format!("falls at {time:.2} s"),
+            |time| format!("above 1 at {time:.2} s"),
         );
         let force = format!("{:.2} kN", history.reaction_bottom.peak.value.abs() / 1000.0);
         table += &row([wall.name.clone(), ratio, force]);
@@ -223,7 +232,7 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
     };
     let color = |index: usize| SERIES[index % SERIES.len()].0;
     let falls = falls(building, run);
-    let marks: Vec<_> = falls.iter().map(|(time, name)| (*time, name.replace('_', " "))).collect();
+    let marks: Vec<_> = falls.iter().map(|(time, name, _)| (*time, name.replace('_', " "))).collect();
     let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
     let drawn = |lines: Vec<Line>, label: &str, shown: &[f64]| {
         let keys: Vec<_> = lines
@@ -261,8 +270,7 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
     });
     let (keys, figure) = drawn(ratio.collect(), "u / u_ins", &[-1.0, 1.0]);
     let figure = Plot { limits: vec![(-1.0, RED), (1.0, RED)], ..figure };
-    text +=
-        &plot("ratios", &format!("Walls; they fall beyond the dashed lines:{keys}"), &figure, &marks, true);
+    text += &plot("ratios", &format!("Walls; dashed: static instability:{keys}"), &figure, &marks, true);
     let forces = walls.map(|(index, (wall, history))| {
         (wall.name.clone(), points(&history.reaction_bottom.values, 1e-3, None), color(index))
     });

@@ -12,6 +12,7 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::DEFAULT_TAIL;
 use serde_json::json;
 
+use super::animation;
 use super::page::page;
 use crate::output;
 
@@ -29,6 +30,9 @@ pub(crate) struct Options {
     /// Write a page on which the storeys sway and the walls rock
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Draw the moving building as one animated SVG without a script
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Print the peaks as JSON
     #[arg(long)]
     json: bool,
@@ -37,7 +41,7 @@ pub(crate) struct Options {
 impl Options {
     /// Returns the files that a run writes.
     pub(super) fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
-        self.csv.iter().chain(&self.html)
+        self.csv.iter().chain(&self.html).chain(&self.svg)
     }
 }
 
@@ -61,6 +65,7 @@ pub(super) fn run(
     let run = Coupled::run(building, parts, ground, settings)?;
     output::save(options.csv.as_ref(), || csv(building, &run))?;
     output::save(options.html.as_ref(), || page(building, parts, &run, note))?;
+    output::save(options.svg.as_ref(), || animation::render(building, parts, &run))?;
     if options.json {
         return Ok(serde_json::to_string_pretty(&json(building, &run))? + "\n");
     }

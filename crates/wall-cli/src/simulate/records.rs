@@ -31,8 +31,8 @@ struct Row {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.html.is_some() {
-        bail!("--html shows one run; give its record with --record");
+    if arguments.html.is_some() || arguments.svg.is_some() {
+        bail!("--html and --svg show one run; give its record with --record");
     }
     let scene = arguments.scene.load()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
