@@ -10,6 +10,7 @@ mod building_run;
 mod calibration;
 mod capacity;
 mod cases;
+mod check_command;
 mod closed_forms;
 mod command_line;
 mod demands;

@@ -1,4 +1,4 @@
-//! Capacity curves with their secants, as a picture.
+//! Capacity curves with their secants, and over a demand, as pictures.
 //!
 //! ```
 //! use figures::capacity::{Curve, plot};
@@ -45,5 +45,53 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
         Axis::over("displacement |u| (mm)", [0.0, 1.02 * right]),
         Axis::over("restoring force |F| (kN)", [1.05 * low, 1.08 * top]),
     ];
+    Plot::new([820.0, 460.0], axes, series)
+}
+
+/// A capacity curve and the demand on it, in acceleration \[m/s²\] over displacement \[m\].
+#[derive(Clone, Debug)]
+pub struct Demand {
+    /// Corners (d*, a*) of the capacity curve.
+    pub capacity: Vec<(f64, f64)>,
+    /// Points (`S_d`, `S_a`) of the demand.
+    pub spectrum: Vec<(f64, f64)>,
+    /// The secant's point on the curve, and its period \[s\].
+    pub secant: (f64, f64),
+    /// See `secant`.
+    pub period: f64,
+    /// `d_u*`.
+    pub capacity_displacement: f64,
+    /// `S_d` at the period.
+    pub displacement: f64,
+}
+
+/// Draws a capacity curve over the demand.
+pub fn over_demand(demand: &Demand) -> Plot {
+    let shown = |&(d, a): &(f64, f64)| (1000.0 * d, a);
+    let (d_s, a_s) = demand.secant;
+    let right = 1.25 * demand.capacity_displacement.max(demand.displacement);
+    let points = || demand.capacity.iter().chain(&demand.spectrum).filter(|point| point.0 <= right);
+    let top = 1.08 * points().map(|point| point.1).fold(0.0, f64::max);
+    let named = |name: &str, line: Series| Series { name: name.to_owned(), ..line };
+    let within = |points: &[(f64, f64)]| {
+        let inside = points.iter().take_while(|point| point.0 <= right).count();
+        let mut cut: Vec<_> = points[..inside].to_vec();
+        if let (Some(&(d0, a0)), Some(&(d1, a1))) = (cut.last(), points.get(inside)) {
+            cut.push((right, a0 + (a1 - a0) * (right - d0) / (d1 - d0)));
+        }
+        cut.iter().map(shown).collect::<Vec<_>>()
+    };
+    let ray = |factor: f64| (1000.0 * factor * d_s, factor * a_s);
+    let longest = (right / d_s).min(top / a_s);
+    let capacity = 1000.0 * demand.capacity_displacement;
+    let dashed = |points| Series { look: Look::Dashed, ..Series::line(DARK_GREY, 1.3, points) };
+    let secant = format!("secant, T = {:.3} s", demand.period);
+    let series = vec![
+        named("demand", Series::line(RED, 1.6, within(&demand.spectrum))),
+        named("capacity curve", Series::line(BLUE, 2.0, within(&demand.capacity))),
+        named(&secant, dashed(vec![(0.0, 0.0), ray(longest)])),
+        named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
+    ];
+    let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
     Plot::new([820.0, 460.0], axes, series)
 }

@@ -16,6 +16,7 @@
 //! | [`results`] | the curves and the fragilities of a complete study |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
+//! | [`check`] | static capacity against a response spectrum |
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
 //! | [`stability`] | stability maps and extremes |
 //! | [`reproduce`] | the tables and figures of the paper |
@@ -25,6 +26,7 @@
 pub mod accuracy;
 pub mod calibration;
 pub mod chart;
+pub mod check;
 pub mod document;
 pub mod fragility;
 mod free_motion;

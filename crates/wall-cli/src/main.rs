@@ -6,6 +6,7 @@ mod args;
 mod building;
 mod calibrate;
 mod capacity;
+mod check;
 mod csv;
 mod demands;
 mod describe;
@@ -25,6 +26,7 @@ mod spectrum;
 mod stability;
 mod stability_page;
 mod template;
+mod tie;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -50,6 +52,10 @@ enum Command {
     Building(building::Arguments),
     /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
     Describe(describe::Arguments),
+    /// Check capacity against demand: onset and displacement of the wall's own curve over a spectrum
+    Check(check::Arguments),
+    /// Compute the force of a parapet's tie and the displacement of the wall over the tie's stiffness
+    Tie(tie::Arguments),
     /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
     #[command(allow_negative_numbers = true)]
     Motion(motion::Arguments),
@@ -89,6 +95,8 @@ fn main() -> ExitCode {
         Command::Package(arguments) => package::run(&arguments),
         Command::Building(arguments) => building::run(&arguments),
         Command::Describe(arguments) => describe::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Tie(arguments) => tie::run(&arguments),
         Command::Motion(arguments) => motion::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments),
         Command::Stability(arguments) => stability::run(&arguments),

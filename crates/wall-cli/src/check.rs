@@ -1,0 +1,275 @@
+//! `wall check`: capacity against demand, from a wall's own capacity curve.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
+use figures::capacity::{Demand, over_demand};
+use figures::escaped;
+use figures::plot::Plot;
+use ground_motion::spectrum::DAMPING;
+use ground_motion::{GroundMotion, Maxima, RecordOptions, Spectrum, Unit, read};
+use rocking_wall::wall::Wall;
+use serde_json::{Value, json};
+use study::check::{CheckError, Fractions, SideCheck, check, governing, interpolated};
+
+use crate::args::SceneArguments;
+use crate::capacity::significant;
+use crate::output;
+use crate::template::filled;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Demand: a response spectrum as CSV, T in s and Sa, from T = 0 on; of the ground or of a floor
+    #[arg(long, value_name = "FILE", required_unless_present = "records", conflicts_with = "records")]
+    spectrum: Option<PathBuf>,
+    /// Demand: the median spectrum of these records
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    records: Vec<PathBuf>,
+    /// Unit of the spectrum, or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
+    #[arg(long, required_unless_present = "records")]
+    unit: Option<String>,
+    /// Damping ratio of the spectrum
+    #[arg(long, value_name = "RATIO", default_value_t = DAMPING)]
+    damping: f64,
+    /// Displacement capacity over the displacement at which the force of the wall vanishes
+    #[arg(long, value_name = "FRACTION", default_value_t = Fractions::default().displacement)]
+    displacement_fraction: f64,
+    /// Displacement of the secant period over the displacement capacity
+    #[arg(long, value_name = "FRACTION", default_value_t = Fractions::default().secant)]
+    secant_fraction: f64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Write a page with the capacity curve over the demand
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load()?;
+    arguments.scene.apply(&mut scene)?;
+    let inputs = arguments.scene.inputs(&scene).chain(&arguments.spectrum).chain(&arguments.records);
+    output::check_distinct(inputs, &arguments.html)?;
+    let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
+    let source = Source::read(arguments)?;
+    let fractions =
+        Fractions { displacement: arguments.displacement_fraction, secant: arguments.secant_fraction };
+    let sides = check(&wall, fractions, |period| source.at(period))?;
+    if let Some(path) = &arguments.html {
+        let table = escaped(&table(&scene.title, &source, arguments, &sides));
+        let figure = figure(&wall, &source, &sides)?.svg();
+        let parts = [("title", &*escaped(&scene.title)), ("figure", &figure), ("table", &table)];
+        output::to_file(path, filled(include_str!("check.html"), &parts).as_bytes())?;
+    }
+    let text = if arguments.json {
+        serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"
+    } else {
+        let mut text = table(&scene.title, &source, arguments, &sides);
+        if let Some(path) = &arguments.html {
+            let _ = writeln!(text, "\nwritten {}", path.display());
+        }
+        text
+    };
+    output::to_stdout(&text)
+}
+
+/// Where the demand comes from.
+struct Source {
+    name: String,
+    damping: f64,
+    spectrum: Of,
+}
+
+enum Of {
+    /// Points (T, `S_a`) \[s, m/s²\].
+    Points(Vec<(f64, f64)>),
+    Records(Spectrum, Vec<GroundMotion>),
+}
+
+/// Largest spectrum file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+impl Source {
+    fn read(arguments: &Arguments) -> Result<Self> {
+        let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
+        let damping = arguments.damping;
+        let of = Spectrum::new(damping, Maxima::Everywhere)?;
+        if let (Some(path), Some(unit)) = (&arguments.spectrum, unit) {
+            let name = format!("{}, Sa in {unit}", path.display());
+            return Ok(Self { name, damping, spectrum: Of::Points(points(path, unit)?) });
+        }
+        let options = RecordOptions { unit, ..RecordOptions::default() };
+        let mut motions = Vec::new();
+        for path in &arguments.records {
+            let record = read(path, &options)?;
+            for warning in &record.check().warnings {
+                output::warn(&format!("{}: {warning}", path.display()));
+            }
+            motions.push(record.motion);
+        }
+        let count = motions.len();
+        let name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+        Ok(Self { name, damping, spectrum: Of::Records(of, motions) })
+    }
+
+    /// `S_a` at a period \[m/s²\].
+    fn at(&self, period: f64) -> Result<f64, CheckError> {
+        match &self.spectrum {
+            Of::Points(points) => interpolated(points, period),
+            Of::Records(spectrum, motions) => {
+                let at = |motion| spectrum.acceleration(motion, period);
+                let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
+                values.sort_by(f64::total_cmp);
+                let middle = values.len() / 2;
+                let even = values.len().is_multiple_of(2);
+                Ok(if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] })
+            }
+        }
+    }
+
+    /// Points (`S_d`, `S_a`) up to twice a period, to draw \[m, m/s²\].
+    fn drawn(&self, period: f64) -> Result<Vec<(f64, f64)>, CheckError> {
+        let longest = match &self.spectrum {
+            Of::Points(points) => points.last().map_or(0.0, |point| point.0).min(2.0 * period),
+            Of::Records(..) => 2.0 * period,
+        };
+        let at = |part: u32| {
+            let period = longest * f64::from(part) / 200.0;
+            let acceleration = self.at(if part < 3 { 0.0 } else { period })?;
+            Ok((acceleration * (period / std::f64::consts::TAU).powi(2), acceleration))
+        };
+        (0..=200).map(at).collect()
+    }
+}
+
+/// Reads the points of a spectrum; a first line that holds no numbers is a header.
+fn points(path: &Path, unit: Unit) -> Result<Vec<(f64, f64)>> {
+    let context = || format!("{}: cannot be read", path.display());
+    let metadata = std::fs::metadata(path).with_context(context)?;
+    // a pipe would be waited for
+    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+        bail!("{}: expected a spectrum as CSV of at most {MAX_FILE_BYTES} bytes", path.display());
+    }
+    let text = std::fs::read_to_string(path).with_context(context)?;
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let number = |field: &str| field.trim().parse::<f64>().ok();
+        let fields: Vec<_> = line.split([',', ';', '\t']).collect();
+        let pair = match fields[..] {
+            [period, value] => number(period).zip(number(value)),
+            _ => None,
+        };
+        let Some((period, value)) = pair else {
+            if index == 0 || line.trim().is_empty() {
+                continue;
+            }
+            bail!("{}: line {}: expected T in s and Sa, such as 0.5,0.42", path.display(), index + 1);
+        };
+        let rises = points.last().is_none_or(|last| period > last.0);
+        let valid = period.is_finite() && period >= 0.0 && value.is_finite() && value > 0.0;
+        if !valid || !rises {
+            let expected = "periods from 0 on that rise, and Sa above 0";
+            bail!("{}: line {}: expected {expected}", path.display(), index + 1);
+        }
+        points.push((period, unit.to_si(value)));
+    }
+    let first = points.first().ok_or_else(|| anyhow!("{}: no points", path.display()))?;
+    if first.0 > 0.0 {
+        let message = "the spectrum has no T = 0, the peak acceleration; give it with that point";
+        return Err(anyhow!(message)).with_context(|| path.display().to_string());
+    }
+    Ok(points)
+}
+
+fn side_name(side: &SideCheck) -> &'static str {
+    if side.sign > 0.0 { "u > 0" } else { "u < 0" }
+}
+
+/// A name, a unit, and the number of a side.
+type Line = (&'static str, &'static str, fn(&SideCheck) -> f64);
+
+fn table(title: &str, source: &Source, arguments: &Arguments, sides: &[SideCheck]) -> String {
+    let mut text = format!("{title}\n");
+    let _ = writeln!(text, "demand   {}, {} % damping", source.name, 100.0 * source.damping);
+    let _ = writeln!(
+        text,
+        "fractions: d_u* at {} of the zero of F, secant at {} of d_u*\n",
+        arguments.displacement_fraction, arguments.secant_fraction
+    );
+    let _ = writeln!(
+        text,
+        "{:<22}{:>6}{}",
+        "",
+        "",
+        sides.iter().fold(String::new(), |names, side| { names + &format!("{:>13} ", side_name(side)) })
+    );
+    let rows: [Line; 10] = [
+        ("onset a0*", "m/s2", |side| side.onset_acceleration),
+        ("zero of F d0*", "m", |side| side.zero_displacement),
+        ("capacity d_u*", "m", |side| side.displacement_capacity),
+        ("secant d_s*", "m", |side| side.secant[0]),
+        ("secant a_s*", "m/s2", |side| side.secant[1]),
+        ("secant period T_s", "s", |side| side.secant_period),
+        ("demand Sa(0)", "m/s2", |side| side.peak_acceleration),
+        ("demand Sd(T_s)", "m", |side| side.displacement_demand),
+        ("a0*/Sa(0)", "-", |side| side.acceleration_ratio),
+        ("d_u*/Sd(T_s)", "-", |side| side.displacement_ratio),
+    ];
+    for (name, unit, value) in rows {
+        let values: Vec<_> = sides.iter().map(|side| significant(value(side))).collect();
+        let _ = writeln!(text, "{name:<22}{unit:>6}{}", values.join(" "));
+    }
+    let worst = governing(sides);
+    let _ = writeln!(text, "\n{} governs with {}", side_name(worst), significant(worst.ratio()).trim());
+    for side in sides.iter().filter(|side| side.limited_by_tie) {
+        let _ = writeln!(text, "{}: the strength of the tie limits d_u*", side_name(side));
+    }
+    text
+}
+
+fn json(title: &str, source: &Source, arguments: &Arguments, sides: &[SideCheck]) -> Value {
+    let side = |side: &SideCheck| {
+        json!({
+            "side": side_name(side),
+            "onset_acceleration": side.onset_acceleration,
+            "zero_displacement": side.zero_displacement,
+            "displacement_capacity": side.displacement_capacity,
+            "limited_by_tie": side.limited_by_tie,
+            "secant_displacement": side.secant[0],
+            "secant_acceleration": side.secant[1],
+            "secant_period": side.secant_period,
+            "peak_acceleration": side.peak_acceleration,
+            "displacement_demand": side.displacement_demand,
+            "acceleration_ratio": side.acceleration_ratio,
+            "displacement_ratio": side.displacement_ratio,
+        })
+    };
+    json!({
+        "title": title,
+        "demand": source.name,
+        "damping": source.damping,
+        "displacement_fraction": arguments.displacement_fraction,
+        "secant_fraction": arguments.secant_fraction,
+        "sides": sides.iter().map(side).collect::<Vec<_>>(),
+        "governing": side_name(governing(sides)),
+    })
+}
+
+/// The capacity curve of the governing side over the demand.
+fn figure(wall: &Wall, source: &Source, sides: &[SideCheck]) -> Result<Plot> {
+    let worst = governing(sides);
+    let spectral = wall.capacity_corners(worst.sign);
+    let points = spectral.iter().map(|point| (point.spectral_displacement, point.spectral_acceleration));
+    Ok(over_demand(&Demand {
+        capacity: points.collect(),
+        spectrum: source.drawn(worst.secant_period)?,
+        secant: (worst.secant[0], worst.secant[1]),
+        period: worst.secant_period,
+        capacity_displacement: worst.displacement_capacity,
+        displacement: worst.displacement_demand,
+    }))
+}

@@ -1,0 +1,76 @@
+//! `wall check` and `wall tie`.
+
+use std::path::Path;
+
+use crate::command_line::{folder, refused, text, wall};
+
+fn printed(folder: &Path, arguments: &[&str]) -> String {
+    let output = wall(folder, arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The hand calculations of docs/model.md, to the last printed digit.
+#[test]
+fn a_check_is_that_by_hand() {
+    let folder = folder("check_by_hand");
+    std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n0.1,5\n0.5,5\n1,2.5\n2,1.25\n4,0.3\n").unwrap();
+    let spectrum = ["--spectrum", "spectrum.csv", "--unit", "m/s2"];
+    let strip = ["mechanism=vertical_spanning", "height=3", "thickness=0.25", "overburden=10000"];
+    let tied = ["tie_height=3", "tie_stiffness=2e5", "tie_slack=0.03", "tie_strength=5000"];
+    let document = std::fs::read_to_string(crate::root().join("docs/model.md")).unwrap();
+    let rows: Vec<Vec<&str>> = document
+        .lines()
+        .skip_while(|line| !line.starts_with("| `wall check` prints"))
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    assert_eq!(rows.len(), 10);
+    for (column, set) in [&[][..], &strip, &tied].iter().enumerate() {
+        let set = set.iter().flat_map(|set| ["--set", set]);
+        let arguments: Vec<_> = ["check"].into_iter().chain(spectrum).chain(set).collect();
+        let text = printed(&folder, &arguments);
+        for row in &rows {
+            let line = text.lines().find(|line| line.starts_with(row[0])).unwrap();
+            let value = line[row[0].len()..].split_whitespace().nth(1).unwrap();
+            assert_eq!(value, row[2 + column], "{}: {text}", row[0]);
+        }
+    }
+    let json = [&["check", "--json", "--html", "check.html"], &spectrum[..]].concat();
+    let value: serde_json::Value = serde_json::from_str(&printed(&folder, &json)).unwrap();
+    assert_eq!(value["secant_fraction"], 0.4);
+    assert!(std::fs::read_to_string(folder.join("check.html")).unwrap().contains("<svg"));
+}
+
+#[test]
+fn a_check_refuses_what_it_cannot_use() {
+    let folder = folder("check_refuses");
+    let refuses = |spectrum: &str, words: &str| {
+        std::fs::write(folder.join("spectrum.csv"), spectrum).unwrap();
+        refused(&folder, &["check", "--spectrum", "spectrum.csv", "--unit", "g"], &[words]);
+    };
+    refuses("T,Sa\n0.1,1\n2,0.5\n", "no T = 0");
+    refuses("0,1\n1,0.5\n0.5,0.3\n", "line 3: expected periods from 0 on that rise");
+    refuses("0,1\n1,0.5\n", "has no T = 1.4");
+    refuses("0,1\n1\n", "line 2: expected T in s and Sa");
+}
+
+/// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.
+#[test]
+fn ties_of_several_stiffnesses() {
+    let (folder, scene) = (folder("ties"), crate::root().join("scenes/shaken_parapet.toml"));
+    let scene = scene.to_str().unwrap();
+    let stiffness = ["--stiffness", "1e7,0,1e5", "--set", "tie_height=3", "--set", "tie_side=both"];
+    let value: serde_json::Value =
+        serde_json::from_str(&printed(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat()))
+            .unwrap();
+    let column = |name: &str| -> Vec<f64> {
+        value.as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
+    };
+    assert_eq!(column("stiffness_n_m"), [0.0, 1e5, 1e7]);
+    let (force, u) = (column("force_max_n"), column("u_ratio_max"));
+    assert!(force[0] == 0.0 && force[1] > 0.0 && force[2] > 0.0, "{force:?}");
+    assert!(u[0] > u[1] && u[1] > u[2], "{u:?}");
+    refused(&folder, &["tie", scene], &["tie_height"]);
+}
