@@ -14,6 +14,7 @@ COLORS = {
 WALL_COLORS = {"strip": "#1f5fa8", "parapet": "#b3371e"}
 
 STYLE = """
+:root { color-scheme: light; }
 body { font: 16px/1.45 system-ui, sans-serif; color: #222; margin: 0 auto; max-width: 1360px; padding: 16px; }
 h1 { font-size: 1.5rem; margin: .2em 0; }
 h2 { font-size: 1.15rem; margin: 1.2em 0 .3em; }
@@ -183,7 +184,7 @@ def logarithmic(points, x_label, slopes=False):
 
 def fallen(times, histories, events):
     """Plots the walls of a building in which one overturns."""
-    who = "; ".join(f"{name} overturned at t = {moment:.4f} s" for name, moment in events)
+    who = "; ".join(f"The {name} overturned at t = {moment:.4f} s" for name, moment in events)
     axes = Axes(
         (0.0, times[-1]),
         (-1.0, 3.0),
