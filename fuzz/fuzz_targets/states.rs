@@ -10,14 +10,16 @@ use rocking_wall_fuzz::importer::Importer;
 
 fuzz_target!(|edits: &[u8]| {
     let Some((unit, edits)) = edits.split_first() else { return };
+    // one in eight steps on: a wall at an absurd velocity crosses thousands of branches
+    let steps = unit & 0b1110 == 0;
     match unit % 2 {
-        0 => go_on::<rocking_wall::unit::Unit>(edits),
-        _ => go_on::<rocking_floor::unit::Unit>(edits),
+        0 => go_on::<rocking_wall::unit::Unit>(edits, steps),
+        _ => go_on::<rocking_floor::unit::Unit>(edits, steps),
     }
 });
 
 /// Each edit is a place, two bytes, and the eight bytes to put there.
-fn go_on<M: Model>(edits: &[u8]) {
+fn go_on<M: Model>(edits: &[u8], steps: bool) {
     let kinds = Kinds::<M>::CO_SIMULATION;
     let Some(importer) = Importer::new(&kinds, CO_SIMULATION, M::GUID, None, false) else { return };
     let c = importer.component();
@@ -44,10 +46,11 @@ fn go_on<M: Model>(edits: &[u8]) {
         let restored = unsafe { states::set_fmu_state::<M>(c, state) };
         assert_eq!(restored, OK);
         check_values::<M>(c);
-        // short, because a wall at an absurd velocity crosses thousands of branches in 10 ms
-        // SAFETY: as above.
-        unsafe { co_simulation::do_step::<M>(c, 0.01, 1e-4, 1) };
-        check_values::<M>(c);
+        if steps {
+            // SAFETY: as above.
+            unsafe { co_simulation::do_step::<M>(c, 0.01, 1e-4, 1) };
+            check_values::<M>(c);
+        }
     }
     assert!(importer.journal.faults.borrow().is_empty(), "{:?}", importer.journal.faults);
 }
