@@ -1,5 +1,7 @@
 //! Histories, peaks and demands of a run.
 
+use std::fmt::Write;
+
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
@@ -92,4 +94,37 @@ impl Response {
         let residual = progress.state.displacement;
         Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })
     }
+
+    /// Writes the history as CSV, numbers to their last digit; the header names the columns, in SI units.
+    pub fn csv(&self) -> String {
+        let tied = self.demands.tie.is_some();
+        let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force" } else { "" });
+        for Sample { time, support, outputs } in &self.samples {
+            // writing to a String cannot fail
+            let _ = write!(csv, "{time:.9}");
+            for value in [
+                outputs.displacement,
+                outputs.velocity,
+                outputs.acceleration,
+                outputs.ratio,
+                outputs.restoring_force,
+                outputs.damping_force,
+                outputs.reactions.bottom,
+                outputs.reactions.top,
+                support.bottom,
+                support.top,
+            ] {
+                let _ = write!(csv, ",{value:?}");
+            }
+            if tied {
+                let _ = write!(csv, ",{:?}", outputs.tie_force);
+            }
+            csv.push('\n');
+        }
+        csv
+    }
 }
+
+/// The columns of [`Response::csv`]; the force of a tie follows them where there is one.
+const COLUMNS: &str = "time,u,u_dot,u_ddot,u_ratio,restoring_force,damping_force,reaction_bottom,\
+                       reaction_top,a_bottom,a_top";

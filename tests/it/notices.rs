@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 /// Crates of this workspace.
-const OURS: [&str; 9] = [
+const OURS: [&str; 10] = [
     "fmu-export",
     "fmu-export-build",
     "ground-motion",
     "rocking-figures",
     "rocking-oscillator",
+    "rocking-playground",
     "rocking-scene-fmu",
     "rocking-study",
     "rocking-wall",
@@ -57,4 +58,12 @@ fn every_crate_in_the_python_package_is_named() {
     let crates = crates(&["rocking-wall-python"]);
     check_names(&crates, "crates/python/licenses/notices.txt");
     assert!(crates.contains("pyo3") && !crates.contains("rocking-wall-cli"), "{crates:?}");
+}
+
+#[test]
+fn every_crate_in_the_page_that_computes_is_named() {
+    let mut crates = crates(&["rocking-playground"]);
+    // it packs the page and is not in it
+    assert!(crates.remove("zlib-rs"));
+    check_names(&crates, "crates/playground/src/page/notices.txt");
 }

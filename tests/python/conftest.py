@@ -1,13 +1,20 @@
 """Finds the FMUs and the program for the tests; `cargo xtask test` sets the paths."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
+from selenium import webdriver
 
 from unit import Unit
 
 ROOT = Path(__file__).parents[2]
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
 
 
 def built(variable, default, command):
@@ -84,3 +91,20 @@ def unpacked_floor(floor_fmu):
     """The floor's FMU, unpacked once."""
     with Unit.unpack(floor_fmu) as unpacked:
         yield unpacked
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A headless Chromium."""
+    binary = next((path for path in map(shutil.which, BROWSERS) if path), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("not run: no Chromium with its driver; install chromium and chromium-driver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield browser
+    browser.quit()

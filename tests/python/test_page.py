@@ -3,37 +3,13 @@
 It loads without errors, its slider moves the wall and the cursors, and it fits narrow and wide windows.
 """
 
-import shutil
 import subprocess
 import time
 
 import pytest
-from selenium import webdriver
 from selenium.webdriver.common.by import By
 
 from conftest import ROOT
-
-NAMES = ("chromium", "chromium-browser", "google-chrome")
-FLAGS = (
-    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-)  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def browser():
-    binary = next((path for path in map(shutil.which, NAMES) if path), None)
-    driver = shutil.which("chromedriver")
-    if binary is None or driver is None:
-        pytest.skip("not run: no Chromium with its driver; install chromium and chromium-driver")
-    options = webdriver.ChromeOptions()
-    options.binary_location = binary
-    for flag in FLAGS:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    yield browser
-    browser.quit()
 
 
 def make(wall, path, *arguments):

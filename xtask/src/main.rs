@@ -1,4 +1,4 @@
-//! The jobs of the project: `cargo xtask fmu | wheel | demo | test | portable | fuzz …`.
+//! The jobs of the project: `cargo xtask fmu | playground | wheel | demo | test | portable | fuzz …`.
 //!
 //! This program has no dependencies and builds in a second on a fresh machine. It installs the Python
 //! packages that a job needs under the target folder, pinned by hash.
@@ -14,6 +14,7 @@ mod fmu;
 mod fuzz;
 mod images;
 mod platform;
+mod playground;
 mod portable;
 mod python;
 mod release;
@@ -30,6 +31,8 @@ The jobs of the project.
                                    fmu_out/fmi3/ (FMI 3.0)
                                    --portable: for Linux as old as glibc 2.17, Windows and macOS, with zig
                                    --platforms linux64,win64: for some of them
+  cargo xtask playground           write fmu_out/playground.html: one file that computes in the browser, with
+                                   the library as WebAssembly
   cargo xtask wheel                build the Python package into target/wheels/release, with wall.fmu inside
   cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
                                    a record (UNIT if the file states none); write histories and pages
@@ -62,6 +65,7 @@ fn main() -> ExitCode {
         ["fmu"] => fmu::build_all(None).map(drop),
         ["fmu", "--portable"] => fmu::build_all(Some(fmu::PORTABLE)).map(drop),
         ["fmu", "--platforms", names] => fmu::build_all(Some(names)).map(drop),
+        ["playground"] => playground::build().map(drop),
         ["wheel"] => wheel::run(),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),

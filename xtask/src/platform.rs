@@ -116,9 +116,7 @@ impl Platform {
 fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>> {
     let mut missing = Vec::new();
     for platform in &platforms {
-        let mut rustc = program("rustc");
-        rustc.args(["--print", "target-libdir", "--target", platform.target]);
-        if !Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir() {
+        if !has_rust_library(platform.target)? {
             missing.push(platform.target);
         }
     }
@@ -131,6 +129,16 @@ fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>
         missing.join(", "),
         missing.join(" ")
     ))
+}
+
+/// Tells whether this machine has the Rust library for a target.
+///
+/// # Errors
+/// If there is no rustc.
+pub(crate) fn has_rust_library(target: &str) -> Result<bool> {
+    let mut rustc = program("rustc");
+    rustc.args(["--print", "target-libdir", "--target", target]);
+    Ok(Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir())
 }
 
 /// Makes what a build gives independent of its folders, with more flags of the linker.

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use crate::command::{Result, cargo, find, output, program, root, succeed, target};
 use crate::fmu::{self, Linker};
+use crate::playground;
 use crate::python::Environment;
 use crate::wheel;
 
@@ -80,6 +81,9 @@ fn not_run() -> Vec<String> {
     if browser().is_none() {
         lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
     }
+    if let Err(message) = playground::check_target() {
+        lines.push(format!("the page that computes: {message}"));
+    }
     lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
     lines
 }
@@ -102,6 +106,9 @@ fn prepare() {
     }
     for unit in fmu::UNITS {
         let _ = fmu::library(unit, Linker::System);
+    }
+    if playground::check_target().is_ok() {
+        let _ = playground::build();
     }
 }
 
@@ -140,6 +147,9 @@ fn python() -> Result<()> {
     pytest.arg("tests/python");
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    if playground::check_target().is_ok() {
+        pytest.env("ROCKING_WALL_PLAYGROUND", playground::build()?);
+    }
     succeed(&mut pytest, "see the failures above")
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if response.summary.put_to_rest {
         output::warn("impacts accumulated beyond their bound: the wall was put to rest");
     }
-    output::save(arguments.csv.as_ref(), || history(&response))?;
+    output::save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {
         let page = page::render(&scene, &wall, &response)?;
         output::to_file(path, page.as_bytes())?;
@@ -53,38 +53,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         text
     };
     output::to_stdout(&text)
-}
-
-/// The columns of the history; the force of a tie follows them where there is one.
-const COLUMNS: &str = "time,u,u_dot,u_ddot,u_ratio,restoring_force,damping_force,reaction_bottom,\
-                       reaction_top,a_bottom,a_top";
-
-fn history(response: &Response) -> String {
-    let tied = response.demands.tie.is_some();
-    let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force" } else { "" });
-    for sample in &response.samples {
-        let outputs = &sample.outputs;
-        let _ = write!(csv, "{:.9}", sample.time);
-        for value in [
-            outputs.displacement,
-            outputs.velocity,
-            outputs.acceleration,
-            outputs.ratio,
-            outputs.restoring_force,
-            outputs.damping_force,
-            outputs.reactions.bottom,
-            outputs.reactions.top,
-            sample.support.bottom,
-            sample.support.top,
-        ] {
-            let _ = write!(csv, ",{value:?}");
-        }
-        if tied {
-            let _ = write!(csv, ",{:?}", outputs.tie_force);
-        }
-        csv.push('\n');
-    }
-    csv
 }
 
 fn json(scene: &Scene, response: &Response) -> Result<String> {

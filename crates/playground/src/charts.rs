@@ -1,0 +1,96 @@
+//! The charts of a run.
+
+use figures::plot::{Picture, Plot};
+use figures::response as plots;
+use rocking_wall::response::{Response, Sample};
+use rocking_wall::wall::Wall;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// A fallen wall leaves the plot at this part of `u_ins`: drawn further it would look like one at rest.
+const EDGE: f64 = 1.25;
+/// Part of the time before a fall that is shown after it.
+const AFTER_FALL: f64 = 0.15;
+/// Limits of the width of a chart \[px\].
+const WIDTHS: [f64; 2] = [280.0, 1200.0];
+
+/// The history, the motion and the restoring force of a run.
+pub(crate) struct Charts {
+    history: Plot,
+    motion: Plot,
+    force: Plot,
+}
+
+impl Charts {
+    /// Draws a run at a width \[px\].
+    pub(crate) fn new(wall: &Wall, response: &Response, width: f64) -> Self {
+        let width = width.clamp(WIDTHS[0], WIDTHS[1]);
+        let end = shown_end(response);
+        let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
+        let fallen = |sample: &&Sample| {
+            response.summary.overturn_time.is_some_and(|time| sample.time > time)
+                && sample.outputs.ratio.abs() > EDGE
+        };
+        let standing = shown.iter().position(fallen).map_or(shown.len(), |first| first + 1);
+        let ratio = |sample: &&Sample| (sample.time, sample.outputs.ratio.clamp(-EDGE, EDGE));
+        let ratios: Vec<_> = shown[..standing].iter().map(ratio).collect();
+        let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
+        let of = |pick: fn(f64, f64) -> f64| ratios.iter().map(|point| point.1).fold(0.0, pick);
+        let path = [of(f64::min), of(f64::max)];
+        let u_ins = wall.body().instability;
+        let backbone = wall.backbone();
+        let backbone: Vec<_> = backbone.iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
+        let sized = |height: f64, plot: Plot| Plot { size: [width, height], ..plot };
+        Self {
+            history: sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end)),
+            motion: sized(150.0, plots::motion(&ground, None, end)),
+            force: sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, path)),
+        }
+    }
+
+    /// Returns the charts as inline SVG, with what a cursor needs.
+    pub(crate) fn inline(&self) -> Value {
+        let chart = |plot: &Plot| json!({ "svg": plot.svg(), "area": plot.area(), "ranges": plot.ranges() });
+        json!({
+            "history": chart(&self.history),
+            "motion": chart(&self.motion),
+            "force": chart(&self.force),
+        })
+    }
+
+    /// Returns the charts as one SVG file.
+    pub(crate) fn file(self) -> String {
+        Picture::stacked(&[self.history, self.motion, self.force]).svg()
+    }
+}
+
+/// The end of the time axes \[s\]: soon after a fall.
+fn shown_end(response: &Response) -> f64 {
+    let end = response.summary.end_time;
+    response.summary.overturn_time.map_or(end, |time| end.min((1.0 + AFTER_FALL) * time + 0.5))
+}
+
+/// The motion of the wall for its drawing, with the digits that a drawing needs.
+#[derive(Debug, Serialize)]
+pub(crate) struct Frames {
+    /// Times \[s\].
+    t: Vec<f32>,
+    /// Displacements \[m\].
+    u: Vec<f32>,
+    /// Restoring forces \[kN\].
+    f: Vec<f32>,
+}
+
+impl Frames {
+    pub(crate) fn of(response: &Response) -> Self {
+        let end = shown_end(response);
+        let shown = || response.samples.iter().take_while(|sample| sample.time <= end);
+        #[allow(clippy::cast_possible_truncation, reason = "a drawing has no more digits")]
+        let column = |pick: fn(&Sample) -> f64| shown().map(|sample| pick(sample) as f32).collect();
+        Self {
+            t: column(|sample| sample.time),
+            u: column(|sample| sample.outputs.displacement),
+            f: column(|sample| 1e-3 * sample.outputs.restoring_force),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The fragility of a wall under twenty synthetic motions.
+
+use figures::number;
+use figures::palette::{AMBER, BLUE, GREY, Mark};
+use figures::plot::{Axis, Look, Plot, Series};
+use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
+use rocking_wall::variables::{DampingModel, DampingSource, Impact};
+use rocking_wall::wall::Parameters;
+use serde_json::{Value, json};
+use study::fragility::{Bootstrap, ObservationKind, Summary, compare, steps};
+use study::ida::{
+    Curve, Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, RatioSource, Study,
+};
+
+/// Synthetic motions, with the seeds 1, 2, …
+const MOTIONS: u32 = 20;
+/// Their length and step \[s\].
+const DURATION: f64 = 20.0;
+const STEP: f64 = 0.01;
+/// Limit states as fractions of `u_ins`, their names and colours.
+const STATES: [(f64, &str, &str); 2] = [(0.4, "moderate damage, 0.4 u_ins", AMBER), (1.0, "collapse", BLUE)];
+/// Resamples of the bootstrap, and its seed.
+const RESAMPLES: usize = 400;
+const SEED: u64 = 1;
+
+/// A fragility in the making: motion after motion, so that the page can show how far it is.
+#[derive(Debug)]
+pub(crate) struct Fragility {
+    study: Study,
+    curves: Vec<Curve>,
+    width: f64,
+    /// Peak acceleration of the motion that the page shows \[m/s²\].
+    peak: Option<f64>,
+}
+
+impl Fragility {
+    /// Prepares the fragility of a wall.
+    ///
+    /// # Errors
+    /// Why a study cannot have this wall.
+    pub(crate) fn new(parameters: Parameters, width: f64, peak: Option<f64>) -> Result<Self, String> {
+        let model = Model::new(damping(&parameters)?);
+        let walls = vec![NamedWall::new("the wall", parameters)];
+        let record = |seed: u32| {
+            let recipe = SyntheticMotion { seed: seed.into(), duration: DURATION, step: STEP, peak: 1.0 };
+            recipe.motion().map(|motion| NamedRecord { name: format!("synthetic {seed}"), motion })
+        };
+        let records: Result<Vec<_>, _> = (1..=MOTIONS).map(record).collect();
+        let records = records.map_err(|error| error.to_string())?;
+        let levels = Levels::HuntAndFill {
+            first: 0.05 * STANDARD_GRAVITY,
+            increase: 0.05 * STANDARD_GRAVITY,
+            top: 10.0 * STANDARD_GRAVITY,
+            resolution: 0.02,
+            gap: 0.25,
+        };
+        let study = Study::new(walls, records, vec![model], IntensityMeasure::Pga, levels);
+        let study = study.map_err(|error| error.to_string())?;
+        Ok(Self { study, curves: Vec::new(), width, peak })
+    }
+
+    /// Runs the next motion; says how many are done, and after the last one the result.
+    ///
+    /// # Errors
+    /// Why a run failed.
+    pub(crate) fn next(&mut self) -> Result<Value, String> {
+        let done = self.curves.len();
+        if done < self.study.count() {
+            let curve = self.study.curve(self.study.case(done)).map_err(|error| error.to_string())?;
+            self.curves.push(curve);
+        }
+        let (done, count) = (self.curves.len(), self.study.count());
+        let result = (done == count).then(|| self.result());
+        Ok(json!({ "done": done, "count": count, "result": result }))
+    }
+
+    fn result(&self) -> Value {
+        let exceedances = |fraction| self.curves.iter().map(|c| c.exceedance(fraction, false)).collect();
+        let states: Vec<Vec<Exceedance>> = STATES.iter().map(|state| exceedances(state.0)).collect();
+        let bootstrap = Bootstrap::new(states[0].len(), RESAMPLES, SEED);
+        let summaries = compare(std::slice::from_ref(&states), 0, &ObservationKind::Records, &bootstrap);
+        let summaries: Vec<&Summary> = summaries.iter().filter_map(|state| state.first()).collect();
+        let row = |(summary, (_, name, color)): (&&Summary, &(f64, &str, &str))| {
+            let [median, low, high] = summary.theta.texts(STANDARD_GRAVITY, Some(2));
+            let dispersion = summary.fitted.map(|curve| number(curve.dispersion, 2));
+            json!({
+                "name": name,
+                "color": color,
+                "median": median,
+                "interval": [low, high],
+                "dispersion": dispersion.unwrap_or_else(|error| error.to_string()),
+                "never": summary.censored,
+            })
+        };
+        let rows: Vec<_> = summaries.iter().zip(&STATES).map(row).collect();
+        json!({ "states": rows, "svg": self.chart(&states, &summaries).svg() })
+    }
+
+    fn chart(&self, states: &[Vec<Exceedance>], summaries: &[&Summary]) -> Plot {
+        let in_g = |intensity: f64| intensity / STANDARD_GRAVITY;
+        let mut empirical: Vec<Vec<(f64, f64)>> = Vec::new();
+        for state in states {
+            let steps = steps(state).into_iter().filter(|step| step.0.is_finite());
+            empirical.push(steps.map(|(intensity, part)| (in_g(intensity), part)).collect());
+        }
+        let largest = empirical.iter().flatten().map(|point| point.0).fold(0.1, f64::max);
+        let right = 1.1 * largest.max(self.peak.map_or(0.0, in_g).min(2.0 * largest));
+        let mut series = Vec::new();
+        for ((marks, summary), (_, _, color)) in empirical.into_iter().zip(summaries).zip(STATES) {
+            if let Ok(curve) = summary.fitted {
+                let at = |k: u32| 0.005 * f64::from(k) * right;
+                let point = |x: f64| (x, curve.probability(x * STANDARD_GRAVITY));
+                series.push(Series::line(color, 1.8, (1..=200).map(at).map(point).collect()));
+            }
+            series.push(Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 2.5, marks) });
+        }
+        if let Some(peak) = self.peak.map(in_g).filter(|peak| *peak <= right) {
+            let look = Look::Dashed;
+            series.push(Series { look, ..Series::line(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
+        }
+        let size = [self.width.clamp(280.0, 700.0), 280.0];
+        let axes = [Axis::over("peak ground acceleration (g)", [0.0, right])];
+        let [x] = axes;
+        Plot::new(size, [x, Axis::over("probability", [0.0, 1.02])], series)
+    }
+}
+
+/// The energy loss of a wall as a study knows it.
+fn damping(parameters: &Parameters) -> Result<Damping, String> {
+    let source = |given: f64| match parameters.damping_source {
+        DampingSource::Given => RatioSource::Given(given),
+        DampingSource::Predicted => RatioSource::Predicted,
+    };
+    let (ratio, c_bar) = (source(parameters.xi), source(parameters.c_bar));
+    match (parameters.damping_model, parameters.impact) {
+        (DampingModel::None, Impact::None) => Ok(Damping::None),
+        (DampingModel::None, Impact::Restitution) => Ok(Damping::Restitution),
+        (_, Impact::Restitution) => Err("a fragility has viscous damping or restitution at impacts, not \
+                                         both; set damping_model = none or impact = none"
+            .to_owned()),
+        (DampingModel::ConstantCoefficient, _) => Ok(Damping::ConstantCoefficient(ratio)),
+        (DampingModel::FreeStandingBlock, _) => Ok(Damping::FreeStandingBlock(c_bar)),
+        (DampingModel::ConstantRatio, _) => Ok(Damping::ConstantRatio(ratio)),
+        (DampingModel::StiffnessProportional, _) => Ok(Damping::StiffnessProportional(ratio)),
+    }
+}

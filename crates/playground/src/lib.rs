@@ -1,0 +1,45 @@
+//! A page that computes rocking walls in the browser.
+//!
+//! The crate compiles to WebAssembly. The page sends a request as JSON and gets an answer as JSON: the
+//! library computes, `figures` draws, the page's script only shows. On other machines the crate is a library
+//! of the same answers, for tests, and the program `playground-page` that packs the page into one file.
+//!
+//! ```
+//! use playground::Session;
+//!
+//! let mut session = Session::default();
+//! let request = r#"{"run": {"parameters": {"height": "3"}, "motion": {"kind": "none"}, "width": 600}}"#;
+//! assert!(session.answer(request).contains("\"headline\":"));
+//! let request = r#"{"run": {"parameters": {"height": "-3"}, "motion": {"kind": "none"}, "width": 600}}"#;
+//! assert!(session.answer(request).contains("height = -3 m is below its limit"));
+//! ```
+//!
+//! Each module uses only modules above it in this table:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `request` | what the page asks for, and what is wrong with it, field by field |
+//! | `parameters` | what the page's fields need to know of the model description |
+//! | `upload` | the record file that the user has dropped |
+//! | `scene` | from a request to a scene, and to its text |
+//! | `verdict` | the result in a sentence, and its numbers |
+//! | `charts` | the charts of a run |
+//! | `fragility` | the fragility of a wall under twenty synthetic motions |
+//! | `session` | from a request to its answer |
+//! | `boundary` | the functions that WebAssembly exports |
+
+#[cfg(target_arch = "wasm32")]
+mod boundary;
+mod charts;
+mod fragility;
+mod parameters;
+mod request;
+mod scene;
+mod session;
+mod upload;
+mod verdict;
+
+pub use session::Session;
+
+#[cfg(test)]
+mod tests;

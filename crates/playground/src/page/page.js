@@ -1,0 +1,308 @@
+const at = id => document.getElementById(id);
+const make = (tag, properties = {}, ...children) => {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+};
+const values = {}, starts = {}, rows = {};
+let library, shown = null, timings = [];
+
+// ---- the library
+async function unpacked() {
+  const text = atob(at("library").textContent);
+  const bytes = Uint8Array.from(text, character => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+let compiled, record = null;
+async function start() {
+  // a clock for the optimiser of calibrations, which the page has not: nothing calls these
+  const imports = {};
+  for (const { module, name } of WebAssembly.Module.imports(compiled)) {
+    (imports[module] ??= {})[name] = () => { throw new Error(`${name} is missing`); };
+  }
+  library = (await WebAssembly.instantiate(compiled, imports)).exports;
+  if (record !== null) { keep(record); }
+}
+function write(bytes) {
+  const place = library.reserve(bytes.length);
+  new Uint8Array(library.memory.buffer, place, bytes.length).set(bytes);
+}
+function keep(bytes) {
+  write(bytes);
+  library.keep_record();
+}
+// Asks the library; its answer, or an object of faults by field.
+function ask(request) {
+  try {
+    write(new TextEncoder().encode(JSON.stringify(request)));
+    const length = library.answer();
+    const bytes = new Uint8Array(library.memory.buffer, library.reply(), length);
+    return JSON.parse(new TextDecoder().decode(bytes));
+  } catch (error) {
+    start();
+    return { faults: { wall: `The library stopped (${error.message}). Choose other values.` } };
+  }
+}
+
+// ---- the fields
+function build(described) {
+  for (const [title, fields] of GROUPS) {
+    const set = make("fieldset", {}, make("legend", { textContent: title }), make("div"));
+    const more = make("details", {}, make("summary", { textContent: "More" }));
+    for (const field of fields) {
+      const about = described.find(one => one.name === field.name);
+      field.parameter = about !== undefined;
+      starts[field.name] = values[field.name] = field.start ?? about.default;
+      (field.more ? more : set).append(row(field, about ?? {}));
+    }
+    if (fields.some(field => field.more)) { set.append(more); }
+    set.append(make("p", { className: "fault", hidden: true, role: "alert" }));
+    set.dataset.title = title;
+    at("controls").append(set);
+  }
+}
+function row(field, about) {
+  const id = `field_${field.name}`, meaning = about.meaning ?? "";
+  const label = make("label", { textContent: field.label, htmlFor: id, title: meaning });
+  const fault = make("p", { className: "fault", hidden: true, role: "alert", id: `fault_${field.name}` });
+  const element = make("div", { className: "field" }, label);
+  const choices = about.choices?.length ? about.choices.map(choice => choice.name) : null;
+  const names = choices ?? (field.names && Object.keys(field.names));
+  if (field.file) {
+    const input = make("input", { type: "file", id });
+    input.addEventListener("change", () => input.files.length && load(input.files[0]));
+    element.append(input);
+  } else if (names) {
+    const options = names.map(name => make("option", {
+      value: name, textContent: field.names?.[name] ?? name.replaceAll("_", " "),
+      title: about.choices?.find(choice => choice.name === name)?.meaning ?? "" }));
+    const select = make("select", { id, title: meaning }, ...options);
+    select.addEventListener("change", () => set(field.name, select.value));
+    element.classList.add("choice");
+    element.append(select);
+  } else {
+    const input = make("input", { type: "text", id, inputMode: "decimal", title: meaning });
+    input.setAttribute("aria-describedby", fault.id);
+    input.addEventListener("input", () => set(field.name, input.value));
+    element.append(input, make("small", { textContent: (field.unit ?? about.unit ?? "").replace("2", "²")
+      .replace("m3", "m³") }));
+    if (field.range) {
+      const [min, max, step] = field.range;
+      const slider = make("input", { type: "range", min, max, step, id: `slider_${field.name}` });
+      slider.setAttribute("aria-label", field.label);
+      slider.addEventListener("input", () => set(field.name, slider.value));
+      element.append(slider);
+    }
+  }
+  element.append(fault);
+  rows[field.name] = element;
+  return element;
+}
+// Shows the values in the fields, and the fields that matter.
+function refresh() {
+  for (const field of FIELDS) {
+    const element = rows[field.name], value = values[field.name];
+    element.hidden = !(field.when?.(values) ?? true);
+    for (const input of element.querySelectorAll("input:not([type=file]), select")) {
+      if (input.value !== value && !(input === document.activeElement && input.type === "text")) {
+        input.value = value;
+      }
+    }
+  }
+  for (const details of document.querySelectorAll("form details")) {
+    details.hidden = ![...details.querySelectorAll(".field")].some(element => !element.hidden);
+  }
+}
+function set(name, value) {
+  values[name] = value;
+  if (name === "kind" && value === "none") { values.u_start = "0.18"; }
+  refresh();
+  schedule();
+}
+async function load(file) {
+  record = new Uint8Array(await file.arrayBuffer());
+  keep(record);
+  values.record = file.name;
+  set("kind", "record");
+}
+
+// ---- what is asked and answered
+function inputs(width) {
+  const parameters = {}, motion = {};
+  for (const field of FIELDS.filter(field => !rows[field.name].hidden)) {
+    (field.parameter ? parameters : motion)[field.name] = values[field.name];
+  }
+  return { parameters, motion, width };
+}
+let waiting = false;
+function schedule() {
+  if (!waiting) {
+    waiting = true;
+    requestAnimationFrame(() => { waiting = false; run(); });
+  }
+}
+function run() {
+  const begin = performance.now();
+  const { answer, faults } = ask({ run: inputs(at("history").clientWidth) });
+  tell(faults ?? {});
+  if (answer) { show({ ...answer, frames: ask("frames").answer }); }
+  timings.push(performance.now() - begin);
+  at("fragility_result").classList.add("stale");
+  remember();
+}
+// Puts each message beside its field; what has no field goes into the verdict.
+function tell(faults) {
+  const left = { ...faults };
+  for (const [name, element] of Object.entries(rows)) {
+    const fault = element.querySelector(".fault"), message = left[name] ?? "";
+    delete left[name];
+    if (fault.textContent !== message) { fault.textContent = message; }
+    fault.hidden = message === "";
+    element.classList.toggle("wrong", message !== "");
+    if (message !== "") { element.hidden = false; element.closest("details")?.setAttribute("open", ""); }
+  }
+  const wrong = Object.keys(faults).length > 0;
+  document.querySelector(".result").classList.toggle("stale", wrong);
+  if (wrong) {
+    at("verdict").className = "verdict wrong";
+    at("headline").textContent = "This wall cannot be computed";
+    at("detail").textContent = Object.values(left).join(" ") || "See the message beside the field.";
+  }
+}
+function show(answer) {
+  shown = answer;
+  at("verdict").className = `verdict ${answer.verdict.state}`;
+  at("headline").textContent = answer.verdict.headline;
+  at("detail").textContent = answer.verdict.detail;
+  at("warnings").replaceChildren(...answer.warnings.map(textContent => make("li", { textContent })));
+  at("facts").replaceChildren(...answer.facts.map(pair =>
+    make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
+  for (const [id, chart] of Object.entries(answer.charts)) {
+    at(id).innerHTML = chart.svg + `<div class="${id === "force" ? "dot" : "cursor"}"></div>`;
+    const svg = at(id).querySelector("svg");
+    svg.setAttribute("role", "img");
+    svg.setAttribute("aria-label", at(id).closest("figure").querySelector("figcaption").textContent);
+  }
+  at("scene").textContent = answer.toml;
+  const times = answer.frames.t;
+  at("time").max = times.length - 1;
+  draw(answer.wall);
+  const instant = answer.summary.overturn_time ?? answer.summary.peak_time;
+  const frame = times.findIndex(time => time >= instant);
+  pose(playing === null ? (frame < 0 ? times.length - 1 : frame)
+    : Math.min(Number(at("time").value), times.length - 1));
+}
+
+// ---- fragility
+let round = 0;
+function fragility() {
+  const mine = ++round, begin = performance.now();
+  const end = faults => {
+    at("progress").hidden = true;
+    at("fragility_fault").textContent = Object.values(faults).join(" ");
+    at("fragility_fault").hidden = Object.keys(faults).length === 0;
+  };
+  const { faults } = ask({ fragility: inputs(Math.min(700, at("controls").parentElement.clientWidth)) });
+  if (faults) { end(faults); return; }
+  at("progress").hidden = false;
+  at("progress").value = 0;
+  const next = () => {
+    if (mine !== round) { return; }
+    const { answer, faults } = ask("next_motion");
+    if (faults) { end(faults); return; }
+    at("progress").value = answer.done;
+    if (answer.result === null) { setTimeout(next); return; }
+    end({});
+    const cell = textContent => make("td", { textContent });
+    at("states").replaceChildren(...answer.result.states.map(state => {
+      const name = cell("");
+      const mark = make("i");
+      mark.style.background = state.name === "collapse" ? "var(--blue)" : "var(--amber)";
+      name.append(mark, state.name);
+      const interval = state.interval.join(" to ");
+      return make("tr", {}, name, cell(state.median), cell(interval), cell(state.dispersion));
+    }));
+    at("fragility_chart").innerHTML = answer.result.svg;
+    at("fragility_result").hidden = false;
+    at("fragility_result").classList.remove("stale");
+    window.playground.fragility = { milliseconds: performance.now() - begin, ...answer.result };
+  };
+  setTimeout(next);
+}
+
+// ---- files and links
+function hash() {
+  const changed = FIELDS.filter(({ name }) => !rows[name].hidden && values[name] !== starts[name]);
+  return new URLSearchParams(changed.map(({ name }) => [name, values[name]])).toString();
+}
+let remembering = null;
+function remember() {
+  clearTimeout(remembering);
+  remembering = setTimeout(() => history.replaceState(null, "", `#${hash()}`), 250);
+}
+function recall() {
+  Object.assign(values, starts);
+  for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
+    if (Object.hasOwn(values, name)) { values[name] = value; }
+  }
+  refresh();
+  schedule();
+}
+async function copy(text, what) {
+  try {
+    await navigator.clipboard.writeText(text);
+    at("done").textContent = `${what} copied.`;
+  } catch {
+    at("done").textContent = "The browser does not allow copying; select the text instead.";
+  }
+}
+function save(kind, name, type) {
+  const { answer, faults } = ask(kind);
+  if (faults) { at("done").textContent = Object.values(faults).join(" "); return; }
+  const link = make("a", { href: URL.createObjectURL(new Blob([answer], { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+function listen() {
+  at("controls").addEventListener("submit", event => event.preventDefault());
+  at("play").addEventListener("click", () => playing === null ? play() : stop());
+  at("time").addEventListener("input", () => { stop(); pose(Number(at("time").value)); });
+  for (const id of ["history", "motion"]) {
+    for (const kind of ["pointerdown", "pointermove"]) { at(id).addEventListener(kind, scrub); }
+  }
+  at("fragility").addEventListener("click", fragility);
+  at("copy_scene").addEventListener("click", () => copy(shown?.toml ?? "", "Scene file"));
+  at("copy_link").addEventListener("click", () =>
+    copy(`${location.href.split("#")[0]}#${hash()}`, "Link"));
+  at("save_csv").addEventListener("click", () => save("csv", "history.csv", "text/csv"));
+  at("save_svg").addEventListener("click", () => save("svg", "wall.svg", "image/svg+xml"));
+  document.addEventListener("dragover", event => {
+    event.preventDefault();
+    document.body.classList.add("dropping");
+  });
+  document.addEventListener("dragleave", () => document.body.classList.remove("dropping"));
+  document.addEventListener("drop", event => {
+    event.preventDefault();
+    document.body.classList.remove("dropping");
+    if (event.dataTransfer.files.length) { load(event.dataTransfer.files[0]); }
+  });
+  window.addEventListener("hashchange", recall);
+  let width = innerWidth;
+  window.addEventListener("resize", () => {
+    if (innerWidth !== width) { width = innerWidth; schedule(); }
+  });
+}
+// for tests
+window.playground = { ask, timings, shown: () => shown, load, fragility: null };
+unpacked().then(async module => {
+  compiled = module;
+  await start();
+  build(ask("parameters").answer);
+  listen();
+  recall();
+}).catch(error => {
+  at("headline").textContent = "This browser cannot run the library";
+  at("detail").textContent = `It needs WebAssembly and DecompressionStream: ${error.message}`;
+});

@@ -1,0 +1,91 @@
+// The drawn wall: its bodies turn as the history says, and cursors follow.
+let factor = 1;
+function draw(wall) {
+  const { height: h, thickness: b, hinge, overburden } = wall, falls = shown.summary.overturn_time !== null;
+  const arm = hinge === null ? h / 2 : Math.min(hinge, h - hinge);
+  const largest = shown.summary.u_max / arm;
+  factor = falls ? 1 : [10, 5, 2, 1].find(one => one * largest <= 0.3) ?? 1;
+  at("shown").textContent = factor === 1 ? "To scale" : `To scale, displacement\u00a0×\u00a0${factor}`;
+  const half = falls ? 1.05 * h : Math.max(0.5 * h, 1.4 * b);
+  const top = 0.16 * h, below = 0.1 * h, line = 0.006 * h;
+  const rect = (name, x, y, width, height) =>
+    `<rect class="${name}" x="${x}" y="${y}" width="${width}" height="${height}"/>`;
+  const load = overburden > 0 ? `<path class="load" d="M0 ${h + line}l${-3 * line} ${6 * line}h${2 * line}` +
+    `v${0.08 * h}h${2 * line}v${-0.08 * h}h${2 * line}z"/>` : "";
+  const support = hinge === null ? "" : rect("support", -20 * h, h, 20 * h - b, 0.05 * h) +
+    rect("support", b, h, 20 * h, 0.05 * h);
+  const bodies = hinge === null ? `<g id="lower">${rect("body", -b / 2, 0, b, h)}${load}</g>`
+    : `<g id="lower">${rect("body", -b / 2, 0, b, hinge)}</g>` +
+      `<g id="upper">${rect("body", -b / 2, hinge, b, h - hinge)}${load}</g>`;
+  at("wall").setAttribute("viewBox", `${-half} ${-(h + top)} ${2 * half} ${h + top + below}`);
+  at("wall").innerHTML = `<g transform="scale(1 -1)" stroke-width="${line}">` +
+    rect("support", -20 * h, -20 * h, 40 * h, 20 * h) + `<path class="line" d="M${-20 * h} 0H${20 * h}"/>` +
+    `${support}<path class="line" stroke-dasharray="${4 * line}" d="M0 0V${1.1 * h}"/>${bodies}</g>`;
+}
+// Turns the bodies: the point of a body at the height `arm` is displaced by u.
+function pose(frame) {
+  const { wall, frames, summary, charts } = shown, degrees = 180 / Math.PI;
+  const u = frames.u[frame], t = frames.t[frame];
+  const angle = arm => Math.asin(Math.max(-1, Math.min(1, factor * u / arm)));
+  const b = wall.thickness, toe = (u < 0 ? -1 : 1) * b / 2;
+  if (wall.hinge === null) {
+    at("lower").setAttribute("transform", `rotate(${-angle(wall.height / 2) * degrees} ${toe} 0)`);
+  } else {
+    const h1 = wall.hinge, turn = angle(h1), back = angle(wall.height - h1);
+    at("lower").setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
+    // the hinge opens on the other face: the corner (-toe, h1) of the lower body carries the upper one
+    const x = toe - 2 * toe * Math.cos(turn) + h1 * Math.sin(turn);
+    const y = 2 * toe * Math.sin(turn) + h1 * Math.cos(turn);
+    at("upper").setAttribute("transform",
+      `translate(${x + toe} ${y - h1}) rotate(${back * degrees} ${-toe} ${h1})`);
+  }
+  const ratio = u / wall.u_ins[u < 0 ? 1 : 0];
+  at("time").value = frame;
+  at("time").setAttribute("aria-valuetext", `${t.toFixed(2)} s`);
+  const fallen = summary.overturn_time !== null && t >= summary.overturn_time;
+  at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
+    : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
+  for (const [id, chart] of Object.entries(charts)) {
+    const [left, right, top, bottom] = chart.area, [x0, x1, y0, y1] = chart.ranges;
+    const mark = at(id).querySelector(".cursor, .dot");
+    const x = ((id === "force" ? ratio : t) - x0) / (x1 - x0);
+    mark.style.left = `${100 * (left + (right - left) * x)}%`;
+    if (id === "force") {
+      const y = (y1 - frames.f[frame]) / (y1 - y0);
+      mark.hidden = x < 0 || x > 1 || y < 0 || y > 1;
+      mark.style.top = `${100 * (top + (bottom - top) * y)}%`;
+    } else {
+      mark.style.top = `${100 * top}%`;
+      mark.style.height = `${100 * (bottom - top)}%`;
+    }
+  }
+}
+let playing = null;
+function stop() {
+  cancelAnimationFrame(playing);
+  playing = null;
+  at("play").textContent = "Play";
+}
+function play() {
+  const last = () => shown.frames.t.length - 1;
+  if (Number(at("time").value) >= last()) { pose(0); }
+  let time = shown.frames.t[Number(at("time").value)], before = performance.now();
+  const tick = now => {
+    time += Math.max(0, now - before) / 1000;
+    before = now;
+    let frame = Math.min(Number(at("time").value), last());
+    while (frame < last() && shown.frames.t[frame + 1] <= time) { frame += 1; }
+    pose(frame);
+    if (frame >= last()) { stop(); } else { playing = requestAnimationFrame(tick); }
+  };
+  at("play").textContent = "Pause";
+  playing = requestAnimationFrame(tick);
+}
+function scrub(event) {
+  if (shown === null || (event.type === "pointermove" && event.buttons === 0)) { return; }
+  const plot = event.currentTarget, chart = shown.charts[plot.id], box = plot.getBoundingClientRect();
+  const part = ((event.clientX - box.left) / box.width - chart.area[0]) / (chart.area[1] - chart.area[0]);
+  const time = chart.ranges[0] + part * (chart.ranges[1] - chart.ranges[0]);
+  stop();
+  pose(Math.max(0, shown.frames.t.findLastIndex(one => one <= time)));
+}

@@ -1,0 +1,55 @@
+//! What the page asks for, and what is wrong with it, field by field.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// Fields of the page and their texts.
+pub(crate) type Fields = BTreeMap<String, String>;
+/// Fields of the page and what is wrong with each.
+pub(crate) type Faults = BTreeMap<String, String>;
+
+/// A request of the page.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum Request {
+    /// Describe the parameters.
+    Parameters,
+    /// Run a wall under a motion.
+    Run(Inputs),
+    /// Start the fragility of a wall.
+    Fragility(Inputs),
+    /// Run the next motion of the fragility.
+    NextMotion,
+    /// Return the frames of the last run.
+    Frames,
+    /// Return the history of the last run as CSV.
+    Csv,
+    /// Return the charts of the last run as one SVG file.
+    Svg,
+}
+
+/// What the user has chosen.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Inputs {
+    /// Parameters of the wall by the names of the model description, those that differ from the default.
+    pub(crate) parameters: Fields,
+    /// `kind`, and the keys of this kind of motion.
+    pub(crate) motion: Fields,
+    /// Width of the charts \[px\].
+    pub(crate) width: f64,
+}
+
+/// Finds the field that a message names first; `otherwise` where it names none of them.
+pub(crate) fn field_of<'a>(
+    message: &str,
+    fields: impl IntoIterator<Item = &'a str>,
+    otherwise: &str,
+) -> String {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let words: Vec<&str> = message.split(|c: char| !is_part(c)).collect();
+    let place = |field: &&str| words.iter().position(|word| word == field);
+    let found = fields.into_iter().filter_map(|field| place(&field).map(|place| (place, field))).min();
+    found.map_or(otherwise, |(_, field)| field).to_owned()
+}

@@ -1,0 +1,138 @@
+//! From a request to a scene, and to its text.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError, to_toml};
+use rocking_wall::simulation::Excitation;
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::Wall;
+
+use crate::request::{Faults, Fields, Inputs, field_of};
+use crate::upload::Upload;
+
+/// Most points of a history: more than a screen shows.
+const MOST_POINTS: f64 = 4000.0;
+
+/// A scene, its wall, and the text of its scene file.
+#[derive(Debug)]
+pub(crate) struct Prepared {
+    pub(crate) scene: Scene,
+    pub(crate) wall: Wall,
+    pub(crate) toml: String,
+}
+
+/// Prepares the scene that the inputs describe.
+///
+/// # Errors
+/// What is wrong, field by field.
+pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, Faults> {
+    let (mut scene, motion) = shaken(&inputs.motion, upload)?;
+    let mut faults = Faults::new();
+    for (name, text) in &inputs.parameters {
+        if let Err(error) = scene.set(name, text) {
+            faults.insert(name.clone(), error.to_string());
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let wall = Wall::new(&scene.parameters).map_err(|error| {
+        let message = error.to_string();
+        let field = field_of(&message, inputs.parameters.keys().map(String::as_str), "wall");
+        Faults::from([(field, message)])
+    })?;
+    // a multiple of the step of the motion
+    scene.output_step *= (scene.stop_time / (MOST_POINTS * scene.output_step)).ceil().max(1.0);
+    scene.title = title(&scene);
+    let toml = to_toml(&scene, &motion);
+    Ok(Prepared { scene, wall, toml })
+}
+
+fn title(scene: &Scene) -> String {
+    let kind = match scene.parameters.mechanism {
+        Mechanism::Parapet => "parapet",
+        Mechanism::VerticalSpanning => "strip wall",
+    };
+    format!("A {kind}, {} m × {} m", scene.parameters.height, scene.parameters.thickness)
+}
+
+/// The default wall under the motion of a request, and the text of its `[motion]` table.
+fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Faults> {
+    let kind = motion.get("kind").map_or("none", String::as_str);
+    if kind == "none" {
+        return Ok((Scene::default(), String::new()));
+    }
+    if kind == "record" {
+        return recorded(motion, upload);
+    }
+    let text = table(kind, motion)?;
+    let scene = Scene::parse("motion", &format!("[motion]\n{text}"), Path::new("."));
+    let scene = scene.map_err(|error| {
+        let message = match error {
+            SceneError::Line { message, .. } => message,
+            SceneError::Motion { source, .. } => source.to_string(),
+            other => other.to_string(),
+        };
+        let field = field_of(&message, motion.keys().map(String::as_str), "motion");
+        Faults::from([(field, message)])
+    })?;
+    Ok((scene, text))
+}
+
+/// The default wall under the record file, times its scale.
+fn recorded(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Faults> {
+    let scale = number(motion, "scale")?;
+    let record = upload.record(motion)?;
+    let scaled = record.motion.checked_scaled(scale);
+    let scaled = scaled.map_err(|error| Faults::from([("scale".to_owned(), error.to_string())]))?;
+    let mut notes = vec![format!("record {} ({})", motion["record"], record.format.description())];
+    notes.extend(record.check().warnings.iter().map(ToString::to_string));
+    let mut scene = Scene::default();
+    scene.shake(Excitation::new(scaled, None), DEFAULT_TAIL, notes);
+    let mut text = String::new();
+    for key in ["record", "unit", "column", "channel", "format"] {
+        if let Some(value) = motion.get(key).filter(|value| !value.trim().is_empty()) {
+            // a string of JSON is one of TOML
+            let _ = writeln!(text, "{key} = {}", serde_json::Value::from(value.trim()));
+        }
+    }
+    if motion.get("step").is_some_and(|step| !step.trim().is_empty()) {
+        let _ = writeln!(text, "step = {:?}", number(motion, "step")?);
+    }
+    let _ = writeln!(text, "fingerprint = \"{}\"\nscale = {scale:?}", upload.fingerprint());
+    Ok((scene, text))
+}
+
+/// Writes the `[motion]` table of a motion that is made from numbers.
+fn table(kind: &str, motion: &Fields) -> Result<String, Faults> {
+    let value = |key| number(motion, key);
+    let made = match kind {
+        "synthetic" => {
+            let seed = motion.get("seed").map_or("", |seed| seed.trim());
+            if seed.parse::<u32>().is_err() {
+                let message = format!("seed = {seed:?} is not a whole number from 0 to {}", u32::MAX);
+                return Err(Faults::from([("seed".to_owned(), message)]));
+            }
+            return Ok(format!("synthetic = {{ seed = {seed} }}\npga = {:?}\n", value("pga")?));
+        }
+        "ricker" => format!(", centre = {:?}", value("centre")?),
+        "harmonic" => format!(", duration = {:?}", value("duration")?),
+        "sine_cycle" | "half_sine" => String::new(),
+        other => {
+            let message = format!("there is no motion {other:?}");
+            return Err(Faults::from([("motion".to_owned(), message)]));
+        }
+    };
+    let (amplitude, frequency) = (value("amplitude")?, value("frequency")?);
+    Ok(format!("{kind} = {{ amplitude = {amplitude:?}, frequency = {frequency:?}{made} }}\n"))
+}
+
+/// A number of the motion.
+fn number(motion: &Fields, key: &str) -> Result<f64, Faults> {
+    let text = motion.get(key).map_or("", |text| text.trim());
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(Faults::from([(key.to_owned(), format!("{key} = {text:?} is not a number"))])),
+    }
+}

@@ -1,0 +1,122 @@
+//! From a request to its answer.
+
+use rocking_wall::response::Response;
+use rocking_wall::variables::Mechanism;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::charts::{Charts, Frames};
+use crate::fragility::Fragility;
+use crate::parameters;
+use crate::request::{Faults, Inputs, Request};
+use crate::scene::{Prepared, prepare};
+use crate::upload::Upload;
+use crate::verdict::{facts, verdict};
+
+/// What the page has asked for so far.
+#[derive(Default)]
+pub struct Session {
+    upload: Upload,
+    last: Option<(Prepared, Response)>,
+    fragility: Option<Fragility>,
+}
+
+/// An answer that is no `Value`.
+#[derive(Serialize)]
+struct Reply<T> {
+    answer: T,
+}
+
+impl Session {
+    /// Keeps the bytes of a record file for the runs that follow.
+    pub fn keep_record(&mut self, bytes: Vec<u8>) {
+        self.upload = Upload::new(bytes);
+    }
+
+    /// Answers a request in JSON with JSON: `{"answer": …}`, or `{"faults": {field: message}}`.
+    pub fn answer(&mut self, request: &str) -> String {
+        let answer = match serde_json::from_str(request) {
+            Ok(Request::Parameters) => Ok(parameters::described()),
+            Ok(Request::Run(inputs)) => self.run(&inputs),
+            Ok(Request::Frames) => return self.frames(),
+            Ok(Request::Fragility(inputs)) => self.start_fragility(&inputs),
+            Ok(Request::NextMotion) => self.next_motion(),
+            Ok(Request::Csv) => self.last().map(|(_, response)| response.csv().into()),
+            Ok(Request::Svg) => self.last().map(|(prepared, response)| {
+                Charts::new(&prepared.wall, response, figures::response::WIDTH).file().into()
+            }),
+            Err(error) => Err(Faults::from([("request".to_owned(), error.to_string())])),
+        };
+        match answer {
+            Ok(answer) => json!({ "answer": answer }).to_string(),
+            Err(faults) => json!({ "faults": faults }).to_string(),
+        }
+    }
+
+    /// The frames of the last run; apart from its other numbers, which keep all their digits.
+    fn frames(&self) -> String {
+        let frames = self.last.as_ref().map(|(_, response)| Frames::of(response));
+        serde_json::to_string(&Reply { answer: frames }).unwrap_or_default()
+    }
+
+    fn last(&self) -> Result<&(Prepared, Response), Faults> {
+        self.last
+            .as_ref()
+            .ok_or_else(|| Faults::from([("wall".to_owned(), "nothing has run yet".to_owned())]))
+    }
+
+    fn run(&mut self, inputs: &Inputs) -> Result<Value, Faults> {
+        let prepared = prepare(inputs, &mut self.upload)?;
+        let response = Response::of(&prepared.scene)
+            .map_err(|error| Faults::from([("wall".to_owned(), error.to_string())]))?;
+        let (scene, wall) = (&prepared.scene, &prepared.wall);
+        let (body, summary) = (wall.body(), &response.summary);
+        let mut warnings: Vec<String> = wall.warnings().iter().map(ToString::to_string).collect();
+        if summary.put_to_rest {
+            warnings.push("impacts accumulated beyond their bound: the wall was put to rest".to_owned());
+        }
+        let peak = response.demands.displacement.largest();
+        let answer = json!({
+            "verdict": verdict(scene, wall, &response),
+            "facts": facts(scene, wall, &response),
+            "warnings": warnings,
+            "notes": scene.motion_notes,
+            "charts": Charts::new(wall, &response, inputs.width).inline(),
+            "wall": {
+                "height": body.height,
+                "thickness": scene.parameters.thickness,
+                "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
+                "overburden": body.overburden,
+                "u_ins": [body.instability.positive, body.instability.negative],
+            },
+            "summary": {
+                "u_max": summary.u_max,
+                "u_ratio_max": summary.u_ratio_max,
+                "overturn_time": summary.overturn_time,
+                "peak_time": peak.time,
+            },
+            "toml": prepared.toml,
+        });
+        self.last = Some((prepared, response));
+        Ok(answer)
+    }
+
+    fn start_fragility(&mut self, inputs: &Inputs) -> Result<Value, Faults> {
+        let Prepared { scene, .. } = prepare(inputs, &mut self.upload)?;
+        let peak = scene.excitation.as_ref().map(|excitation| excitation.bottom().peak());
+        let fragility = Fragility::new(scene.parameters, inputs.width, peak).map_err(fragility_fault)?;
+        self.fragility = Some(fragility);
+        Ok(Value::Null)
+    }
+
+    fn next_motion(&mut self) -> Result<Value, Faults> {
+        let Some(fragility) = &mut self.fragility else {
+            return Err(fragility_fault("no fragility has been started".to_owned()));
+        };
+        fragility.next().map_err(fragility_fault)
+    }
+}
+
+fn fragility_fault(message: String) -> Faults {
+    Faults::from([("fragility".to_owned(), message)])
+}

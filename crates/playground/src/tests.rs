@@ -1,0 +1,141 @@
+//! Tests of the answers, without a browser.
+
+use std::fs;
+
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use serde_json::{Value, json};
+
+use crate::Session;
+
+fn ask(session: &mut Session, request: &Value) -> Value {
+    serde_json::from_str(&session.answer(&request.to_string())).unwrap()
+}
+
+fn run(session: &mut Session, parameters: &Value, motion: &Value) -> Value {
+    let inputs = json!({ "parameters": parameters, "motion": motion, "width": 600 });
+    ask(session, &json!({ "run": inputs }))
+}
+
+/// The fault of one field.
+fn fault(parameters: &Value, motion: &Value, field: &str) -> String {
+    let answer = run(&mut Session::default(), parameters, motion);
+    answer["faults"][field].as_str().unwrap_or_else(|| panic!("no fault of {field}: {answer}")).to_owned()
+}
+
+/// The scene file that the page hands out gives the history that it shows, bit for bit.
+#[test]
+fn the_scene_file_computes_the_same() {
+    let cases = [
+        (json!({}), json!({ "kind": "synthetic", "seed": "3", "pga": "2.5" })),
+        (
+            json!({ "mechanism": "vertical_spanning", "force_law": "trilinear", "overburden": "10000" }),
+            json!({ "kind": "ricker", "amplitude": "3", "frequency": "1.5", "centre": "2" }),
+        ),
+        (
+            json!({ "force_law": "rigid_linear", "damping_model": "none", "impact": "restitution" }),
+            json!({ "kind": "harmonic", "amplitude": "2", "frequency": "1", "duration": "4" }),
+        ),
+        (json!({}), json!({ "kind": "sine_cycle", "amplitude": "1.5", "frequency": "1" })),
+        (json!({ "u_start": "0.1" }), json!({ "kind": "none" })),
+    ];
+    for (parameters, motion) in cases {
+        let mut session = Session::default();
+        let answer = run(&mut session, &parameters, &motion);
+        let toml = answer["answer"]["toml"].as_str().unwrap_or_else(|| panic!("{answer}"));
+        let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
+        let csv = ask(&mut session, &json!("csv"));
+        assert_eq!(csv["answer"], Response::of(&scene).unwrap().csv(), "{motion}");
+    }
+}
+
+#[test]
+fn the_scene_of_a_record_computes_the_same() {
+    let folder = std::env::temp_dir().join(format!("playground-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let record = "time,a_g\n0,0\n0.05,2\n0.1,-3\n0.15,1\n0.2,0\n";
+    fs::write(folder.join("quake.csv"), record).unwrap();
+    let mut session = Session::default();
+    session.keep_record(record.into());
+    let motion = json!({ "kind": "record", "record": "quake.csv", "unit": "m/s2", "scale": "1.5" });
+    let answer = run(&mut session, &json!({}), &motion);
+    let toml = answer["answer"]["toml"].as_str().unwrap_or_else(|| panic!("{answer}"));
+    let scene = Scene::parse("scene.toml", toml, &folder).unwrap();
+    assert_eq!(ask(&mut session, &json!("csv"))["answer"], Response::of(&scene).unwrap().csv());
+    // the same bytes read in another way
+    let motion = json!({ "kind": "record", "record": "quake.csv", "unit": "", "scale": "1" });
+    let answer = run(&mut session, &json!({}), &motion);
+    assert!(answer["faults"]["record"].as_str().unwrap().contains("give `unit`"), "{answer}");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_message_stands_beside_its_field() {
+    let none = json!({ "kind": "none" });
+    let synthetic = json!({ "kind": "synthetic", "seed": "1", "pga": "2" });
+    assert!(fault(&json!({ "height": "-3" }), &none, "height").contains("below its limit"));
+    assert!(fault(&json!({ "height": "tall" }), &none, "height").contains("is not a number"));
+    assert!(fault(&json!({ "a1": "0.9", "a3": "0.5" }), &synthetic, "a1").contains("smaller than a3"));
+    let pulled = json!({ "overburden": "1e5", "overburden_eccentricity": "0.5" });
+    assert!(fault(&pulled, &none, "overburden").contains("no rocking strength"));
+    let pulse =
+        |amplitude, frequency| json!({ "kind": "half_sine", "amplitude": amplitude, "frequency": frequency });
+    assert!(fault(&json!({}), &pulse("1", "-1"), "frequency").contains("must be"));
+    assert!(fault(&json!({}), &pulse("", "1"), "amplitude").contains("is not a number"));
+    let seed = json!({ "kind": "synthetic", "seed": "1.5", "pga": "2" });
+    assert!(fault(&json!({}), &seed, "seed").contains("whole number"));
+    let record = json!({ "kind": "record", "record": "", "scale": "1" });
+    assert!(fault(&json!({}), &record, "record").contains("drop a record"));
+}
+
+#[test]
+fn the_verdict_says_whether_the_wall_falls() {
+    let headline = |pga: &str| {
+        let motion = json!({ "kind": "synthetic", "seed": "1", "pga": pga });
+        let answer = run(&mut Session::default(), &json!({}), &motion);
+        answer["answer"]["verdict"]["headline"].as_str().unwrap().to_owned()
+    };
+    assert!(headline("2.5").starts_with("The wall stands: it uses "));
+    assert!(headline("20").starts_with("The wall falls at "));
+    assert_eq!(headline("0.01"), "The wall stands and hardly moves");
+}
+
+#[test]
+fn a_history_has_at_most_4000_points() {
+    let motion = json!({ "kind": "harmonic", "amplitude": "0.5", "frequency": "1", "duration": "20" });
+    let mut session = Session::default();
+    run(&mut session, &json!({}), &motion);
+    let frames = ask(&mut session, &json!("frames"));
+    let times = frames["answer"]["t"].as_array().unwrap();
+    assert!((2000..=4001).contains(&times.len()), "{}", times.len());
+}
+
+#[test]
+fn every_parameter_is_described() {
+    let answer = ask(&mut Session::default(), &json!("parameters"));
+    let all = answer["answer"].as_array().unwrap();
+    let height = all.iter().find(|one| one["name"] == "height").unwrap();
+    assert_eq!((&height["default"], &height["unit"]), (&json!("4"), &json!("m")));
+    assert!(all.iter().all(|one| !one["default"].as_str().unwrap().is_empty()));
+}
+
+#[test]
+fn a_fragility_comes_from_twenty_motions() {
+    let mut session = Session::default();
+    let wall = |parameters| json!({ "parameters": parameters, "motion": { "kind": "none" }, "width": 600 });
+    let both = json!({ "impact": "restitution" });
+    let refused = ask(&mut session, &json!({ "fragility": wall(both) }));
+    assert!(refused["faults"]["fragility"].as_str().unwrap().contains("not both"));
+    assert!(ask(&mut session, &json!("next_motion"))["faults"]["fragility"].is_string());
+
+    ask(&mut session, &json!({ "fragility": wall(json!({ "height": "2" })) }));
+    let mut last = Value::Null;
+    for done in 1..=20 {
+        last = ask(&mut session, &json!("next_motion"));
+        assert_eq!(last["answer"]["done"], done);
+    }
+    let states = last["answer"]["result"]["states"].as_array().unwrap();
+    let medians: Vec<f64> = states.iter().map(|s| s["median"].as_str().unwrap().parse().unwrap()).collect();
+    assert!(0.05 < medians[0] && medians[0] < medians[1] && medians[1] < 5.0, "{medians:?}");
+    assert!(last["answer"]["result"]["svg"].as_str().unwrap().starts_with("<svg"));
+}

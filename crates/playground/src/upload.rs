@@ -1,0 +1,73 @@
+//! The record file that the user has dropped.
+
+use std::str::FromStr;
+
+use ground_motion::{Format, Record, RecordOptions, Unit, parse};
+use rocking_wall::scene::fingerprint;
+
+use crate::request::{Faults, Fields};
+
+/// A record file, and how it was last read.
+#[derive(Debug, Default)]
+pub(crate) struct Upload {
+    bytes: Vec<u8>,
+    fingerprint: String,
+    read: Option<(String, RecordOptions, Record)>,
+}
+
+impl Upload {
+    pub(crate) fn new(bytes: Vec<u8>) -> Self {
+        Self { fingerprint: fingerprint(&bytes), bytes, read: None }
+    }
+
+    /// Returns the fingerprint that a scene states.
+    pub(crate) fn fingerprint(&self) -> &str {
+        &self.fingerprint
+    }
+
+    /// Reads the record with the options of a request; again only if these have changed.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or with an option.
+    pub(crate) fn record(&mut self, motion: &Fields) -> Result<&Record, Faults> {
+        let name = motion.get("record").cloned().unwrap_or_default();
+        if self.bytes.is_empty() {
+            let message = match name.as_str() {
+                "" => "drop a record file here, or choose one".to_owned(),
+                _ => format!("{name}: a link does not contain records; drop the file here, or choose it"),
+            };
+            return Err(Faults::from([("record".to_owned(), message)]));
+        }
+        let options = options(motion)?;
+        let current = self.read.take().filter(|(of, with, _)| (of, with) == (&name, &options));
+        let read = match current {
+            Some(read) => read,
+            None => match parse(&name, self.bytes.clone(), &options) {
+                Ok(record) => (name, options, record),
+                Err(error) => return Err(Faults::from([("record".to_owned(), error.to_string())])),
+            },
+        };
+        Ok(&self.read.insert(read).2)
+    }
+}
+
+/// How to read the record, as the fields say.
+fn options(motion: &Fields) -> Result<RecordOptions, Faults> {
+    let text = |key: &str| motion.get(key).map(|text| text.trim()).filter(|text| !text.is_empty());
+    Ok(RecordOptions {
+        unit: parsed::<Unit>("unit", text("unit"))?,
+        step: parsed::<f64>("step", text("step"))?,
+        column: text("column").map(ToOwned::to_owned),
+        channel: text("channel").map(ToOwned::to_owned),
+        format: parsed::<Format>("format", text("format"))?,
+    })
+}
+
+fn parsed<T: FromStr>(field: &str, text: Option<&str>) -> Result<Option<T>, Faults>
+where
+    T::Err: std::fmt::Display,
+{
+    let Some(text) = text else { return Ok(None) };
+    let fault = |error| Faults::from([(field.to_owned(), format!("{field} = {text:?}: {error}"))]);
+    text.parse().map(Some).map_err(fault)
+}

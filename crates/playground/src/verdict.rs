@@ -1,0 +1,76 @@
+//! The result in a sentence, and its numbers.
+
+use figures::number;
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::{DampingModel, Impact};
+use rocking_wall::wall::Wall;
+use serde_json::{Value, json};
+
+/// Part of the static instability displacement below which the wall has not moved to speak of.
+const STILL: f64 = 5e-3;
+
+/// Says whether the wall stands, how far it moves, and what that is measured by.
+pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value {
+    let summary = &response.summary;
+    let peak = response.demands.displacement.largest();
+    let u_ins = wall.body().instability.of(peak.value);
+    let (state, headline) = match summary.overturn_time {
+        Some(time) => ("falls", format!("The wall falls at {time:.2} s")),
+        None if summary.u_ratio_max < STILL => ("stands", "The wall stands and hardly moves".to_owned()),
+        None => {
+            let percent = number(100.0 * summary.u_ratio_max, 2);
+            ("stands", format!("The wall stands: it uses {percent} % of its displacement capacity"))
+        }
+    };
+    let moved = format!(
+        "largest displacement {} mm at {:.2} s; it overturns beyond {} mm",
+        millimetres(peak.value.abs()),
+        peak.time,
+        millimetres(u_ins)
+    );
+    let detail = match (&scene.excitation, summary.overturned) {
+        (_, true) => format!("It overturns beyond {} mm.", millimetres(u_ins)),
+        _ => format!("{}{}.", moved[..1].to_uppercase(), &moved[1..]),
+    };
+    let onset = wall.rocking_onset();
+    let shaken = scene.excitation.as_ref().map(|excitation| {
+        let peak = excitation.bottom().peak();
+        format!(
+            " The ground's peak of {} m/s² is {} times the {} m/s² at which rocking starts.",
+            number(peak, 3),
+            number(peak / onset, 2),
+            number(onset, 3)
+        )
+    });
+    json!({ "state": state, "headline": headline, "detail": detail + shaken.as_deref().unwrap_or_default() })
+}
+
+fn millimetres(metres: f64) -> String {
+    number(1000.0 * metres, 3)
+}
+
+/// Lists what follows from the parameters, as names, values and units for people.
+pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[String; 2]> {
+    let (body, parameters) = (wall.body(), &scene.parameters);
+    let row = |name: &str, value: f64, unit: &str| [name.to_owned(), format!("{} {unit}", number(value, 3))];
+    let mut rows = vec![
+        row("instability displacement u_ins", 1000.0 * body.instability.positive, "mm"),
+        row("rigid strength F₀", 1e-3 * body.strength.positive, "kN"),
+        row("acceleration that starts rocking", wall.rocking_onset(), "m/s²"),
+        row("mass", body.mass, "kg"),
+    ];
+    if wall.omega1() > 0.0 {
+        rows.push(row("elastic period T₁", std::f64::consts::TAU / wall.omega1(), "s"));
+    }
+    if parameters.damping_model != DampingModel::None && wall.damping_ratio() > 0.0 {
+        rows.push(row("damping ratio ξ", 100.0 * wall.damping_ratio(), "%"));
+    }
+    if parameters.impact == Impact::Restitution {
+        rows.push(row("coefficient of restitution e", wall.restitution(), ""));
+    }
+    rows.push(["half cycles of rocking".to_owned(), response.demands.half_cycles.to_string()]);
+    let largest = response.demands.reaction_bottom.largest().value.abs();
+    rows.push(row("largest horizontal force at the base", 1e-3 * largest, "kN"));
+    rows
+}

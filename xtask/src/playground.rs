@@ -1,0 +1,56 @@
+//! `cargo xtask playground`: compiles the library to WebAssembly and packs it into a page of one file.
+
+use std::path::PathBuf;
+
+use crate::command::{Result, cargo, root, succeed, target};
+use crate::platform::{has_rust_library, reproducible};
+
+const TARGET: &str = "wasm32-unknown-unknown";
+const PAGE: &str = "fmu_out/playground.html";
+/// Largest page in bytes: it is to load at once, also from a mail.
+const LARGEST: u64 = 1_500_000;
+
+/// Checks that this machine can compile to WebAssembly.
+///
+/// # Errors
+/// If it lacks the Rust library for it.
+pub(crate) fn check_target() -> Result<()> {
+    if has_rust_library(TARGET)? {
+        return Ok(());
+    }
+    Err(format!("the Rust library for {TARGET} is missing: run `rustup target add {TARGET}`"))
+}
+
+/// Builds the page.
+///
+/// # Errors
+/// If the Rust library for WebAssembly is missing, the build fails, or the page is too large.
+pub(crate) fn build() -> Result<PathBuf> {
+    check_target()?;
+    let mut build = cargo();
+    build.args(["build", "--quiet", "--locked", "--package", "rocking-playground", "--lib"]);
+    build.args(["--profile", "playground", "--target", TARGET]);
+    // two numbers at once: every browser that unpacks the page knows how
+    reproducible(&mut build, &["-Ctarget-feature=+simd128"]);
+    succeed(&mut build, "see its message above")?;
+    let library = target().join(TARGET).join("playground/playground.wasm");
+    let page = root().join(PAGE);
+    let mut pack = cargo();
+    pack.args([
+        "run",
+        "--quiet",
+        "--locked",
+        "--package",
+        "rocking-playground",
+        "--bin",
+        "playground-page",
+        "--",
+    ]);
+    succeed(pack.args([&library, &page]), "see its message above")?;
+    let size = std::fs::metadata(&page).map_err(|error| format!("{PAGE}: {error}"))?.len();
+    if size > LARGEST {
+        return Err(format!("{PAGE} has {size} bytes, more than {LARGEST}"));
+    }
+    println!("{PAGE}: {size} bytes");
+    Ok(page)
+}
