@@ -41,8 +41,10 @@ force_law = { a1 = 0.02 }
 "#;
 
 const COUNT: usize = 2 * 4 * 3;
+/// Parts of two combinations.
+const PARTS: usize = COUNT / 2;
 
-fn study(name: &str) -> PathBuf {
+pub(crate) fn study(name: &str) -> PathBuf {
     let folder = folder(name);
     fs::write(folder.join("study.toml"), STUDY).unwrap();
     fs::create_dir(folder.join("records")).unwrap();
@@ -56,14 +58,14 @@ fn study(name: &str) -> PathBuf {
     folder
 }
 
-fn succeed(folder: &Path, arguments: &[&str]) -> String {
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
     let output = wall(folder, arguments);
     assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stdout)
 }
 
 /// Every file of a folder of results, with its bytes.
-fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(crate) fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
     let mut rest = vec![path.to_owned()];
     while let Some(folder) = rest.pop() {
@@ -79,7 +81,7 @@ fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     files
 }
 
-fn run_files(results: &Path) -> Vec<PathBuf> {
+pub(crate) fn part_files(results: &Path) -> Vec<PathBuf> {
     let files = bytes(results).into_keys().filter(|path| path.starts_with("runs"));
     files.map(|path| results.join(path)).collect()
 }
@@ -91,7 +93,7 @@ fn threads_shards_and_interruptions_change_no_byte() {
     let printed = succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
     assert!(printed.contains("runs/s a core") && printed.contains("CDR 5 %"), "{printed}");
     let whole = bytes(&at("one"));
-    assert_eq!(run_files(&at("one")).len(), COUNT);
+    assert_eq!(part_files(&at("one")).len(), PARTS);
     for name in ["levels.csv", "collapses.csv", "fragilities.csv", "study.html", "study.json"] {
         assert!(whole.contains_key(Path::new(name)), "{name}");
     }
@@ -116,18 +118,18 @@ fn threads_shards_and_interruptions_change_no_byte() {
     succeed(&folder, &["merge", "shared"]);
     assert!(bytes(&at("shared")) == whole, "a shared folder");
 
-    // lost runs, truncated runs, a run of another study, a half-written file, no results
-    let runs = run_files(&at("two"));
+    // lost parts, truncated parts, a part of another number, a half-written file, no results
+    let runs = part_files(&at("two"));
     fs::remove_file(&runs[3]).unwrap();
-    let content = fs::read_to_string(&runs[7]).unwrap();
+    let content = fs::read(&runs[7]).unwrap();
     fs::write(&runs[7], &content[..content.len() / 2]).unwrap();
     fs::write(&runs[9], &content).unwrap();
     fs::write(&runs[11], "").unwrap();
-    fs::write(runs[3].with_file_name(".0000003.csv.1.part"), "half").unwrap();
+    fs::write(runs[3].with_file_name(".0000003.parquet.1.part"), "half").unwrap();
     fs::remove_file(at("two").join("fragilities.csv")).unwrap();
     let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
     assert!(
-        text(&output.stderr).contains("20 of 24 combinations are done already"),
+        text(&output.stderr).contains("16 of 24 combinations are done already"),
         "{}",
         text(&output.stderr)
     );
@@ -148,35 +150,36 @@ fn damaged_files_are_computed_again() {
     let folder = study("ida_damage");
     succeed(&folder, &["ida", "study.toml", "-o", "out"]);
     let (out, whole) = (folder.join("out"), bytes(&folder.join("out")));
-    let runs = run_files(&out);
-    // the lowest bit of a digit, of each file another one
-    let flipped = 16;
+    let runs = part_files(&out);
+    // the lowest bit of a byte, of each file another one
+    let flipped = 8;
     for (k, file) in runs.iter().take(flipped).enumerate() {
         let mut content = fs::read(file).unwrap();
-        let digits: Vec<usize> = (0..content.len()).filter(|&at| content[at].is_ascii_digit()).collect();
-        content[digits[digits.len() * (k + 1) / (flipped + 1)]] ^= 1;
+        let at = content.len() * (k + 1) / (flipped + 1);
+        content[at] ^= 1;
         fs::write(file, content).unwrap();
     }
     // values that cannot be, under their own checksum
-    for (file, bad) in runs[flipped..].iter().zip(["NaN", "inf", "-0.5"]) {
-        let content = fs::read_to_string(file).unwrap();
-        let (head, levels) = content.split_once('\n').unwrap();
-        let (head, _) = head.rsplit_once(' ').unwrap();
-        let (intensity, rest) = levels.split_once(',').unwrap();
-        let (_, rest) = rest.split_once(',').unwrap();
-        let levels = format!("{intensity},{bad},{}", rest.strip_suffix("end\n").unwrap());
-        let checksum = rocking_wall::scene::fingerprint(format!("{head}\n{levels}").as_bytes());
-        fs::write(file, format!("{head} {checksum}\n{levels}end\n")).unwrap();
+    let parts = study_folder::Folder::open(&out).unwrap();
+    for (k, bad) in [f64::NAN, f64::INFINITY, -0.5].into_iter().enumerate() {
+        let file = &runs[flipped + k];
+        let demand = parts.part(flipped + k).unwrap()[0].runs()[0].demand;
+        let mut content = fs::read(file).unwrap();
+        let at = content.windows(8).position(|bytes| bytes == demand.to_le_bytes()).unwrap();
+        content[at..at + 8].copy_from_slice(&bad.to_le_bytes());
+        let checksum = content.windows(9).rposition(|bytes| bytes == b"checksum ").unwrap() + 9;
+        content[checksum..checksum + 32].fill(b'0');
+        let own = rocking_wall::scene::fingerprint(&content);
+        content[checksum..checksum + 32].copy_from_slice(own.as_bytes());
+        fs::write(file, content).unwrap();
     }
+    drop(parts);
     let merged = wall(&folder, &["merge", "out"]);
     let told = text(&merged.stderr);
-    assert!(
-        told.contains("19 of 24 run files are damaged") && told.contains("19 of 24 combinations"),
-        "{told}"
-    );
+    assert!(told.contains("11 of 12 parts are damaged") && told.contains("22 of 24 combinations"), "{told}");
     let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
     assert!(again.status.success(), "{}", text(&again.stderr));
-    assert!(text(&again.stderr).contains("19 of 24 run files are damaged"), "{}", text(&again.stderr));
+    assert!(text(&again.stderr).contains("11 of 12 parts are damaged"), "{}", text(&again.stderr));
     assert!(bytes(&out) == whole, "a damaged file went into the results");
 
     let description = out.join("study.json");
@@ -243,11 +246,9 @@ fn a_killed_study_goes_on() {
         if !folder.join("broken").is_dir() {
             continue;
         }
-        for file in run_files(&folder.join("broken"))
-            .iter()
-            .filter(|file| file.extension().is_some_and(|e| e == "csv"))
-        {
-            assert!(fs::read_to_string(file).unwrap().ends_with("end\n"), "{}", file.display());
+        let parts = part_files(&folder.join("broken"));
+        for part in parts.iter().filter(|part| part.extension().is_some_and(|ending| ending == "parquet")) {
+            assert!(fs::read(part).unwrap().ends_with(b"PAR1"), "{}", part.display());
         }
     }
     assert!(killed > 0, "the study was over before it could be killed");
@@ -339,7 +340,7 @@ fn the_example_is_a_study() {
     let file = file.to_str().unwrap();
     let printed = succeed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
     assert!(printed.contains("shard 7 of 900 is done"), "{printed}");
-    assert_eq!(run_files(&folder.join("out")).len(), 1);
+    assert_eq!(part_files(&folder.join("out")).len(), 1);
 }
 
 /// Walls that stand at every level leave medians open. Tables state the bound, neither `inf` nor `NaN`.
@@ -358,35 +359,4 @@ fn open_medians_have_their_bound() {
         assert!(text.contains(bound), "{text}");
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
     }
-}
-
-#[cfg(feature = "parquet")]
-#[test]
-fn parquet_holds_what_the_csv_holds() {
-    use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::record::Field;
-
-    let folder = study("ida_parquet");
-    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
-    let file = fs::File::open(folder.join("out/levels.parquet")).unwrap();
-    let reader = SerializedFileReader::new(file).unwrap();
-    let csv = fs::read_to_string(folder.join("out/levels.csv")).unwrap();
-    let mut lines = csv.lines();
-    let names: Vec<_> = lines.next().unwrap().split(',').collect();
-    let mut rows = reader.get_row_iter(None).unwrap();
-    for line in lines {
-        let row = rows.next().unwrap().unwrap();
-        assert!(row.get_column_iter().map(|(name, _)| name).eq(names.iter()));
-        let word = |field: &Field| match field {
-            Field::Str(text) if text.contains(',') => format!("\"{text}\""),
-            Field::Str(text) => text.clone(),
-            Field::Double(number) => number.to_string(),
-            Field::Bool(flag) => u8::from(*flag).to_string(),
-            Field::Null => String::new(),
-            other => panic!("{other:?}"),
-        };
-        let cells: Vec<_> = row.get_column_iter().map(|(_, field)| word(field)).collect();
-        assert_eq!(cells.join(","), line);
-    }
-    assert!(rows.next().is_none());
 }

@@ -36,6 +36,7 @@ mod record_command;
 mod record_path;
 mod reproduce;
 mod rocking_spectrum;
+mod study_parts;
 mod tidy;
 mod ties;
 mod trigonometric;

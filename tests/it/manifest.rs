@@ -83,6 +83,7 @@ fn arrows_between_crates_point_one_way() {
         ("rocking-wall", &["fmu-export", "ground-motion", "rocking-oscillator"]),
         ("rocking-study", &["fmu-export", "ground-motion", "rocking-wall"]),
         ("rocking-figures", &["rocking-study"]),
+        ("rocking-study-folder", &["ground-motion", "rocking-figures", "rocking-study", "rocking-wall"]),
         ("rocking-scene-fmu", &["fmu-export-build", "ground-motion", "rocking-wall"]),
         (
             "rocking-building",
@@ -107,6 +108,7 @@ fn arrows_between_crates_point_one_way() {
                 "rocking-figures",
                 "rocking-scene-fmu",
                 "rocking-study",
+                "rocking-study-folder",
                 "rocking-wall",
             ],
         ),
@@ -121,6 +123,7 @@ fn arrows_between_crates_point_one_way() {
                 "rocking-floor",
                 "rocking-scene-fmu",
                 "rocking-study",
+                "rocking-study-folder",
                 "rocking-wall",
             ],
         ),

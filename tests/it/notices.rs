@@ -13,6 +13,7 @@ const OURS: [&str; 10] = [
     "rocking-playground",
     "rocking-scene-fmu",
     "rocking-study",
+    "rocking-study-folder",
     "rocking-wall",
     "rocking-wall-python",
 ];

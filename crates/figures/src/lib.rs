@@ -16,6 +16,7 @@
 //! | [`work_precision`] | error against run time |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
 //! | [`many_lines`] | thousands of lines in few bytes, styled by the page |
+//! | [`template`] | no chart: fills the gaps of a page |
 //! | [`palette`] | the colours and marks of all of them |
 
 mod axes;
@@ -28,6 +29,7 @@ pub mod plot;
 mod points;
 pub mod records;
 pub mod response;
+pub mod template;
 pub mod work_precision;
 
 pub use axes::number;

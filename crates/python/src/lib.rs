@@ -13,12 +13,14 @@
 //! | `responses` | what a run has come to |
 //! | `walls` | the class `Wall` |
 //! | `studies` | the class `Study` |
+//! | `folders` | the class `Folder` |
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands over what it has made of the arguments")]
 #![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 
 mod arrays;
 mod errors;
+mod folders;
 mod motions;
 mod responses;
 mod studies;
@@ -28,6 +30,8 @@ mod walls;
 /// The part of `rocking_wall` that is in Rust.
 #[pyo3::pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::folders::Folder;
     #[pymodule_export]
     use crate::motions::{
         average_sa, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,

@@ -1,21 +1,24 @@
-//! The class `Study`: an incremental dynamic analysis.
+//! The class `Study`: an incremental dynamic analysis, in memory or in parts.
 
+use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use ground_motion::STANDARD_GRAVITY;
 use numpy::PyArray1;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use study::fragility::Interval;
 use study::ida::{Curve, Exceedance, IdaError, Study as Ida};
-use study::loaded::LoadedStudy;
+use study::loaded::{LoadedStudy, Sent};
 use study::parallel;
-use study::results::Results;
+use study::results::{Fitting, WallResults};
+use study_folder::{Contents, encode};
 
 use crate::errors::{failed, of_scene};
 
@@ -25,8 +28,13 @@ const LOOK: Duration = Duration::from_millis(50);
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
 pub(crate) struct Study {
-    loaded: LoadedStudy,
+    pub(crate) loaded: LoadedStudy,
+    /// What its parts depend on, and the fingerprint of this.
+    contents: OnceLock<(Contents, String)>,
 }
+
+/// A study as values that pickle can send: its text, its walls, and its records with steps and samples.
+type Values<Samples> = (String, Vec<(String, String)>, Vec<(String, f64, Samples)>);
 
 /// Why the curves of a study are not complete.
 enum Stop {
@@ -39,7 +47,45 @@ impl Study {
     /// Reads a study file.
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(Self { loaded: py.detach(|| LoadedStudy::read(&path)).map_err(of_scene)? })
+        let loaded = py.detach(|| LoadedStudy::read(&path)).map_err(of_scene)?;
+        Ok(Self { loaded, contents: OnceLock::new() })
+    }
+
+    /// Makes a study of its values on another machine.
+    #[staticmethod]
+    fn received(py: Python<'_>, values: Values<Vec<f64>>) -> PyResult<Self> {
+        let (text, walls, records) = values;
+        let sent = Sent { text, walls, records };
+        let loaded = py.detach(|| LoadedStudy::received(sent)).map_err(of_scene)?;
+        Ok(Self { loaded, contents: OnceLock::new() })
+    }
+
+    /// Returns the values of the study, to send them.
+    fn sent<'py>(&self, py: Python<'py>) -> Values<Bound<'py, PyArray1<f64>>> {
+        let Sent { text, walls, records } = self.loaded.sent();
+        let array = |(name, dt, samples)| (name, dt, PyArray1::from_vec(py, samples));
+        (text, walls, records.into_iter().map(array).collect())
+    }
+
+    /// Counts the parts.
+    #[getter]
+    fn parts(&self) -> usize {
+        self.contents().0.parts()
+    }
+
+    /// Computes a part, on this thread, as the bytes of its file.
+    fn part<'py>(&self, py: Python<'py>, part: usize) -> PyResult<Bound<'py, PyBytes>> {
+        let (contents, fingerprint) = self.contents();
+        if part >= contents.parts() {
+            return Err(PyIndexError::new_err(format!("part {part} of {}", contents.parts())));
+        }
+        let bytes = py.detach(|| {
+            let study = &self.loaded.study;
+            let curve = |index| study.curve(study.case(index));
+            let curves = contents.part(part).map(curve).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+            encode(contents, fingerprint, part, &curves).map_err(failed)
+        })?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     #[getter]
@@ -89,17 +135,31 @@ impl Study {
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
-            Results::new(curves, study.records().len(), &self.models(), grid, report, threads)
+            let fitting = Fitting::new(study.records().len(), &self.models(), grid, report);
+            let of_wall: Vec<_> = curves.chunks(study.count() / study.walls().len()).collect();
+            let fitted = parallel::map(of_wall.len(), threads, |wall| {
+                Ok::<_, Infallible>(fitting.results(of_wall[wall].to_vec()))
+            });
+            let Ok(results) = fitted;
+            results
         });
         Ok([
-            levels(py, study, &results)?,
-            collapses(py, study, &results)?,
+            levels(py, study, &curves)?,
+            collapses(py, study, &curves)?,
             fragilities(py, study, &results, &report.fractions)?,
         ])
     }
 }
 
 impl Study {
+    fn contents(&self) -> &(Contents, String) {
+        self.contents.get_or_init(|| {
+            let contents = Contents::of(&self.loaded.study);
+            let fingerprint = contents.fingerprint();
+            (contents, fingerprint)
+        })
+    }
+
     /// Computes all curves on other threads, while this one looks at Ctrl-C and reports progress.
     fn curves(&self, py: Python<'_>, threads: usize, progress: &Bound<'_, PyAny>) -> PyResult<Vec<Curve>> {
         let study = &self.loaded.study;
@@ -164,8 +224,8 @@ fn names<'a>(study: &'a Ida, rows: &[usize]) -> Vec<(&'static str, Vec<&'a str>)
 }
 
 /// Every run, as in `levels.csv`.
-fn levels<'py>(py: Python<'py>, study: &Ida, results: &Results) -> PyResult<Bound<'py, PyDict>> {
-    let curves = results.all_curves().iter().enumerate();
+fn levels<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound<'py, PyDict>> {
+    let curves = curves.iter().enumerate();
     let runs: Vec<_> =
         curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run))).collect();
     let rows: Vec<_> = runs.iter().map(|(index, _)| *index).collect();
@@ -179,8 +239,7 @@ fn levels<'py>(py: Python<'py>, study: &Ida, results: &Results) -> PyResult<Boun
 }
 
 /// The collapse of every wall, model and record, as in `collapses.csv`.
-fn collapses<'py>(py: Python<'py>, study: &Ida, results: &Results) -> PyResult<Bound<'py, PyDict>> {
-    let curves = results.all_curves();
+fn collapses<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound<'py, PyDict>> {
     let rows: Vec<_> = (0..curves.len()).collect();
     let of = |value: fn(&Curve) -> f64| curves.iter().map(value).collect();
     let numbers = vec![
@@ -203,7 +262,7 @@ fn collapses<'py>(py: Python<'py>, study: &Ida, results: &Results) -> PyResult<B
 fn fragilities<'py>(
     py: Python<'py>,
     study: &Ida,
-    results: &Results,
+    results: &[WallResults],
     fractions: &[f64],
 ) -> PyResult<Bound<'py, PyDict>> {
     let (mut walls, mut models) = (Vec::new(), Vec::new());
@@ -211,7 +270,7 @@ fn fragilities<'py>(
     for (w, wall) in study.walls().iter().enumerate() {
         for (m, model) in study.models().iter().enumerate() {
             for (f, fraction) in fractions.iter().enumerate() {
-                let summary = &results.summaries(w, f)[m];
+                let summary = &results[w].summaries(f)[m];
                 let [median, median_low, median_high] = values(&summary.median, STANDARD_GRAVITY);
                 let [theta, theta_low, theta_high] = values(&summary.theta, STANDARD_GRAVITY);
                 let [ratio, ratio_low, ratio_high] = values(&summary.median_ratio, 1.0);

@@ -1,7 +1,7 @@
 //! Studies of rocking walls: many runs, and the results they have together.
 //!
-//! Nothing here prints, and only [`loaded`] opens files. Each module uses only modules above it in this
-//! table:
+//! Nothing here prints, and only [`loaded`] and `wall_table` open files. Each module uses only modules above
+//! it in this table:
 //!
 //! | module | holds |
 //! |---|---|
@@ -12,8 +12,9 @@
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`document`] | study files |
+//! | `wall_table` | tables of walls |
 //! | [`loaded`] | studies read from files, with their scenes and records |
-//! | [`results`] | the curves and the fragilities of a complete study |
+//! | [`results`] | the curves and the fragilities of each wall of a study |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
 //! | [`check`] | static capacity against a response spectrum |
@@ -38,6 +39,7 @@ pub mod reproduce;
 pub mod results;
 pub mod spectrum;
 pub mod stability;
+mod wall_table;
 
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of
 /// other crates. Builds with equal fingerprints compute the same runs, on every machine.

@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ground_motion::{GroundMotionError, read};
+use ground_motion::{GroundMotion, GroundMotionError, read};
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::wall::{Wall, Warning};
 
-use crate::document::{RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource};
+use crate::document::{
+    RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text,
+};
 use crate::ida::{NamedRecord, NamedWall, Study};
+use crate::wall_table;
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -26,6 +29,19 @@ pub struct LoadedStudy {
     pub inputs: Vec<PathBuf>,
     /// What the walls and a quick check of the records warn of.
     pub warnings: Vec<String>,
+    /// Text of the study file.
+    text: String,
+}
+
+/// A study as plain values, to send it to a machine without its files.
+#[derive(Clone, Debug)]
+pub struct Sent {
+    /// Text of the study file.
+    pub text: String,
+    /// Walls: names, and parameters as the tables of a study file.
+    pub walls: Vec<(String, String)>,
+    /// Records: names, steps \[s\] and samples \[m/s²\].
+    pub records: Vec<(String, f64, Vec<f64>)>,
 }
 
 impl LoadedStudy {
@@ -36,22 +52,68 @@ impl LoadedStudy {
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
         let text = text(path, &name)?;
-        let StudyFile { title, walls, records, models, measure, levels, tail, report } =
-            StudyFile::parse(&name, &text)?;
+        let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
-        let read = |entry| wall(entry, folder, &name, &mut inputs, &mut warnings);
-        let walls = walls.into_iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let paths = record_files(&records, folder, &name)?;
-        let records = all_records(&records, &paths, &name, &mut warnings)?;
+        let mut walls = Vec::with_capacity(file.walls.len());
+        for entry in std::mem::take(&mut file.walls) {
+            walls.extend(wall(entry, folder, &name, &mut inputs, &mut warnings)?);
+        }
+        for wall in &walls {
+            warn(wall, &mut warnings);
+        }
+        let paths = record_files(&file.records, folder, &name)?;
+        let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths);
-        let in_file = |reason: String| SceneError::File { file: name.clone(), reason };
+        Self::assemble(&name, text, file, walls, records).map(|study| Self { inputs, warnings, ..study })
+    }
+
+    /// Returns the study as plain values.
+    pub fn sent(&self) -> Sent {
+        let wall = |wall: &NamedWall| (wall.name.clone(), wall_text(wall));
+        let record = |record: &NamedRecord| {
+            (record.name.clone(), record.motion.step(), record.motion.samples().to_vec())
+        };
+        Sent {
+            text: self.text.clone(),
+            walls: self.study.walls().iter().map(wall).collect(),
+            records: self.study.records().iter().map(record).collect(),
+        }
+    }
+
+    /// Makes the study of plain values.
+    ///
+    /// # Errors
+    /// [`SceneError`] if they are not those of [`Self::sent`].
+    pub fn received(sent: Sent) -> Result<Self, SceneError> {
+        let name = "a study that was sent";
+        let file = StudyFile::parse(name, &sent.text)?;
+        let wall = |(name, text): (String, String)| wall_of_text(name, &text);
+        let walls = sent.walls.into_iter().map(wall).collect::<Result<_, _>>()?;
+        let record = |(name, step, samples)| {
+            let motion = GroundMotion::new(step, samples);
+            let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
+            Ok(NamedRecord { name, motion: motion.map_err(refused)? })
+        };
+        let records = sent.records.into_iter().map(record).collect::<Result<_, SceneError>>()?;
+        Self::assemble(name, sent.text, file, walls, records)
+    }
+
+    fn assemble(
+        name: &str,
+        text: String,
+        file: StudyFile,
+        walls: Vec<NamedWall>,
+        records: Vec<NamedRecord>,
+    ) -> Result<Self, SceneError> {
+        let StudyFile { title, models, measure, levels, tail, report, .. } = file;
+        let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
         check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(tail))
             .map_err(|error| in_file(error.to_string()))?;
-        Ok(Self { title, study, report, inputs, warnings })
+        Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text })
     }
 }
 
@@ -66,41 +128,55 @@ fn text(path: &Path, name: &str) -> Result<String, SceneError> {
     std::fs::read_to_string(path).map_err(unreadable)
 }
 
+/// Reads the walls of an entry.
 fn wall(
     entry: WallEntry,
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
     warnings: &mut Vec<String>,
-) -> Result<NamedWall, SceneError> {
-    let mut is_shaken = false;
-    let (parameters, own_name, own_floors) = match entry.source {
-        WallSource::Inline(parameters) => (*parameters, String::new(), None),
-        WallSource::Scene(path) => {
-            inputs.push(folder.join(&path));
-            let scene = Scene::read(&folder.join(&path)).map_err(|error| SceneError::Line {
-                file: study.to_owned(),
-                line: entry.line,
-                message: format!("a wall's scene: {error}"),
-            })?;
-            is_shaken = scene.excitation.is_some();
-            let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            (scene.parameters, stem, scene.floors)
-        }
+) -> Result<Vec<NamedWall>, SceneError> {
+    let at = |line, what: &str, error: SceneError| SceneError::Line {
+        file: study.to_owned(),
+        line,
+        message: format!("{what}: {error}"),
     };
-    let name = entry.name.unwrap_or(own_name);
-    if is_shaken {
-        warnings
-            .push(format!("wall {name:?}: the study ignores the motion of its scene and uses its records"));
+    match entry.source {
+        WallSource::Inline(parameters) => {
+            let name = entry.name.unwrap_or_default();
+            Ok(vec![NamedWall { name, parameters: *parameters, floors: entry.floors }])
+        }
+        WallSource::Table(path, line) => {
+            let path = folder.join(path);
+            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            inputs.push(path);
+            Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
+        }
+        WallSource::Scene(path, line) => {
+            inputs.push(folder.join(&path));
+            let scene =
+                Scene::read(&folder.join(&path)).map_err(|error| at(line, "a wall's scene", error))?;
+            let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            let name = entry.name.or_else(stem).unwrap_or_default();
+            if scene.excitation.is_some() {
+                warnings.push(format!(
+                    "wall {name:?}: the study ignores the motion of its scene and uses its records"
+                ));
+            }
+            let floors = entry.floors.or(scene.floors);
+            Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
+        }
     }
-    let made = Wall::new(&parameters);
+}
+
+/// Adds what is improbable about a wall.
+fn warn(NamedWall { name, parameters, floors }: &NamedWall, warnings: &mut Vec<String>) {
+    let made = Wall::new(parameters);
     let about_work = made.iter().flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
     warnings.extend(about_work.map(|warning| format!("wall {name:?}: {warning}")));
-    warnings.extend(Warning::unusual(&parameters).map(|warning| format!("wall {name:?}: {warning}")));
-    let floors = entry.floors.or(own_floors);
+    warnings.extend(Warning::unusual(parameters).map(|warning| format!("wall {name:?}: {warning}")));
     let heavy = made.ok().and_then(|wall| floors.as_ref()?.warning(&wall));
     warnings.extend(heavy.map(|warning| format!("wall {name:?}: {warning}")));
-    Ok(NamedWall { name, parameters, floors })
 }
 
 /// Lists the record files of a study, in the order of its patterns.

@@ -27,20 +27,42 @@ pub fn map<T: Send, E: Send>(
     threads: usize,
     work: impl Fn(usize) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
+    let slots: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    each(count, threads, |index| {
+        let result = work(index)?;
+        // only the panic of a thread could poison the lock, and a panic ends the scope
+        if let Ok(mut slot) = slots[index].lock() {
+            *slot = Some(result);
+        }
+        Ok(())
+    })?;
+    Ok(slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect())
+}
+
+/// Works on each of the numbers 0, 1, … below `count`, which start in this order, on `threads` threads.
+///
+/// # Errors
+/// As [`map`].
+pub fn each<E: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(usize) -> Result<(), E> + Sync,
+) -> Result<(), E> {
     let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<Result<T, E>>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let failure: Mutex<Option<(usize, E)>> = Mutex::new(None);
     let worker = || {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = slots.get(index) else { return };
-            let result = work(index);
-            if result.is_err() {
-                // lower numbers are running or done, and no higher one can be the first to fail
-                next.store(count, Ordering::Relaxed);
+            if index >= count {
+                return;
             }
-            // only the panic of a thread could poison the lock, and a panic ends the scope below
-            if let Ok(mut slot) = slot.lock() {
-                *slot = Some(result);
+            let Err(error) = work(index) else { continue };
+            // lower numbers are running or done, and no higher one can be the first to fail
+            next.store(count, Ordering::Relaxed);
+            if let Ok(mut failure) = failure.lock()
+                && failure.as_ref().is_none_or(|(first, _)| index < *first)
+            {
+                *failure = Some((index, error));
             }
         }
     };
@@ -50,6 +72,5 @@ pub fn map<T: Send, E: Send>(
         }
         worker();
     });
-    // a slot is empty only behind a failure
-    slots.into_iter().filter_map(|slot| slot.into_inner().ok().flatten()).collect()
+    failure.into_inner().ok().flatten().map_or(Ok(()), |(_, error)| Err(error))
 }

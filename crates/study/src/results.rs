@@ -1,89 +1,84 @@
-//! The results of a complete study: its curves, and the fragilities that follow from them.
-
-use std::convert::Infallible;
+//! The results of a study, wall by wall: its curves, and the fragilities that follow from them.
 
 use crate::document::ReportOptions;
 use crate::fragility::{Bootstrap, ObservationKind, Summary, compare};
 use crate::ida::{Curve, Exceedance};
-use crate::parallel;
 
-/// Curves of every wall, model and record, and a fragility of every wall, model and limit state.
+/// Makes the results of each wall of a study.
 #[derive(Clone, Debug)]
-pub struct Results {
+pub struct Fitting {
     records: usize,
     models: usize,
-    states: usize,
-    at_levels: bool,
-    curves: Vec<Curve>,
-    /// Wall by wall, limit state by limit state: one summary for each model.
-    summaries: Vec<Summary>,
+    reference: usize,
+    fractions: Vec<f64>,
+    kind: ObservationKind,
+    bootstrap: Bootstrap,
 }
 
-impl Results {
-    /// Fits the fragilities of a study with some records and damping models, by name, on `threads` threads.
-    /// `curves` has walls outermost, then models, records innermost. `grid` are the levels that all records
-    /// share, if they do.
-    pub fn new(
-        curves: Vec<Curve>,
-        records: usize,
-        models: &[&str],
-        grid: Option<Vec<f64>>,
-        report: &ReportOptions,
-        threads: usize,
-    ) -> Self {
-        let bootstrap = Bootstrap::new(records, report.resamples as usize, report.seed);
-        let walls = curves.len() / (records * models.len());
-        let at_levels = grid.is_some();
-        let kind = grid.map_or(ObservationKind::Records, ObservationKind::Stripes);
-        let reference = models.iter().position(|name| *name == report.reference).unwrap_or(0);
-        let (models, states) = (models.len(), report.fractions.len());
-        let mut results = Self { records, models, states, at_levels, curves, summaries: Vec::new() };
-        let summaries = parallel::map(walls, threads, |wall| {
-            let exceedances = |model: usize| {
-                let at = |&fraction: &f64| results.exceedances(wall, model, fraction);
-                report.fractions.iter().map(at).collect()
-            };
-            let exceedances: Vec<Vec<_>> = (0..models).map(exceedances).collect();
-            Ok::<_, Infallible>(compare(&exceedances, reference, &kind, &bootstrap).concat())
-        });
-        let Ok(summaries) = summaries;
-        results.summaries = summaries.concat();
-        results
+/// Curves of one wall with every model and record, and a fragility of every model and limit state.
+#[derive(Clone, Debug)]
+pub struct WallResults {
+    records: usize,
+    at_levels: bool,
+    curves: Vec<Curve>,
+    /// Limit state by limit state: one summary for each model.
+    summaries: Vec<Vec<Summary>>,
+}
+
+impl Fitting {
+    /// Prepares the fits of a study with some records and damping models, by name. `grid` are the levels that
+    /// all records share, if they do.
+    pub fn new(records: usize, models: &[&str], grid: Option<Vec<f64>>, report: &ReportOptions) -> Self {
+        Self {
+            records,
+            models: models.len(),
+            reference: models.iter().position(|name| *name == report.reference).unwrap_or(0),
+            fractions: report.fractions.clone(),
+            kind: grid.map_or(ObservationKind::Records, ObservationKind::Stripes),
+            bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed),
+        }
     }
 
-    /// Returns all curves, walls outermost, then models, records innermost.
+    /// Fits the fragilities of a wall. `curves` has models outermost, records innermost.
+    ///
+    /// # Panics
+    /// If there is not one curve for each model and record.
+    pub fn results(&self, curves: Vec<Curve>) -> WallResults {
+        assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
+        let at_levels = matches!(self.kind, ObservationKind::Stripes(_));
+        let mut results = WallResults { records: self.records, at_levels, curves, summaries: Vec::new() };
+        let exceedances = |model: usize| {
+            self.fractions.iter().map(|&fraction| results.exceedances(model, fraction)).collect()
+        };
+        let exceedances: Vec<Vec<_>> = (0..self.models).map(exceedances).collect();
+        results.summaries = compare(&exceedances, self.reference, &self.kind, &self.bootstrap);
+        results
+    }
+}
+
+impl WallResults {
+    /// Returns all curves, models outermost, records innermost.
     pub fn all_curves(&self) -> &[Curve] {
         &self.curves
     }
 
-    /// Returns the curves of a wall and model, record by record.
-    pub fn curves(&self, wall: usize, model: usize) -> &[Curve] {
-        let start = (wall * self.models + model) * self.records;
-        &self.curves[start..start + self.records]
+    /// Returns the curves of a model, record by record.
+    pub fn curves(&self, model: usize) -> &[Curve] {
+        &self.curves[model * self.records..(model + 1) * self.records]
     }
 
     /// Returns where each record first exceeds a fraction of `u_ins`.
-    pub fn exceedances(&self, wall: usize, model: usize, fraction: f64) -> Vec<Exceedance> {
-        self.curves(wall, model).iter().map(|curve| curve.exceedance(fraction, self.at_levels)).collect()
+    pub fn exceedances(&self, model: usize, fraction: f64) -> Vec<Exceedance> {
+        self.curves(model).iter().map(|curve| curve.exceedance(fraction, self.at_levels)).collect()
     }
 
-    /// Returns the fragilities of a wall at the limit state of a place, one for each model.
-    pub fn summaries(&self, wall: usize, state: usize) -> &[Summary] {
-        let start = (wall * self.states + state) * self.models;
-        &self.summaries[start..start + self.models]
+    /// Returns the fragilities at the limit state of a place, one for each model.
+    pub fn summaries(&self, state: usize) -> &[Summary] {
+        &self.summaries[state]
     }
 
-    /// Lists the walls and models, by index, whose limit states contradict a common β.
-    pub fn contradicted(&self) -> Vec<[usize; 2]> {
-        let pairs =
-            (0..self.curves.len() / self.records).map(|pair| [pair / self.models, pair % self.models]);
-        pairs
-            .filter(|&[wall, model]| self.states > 0 && self.summaries(wall, 0)[model].contradicted)
-            .collect()
-    }
-
-    /// Counts the runs.
-    pub fn runs(&self) -> usize {
-        self.curves.iter().map(|curve| curve.runs().len()).sum()
+    /// Returns whether the limit states of a model contradict a common β.
+    pub fn is_contradicted(&self, model: usize) -> bool {
+        self.summaries.first().is_some_and(|summaries| summaries[model].contradicted)
     }
 }

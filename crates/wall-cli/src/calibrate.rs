@@ -17,7 +17,7 @@ use study::reproduce::tables::abbreviation;
 
 use crate::args::SceneArguments;
 use crate::output;
-use crate::template::filled;
+use figures::template::filled;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

@@ -7,7 +7,7 @@ use figures::plot::Picture;
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 
-use crate::csv::optional;
+use study_folder::csv::optional;
 
 /// The curve of one side.
 struct Side {

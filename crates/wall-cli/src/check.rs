@@ -17,7 +17,7 @@ use study::check::{CheckError, Fractions, SideCheck, check, governing, interpola
 use crate::args::SceneArguments;
 use crate::capacity::significant;
 use crate::output;
-use crate::template::filled;
+use figures::template::filled;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

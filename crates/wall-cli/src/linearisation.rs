@@ -14,7 +14,7 @@ use study::accuracy::linearisation::{
     Comparison, Period, SLENDERNESS, STARTS, figure_2, figure_2_wall, figure_3, period,
 };
 
-use crate::csv::optional;
+use study_folder::csv::optional;
 
 /// The figures' output step \[s\].
 const STEP: f64 = 0.01;

@@ -7,7 +7,6 @@ mod building;
 mod calibrate;
 mod capacity;
 mod check;
-mod csv;
 mod demands;
 mod describe;
 mod ida;
@@ -25,7 +24,6 @@ mod simulate;
 mod spectrum;
 mod stability;
 mod stability_page;
-mod template;
 mod tie;
 mod work_precision;
 

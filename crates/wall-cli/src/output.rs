@@ -1,6 +1,6 @@
 //! What leaves the program: stdout, stderr, and files.
 
-mod file;
+mod distinct;
 mod terminal;
 
 use std::path::{Path, PathBuf};
@@ -8,8 +8,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use figures::plot::Picture;
 
-pub(crate) use file::{check_distinct, to_file, to_file_unsynced};
+pub(crate) use distinct::check_distinct;
 pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
+
+/// Writes a file completely or not at all, see [`study_folder::file::to_file`].
+pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
+    Ok(study_folder::file::to_file(path, content)?)
+}
 
 /// Writes a text to the file that an option names, if it is given.
 pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {

@@ -10,7 +10,7 @@ use rocking_wall::wall::{Parameters, Wall};
 use crate::demands;
 use crate::linearisation::Counterpart;
 use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
-use crate::template::filled;
+use figures::template::filled;
 
 const TEMPLATE: &str = include_str!("page.html");
 /// Seconds that are drawn after a fall.

@@ -12,8 +12,8 @@ use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spec
 use serde_json::{Value, json};
 
 use crate::args::RecordOptionsArguments;
-use crate::csv::quoted;
 use crate::output;
+use study_folder::csv::quoted;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

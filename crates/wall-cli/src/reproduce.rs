@@ -15,7 +15,7 @@ use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
 use crate::output;
 use crate::progress::Progress;
-use crate::template::filled;
+use figures::template::filled;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

@@ -17,8 +17,9 @@ use study::parallel;
 use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls};
 
 use crate::args::{RecordArguments, SceneArguments};
-use crate::template::filled;
-use crate::{csv, output};
+use crate::output;
+use figures::template::filled;
+use study_folder::csv::optional;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -289,7 +290,7 @@ fn table(shown: &Shown) -> String {
     for (y, points) in shown.spectrum.rows.iter().zip(&shown.spectrum.points) {
         for (x, point) in shown.spectrum.columns.iter().zip(points) {
             let Point { ratio, rocked, overturning } = point;
-            let (overturned, time) = (overturning.is_some(), csv::optional(*overturning));
+            let (overturned, time) = (overturning.is_some(), optional(*overturning));
             let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{overturned},{time}");
         }
     }

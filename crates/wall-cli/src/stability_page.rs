@@ -8,7 +8,7 @@ use figures::heat_map::{self, HeatMap, scale};
 use figures::palette::mixed;
 use study::stability::{Extreme, Map, MapCell, RowQuantity};
 
-use crate::template::filled;
+use figures::template::filled;
 
 /// Size of a cell \[px\].
 const CELL: [f64; 2] = [26.0, 20.0];

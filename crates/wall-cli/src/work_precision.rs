@@ -7,7 +7,7 @@ use figures::escaped;
 use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
 use study::accuracy::{Measurement, WorkPrecision};
 
-use crate::template::filled;
+use figures::template::filled;
 
 /// The page; `rotations` is its section on small rotations, `peers_csv` the output of
 /// `cargo xtask bench --peers`.

@@ -11,6 +11,7 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 `ValueError`, a file that is missing `FileNotFoundError`, and an unknown parameter `TypeError`.
 """
 
+from . import dask
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -43,6 +44,7 @@ __all__ = [
     "Threshold",
     "Wall",
     "__version__",
+    "dask",
     "half_sine",
     "harmonic",
     "package",

@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike, fspath
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from . import _native
@@ -48,6 +49,7 @@ class Study:
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self._native = _native.Study(fspath(path))
+        self._name = Path(path).stem
         for warning in self._native.warnings:
             warn(warning, stacklevel=2)
 
@@ -55,6 +57,13 @@ class Study:
     def from_toml(cls, path: str | PathLike[str]) -> Study:
         """Reads a study file."""
         return cls(path)
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return (self._name, self._native.sent())
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        self._name, values = state
+        self._native = _native.Study.received(values)
 
     def __repr__(self) -> str:
         walls, records, models = len(self.walls), len(self.records), len(self.models)
@@ -92,7 +101,8 @@ class Study:
         """Runs the study on all cores, or on some threads, and fits the fragilities.
 
         Shows a bar where tqdm is installed. Ctrl-C stops it. The results do not depend on the number of
-        threads. They stay in memory: for a study that is stopped and continued use `wall ida`.
+        threads. They stay in memory: a large study, or one that is stopped and continued, is for `wall ida`
+        or `rocking_wall.dask`.
         """
         with bar(len(self), progress) as report:
             tables = self._native.run(threads, report)
@@ -100,7 +110,7 @@ class Study:
 
 
 @contextmanager
-def bar(total: int, wanted: bool) -> Iterator[Callable[[int], None]]:
+def bar(total: int, wanted: bool, unit: str = " curves") -> Iterator[Callable[[int], None]]:
     """Shows progress where tqdm is installed."""
     try:
         from tqdm.auto import tqdm
@@ -109,7 +119,7 @@ def bar(total: int, wanted: bool) -> Iterator[Callable[[int], None]]:
     if not wanted:
         yield lambda done: None
         return
-    with tqdm(total=total, unit=" curves") as shown:
+    with tqdm(total=total, unit=unit) as shown:
 
         def report(done: int) -> None:
             shown.update(done - shown.n)

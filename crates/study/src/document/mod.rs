@@ -25,15 +25,18 @@ use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
 use rocking_wall::scene::{
-    Floors, Group, Place, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml, read_floors,
+    Floors, GROUPS, Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml,
+    read_floors, to_toml,
 };
 use rocking_wall::wall::Parameters;
 
-use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model};
+use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model, NamedWall};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::model;
 
+/// Groups of parameters that a wall of a study may state.
+const WALL_GROUPS: [&str; 5] = ["geometry", "force_law", "impact", "tie", "solver"];
 /// Most synthetic records of a study.
 const MOST_RECORDS: u64 = 10_000;
 /// Most resamples of the bootstrap.
@@ -69,8 +72,6 @@ pub struct WallEntry {
     pub source: WallSource,
     /// Storeys between ground and wall; if there are none, those of its scene.
     pub floors: Option<Floors>,
-    /// Line in the study file.
-    pub line: usize,
 }
 
 /// Source of a wall.
@@ -78,8 +79,10 @@ pub struct WallEntry {
 pub enum WallSource {
     /// Parameters in the study file itself.
     Inline(Box<Parameters>),
-    /// A scene file, relative to the study file.
-    Scene(PathBuf),
+    /// A scene file, relative to the study file, and the line that names it.
+    Scene(PathBuf, usize),
+    /// A table of many walls (CSV), relative to the study file, and the line that names it.
+    Table(PathBuf, usize),
 }
 
 /// Records of a study.
@@ -159,6 +162,7 @@ struct ReportTable {
 struct WallTable {
     name: Option<String>,
     scene: Option<PathBuf>,
+    table: Option<PathBuf>,
     supports: Option<Spanned<SupportsTable>>,
     #[serde(default)]
     geometry: Group,
@@ -170,6 +174,21 @@ struct WallTable {
     tie: Group,
     #[serde(default)]
     solver: Group,
+}
+
+/// A wall as [`wall_text`] writes it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallText {
+    geometry: Group,
+    force_law: Group,
+    impact: Group,
+    #[serde(default)]
+    tie: Group,
+    solver: Group,
+    #[serde(default)]
+    storeys: Vec<Spanned<StoreyTable>>,
+    supports: Option<Spanned<SupportsTable>>,
 }
 
 impl StudyFile {
@@ -212,22 +231,26 @@ impl StudyFile {
 
 fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, SceneError> {
     let spec = table.get_ref();
+    let [geometry, force_law, impact, tie, solver] = WALL_GROUPS;
     let groups = [
-        ("geometry", &spec.geometry),
-        ("force_law", &spec.force_law),
-        ("impact", &spec.impact),
-        ("tie", &spec.tie),
-        ("solver", &spec.solver),
+        (geometry, &spec.geometry),
+        (force_law, &spec.force_law),
+        (impact, &spec.impact),
+        (tie, &spec.tie),
+        (solver, &spec.solver),
     ];
-    let line = place.line(table.span());
-    if let Some(scene) = &spec.scene {
-        if let Some((name, _)) = groups.iter().find(|(_, group)| !group.is_empty()) {
+    let given = [("scene", &spec.scene), ("table", &spec.table)];
+    if let Some((kind, path)) = given.into_iter().find_map(|(kind, path)| Some((kind, path.as_ref()?))) {
+        let is_other = kind == "scene" && spec.table.is_some();
+        let own = groups.iter().find(|(_, group)| !group.is_empty()).map(|(name, _)| *name);
+        if let Some(name) = is_other.then_some("table").or(own) {
             let message =
-                format!("a wall is either a scene or has its own tables; leave out scene or {name}");
+                format!("a wall is either a {kind} or has its own tables; leave out {kind} or {name}");
             return Err(place.error(table.span(), message));
         }
-        let source = WallSource::Scene(scene.clone());
-        return Ok(WallEntry { name: spec.name.clone(), source, floors: None, line });
+        let line = place.line(table.span());
+        let source = if kind == "scene" { WallSource::Scene } else { WallSource::Table };
+        return Ok(WallEntry { name: spec.name.clone(), source: source(path.clone(), line), floors: None });
     }
     if let Some(key) = spec.impact.keys().find(|key| key.get_ref() == "impact") {
         let message = "impact is set by the study's models; state restitution_source and restitution only";
@@ -241,7 +264,50 @@ fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, Scen
         apply_group(&mut parameters, name, group, place)?;
     }
     let source = WallSource::Inline(Box::new(parameters));
-    Ok(WallEntry { name: spec.name.clone(), source, floors: None, line })
+    Ok(WallEntry { name: spec.name.clone(), source, floors: None })
+}
+
+/// Returns the names of the parameters that a wall of a study may state.
+pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
+    let groups = GROUPS.iter().filter(|(group, _)| WALL_GROUPS.contains(group));
+    // the impact is that of the models
+    groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| *name != "impact")
+}
+
+/// Writes the parameters and storeys of a wall as tables of a study file.
+pub fn wall_text(wall: &NamedWall) -> String {
+    let (parameters, floors) = (wall.parameters.clone(), wall.floors.clone());
+    let text = to_toml(&Scene { parameters, floors, ..Scene::default() }, "");
+    let mut is_wanted = false;
+    let mut kept = String::new();
+    for line in text.lines() {
+        if line.starts_with('[') {
+            let group = line.trim_matches(['[', ']']);
+            is_wanted = WALL_GROUPS.contains(&group) || ["supports", "storeys"].contains(&group);
+        }
+        if is_wanted && !line.is_empty() && !line.starts_with("impact =") {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+/// Reads a wall from its tables.
+///
+/// # Errors
+/// [`SceneError`] with line and value.
+pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
+    let place = &Place::new(&name, text);
+    let wall: WallText = parse_toml(place)?;
+    let mut parameters = Parameters::default();
+    for (group, entries) in
+        WALL_GROUPS.iter().zip([wall.geometry, wall.force_law, wall.impact, wall.tie, wall.solver])
+    {
+        apply_group(&mut parameters, group, &entries, place)?;
+    }
+    let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
+    Ok(NamedWall { name, parameters, floors })
 }
 
 fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {

@@ -83,6 +83,16 @@ impl Levels {
         }
     }
 
+    /// Estimates the runs of one curve; it is a guess where the collapse decides.
+    pub(super) fn expected_runs(&self) -> f64 {
+        match *self {
+            Self::Grid(ref levels) => levels.len() as f64,
+            Self::ToOverturning { step, top } => (0.5 * top / step).max(1.0),
+            // the hunt and the bracket take about twenty
+            Self::HuntAndFill { gap, .. } => 20.0 + 1.0 / gap,
+        }
+    }
+
     /// Checks every value.
     ///
     /// # Errors

@@ -25,6 +25,7 @@ mod error;
 mod levels;
 mod measure;
 mod model;
+mod parts;
 mod shaking;
 
 use std::borrow::Cow;
@@ -83,8 +84,6 @@ pub struct Study {
     measure: IntensityMeasure,
     levels: Levels,
     tail: f64,
-    /// Motion of each wall and model, models innermost.
-    motions: Vec<Motion>,
     /// Intensity of each unscaled record \[m/s²\].
     intensities: Vec<f64>,
 }
@@ -118,8 +117,9 @@ impl Study {
             return Err(IdaError::Empty { what });
         }
         levels.check()?;
-        let pairs = walls.iter().flat_map(|wall| models.iter().map(move |model| motion(wall, model)));
-        let motions = pairs.collect::<Result<_, _>>()?;
+        for wall in &walls {
+            models.iter().try_for_each(|model| motion(wall, model).map(drop))?;
+        }
         let intensity = |record: &NamedRecord| {
             let name = || record.name.clone();
             match measure.of(&record.motion) {
@@ -129,7 +129,7 @@ impl Study {
             }
         };
         let intensities = records.iter().map(intensity).collect::<Result<_, _>>()?;
-        Ok(Self { walls, records, models, measure, levels, tail: DEFAULT_TAIL, motions, intensities })
+        Ok(Self { walls, records, models, measure, levels, tail: DEFAULT_TAIL, intensities })
     }
 
     /// Sets the free vibration after each record \[s\].
@@ -180,12 +180,14 @@ impl Study {
     }
 
     /// Returns a wall with the damping and impact of a model.
-    pub fn wall(&self, wall: usize, model: usize) -> &Wall {
-        self.motion(wall, model).wall()
+    pub fn wall(&self, wall: usize, model: usize) -> Wall {
+        self.motion(wall, model).wall().clone()
     }
 
-    fn motion(&self, wall: usize, model: usize) -> &Motion {
-        &self.motions[wall * self.models.len() + model]
+    /// Makes the motion of a wall and model. Those of all walls would take more memory than a part's curves.
+    fn motion(&self, wall: usize, model: usize) -> Motion {
+        let made = motion(&self.walls[wall], &self.models[model]);
+        made.unwrap_or_else(|error| unreachable!("`new` has made it: {error}"))
     }
 
     /// Counts the combinations.
@@ -211,10 +213,10 @@ impl Study {
     pub fn curve(&self, case: Case) -> Result<Curve, IdaError> {
         let (motion, record) = (self.motion(case.wall, case.model), &self.records[case.record]);
         let felt = self.felt(case)?;
-        let solver = RecordSolver::new(motion, felt.step());
-        let shaking = Shaking::new(motion, &solver, &felt, self.tail);
+        let solver = RecordSolver::new(&motion, felt.step());
+        let shaking = Shaking::new(&motion, &solver, &felt, self.tail);
         let runs = self.levels.trace(|levels| {
-            self.runs(case, &shaking, levels).map_err(|source| IdaError::Run {
+            self.runs(case, &motion, &shaking, levels).map_err(|source| IdaError::Run {
                 wall: self.walls[case.wall].name.clone(),
                 record: record.name.clone(),
                 model: self.models[case.model].name.clone(),
@@ -252,9 +254,15 @@ impl Study {
     }
 
     /// Runs the record of a combination scaled to each of some levels \[m/s²\].
-    fn runs(&self, case: Case, shaking: &Shaking<'_>, levels: &[f64]) -> Result<Vec<Run>, SolverError> {
+    fn runs(
+        &self,
+        case: Case,
+        motion: &Motion,
+        shaking: &Shaking<'_>,
+        levels: &[f64],
+    ) -> Result<Vec<Run>, SolverError> {
         let factors: Vec<_> = levels.iter().map(|level| level / self.intensities[case.record]).collect();
-        let instability = self.wall(case.wall, case.model).body().instability;
+        let instability = motion.wall().body().instability;
         let run = |(&intensity, outcome): (&f64, Outcome)| Run {
             intensity,
             demand: outcome.state.peaks.ratio(instability),

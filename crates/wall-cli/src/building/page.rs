@@ -10,7 +10,7 @@ use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
 use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
-use crate::template::filled;
+use figures::template::filled;
 
 const TEMPLATE: &str = include_str!("../building.html");
 /// Height of a storey without a wall that spans it \[m\].

@@ -10,9 +10,9 @@ use serde_json::json;
 use study::parallel;
 
 use super::arguments::Arguments;
-use crate::csv::{optional, quoted};
 use crate::output;
 use crate::progress::Progress;
+use study_folder::csv::{optional, quoted};
 
 /// A record with its sign.
 struct Shaking {

@@ -4,7 +4,7 @@
 ///
 /// # Panics
 /// If a gap has no content, or content no gap.
-pub(crate) fn filled(template: &str, parts: &[(&str, &str)]) -> String {
+pub fn filled(template: &str, parts: &[(&str, &str)]) -> String {
     let mut page =
         String::with_capacity(template.len() + parts.iter().map(|part| part.1.len()).sum::<usize>());
     let mut used = vec![false; parts.len()];

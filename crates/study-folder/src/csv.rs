@@ -1,7 +1,7 @@
 //! Fields of CSV files.
 
 /// Quotes a text where RFC 4180 asks for it.
-pub(crate) fn quoted(field: &str) -> String {
+pub fn quoted(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {
@@ -10,6 +10,6 @@ pub(crate) fn quoted(field: &str) -> String {
 }
 
 /// Writes a number with all its digits, or nothing.
-pub(crate) fn optional(number: Option<f64>) -> String {
+pub fn optional(number: Option<f64>) -> String {
     number.map_or_else(String::new, |number| format!("{number:?}"))
 }

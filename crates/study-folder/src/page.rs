@@ -1,53 +1,42 @@
-//! The page of a study: for each wall its IDA curves and fragilities, damping models side by side.
+//! The page of a study; of each wall its IDA curves and fragilities, damping models side by side.
 
 use std::fmt::Write;
 
 use figures::escaped;
 use figures::many_lines::ManyLines;
 use figures::palette::{AMBER, BLACK, BLUE, BROWN, GREEN, GREY, PURPLE, RED, TEAL};
+use figures::template::filled;
 use study::fragility::{Interval, fractile, steps};
 use study::ida::{Curve, Exceedance};
+use study::results::WallResults;
 
-use crate::template::filled;
-
-use super::results::{Results, in_g};
+use crate::contents::Manifest;
+use crate::tables::in_g;
 
 /// Colours of the models by their names, then of the others in turn.
 const KNOWN: [(&str, &str); 6] =
     [("CR", BLACK), ("CDC", BLUE), ("CDR", GREEN), ("SDR", AMBER), ("CDR Eq. 14", RED), ("none", GREY)];
 const OTHERS: [&str; 5] = [PURPLE, TEAL, BROWN, "#c2185b", "#5c6bc0"];
 /// Sizes of the plots \[px\].
-const LARGE: [f64; 2] = [420.0, 280.0];
+pub(crate) const LARGE: [f64; 2] = [420.0, 280.0];
 const SMALL: [f64; 2] = [300.0, 250.0];
 /// Demand at the right end of IDA curves.
 const DEMAND_END: f64 = 1.08;
 /// Intensities at which fractiles are drawn, points of a fitted curve.
-const POINTS: u32 = 100;
+pub(crate) const POINTS: u32 = 100;
 /// Points of single curves on the whole page, about 12 bytes each; beyond it, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
-/// Walls on a page.
-const MOST_WALLS: usize = 40;
 
-pub(super) fn page(results: &Results) -> String {
-    let contents = results.contents();
+/// Makes the page of a study with a number of runs from the sections of its walls, or of all together.
+pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
+    let contents = &manifest.contents;
     let mut key = String::new();
     for (index, model) in contents.models.iter().enumerate() {
         let _ = write!(
             key,
             "<span><i style=\"background:{}\"></i>{}</span>",
-            color(results, index),
+            color(manifest, index),
             escaped(&model.name)
-        );
-    }
-    let mut sections = String::new();
-    for wall in 0..contents.walls.len().min(MOST_WALLS) {
-        sections.push_str(&section(results, wall));
-    }
-    if contents.walls.len() > MOST_WALLS {
-        let _ = write!(
-            sections,
-            "<p>The first {MOST_WALLS} of {} walls; the tables have them all.</p>",
-            contents.walls.len()
         );
     }
     let facts = format!(
@@ -57,25 +46,25 @@ pub(super) fn page(results: &Results) -> String {
         if contents.walls.len() == 1 { "wall" } else { "walls" },
         contents.records.len(),
         contents.models.len(),
-        results.data.runs(),
-        measure_words(results),
+        runs,
+        measure_words(manifest),
     );
     filled(
         include_str!("page.html"),
         &[
-            ("title", &escaped(&results.manifest.title)),
+            ("title", &escaped(&manifest.title)),
             ("facts", &facts),
-            ("reading", &reading(results)),
+            ("reading", &reading(manifest)),
             ("key", &key),
             ("program", &escaped(&contents.program)),
-            ("sections", &sections),
+            ("sections", sections),
         ],
     )
 }
 
 /// The intensity measure in words, with its periods.
-fn measure_words(results: &Results) -> String {
-    let contents = results.contents();
+fn measure_words(manifest: &Manifest) -> String {
+    let contents = &manifest.contents;
     let periods =
         contents.measure_details.split_once("periods: ").map(|(_, rest)| rest.trim_end_matches([' ', '}']));
     match periods {
@@ -89,9 +78,9 @@ fn measure_words(results: &Results) -> String {
 }
 
 /// Explains medians, fits and intervals.
-fn reading(results: &Results) -> String {
-    let report = &results.manifest.report;
-    let observed = if results.contents().grid.is_some() {
+fn reading(manifest: &Manifest) -> String {
+    let report = &manifest.report;
+    let observed = if manifest.contents.grid.is_some() {
         "the numbers of exceedances at each level (Baker 2015, Eq. 11)"
     } else {
         "the records' own intensities; those that stood at the highest level count as censored (Baker \
@@ -109,8 +98,9 @@ fn reading(results: &Results) -> String {
     )
 }
 
-fn color(results: &Results, model: usize) -> &'static str {
-    let models = &results.contents().models;
+/// Returns the colour of a model.
+pub(crate) fn color(manifest: &Manifest, model: usize) -> &'static str {
+    let models = &manifest.contents.models;
     let known = |name: &str| KNOWN.iter().find(|(known, _)| *known == name).map(|(_, color)| *color);
     known(&models[model].name).unwrap_or_else(|| {
         let before = models[..model].iter().filter(|model| known(&model.name).is_none()).count();
@@ -118,23 +108,34 @@ fn color(results: &Results, model: usize) -> &'static str {
     })
 }
 
-fn section(results: &Results, wall: usize) -> String {
-    let contents = results.contents();
+/// A wall and its results.
+#[derive(Clone, Copy)]
+struct Shown<'a> {
+    manifest: &'a Manifest,
+    wall: usize,
+    results: &'a WallResults,
+}
+
+/// Makes the section of a wall. Of a study of many runs, only every nth record is drawn.
+pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, runs: usize) -> String {
+    let shown = Shown { manifest, wall, results };
+    let every = runs.div_ceil(MOST_POINTS).max(1);
+    let contents = &manifest.contents;
     let note = &contents.walls[wall];
-    let top_of_collapses = top(results, wall, 1.0);
+    let top_of_collapses = top(shown, 1.0);
     let mut html = format!(
         "<section><h2>Wall {}</h2><p class=\"facts\">{}; e = {:.3}</p><div class=\"pair\">",
         escaped(&note.name),
         escaped(&shape(&note.parameters)),
         note.restitution
     );
-    let fractions = &results.manifest.report.fractions;
+    let fractions = &manifest.report.fractions;
     if let Some(collapse) = fractions.iter().position(|fraction| *fraction == 1.0) {
         let _ = write!(
             html,
             "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div>{}</div>",
-            fragility(results, wall, collapse, LARGE, top_of_collapses),
-            table(results, wall, collapse)
+            fragility(shown, collapse, LARGE, top_of_collapses),
+            table(shown, collapse)
         );
     }
     html.push_str("</div><h3>IDA curves, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
@@ -143,7 +144,7 @@ fn section(results: &Results, wall: usize) -> String {
             html,
             "<figure><figcaption>{}</figcaption>{}</figure>",
             escaped(name),
-            curves(results, wall, model, top_of_collapses)
+            curves(shown, model, every, top_of_collapses)
         );
     }
     html.push_str("</div><h3>Fragilities at fractions of u<sub>ins</sub></h3><div class=\"row\">");
@@ -151,7 +152,7 @@ fn section(results: &Results, wall: usize) -> String {
         let _ = write!(
             html,
             "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
-            fragility(results, wall, place, SMALL, top(results, wall, *fraction))
+            fragility(shown, place, SMALL, top(shown, *fraction))
         );
     }
     html.push_str("</div></section>\n");
@@ -159,10 +160,10 @@ fn section(results: &Results, wall: usize) -> String {
 }
 
 /// Shape, law and loads of a wall, from its parameters.
-fn shape(parameters: &[String]) -> String {
+fn shape(parameters: &str) -> String {
     let find = |name: &str| {
         parameters
-            .iter()
+            .lines()
             .find_map(|line| line.strip_prefix(name)?.strip_prefix(" = "))
             .map(|v| v.trim_matches('"'))
     };
@@ -183,12 +184,12 @@ fn shape(parameters: &[String]) -> String {
 }
 
 /// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a fraction of `u_ins`.
-fn top(results: &Results, wall: usize, fraction: f64) -> f64 {
-    let models = results.contents().models.len();
+fn top(shown: Shown<'_>, fraction: f64) -> f64 {
+    let models = shown.manifest.contents.models.len();
     let largest = |model: usize| {
-        let mut intensities: Vec<f64> = results
-            .data
-            .exceedances(wall, model, fraction)
+        let mut intensities: Vec<f64> = shown
+            .results
+            .exceedances(model, fraction)
             .into_iter()
             .map(|occurrence| match occurrence {
                 Exceedance::At(intensity) | Exceedance::Above(intensity) => intensity,
@@ -203,15 +204,15 @@ fn top(results: &Results, wall: usize, fraction: f64) -> f64 {
 }
 
 /// Empirical steps and fitted curves of all models.
-fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: f64) -> String {
-    let contents = results.contents();
-    let fraction = results.manifest.report.fractions[place];
+fn fragility(shown: Shown<'_>, place: usize, size: [f64; 2], top: f64) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let fraction = manifest.report.fractions[place];
     let mut plot = ManyLines::new(size, [0.0, top], [0.0, 1.0]);
-    for (model, summary) in results.data.summaries(wall, place).iter().enumerate() {
-        let color = color(results, model);
+    for (model, summary) in results.summaries(place).iter().enumerate() {
+        let color = color(manifest, model);
         let mut points = vec![[0.0, 0.0]];
         let mut before = 0.0;
-        for (intensity, part) in steps(&results.data.exceedances(wall, model, fraction)) {
+        for (intensity, part) in steps(&results.exceedances(model, fraction)) {
             points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
             before = part;
         }
@@ -224,23 +225,22 @@ fn fragility(results: &Results, wall: usize, place: usize, size: [f64; 2], top: 
             plot.line(&curve, "fit", color);
         }
     }
-    plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", contents.measure), "probability"])
+    plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", manifest.contents.measure), "probability"])
 }
 
 /// Curves of one model: intensity up, demand across.
-fn curves(results: &Results, wall: usize, model: usize, top: f64) -> String {
-    let contents = results.contents();
-    let all = results.data.curves(wall, model);
-    let color = color(results, model);
+fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let all = results.curves(model);
+    let color = color(manifest, model);
     let mut plot = ManyLines::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
-    let every = results.data.runs().div_ceil(MOST_POINTS).max(1);
     for curve in all.iter().step_by(every) {
         plot.line(&path(curve), "record", color);
     }
     for (part, class) in [(0.16, "fractile outer"), (0.84, "fractile outer"), (0.5, "fractile")] {
         plot.line(&fractile_path(all, part, top), class, color);
     }
-    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", contents.measure)])
+    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", manifest.contents.measure)])
 }
 
 /// A curve up to its collapse, where it goes flat.
@@ -281,17 +281,17 @@ fn fractile_path(curves: &[Curve], part: f64, top: f64) -> Vec<[f64; 2]> {
 }
 
 /// Medians, dispersions and ratios.
-fn table(results: &Results, wall: usize, collapse: usize) -> String {
-    let contents = results.contents();
-    let report = &results.manifest.report;
+fn table(shown: Shown<'_>, collapse: usize) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let (contents, report) = (&manifest.contents, &manifest.report);
     let mut html = format!(
         "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
          <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
-    for (model, summary) in results.data.summaries(wall, collapse).iter().enumerate() {
+    for (model, summary) in results.summaries(collapse).iter().enumerate() {
         let xi = contents.walls[wall].xi[model];
-        let again = results.data.curves(wall, model).iter().filter(|curve| curve.resurrections() > 0).count();
+        let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
         let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
         let gravity = ground_motion::STANDARD_GRAVITY;
@@ -299,7 +299,7 @@ fn table(results: &Results, wall: usize, collapse: usize) -> String {
             html,
             "<tr><td><i style=\"background:{}\"></i>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
              <td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
-            color(results, model),
+            color(manifest, model),
             escaped(&contents.models[model].name),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
             words(&summary.median, gravity),

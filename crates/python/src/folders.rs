@@ -1,0 +1,58 @@
+//! The class `Folder`: a study in a folder, whose parts other processes compute.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use study::parallel;
+use study_folder::FolderError;
+
+use crate::errors::{failed, refused};
+use crate::studies::Study;
+
+/// The folder of a study.
+#[pyclass(frozen, module = "rocking_wall._native")]
+pub(crate) struct Folder {
+    folder: study_folder::Folder,
+}
+
+#[pymethods]
+impl Folder {
+    /// Opens or makes the folder of a study.
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf, study: &Study) -> PyResult<Self> {
+        let opened = py.detach(|| study_folder::Folder::of_study(&path, &study.loaded));
+        Ok(Self { folder: opened.map_err(of_folder)? })
+    }
+
+    /// Lists the parts that are missing or damaged, and says which are damaged.
+    fn missing(&self, py: Python<'_>) -> (Vec<usize>, Option<String>) {
+        py.detach(|| {
+            let missing = self.folder.missing(0..self.folder.contents().parts());
+            let damage = self.folder.damage(&missing);
+            (missing, damage)
+        })
+    }
+
+    /// Writes a part.
+    fn keep(&self, py: Python<'_>, part: usize, bytes: &[u8]) -> PyResult<()> {
+        py.detach(|| self.folder.keep_encoded(part, bytes)).map_err(of_folder)
+    }
+
+    /// Writes the results of a complete folder; returns the summary and what the fits warn of.
+    fn finish(&self, py: Python<'_>, threads: Option<NonZeroUsize>) -> PyResult<(String, Option<String>)> {
+        let threads = parallel::threads(threads).get();
+        let report = py.detach(|| study_folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
+        Ok((report.summary, report.warning))
+    }
+}
+
+/// Makes the exception of a folder.
+fn of_folder(error: FolderError) -> PyErr {
+    match error {
+        FolderError::File { .. } => PyOSError::new_err(error.to_string()),
+        FolderError::Parquet { .. } | FolderError::Part { .. } => failed(error),
+        _ => refused(error),
+    }
+}

@@ -1,0 +1,50 @@
+//! Errors of a study's folder.
+
+use std::path::PathBuf;
+
+use parquet::errors::ParquetError;
+
+/// Why a study cannot be kept in a folder, or its results not be written.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum FolderError {
+    /// A file or folder cannot be read, written or made.
+    #[error("{}: cannot be {what}: {source}", path.display())]
+    File { path: PathBuf, what: &'static str, source: std::io::Error },
+    /// There is no study.
+    #[error("{}: cannot be read; expected a folder that `wall ida` has made: {source}", path.display())]
+    NoStudy { path: PathBuf, source: std::io::Error },
+    /// The description of a study is not one.
+    #[error(
+        "{}: not the description of a study by this version; remove the folder or give another: {source}",
+        path.display()
+    )]
+    Description { path: PathBuf, source: serde_json::Error },
+    /// The description of a study is damaged.
+    #[error("{}: is damaged; remove it, and `wall ida` writes it again and keeps the runs", path.display())]
+    Damaged { path: PathBuf },
+    /// The folder holds results of another study.
+    #[error(
+        "{}: holds results of another study ({difference}); give another folder with -o, or remove this one",
+        path.display()
+    )]
+    OtherStudy { path: PathBuf, difference: String },
+    /// Folders that are to be merged hold different studies.
+    #[error(
+        "{}: holds another study than the first folder ({difference}); merge folders of one study only",
+        path.display()
+    )]
+    OtherThanFirst { path: PathBuf, difference: String },
+    /// The runs are not complete.
+    #[error(
+        "{missing} of {all} combinations are missing: {names}; run their shards again, or name the folders \
+         that hold them too"
+    )]
+    Missing { missing: usize, all: usize, names: String },
+    /// A part is damaged or of another study.
+    #[error("part {part}: is damaged or of another study")]
+    Part { part: usize },
+    /// A part cannot be made.
+    #[error("part {part}: {source}")]
+    Parquet { part: usize, source: ParquetError },
+}

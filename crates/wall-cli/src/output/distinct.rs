@@ -1,0 +1,56 @@
+//! Inputs and outputs that are different files.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use study_folder::file::{behind_links, folder};
+
+/// What makes two paths one file: its device and number, or else its canonical path; of a file that does not
+/// exist yet, those of its folder and its name.
+type Identity = (FileKey, Option<OsString>);
+
+#[cfg(unix)]
+type FileKey = (u64, u64);
+#[cfg(not(unix))]
+type FileKey = PathBuf;
+
+#[cfg(unix)]
+fn key(path: &Path) -> Option<FileKey> {
+    use std::os::unix::fs::MetadataExt;
+    std::fs::metadata(path).ok().map(|metadata| (metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+fn key(path: &Path) -> Option<FileKey> {
+    path.canonicalize().ok()
+}
+
+/// Returns nothing for pipes and devices, which any number of outputs may share.
+fn identity(path: &Path) -> Option<Identity> {
+    if let Ok(metadata) = std::fs::metadata(path) {
+        return if metadata.is_file() { Some((key(path)?, None)) } else { None };
+    }
+    let path = behind_links(path);
+    Some((key(folder(&path))?, path.file_name().map(OsString::from)))
+}
+
+/// Refuses outputs that would overwrite an input, another output or the file that takes stdout.
+pub(crate) fn check_distinct<'a>(
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+    outputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<()> {
+    let stdout = identity(Path::new("/dev/stdout")).map(|identity| (identity, "standard output".to_owned()));
+    let mut taken: Vec<_> = stdout.into_iter().collect();
+    for path in inputs {
+        taken.extend(identity(path).map(|identity| (identity, format!("the input {}", path.display()))));
+    }
+    for path in outputs {
+        let Some(own) = identity(path) else { continue };
+        if let Some((_, other)) = taken.iter().find(|(identity, _)| *identity == own) {
+            bail!("{}: is the same file as {other}; give another for the output", path.display());
+        }
+        taken.push((own, format!("the output {}", path.display())));
+    }
+    Ok(())
+}

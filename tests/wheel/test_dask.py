@@ -1,0 +1,103 @@
+"""A study on Dask: two worker processes on this machine, one of them killed, the bytes of `wall ida`."""
+
+import os
+import pickle
+import signal
+import threading
+import time
+
+import pytest
+
+import rocking_wall as rw
+
+distributed = pytest.importorskip("distributed")
+
+STUDY = """
+title = "Two workers"
+models = ["CR", "CDC"]
+levels = { method = "hunt", first = 0.05, increase = 0.05, top = 8, gap = 0.02 }
+records = { files = ["beat.csv"], unit = "g", synthetic = { count = 3, duration = 20, step = 0.005 } }
+report = { resamples = 100 }
+
+[[walls]]
+name = "parapet"
+geometry = { height = 3, thickness = 0.3 }
+
+[[walls]]
+table = "walls.csv"
+"""
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A study of 13 walls with a record from a file, and its path."""
+    rows = "".join(f"wall {k},{2 + 0.2 * k},0.25\n" for k in range(12))
+    (tmp_path / "walls.csv").write_text("name,height,thickness\n" + rows, encoding="utf-8")
+    samples = "".join(f"{0.01 * k:.2f},{0.2 * ((k % 40) - 20) / 20:.4f}\n" for k in range(800))
+    (tmp_path / "beat.csv").write_text("time,a_g\n" + samples, encoding="utf-8")
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY, encoding="utf-8")
+    return path
+
+
+def files(folder):
+    """Every file of a folder with its bytes."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_a_study_is_sent_as_it_is(study):
+    sent = rw.Study(study)
+    received = pickle.loads(pickle.dumps(sent))
+    assert received._native.part(3) == sent._native.part(3)
+    with pytest.raises(IndexError, match="part"):
+        received._native.part(received._native.parts)
+
+
+def test_two_workers_one_killed(study, program, tmp_path):
+    program("ida", study, "-o", tmp_path / "alone")
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
+    )
+    with cluster, distributed.Client(cluster) as client:
+        victim = next(iter(client.run(os.getpid).values()))
+        out = tmp_path / "dask"
+        killed = []
+
+        def kill():
+            # in the middle: some parts are there, others are not
+            end = time.monotonic() + 60
+            while time.monotonic() < end and not list(out.rglob("*.parquet")):
+                time.sleep(0.001)
+            os.kill(victim, signal.SIGKILL)
+            killed.append(len(list(out.rglob("*.parquet"))))
+
+        killer = threading.Thread(target=kill)
+        killer.start()
+        assert rw.dask.run(rw.Study(study), client, out, progress=False) == out
+        killer.join()
+    parts = len(list(out.rglob("*.parquet")))
+    assert 0 < killed[0] < parts, "the worker was killed before or after the run"
+    assert files(out) == files(tmp_path / "alone")
+
+
+def test_a_folder_goes_on_and_is_read(study, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("pyarrow")
+    out = tmp_path / "out"
+    with distributed.Client(processes=False, dashboard_address=None, n_workers=1) as client:
+        rw.dask.run(rw.Study(study), client, out, progress=False)
+        whole = files(out)
+        parts = sorted((out / "runs").rglob("*.parquet"))
+        parts[1].unlink()
+        parts[2].write_bytes(parts[2].read_bytes()[:-20])
+        with pytest.warns(UserWarning, match="1 of .* parts are damaged"):
+            rw.dask.run(rw.Study(study), client, out, progress=False)
+        assert files(out) == whole
+        (tmp_path / "walls.csv").write_text("name,height\nother,3\n", encoding="utf-8")
+        with pytest.raises(ValueError, match="another study"):
+            rw.dask.run(rw.Study(study), client, out, progress=False)
+    runs = pandas.read_parquet(out / "runs")
+    csv = pandas.read_csv(out / "levels.csv")
+    assert runs["wall"].tolist() == csv["wall"].tolist()
+    assert runs["u_max_over_u_ins"].tolist() == csv["u_max_over_u_ins"].tolist()
+    assert (runs["intensity_m_s2"] / 9.80665).tolist() == csv["intensity_g"].tolist()
