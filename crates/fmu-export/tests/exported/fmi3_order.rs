@@ -6,7 +6,7 @@
 )]
 
 use crate::fmi3::*;
-use crate::importer::{Importer, Journal, write_down_3};
+use crate::importer::{Importer, Journal, Message, write_down_3};
 use crate::order::{Function, Phase, check_order};
 use crate::spring::{Boolean, COPIES_PANIC, Integer, Real, Spring, Text};
 use fmu_export::Model;
@@ -327,26 +327,6 @@ fn instances_that_cannot_be_had_are_refused_with_a_message() {
         )
     };
     refused(component, &["fmi3InstantiateScheduledExecution", "Model Exchange and co-simulation only"]);
-    for (variable, part) in [(Real::X, "x is not an input"), (Real::Push, "push is not continuous")] {
-        let reference = variable.reference();
-        let component = unsafe {
-            fmi3InstantiateCoSimulation(
-                null(),
-                good.as_ptr(),
-                null(),
-                false,
-                false,
-                false,
-                false,
-                &reference,
-                1,
-                environment(),
-                log,
-                None,
-            )
-        };
-        refused(component, &["fmi3InstantiateCoSimulation", part]);
-    }
     // no name and no callback are fine
     unsafe {
         let component =
@@ -354,5 +334,37 @@ fn instances_that_cannot_be_had_are_refused_with_a_message() {
         assert!(!component.is_null());
         assert_eq!(fmi3Terminate(component), ERROR);
         fmi3FreeInstance(component);
+    }
+}
+
+/// Importers such as fmusim list all that they record.
+#[test]
+fn intermediate_variables_that_are_no_continuous_inputs_get_a_warning() {
+    let good = CString::new(Spring::GUID).unwrap();
+    for (variable, part) in [(Real::X, "x is not an input"), (Real::Push, "push is not continuous")] {
+        let journal = Journal::new();
+        let environment = ptr::from_ref(&*journal).cast_mut().cast();
+        let reference = variable.reference();
+        let component = unsafe {
+            fmi3InstantiateCoSimulation(
+                null(),
+                good.as_ptr(),
+                null(),
+                false,
+                true,
+                false,
+                false,
+                &reference,
+                1,
+                environment,
+                Some(write_down_3 as _),
+                None,
+            )
+        };
+        assert!(!component.is_null());
+        let messages = journal.take();
+        let named = |message: &Message| message.category == "logStatusWarning" && message.text.contains(part);
+        assert_eq!(messages.iter().filter(|message| named(message)).count(), 1, "{messages:?}");
+        unsafe { fmi3FreeInstance(component) };
     }
 }
