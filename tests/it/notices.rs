@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 /// Crates of this workspace.
-const OURS: [&str; 10] = [
+const OURS: [&str; 11] = [
     "fmu-export",
     "fmu-export-build",
     "ground-motion",
