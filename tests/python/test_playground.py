@@ -192,8 +192,8 @@ def test_a_link_holds_the_state(browser, page):
     slide(browser, "height", 2.5)
     Select(browser.find_element(By.ID, "field_mechanism")).select_by_value("vertical_spanning")
     shown = answered(browser)
-    link = wait(browser, lambda: "height=2.5" in browser.current_url and browser.current_url)
-    assert "mechanism=vertical_spanning" in link and "density" not in link
+    link = wait(browser, lambda: "mechanism=vertical_spanning" in browser.current_url and browser.current_url)
+    assert "height=2.5" in link and "density" not in link
     again = visit(browser, page, link.split("#")[1])
     assert (again["toml"], again["summary"]) == (shown["toml"], shown["summary"])
 

@@ -9,8 +9,6 @@ import subprocess
 import pytest
 from selenium.webdriver.common.by import By
 
-from test_page import browser  # noqa: F401 (a fixture)
-
 LINES = ["PEER", "A TEST", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS= 1000, DT= .01 SEC"]
 
 
