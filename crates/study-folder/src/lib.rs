@@ -9,7 +9,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `error` | errors |
-//! | [`file`] | files, written completely or not at all |
+//! | [`mod@file`] | files, written completely or not at all |
 //! | [`csv`] | fields of CSV files |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
