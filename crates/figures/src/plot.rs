@@ -129,7 +129,8 @@ impl Plot {
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGINS;
         let plots = self.drawn();
-        let layout = self.layout(&plots, 13).with_force_margins(left, right);
+        let layout = self.layout(&plots, 13).with_legend_position(LegendPosition::InsideTopRight);
+        let layout = layout.with_force_margins(left, right);
         let scene = render_multiple(plots, layout.with_force_margins_y(top, bottom));
         let svg = SvgBackend::new().render_scene(&scene);
         let [width, height] = self.size;

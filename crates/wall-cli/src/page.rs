@@ -1,7 +1,7 @@
 //! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
 
 use anyhow::{Result, bail};
-use figures::{escaped, response as plots};
+use figures::{escaped, number, response as plots};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, DampingSource, Impact, Mechanism};
@@ -184,7 +184,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     };
     let fallen = if summary.overturned { ", in the fall" } else { "" };
     let tie = wall.tie().map_or("none".to_owned(), |tie| {
-        format!("{} kN/mm at {} m", 1e-6 * tie.stiffness, parameters.tie_height)
+        format!("{} kN/mm at {} m", number(1e-6 * tie.stiffness, 4), parameters.tie_height)
     });
     let rows = [
         (
