@@ -126,9 +126,9 @@ fn analytic_restitution_against_transverse_walls() {
     }
 }
 
-#[test]
-fn bad_one_sided_walls_are_refused_with_the_remedy() {
-    let good = Parameters {
+/// A parapet that rocks to u > 0 only, at rest at u = 0, e₁ = 0.4.
+fn undamped() -> Parameters {
+    Parameters {
         rocking: Rocking::OneSidedPositive,
         impact: Impact::Restitution,
         restitution_source: RestitutionSource::Given,
@@ -136,7 +136,12 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
         damping_model: DampingModel::None,
         u_start: 0.0,
         ..Parameters::default()
-    };
+    }
+}
+
+#[test]
+fn bad_one_sided_walls_are_refused_with_the_remedy() {
+    let good = undamped();
     assert!(Wall::new(&good).is_ok());
     let refused = |change: fn(&mut Parameters), words: [&str; 2]| {
         let mut parameters = good.clone();
@@ -175,15 +180,7 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
 /// A start at u = 0 towards the transverse walls is an impact; at rest the wall leaves where −λ a turns away.
 #[test]
 fn one_sided_starts_and_rests() {
-    let parameters = Parameters {
-        rocking: Rocking::OneSidedPositive,
-        impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
-        restitution: 0.4,
-        damping_model: DampingModel::None,
-        u_start: 0.0,
-        ..Parameters::default()
-    };
+    let parameters = undamped();
     let still = Support::default();
     let towards = Parameters { u_dot_start: -0.1, ..parameters.clone() };
     let start = Simulation::new(&towards, None, 0.0, still).unwrap().progress().state;
