@@ -6,11 +6,13 @@ import signal
 import threading
 import time
 
+import distributed
+import duckdb
+import pandas
+import polars
 import pytest
 
 import rocking_wall as rw
-
-distributed = pytest.importorskip("distributed")
 
 STUDY = """
 title = "Two workers"
@@ -81,8 +83,6 @@ def test_two_workers_one_killed(study, program, tmp_path):
 
 
 def test_a_folder_goes_on_and_is_read(study, tmp_path):
-    pandas = pytest.importorskip("pandas")
-    pytest.importorskip("pyarrow")
     out = tmp_path / "out"
     with distributed.Client(processes=False, dashboard_address=None, n_workers=1) as client:
         rw.dask.run(rw.Study(study), client, out, progress=False)
@@ -97,6 +97,9 @@ def test_a_folder_goes_on_and_is_read(study, tmp_path):
         with pytest.raises(ValueError, match="another study"):
             rw.dask.run(rw.Study(study), client, out, progress=False)
     runs = pandas.read_parquet(out / "runs")
+    everywhere = str(out / "runs/**/*.parquet")
+    assert polars.read_parquet(everywhere)["wall"].to_list() == runs["wall"].tolist()
+    assert duckdb.sql(f"SELECT count(*) FROM '{everywhere}'").fetchall() == [(len(runs),)]
     csv = pandas.read_csv(out / "levels.csv")
     assert runs["wall"].tolist() == csv["wall"].tolist()
     assert runs["u_max_over_u_ins"].tolist() == csv["u_max_over_u_ins"].tolist()
