@@ -285,6 +285,9 @@ fn tables_and_page_hold_the_runs() {
     // for each wall the collapse, three models' curves and three fractions
     assert_eq!(page.matches("<svg").count(), 2 * (1 + 3 + 3));
     assert!(page.contains("AvgSA (g)") && page.contains("u_max / u_ins") && page.contains("CDR 5 %"));
+    // all walls at one glance, and each curve with its record
+    assert_eq!(page.matches("<div class=\"track\">").count(), 2);
+    assert!(page.contains("<title>synthetic 1</title>") && page.contains("<td>synthetic 1</td>"));
 }
 
 #[test]
@@ -359,4 +362,8 @@ fn open_medians_have_their_bound() {
         assert!(text.contains(bound), "{text}");
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
     }
+    // stripes are points: of runs, and of the fractions that exceed a limit state
+    assert!(page.contains("class=\"runs\"") && page.contains("class=\"mark\""));
+    assert!(!page.contains("class=\"record\"") && !page.contains("class=\"steps\""));
+    assert!(page.contains("<td>open &gt;0.200</td>"), "records that never collapsed");
 }

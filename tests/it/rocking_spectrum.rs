@@ -324,6 +324,13 @@ fn the_program_writes_a_table_and_a_page() {
     let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
     assert_eq!(page.matches("<title>height h (m) = ").count(), 6);
     assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
+    // the default parapet is beyond these axes, and on wider ones
+    let own = "height h (m) = 4, slenderness h/b = 10: overturns at ";
+    assert!(words.contains(own) && words.contains(", outside the map") && !page.contains(">your wall<"));
+    let wider = ["spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
+    assert!(wall(&folder, &wider).status.success());
+    let page = std::fs::read_to_string(folder.join("w.html")).unwrap();
+    assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 
     let rigid =
         ["--set", "force_law=rigid_linear", "--set", "damping_model=none", "--set", "impact=restitution"];

@@ -197,7 +197,7 @@ def test_the_page_of_a_study(browser, study, width):
     plots = browser.find_elements(By.CSS_SELECTOR, "svg")
     assert len(plots) == 1 + 3 + 3
     assert all(plot.find_elements(By.CSS_SELECTOR, "g path") for plot in plots)
-    rows = [row.text for row in browser.find_elements(By.CSS_SELECTOR, "tbody tr")]
+    rows = [row.text for row in browser.find_elements(By.CSS_SELECTOR, ".scroll > table tbody tr")]
     assert [row.split()[0] for row in rows] == ["CR", "CDR", "CDR"]
 
 

@@ -6,12 +6,12 @@ import math
 WIDTH, HEIGHT = 440, 300
 LEFT, RIGHT, TOP, BOTTOM = 62, 12, 12, 44
 COLORS = {
-    "Jacobi": "#b3371e",
+    "Jacobi": "#c8440f",
     "Jacobi, loop closed": "#e08a00",
     "Gauss-Seidel": "#7b1fa2",
     "iterated": "#1f5fa8",
 }
-WALL_COLORS = {"strip": "#1f5fa8", "parapet": "#b3371e"}
+WALL_COLORS = {"strip": "#1f5fa8", "parapet": "#c8440f"}
 
 STYLE = """
 :root { color-scheme: light; }

@@ -26,8 +26,12 @@ pub(crate) fn write_upwards(svg: &mut String, [x, y]: [f64; 2], text: &str) {
     let _ = write!(svg, "<text transform=\"{place}\" text-anchor=\"middle\">{text}</text>");
 }
 
-/// Round numbers within a range, about `count` of them, with their text.
-pub(crate) fn ticks([low, high]: [f64; 2], count: f64) -> Vec<(f64, String)> {
+/// Returns round numbers within a range, about `count` of them, with their text.
+///
+/// ```
+/// assert_eq!(figures::ticks([0.0, 1.2], 3.0)[1], (0.5, "0.5".to_owned()));
+/// ```
+pub fn ticks([low, high]: [f64; 2], count: f64) -> Vec<(f64, String)> {
     let step = round_step((high - low) / count);
     let first = (low / step - 1e-9).ceil();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12 decimals")]

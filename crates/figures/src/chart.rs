@@ -15,26 +15,29 @@ use std::fmt::Write;
 use study::chart::{Axis, Chart, Look, Series};
 
 use crate::escaped;
-use crate::palette::SERIES;
+use crate::palette::{SERIES, sign};
 use crate::plot::{self, MARGINS, Plot};
 use crate::points::{simplified, within};
 
-/// How charts and their legends look on a page, as CSS.
-pub const STYLE: &str = include_str!("chart.css");
-
 /// Size \[px\].
 const SIZE: [f64; 2] = [460.0, 300.0];
+/// Marks along a line that is one of several.
+const MARKS: usize = 4;
 
 /// Draws a figure element: title, chart, legend.
 pub fn figure(chart: &Chart) -> String {
     let mut key = String::new();
     for series in chart.series.iter().filter(|series| !series.name.is_empty()) {
-        let (color, _, mark) = SERIES[series.color % SERIES.len()];
-        let sample = match series.look {
-            Look::Line => format!("<i style=\"border-top:2px solid {color}\"></i>"),
-            Look::Dashed => format!("<i style=\"border-top:2px dashed {color}\"></i>"),
-            Look::Marks => format!("<b style=\"color:{color}\">{mark}</b>"),
+        let (color, mark) = SERIES[series.color % SERIES.len()];
+        let line = |style| format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>");
+        let mut sample = match series.look {
+            Look::Line => line("solid"),
+            Look::Dashed => line("dashed"),
+            Look::Marks => String::new(),
         };
+        if series.look == Look::Marks || is_marked(chart, series) {
+            sample += &sign(color, mark);
+        }
         let _ = write!(key, "<span>{sample}{}</span>", escaped(&series.name));
     }
     format!(
@@ -44,6 +47,12 @@ pub fn figure(chart: &Chart) -> String {
     )
 }
 
+/// Whether a line carries marks too: it is one of several that have none of their own.
+fn is_marked(chart: &Chart, line: &Series) -> bool {
+    let marks = chart.series.iter().any(|series| series.look == Look::Marks);
+    !marks && chart.series.iter().any(|series| series.color != line.color)
+}
+
 fn svg(chart: &Chart) -> String {
     let of = |pick: fn(&(f64, f64)) -> f64| chart.series.iter().flat_map(move |s| s.points.iter().map(pick));
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
@@ -51,27 +60,50 @@ fn svg(chart: &Chart) -> String {
     let [left, right, top, bottom] = MARGINS;
     let area = [SIZE[0] - left - right, SIZE[1] - top - bottom];
     let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));
-    let mut series = Vec::new();
-    for Series { look, color, points, .. } in &chart.series {
-        let (color, mark, _) = SERIES[color % SERIES.len()];
-        let (look, pieces) = match look {
+    let mut drawn = Vec::new();
+    for (index, series) in chart.series.iter().enumerate() {
+        let (color, mark) = SERIES[series.color % SERIES.len()];
+        let marks =
+            |points| plot::Series { look: plot::Look::Marks(mark), ..plot::Series::line(color, 3.5, points) };
+        let look = match series.look {
             Look::Marks => {
-                let look = plot::Look::Marks(mark);
-                series.push(plot::Series { look, ..plot::Series::line(color, 3.5, points.clone()) });
+                drawn.push(marks(series.points.clone()));
                 continue;
             }
-            Look::Line => (plot::Look::Solid, within(points, ranges)),
-            Look::Dashed => (plot::Look::Dashed, within(points, ranges)),
+            Look::Line => plot::Look::Solid,
+            Look::Dashed => plot::Look::Dashed,
         };
-        series.extend(
+        let pieces = within(&series.points, ranges);
+        drawn.extend(
             pieces.iter().map(|piece| plot::Series {
                 look,
                 ..plot::Series::line(color, 1.4, simplified(piece, scale))
             }),
         );
+        if is_marked(chart, series) {
+            let part = (index as f64 + 0.5) / chart.series.len() as f64;
+            drawn.push(marks(spread(&pieces.concat(), scale, part)));
+        }
     }
     let axes = [Axis::over(&chart.x.label, ranges[0]), Axis::over(&chart.y.label, ranges[1])];
-    Plot::new(SIZE, axes, series).svg()
+    Plot::new(SIZE, axes, drawn).svg()
+}
+
+/// Returns [`MARKS`] points of a line, evenly along it; `part` of a distance from its start is the first.
+fn spread(points: &[(f64, f64)], scale: [f64; 2], part: f64) -> Vec<(f64, f64)> {
+    let length = |a: &(f64, f64), b: &(f64, f64)| ((b.0 - a.0) * scale[0]).hypot((b.1 - a.1) * scale[1]);
+    let all: f64 = points.windows(2).map(|pair| length(&pair[0], &pair[1])).sum();
+    let (mut gone, mut spread) = (0.0, Vec::new());
+    for pair in points.windows(2) {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        let piece = length(&pair[0], &pair[1]);
+        while piece > 0.0 && gone + piece >= all * (spread.len() as f64 + part) / MARKS as f64 {
+            let part = (all * (spread.len() as f64 + part) / MARKS as f64 - gone) / piece;
+            spread.push((x0 + part * (x1 - x0), y0 + part * (y1 - y0)));
+        }
+        gone += piece;
+    }
+    spread
 }
 
 /// The range of an axis: its own, or that of the data with room around it.

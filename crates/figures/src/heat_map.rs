@@ -9,6 +9,7 @@
 //!     columns: Axis::even("a", &values),
 //!     rows: Axis::even("b", &values),
 //!     size: [26.0, 20.0],
+//!     own: None,
 //!     cells: &|row, column| Cell { fill: "#fff".into(), title: (row + column).to_string(), crossed: false },
 //! }
 //! .svg();
@@ -38,6 +39,8 @@ pub struct HeatMap<'a> {
     pub rows: Axis,
     /// Width and height of a cell \[px\].
     pub size: [f64; 2],
+    /// A place to mark with words: cells from the start of the columns and of the rows.
+    pub own: Option<([f64; 2], &'a str)>,
     /// The cell of a row and a column.
     pub cells: &'a dyn Fn(usize, usize) -> Cell,
 }
@@ -68,11 +71,23 @@ impl Axis {
         let count = values.len();
         let mut ticks = Vec::new();
         if let [first, .., last] = *values {
-            let place = |tick: f64| (tick - first) / (last - first) * (count as f64 - 1.0) + 0.5;
-            ticks = round([first, last], 7.0).into_iter().map(|(tick, text)| (place(tick), text)).collect();
+            let marked = |(tick, text)| place(values, tick).map(|place| (place, text));
+            ticks = round([first, last], 7.0).into_iter().filter_map(marked).collect();
         }
         Self { label: label.to_owned(), count, ticks }
     }
+}
+
+/// Returns where a value is along an axis of evenly spaced ones, in cells from its start; `None` outside.
+///
+/// ```
+/// assert_eq!(figures::heat_map::place(&[1.0, 2.0, 3.0], 2.5), Some(2.0));
+/// assert_eq!(figures::heat_map::place(&[1.0, 2.0, 3.0], 3.6), None);
+/// ```
+pub fn place(values: &[f64], value: f64) -> Option<f64> {
+    let [first, .., last] = *values else { return None };
+    let place = (value - first) / (last - first) * (values.len() as f64 - 1.0) + 0.5;
+    (0.0..=values.len() as f64).contains(&place).then_some(place)
 }
 
 impl HeatMap<'_> {
@@ -95,10 +110,22 @@ impl HeatMap<'_> {
         }
         let _ = write!(
             svg,
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\"/>",
+            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\" \
+             fill=\"none\" stroke=\"#888\"/>",
             right - LEFT,
             bottom - TOP
         );
+        if let Some(([column, row], words)) = self.own {
+            let (x, y) = (LEFT + width * column, bottom - height * row);
+            // the words stand on the side with more room
+            let (side, anchor) = if x < 0.5 * (LEFT + right) { (12.0, "start") } else { (-12.0, "end") };
+            for color in ["stroke=\"#fff\" stroke-width=\"5\"", "stroke=\"#000\" stroke-width=\"2\""] {
+                let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7\" fill=\"none\" {color}/>");
+            }
+            svg.push_str("<g class=\"own\" stroke=\"#fff\" stroke-width=\"4\" paint-order=\"stroke\">");
+            write_text(&mut svg, [x + side, y + 5.0], anchor, words);
+            svg.push_str("</g>");
+        }
         for (place, text) in &self.rows.ticks {
             write_text(&mut svg, [LEFT - 5.0, bottom - height * place + 4.0], "end", text);
         }
@@ -127,7 +154,8 @@ impl HeatMap<'_> {
         if crossed {
             let _ = write!(
                 svg,
-                "<path d=\"M{:.0} {:.0}l{:.0} {:.0}m0 {:.0}l{:.0} {:.0}\" class=\"cross\"/>",
+                "<path d=\"M{:.0} {:.0}l{:.0} {:.0}m0 {:.0}l{:.0} {:.0}\" fill=\"none\" \
+                 stroke=\"#000\" stroke-width=\"1.6\"/>",
                 x + 8.0,
                 y + 5.0,
                 width - 16.0,

@@ -32,7 +32,7 @@ pub mod response;
 pub mod template;
 pub mod work_precision;
 
-pub use axes::number;
+pub use axes::{number, ticks};
 
 /// Escapes text for markup.
 ///

@@ -1,4 +1,4 @@
-//! Plots of thousands of lines as inline SVG of few bytes: the page's CSS styles the classes of their paths.
+//! Plots of thousands of lines and points as SVG of few bytes: [`STYLE`] has the classes of their paths.
 //!
 //! ```
 //! let mut plot = figures::many_lines::ManyLines::new([300.0, 250.0], [0.0, 1.0], [0.0, 2.0]);
@@ -10,6 +10,10 @@ use std::fmt::Write;
 
 use crate::axes::{ticks, write_text, write_upwards};
 use crate::escaped;
+use crate::palette::Mark;
+
+/// How the plots look on a page or in a file, as CSS.
+pub const STYLE: &str = include_str!("many_lines.css");
 
 /// Margins around the plot area \[px\]: left, right, top, bottom.
 const MARGINS: [f64; 4] = [48.0, 12.0, 10.0, 42.0];
@@ -45,6 +49,11 @@ impl ManyLines {
 
     /// Adds a broken line of a class and a colour; the plot area cuts off what lies outside.
     pub fn line(&mut self, points: &[[f64; 2]], class: &str, color: &str) {
+        self.named_line(points, class, color, "");
+    }
+
+    /// Adds a line that says its name when pointed at.
+    pub fn named_line(&mut self, points: &[[f64; 2]], class: &str, color: &str, name: &str) {
         if points.len() < 2 {
             return;
         }
@@ -58,7 +67,41 @@ impl ManyLines {
             }
             last = here;
         }
+        let _ = write!(self.body, "<path class=\"{class}\" stroke=\"{color}\" d=\"{path}\"");
+        let _ = match name {
+            "" => write!(self.body, "/>"),
+            _ => write!(self.body, "><title>{}</title></path>", escaped(name)),
+        };
+    }
+
+    /// Adds points of a class and a colour.
+    pub fn points(&mut self, points: &[[f64; 2]], class: &str, color: &str) {
+        let mut path = String::new();
+        for &point in points {
+            let [x, y] = self.place(point);
+            let _ = write!(path, "M{x:.1} {y:.1}h0");
+        }
         let _ = write!(self.body, "<path class=\"{class}\" stroke=\"{color}\" d=\"{path}\"/>");
+    }
+
+    /// Adds a mark at each point.
+    pub fn marks(&mut self, points: &[[f64; 2]], mark: Mark, color: &str) {
+        let shape = match mark {
+            Mark::Square => "m-3-3h6v6h-6z",
+            Mark::Triangle => "m0-4l4 7h-8z",
+            Mark::Diamond => "m0-4.5l4 4.5l-4 4.5l-4-4.5z",
+            Mark::Cross => "m-3-3l6 6m0-6l-6 6",
+            Mark::Plus => "m-4 0h8m-4-4v8",
+            Mark::TriangleDown => "m0 4l4-7h-8z",
+            Mark::Star => "m-4 0h8m-4-4v8m-3-7l6 6m0-6l-6 6",
+            _ => "m-3.3 0a3.3 3.3 0 1 0 6.6 0a3.3 3.3 0 1 0-6.6 0",
+        };
+        let mut path = String::new();
+        for &point in points {
+            let [x, y] = self.place(point);
+            let _ = write!(path, "M{x:.1} {y:.1}{shape}");
+        }
+        let _ = write!(self.body, "<path class=\"mark\" stroke=\"{color}\" fill=\"{color}\" d=\"{path}\"/>");
     }
 
     /// Draws the plot with its axes and their labels; `id` is unique on the page.
@@ -66,7 +109,8 @@ impl ManyLines {
         let [width, height] = self.size;
         let [left, right, top, bottom] = self.area();
         let mut svg = format!(
-            "<svg viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{} over {}\">\
+            "<svg class=\"lines\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" \
+             aria-label=\"{} over {}\">\
              <clipPath id=\"{id}\">\
              <rect x=\"{left}\" y=\"{top}\" width=\"{:.0}\" height=\"{:.0}\"/></clipPath>",
             escaped(y_label),
@@ -86,7 +130,8 @@ impl ManyLines {
         }
         let _ = write!(
             svg,
-            "<g clip-path=\"url(#{id})\">{}</g><path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>\
+            "<g clip-path=\"url(#{id})\" fill=\"none\">{}</g>\
+             <path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/>\
              <g class=\"label\">",
             self.body
         );

@@ -1,5 +1,7 @@
 //! Colours and marks, told apart by people who see fewer colours too.
 //!
+//! They have a contrast of at least 3 to a white page and, inverted, to a dark one.
+//!
 //! ```
 //! use figures::palette::{BLUE, SERIES, mixed};
 //!
@@ -14,10 +16,10 @@ pub use kuva::plot::scatter::MarkerShape as Mark;
 /// The response, and whatever comes first.
 pub const BLUE: &str = "#1f5fa8";
 /// Limits, and what is compared with the response.
-pub const RED: &str = "#b3371e";
-pub const GREEN: &str = "#2e7d32";
-pub const PURPLE: &str = "#8e5bb5";
-pub const AMBER: &str = "#c98a00";
+pub const RED: &str = "#c8440f";
+pub const GREEN: &str = "#009e73";
+pub const PURPLE: &str = "#cc67ae";
+pub const AMBER: &str = "#b57b00";
 /// Ground motions.
 pub const DARK_GREY: &str = "#4d4d4d";
 pub const TEAL: &str = "#00838f";
@@ -28,15 +30,39 @@ pub const GREY: &str = "#777777";
 pub const PALE: &str = "#b5b5b5";
 pub const BLACK: &str = "#000000";
 
-/// Colour, mark, and the mark as a character, of the series of a chart in turn.
-pub const SERIES: [(&str, Mark, &str); 6] = [
-    (BLUE, Mark::Circle, "●"),
-    (RED, Mark::Square, "■"),
-    (GREEN, Mark::Triangle, "▲"),
-    (PURPLE, Mark::Diamond, "◆"),
-    (AMBER, Mark::Cross, "✕"),
-    (DARK_GREY, Mark::Plus, "✚"),
+/// Colour and mark of the series of a chart in turn. Damping models have those of their place among
+/// [`study::chart::MODELS`].
+pub const SERIES: [(&str, Mark); study::chart::MODELS.len()] = [
+    (BLUE, Mark::Circle),
+    (RED, Mark::Square),
+    (GREEN, Mark::Triangle),
+    (PURPLE, Mark::Diamond),
+    (AMBER, Mark::Cross),
+    (BLACK, Mark::Plus),
+    (TEAL, Mark::TriangleDown),
+    (BROWN, Mark::Star),
 ];
+
+/// Returns a mark in its colour for the text of a page.
+///
+/// ```
+/// use figures::palette::{BLUE, Mark, sign};
+///
+/// assert_eq!(sign(BLUE, Mark::Circle), "<b class=\"chip\" style=\"color:#1f5fa8\">●</b>");
+/// ```
+pub fn sign(color: &str, mark: Mark) -> String {
+    let character = match mark {
+        Mark::Square => "■",
+        Mark::Triangle => "▲",
+        Mark::Diamond => "◆",
+        Mark::Cross => "✕",
+        Mark::Plus => "✚",
+        Mark::TriangleDown => "▼",
+        Mark::Star => "★",
+        _ => "●",
+    };
+    format!("<b class=\"chip\" style=\"color:{color}\">{character}</b>")
+}
 
 /// Mixes a colour from `stops` (red, green, blue from 0 to 255), evenly spaced over shares from 0 to 1.
 pub fn mixed(stops: &[[f64; 3]], share: f64) -> String {

@@ -10,7 +10,7 @@
 //! ```
 
 use crate::axes::number;
-use crate::palette::{BLACK, BROWN, PALE, SERIES, TEAL};
+use crate::palette::{BLACK, PALE, SERIES};
 use crate::plot::{Axis, Picture, Plot, Series};
 use crate::points::decimated;
 
@@ -20,7 +20,7 @@ const HISTORY: f64 = 180.0;
 const SPECTRA: f64 = 420.0;
 
 /// The most records that have a history and a colour each; more are drawn as pale spectra with their median.
-pub const MOST: usize = 8;
+pub const MOST: usize = SERIES.len();
 
 /// A record to draw.
 #[derive(Clone, Debug)]
@@ -42,9 +42,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
     let mut panels = Vec::new();
     let mut spectra = Vec::new();
     if records.len() <= MOST {
-        let [first, second, third, fourth, fifth, last] = SERIES.map(|(color, ..)| color);
-        let colors: [_; MOST] = [first, second, third, fourth, fifth, TEAL, BROWN, last];
-        for (Record { name, history, spectrum, .. }, color) in records.iter().zip(colors) {
+        for (Record { name, history, spectrum, .. }, (color, _)) in records.iter().zip(SERIES) {
             let line = Series::line(color, 0.9, decimated(history, end(history)));
             let axes = [Axis::over("time (s)", [0.0, longest]), Axis::new("a (g)")];
             panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });

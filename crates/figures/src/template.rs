@@ -1,10 +1,22 @@
 //! Pages from templates with gaps `{{name}}`.
 
+/// What all pages begin with: their head, and the style they share.
+const HEAD: &str = include_str!("page.html");
+
+/// Makes a page of its own from a template of its body, which may begin with a style. One of the parts is the
+/// title.
+///
+/// # Panics
+/// If a gap has no content, or content no gap.
+pub fn page(template: &str, parts: &[(&str, &str)]) -> String {
+    filled(&[HEAD, template, "</html>\n"].concat(), parts)
+}
+
 /// Fills the gaps of a template with what is named so, in one pass: braces in a title stay what they are.
 ///
 /// # Panics
 /// If a gap has no content, or content no gap.
-pub fn filled(template: &str, parts: &[(&str, &str)]) -> String {
+fn filled(template: &str, parts: &[(&str, &str)]) -> String {
     let mut page =
         String::with_capacity(template.len() + parts.iter().map(|part| part.1.len()).sum::<usize>());
     let mut used = vec![false; parts.len()];

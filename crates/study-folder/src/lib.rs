@@ -16,6 +16,8 @@
 //! | `folder` | the folder |
 //! | `work` | runs what is missing |
 //! | `tables` | the tables |
+//! | `legend` | colours and marks of the damping models |
+//! | `comparison` | the walls at one glance |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
@@ -42,11 +44,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod comparison;
 mod contents;
 pub mod csv;
 mod error;
 pub mod file;
 mod folder;
+mod legend;
 mod page;
 mod part;
 mod population;

@@ -3,42 +3,34 @@
 use std::fmt::Write;
 
 use figures::escaped;
-use figures::many_lines::ManyLines;
-use figures::palette::{AMBER, BLACK, BLUE, BROWN, GREEN, GREY, PURPLE, RED, TEAL};
-use figures::template::filled;
+use figures::many_lines::{ManyLines, STYLE};
+use figures::palette::sign;
+use figures::template;
 use study::fragility::{Interval, fractile, steps};
-use study::ida::{Curve, Exceedance};
+use study::ida::{Curve, Exceedance, Run};
 use study::results::WallResults;
 
-use crate::contents::Manifest;
+use crate::contents::{Contents, Manifest};
+use crate::legend::{key, looks};
 use crate::tables::in_g;
 
-/// Colours of the models by their names, then of the others in turn.
-const KNOWN: [(&str, &str); 6] =
-    [("CR", BLACK), ("CDC", BLUE), ("CDR", GREEN), ("SDR", AMBER), ("CDR Eq. 14", RED), ("none", GREY)];
-const OTHERS: [&str; 5] = [PURPLE, TEAL, BROWN, "#c2185b", "#5c6bc0"];
-/// Sizes of the plots \[px\].
-pub(crate) const LARGE: [f64; 2] = [420.0, 280.0];
-const SMALL: [f64; 2] = [300.0, 250.0];
-/// Demand at the right end of IDA curves.
+/// Size of every plot \[px\]: all have letters of one size.
+pub(crate) const SIZE: [f64; 2] = [340.0, 260.0];
+/// Demand at the right end of IDA curves, and that at which the runs of stripes that overturned are drawn.
 const DEMAND_END: f64 = 1.08;
-/// Intensities at which fractiles are drawn, points of a fitted curve.
+const OVERTURNED: f64 = 1.05;
+/// Points of fractiles and of a fitted curve.
 pub(crate) const POINTS: u32 = 100;
+/// Probabilities at which a fitted curve has the mark of its model.
+const MARKED: [f64; 3] = [0.16, 0.5, 0.84];
 /// Points of single curves on the whole page, about 12 bytes each; beyond it, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
+/// Most records whose collapse the page lists.
+const MOST_LISTED: usize = 200;
 
 /// Makes the page of a study with a number of runs from the sections of its walls, or of all together.
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
-    let mut key = String::new();
-    for (index, model) in contents.models.iter().enumerate() {
-        let _ = write!(
-            key,
-            "<span><i style=\"background:{}\"></i>{}</span>",
-            color(manifest, index),
-            escaped(&model.name)
-        );
-    }
     let facts = format!(
         "{} {}, {} records, {} damping models: {} runs. Intensity: {}. A run stops when the wall overturns, \
          |u| &gt; u<sub>ins</sub>; the lowest level at which it does is the collapse.",
@@ -49,13 +41,14 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
         runs,
         measure_words(manifest),
     );
-    filled(
+    template::page(
         include_str!("page.html"),
         &[
             ("title", &escaped(&manifest.title)),
+            ("style", STYLE),
             ("facts", &facts),
             ("reading", &reading(manifest)),
-            ("key", &key),
+            ("key", &key(manifest)),
             ("program", &escaped(&contents.program)),
             ("sections", sections),
         ],
@@ -80,32 +73,33 @@ fn measure_words(manifest: &Manifest) -> String {
 /// Explains medians, fits and intervals.
 fn reading(manifest: &Manifest) -> String {
     let report = &manifest.report;
-    let observed = if manifest.contents.grid.is_some() {
-        "the numbers of exceedances at each level (Baker 2015, Eq. 11)"
+    let stripes = manifest.contents.grid.is_some();
+    let (drawn, observed) = if stripes {
+        (
+            "marks are the fractions of the records that exceed it at each level",
+            "their numbers (Baker 2015, \
+           Eq. 11)",
+        )
     } else {
-        "the records' own intensities; those that stood at the highest level count as censored (Baker \
-         2015, Eq. 8)"
+        (
+            "steps are the records",
+            "the records' own intensities; those that stood at the highest level count \
+           as censored (Baker 2015, Eq. 8)",
+        )
     };
+    let runs =
+        if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
     format!(
-        "Fragilities: the steps are the records. The lines are lognormal curves, fitted by maximum \
+        "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum \
          likelihood to {observed}. All limit states of a wall and model share one β, so that their curves do \
          not cross (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of \
          likelihoods, 5&nbsp;%). Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all \
          their results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels \
-         leave open, with its bound.",
+         leave open, with its bound. Fractiles of IDA curves are those of the intensity at which a record \
+         first exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
         report.resamples,
         escaped(&report.reference)
     )
-}
-
-/// Returns the colour of a model.
-pub(crate) fn color(manifest: &Manifest, model: usize) -> &'static str {
-    let models = &manifest.contents.models;
-    let known = |name: &str| KNOWN.iter().find(|(known, _)| *known == name).map(|(_, color)| *color);
-    known(&models[model].name).unwrap_or_else(|| {
-        let before = models[..model].iter().filter(|model| known(&model.name).is_none()).count();
-        OTHERS[before % OTHERS.len()]
-    })
 }
 
 /// A wall and its results.
@@ -124,7 +118,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     let note = &contents.walls[wall];
     let top_of_collapses = top(shown, 1.0);
     let mut html = format!(
-        "<section><h2>Wall {}</h2><p class=\"facts\">{}; e = {:.3}</p><div class=\"pair\">",
+        "<section><h2>Wall {}</h2><p class=\"subtitle\">{}; e = {:.3}</p><div class=\"row pair\">",
         escaped(&note.name),
         escaped(&shape(&note.parameters)),
         note.restitution
@@ -133,12 +127,14 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
     if let Some(collapse) = fractions.iter().position(|fraction| *fraction == 1.0) {
         let _ = write!(
             html,
-            "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div>{}</div>",
-            fragility(shown, collapse, LARGE, top_of_collapses),
-            table(shown, collapse)
+            "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div class=\"scroll\">{}{}</div>",
+            fragility(shown, collapse, top_of_collapses),
+            table(shown, collapse),
+            collapses(shown)
         );
     }
-    html.push_str("</div><h3>IDA curves, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
+    let drawn = if contents.grid.is_some() { "Stripes" } else { "IDA curves" };
+    let _ = write!(html, "</div><h3>{drawn}, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
     for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
         let _ = write!(
             html,
@@ -152,7 +148,7 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
         let _ = write!(
             html,
             "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
-            fragility(shown, place, SMALL, top(shown, *fraction))
+            fragility(shown, place, top(shown, *fraction))
         );
     }
     html.push_str("</div></section>\n");
@@ -203,42 +199,62 @@ fn top(shown: Shown<'_>, fraction: f64) -> f64 {
     1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
 }
 
-/// Empirical steps and fitted curves of all models.
-fn fragility(shown: Shown<'_>, place: usize, size: [f64; 2], top: f64) -> String {
+/// What was observed, as steps or as marks at the levels of stripes, and fitted curves of all models.
+fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
     let fraction = manifest.report.fractions[place];
-    let mut plot = ManyLines::new(size, [0.0, top], [0.0, 1.0]);
-    for (model, summary) in results.summaries(place).iter().enumerate() {
-        let color = color(manifest, model);
-        let mut points = vec![[0.0, 0.0]];
-        let mut before = 0.0;
-        for (intensity, part) in steps(&results.exceedances(model, fraction)) {
-            points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
-            before = part;
+    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
+    for (model, (summary, (color, mark))) in results.summaries(place).iter().zip(looks(manifest)).enumerate()
+    {
+        let exceedances = results.exceedances(model, fraction);
+        if let Some(levels) = &manifest.contents.grid {
+            let part = |level: f64| {
+                let exceeded = exceedances.iter().filter(|e| e.or_infinity() <= level).count();
+                exceeded as f64 / exceedances.len() as f64
+            };
+            let stripes: Vec<_> = levels.iter().map(|&level| [in_g(level), part(level)]).collect();
+            plot.marks(&stripes, mark, color);
+        } else {
+            let mut points = vec![[0.0, 0.0]];
+            let mut before = 0.0;
+            for (intensity, part) in steps(&exceedances) {
+                points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
+                before = part;
+            }
+            points.push([2.0 * top, before]);
+            plot.line(&points, "steps", color);
         }
-        points.push([2.0 * top, before]);
-        plot.line(&points, "steps", color);
         if let Ok(fit) = summary.fitted {
             let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
             let probability = |x: f64| fit.probability(x * ground_motion::STANDARD_GRAVITY);
             let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
             plot.line(&curve, "fit", color);
+            if manifest.contents.grid.is_none() {
+                let first = |part: f64| curve.iter().find(|point| point[1] >= part).copied();
+                plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
+            }
         }
     }
     plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", manifest.contents.measure), "probability"])
 }
 
-/// Curves of one model: intensity up, demand across.
+/// Runs of one model: intensity up, demand across; a curve for each record, or the points of stripes.
 fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
     let all = results.curves(model);
-    let color = color(manifest, model);
-    let mut plot = ManyLines::new(SMALL, [0.0, DEMAND_END], [0.0, top]);
-    for curve in all.iter().step_by(every) {
-        plot.line(&path(curve), "record", color);
+    let (color, _) = looks(manifest)[model];
+    let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
+    for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
+        if manifest.contents.grid.is_some() {
+            let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
+            let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), in_g(run.intensity)]).collect();
+            plot.points(&runs, "runs", color);
+        } else {
+            plot.named_line(&path(curve), "record", color, &record.name);
+        }
     }
-    for (part, class) in [(0.16, "fractile outer"), (0.84, "fractile outer"), (0.5, "fractile")] {
-        plot.line(&fractile_path(all, part, top), class, color);
+    for (points, class) in fractile_paths(all).iter().zip(["fractile outer", "fractile outer", "fractile"]) {
+        plot.line(points, class, color);
     }
     plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", manifest.contents.measure)])
 }
@@ -257,27 +273,53 @@ fn path(curve: &Curve) -> Vec<[f64; 2]> {
     points
 }
 
-/// The demand that a part of the records does not exceed, over the intensity.
-fn fractile_path(curves: &[Curve], part: f64, top: f64) -> Vec<[f64; 2]> {
-    let mut points = vec![[0.0, 0.0]];
+/// The 16, 84 and 50 % fractiles of the intensity at which a record first exceeds a demand, over the demand.
+/// They rise with the demand, and go flat at the collapse.
+fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
+    let mut paths = [const { Vec::new() }; 3].map(|mut path: Vec<[f64; 2]>| {
+        path.push([0.0, 0.0]);
+        path
+    });
     for k in 1..=POINTS {
-        let intensity = top * f64::from(k) / f64::from(POINTS);
-        let si = intensity * ground_motion::STANDARD_GRAVITY;
-        // unknown above the highest level of a record that stood
-        let Some(mut demands) = curves.iter().map(|curve| curve.demand(si)).collect::<Option<Vec<f64>>>()
-        else {
-            break;
-        };
-        demands.sort_by(f64::total_cmp);
-        let Some(demand) = fractile(&demands, part) else { break };
-        if demand.is_infinite() {
-            let standing = points.last().map_or(0.0, |point| point[0]);
-            points.extend([[standing, intensity], [2.0 * DEMAND_END, intensity]]);
-            break;
+        let demand = f64::from(k) / f64::from(POINTS);
+        let first = |curve: &Curve| curve.exceedance(demand, false).or_infinity();
+        let mut intensities: Vec<f64> = curves.iter().map(first).collect();
+        intensities.sort_by(f64::total_cmp);
+        for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
+            // unknown above the levels
+            let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());
+            path.extend(known.map(|intensity| [demand, in_g(intensity)]));
+            if k == POINTS {
+                path.extend(known.map(|intensity| [2.0 * DEMAND_END, in_g(intensity)]));
+            }
         }
-        points.push([demand, intensity]);
     }
-    points
+    paths
+}
+
+/// Lists the collapse of each record with each model, unless there are too many records for a page.
+fn collapses(shown: Shown<'_>) -> String {
+    let Contents { records, models, .. } = &shown.manifest.contents;
+    if records.len() > MOST_LISTED {
+        return String::new();
+    }
+    let mut html = format!(
+        "<details><summary>Collapse of each record, {} (g)</summary><table><tr><th>record</th>",
+        escaped(&shown.manifest.contents.measure)
+    );
+    for model in models {
+        let _ = write!(html, "<th>{}</th>", escaped(&model.name));
+    }
+    for (index, record) in records.iter().enumerate() {
+        let _ = write!(html, "</tr>\n<tr><td>{}</td>", escaped(&record.name));
+        for model in 0..models.len() {
+            let _ = match shown.results.curves(model)[index].collapse() {
+                Exceedance::At(intensity) => write!(html, "<td>{:.3}</td>", in_g(intensity)),
+                Exceedance::Above(top) => write!(html, "<td>open &gt;{:.3}</td>", in_g(top)),
+            };
+        }
+    }
+    html + "</tr></table></details>"
 }
 
 /// Medians, dispersions and ratios.
@@ -289,7 +331,9 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
          <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
         escaped(&report.reference)
     );
-    for (model, summary) in results.summaries(collapse).iter().enumerate() {
+    for (model, (summary, (color, mark))) in
+        results.summaries(collapse).iter().zip(looks(manifest)).enumerate()
+    {
         let xi = contents.walls[wall].xi[model];
         let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
         let reference = contents.models[model].name == report.reference;
@@ -297,10 +341,10 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         let gravity = ground_motion::STANDARD_GRAVITY;
         let _ = write!(
             html,
-            "<tr><td><i style=\"background:{}\"></i>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+            "<tr><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
              <td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
-            color(manifest, model),
             escaped(&contents.models[model].name),
+            sign(color, mark),
             if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
             words(&summary.median, gravity),
             words(&summary.theta, gravity),
@@ -322,4 +366,22 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
 fn words(interval: &Interval, unit: f64) -> String {
     let [estimate, low, high] = interval.texts(unit, Some(3)).map(|text| escaped(&text));
     format!("{estimate}<br><small>{low} … {high}</small>")
+}
+
+#[cfg(test)]
+mod tests {
+    use study::ida::{Curve, Run};
+
+    use super::fractile_paths;
+
+    #[test]
+    fn fractiles_of_curves_that_weave_do_not_fold_back() {
+        let run = |(intensity, demand)| Run { intensity, demand, overturning: None };
+        let demands = [[0.5, 0.1, 0.9], [0.2, 0.6, 0.3], [0.4, 0.2, 1.0]];
+        let curves =
+            demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));
+        for path in fractile_paths(&curves) {
+            assert!(path.is_sorted_by(|a, b| a[0] < b[0] && a[1] <= b[1]) && path.len() > 20, "{path:?}");
+        }
+    }
 }

@@ -8,7 +8,8 @@ use study::fragility::fractile;
 use study::results::WallResults;
 
 use crate::contents::Manifest;
-use crate::page::{LARGE, POINTS, color};
+use crate::legend::looks;
+use crate::page::{POINTS, SIZE};
 use crate::tables::in_g;
 
 /// Fractiles that the tables list.
@@ -50,8 +51,8 @@ impl Population {
     pub(crate) fn sections(&self, manifest: &Manifest) -> String {
         let walls = manifest.contents.walls.len();
         let mut html = format!(
-            "<section><h2>{walls} walls</h2><p class=\"facts\">Each curve is the fraction of the walls whose \
-             median intensity is at most that of the axis. The runs of each wall are in the parts, its \
+            "<section><h2>{walls} walls</h2><p class=\"subtitle\">Each curve is the fraction of the walls \
+             whose median intensity is at most that of the axis. The runs of each wall are in the parts, its \
              fragilities in fragilities.csv.</p><div class=\"row\">"
         );
         let measure = format!("{} (g)", manifest.contents.measure);
@@ -154,14 +155,16 @@ fn shown(median: f64) -> String {
 fn distribution(manifest: &Manifest, values: &[Vec<f64>], id: &str, label: &str) -> String {
     let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
     let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
-    let mut plot = ManyLines::new(LARGE, [0.0, top], [0.0, 1.0]);
-    for (model, values) in values.iter().enumerate() {
+    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
+    for (values, (color, mark)) in values.iter().zip(looks(manifest)) {
         let point = |k: u32| {
             let part = f64::from(k) / f64::from(POINTS);
             Some([fractile(values, part).filter(|value| value.is_finite())?, part])
         };
         let points: Vec<_> = (1..=POINTS).filter_map(point).collect();
-        plot.line(&points, "fit", color(manifest, model));
+        plot.line(&points, "fit", color);
+        let marked = points.iter().filter(|point| [0.16, 0.5, 0.84].contains(&point[1])).copied();
+        plot.marks(&marked.collect::<Vec<_>>(), mark, color);
     }
     plot.svg(id, [label, "fraction of the walls"])
 }

@@ -11,6 +11,7 @@ use study::ida::{Curve, Exceedance};
 use study::parallel;
 use study::results::{Fitting, WallResults};
 
+use crate::comparison::Comparison;
 use crate::contents::{Contents, Manifest};
 use crate::error::FolderError;
 use crate::file::{self, Draft};
@@ -106,6 +107,7 @@ struct Output<'a> {
     runs: usize,
     tables: Vec<(Table, PathBuf, Draft)>,
     sections: String,
+    comparison: Comparison,
     population: Population,
     rows: String,
     contradictions: Vec<String>,
@@ -131,6 +133,7 @@ impl<'a> Output<'a> {
             runs,
             tables: tables(folder.contents()).into_iter().map(draft).collect::<Result<_, _>>()?,
             sections: String::new(),
+            comparison: Comparison::default(),
             population: Population::new(folder.manifest()),
             rows: String::new(),
             contradictions: Vec::new(),
@@ -151,6 +154,7 @@ impl<'a> Output<'a> {
         }
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
+            self.comparison.add(manifest, results);
             self.rows.push_str(&rows(manifest, wall, results));
         } else {
             self.population.add(results);
@@ -171,9 +175,9 @@ impl<'a> Output<'a> {
     fn finish(mut self) -> Result<Report, FolderError> {
         let manifest = self.folder.manifest();
         let is_large = manifest.contents.walls.len() > MOST_WALLS;
-        if is_large {
-            self.sections = self.population.sections(manifest);
-        }
+        let together =
+            if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
+        self.sections.insert_str(0, &together);
         let (summary, warning) = (self.summary(manifest, is_large), self.warning(&manifest.contents));
         let mut files = Vec::new();
         for (_, path, draft) in self.tables {

@@ -8,6 +8,34 @@
 //! assert_eq!(chart.y.range, None);
 //! ```
 
+/// Damping models in the order of their colours: a model keeps its colour in every figure.
+pub const MODELS: [&str; 8] = ["CDC", "CDR", "SDR", "CDR Eq. 14", "block", "CR", "CR rigid", "none"];
+
+/// Returns the number of the colour of each damping model of a study.
+///
+/// A name such as `CDC 0.05` has the number of `CDC`, unless another model of the study has it already.
+///
+/// ```
+/// assert_eq!(study::chart::model_colors(&["CR", "CDR 0.05", "CDR"]), [5, 0, 1]);
+/// ```
+pub fn model_colors(names: &[&str]) -> Vec<usize> {
+    let number = |name: &str| MODELS.iter().position(|model| *model == name);
+    let mut colors: Vec<Option<usize>> = names.iter().map(|name| number(name)).collect();
+    for index in 0..names.len() {
+        if colors[index].is_none() {
+            let own = names[index].split(' ').next().and_then(number);
+            let free = |color: &usize| !colors.contains(&Some(*color));
+            colors[index] = own.filter(free).or_else(|| (0..=colors.len()).find(free));
+        }
+    }
+    colors.into_iter().flatten().collect()
+}
+
+/// Returns the number of the colour of a damping model.
+pub fn model_color(name: &str) -> usize {
+    model_colors(&[name])[0]
+}
+
 /// A pair of axes and the series on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {

@@ -10,14 +10,14 @@ use figures::{chart, escaped};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::Parameters;
 use study::calibration::{Calibration, Coefficient, Fit, Grid, STEP, calibrate};
-use study::chart::{Axis, Chart, Series};
+use study::chart::{Axis, Chart, Series, model_color};
 use study::parallel::threads;
 use study::reproduce::printed::{FREE_STANDING, REGRESSIONS};
 use study::reproduce::tables::abbreviation;
 
 use crate::args::SceneArguments;
 use crate::output;
-use figures::template::filled;
+use figures::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -165,15 +165,19 @@ fn page(title: &str, found: &[Calibration]) -> String {
     }
     let figures: String = charts.iter().map(chart::figure).collect();
     let text: String = found.iter().map(table).collect();
-    filled(
+    template::page(
         include_str!("calibrate.html"),
         &[
-            ("chart_style", chart::STYLE),
-            ("title", &escaped(title)),
+            ("title", &format!("Calibration: {}", escaped(title))),
             ("table", &escaped(&text)),
             ("figures", &figures),
         ],
     )
+}
+
+/// The number of the colour that a model has in all figures.
+fn color(model: DampingModel) -> usize {
+    model_color(if model == DampingModel::FreeStandingBlock { "block" } else { abbreviation(model) })
 }
 
 /// Draws ξ over e for some of the a₁ and u₀.
@@ -205,11 +209,12 @@ fn over_restitution(found: &Calibration) -> Chart {
 fn least_errors(found: &[Calibration]) -> Chart {
     let mut title = String::new();
     let mut series = Vec::new();
-    for (color, calibration) in found.iter().enumerate() {
+    for calibration in found {
         let middle = calibration.coefficients[calibration.coefficients.len() / 2];
         title = format!("least error, a₁ = {}, u₀ = {} u_ins", middle.a1, middle.start);
         let fits = calibration.fits.iter().filter(|fit| (fit.a1, fit.start) == (middle.a1, middle.start));
         let points = fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect();
+        let color = color(calibration.model);
         series.push(Series::marks(abbreviation(calibration.model), color, points));
     }
     Chart { title, x: Axis::new("e"), y: Axis::new("√Err"), series }
@@ -219,14 +224,14 @@ fn least_errors(found: &[Calibration]) -> Chart {
 fn over_stiffness(found: &[Calibration]) -> Chart {
     let mut series = Vec::new();
     let with_laws = found.iter().filter(|calibration| !calibration.laws.is_empty());
-    for (color, calibration) in with_laws.enumerate() {
+    for calibration in with_laws {
         let (start, law) = calibration.laws[calibration.laws.len() - 1];
         let points: Vec<_> =
             calibration.coefficients.iter().filter(|c| c.start == start).map(|c| (c.a1, c.x)).collect();
         let [low, high] =
             points.iter().fold([1.0_f64, 0.0], |[low, high], point| [low.min(point.0), high.max(point.0)]);
         let a1 = |part: i32| low + (high - low) * f64::from(part) / 100.0;
-        let name = abbreviation(calibration.model);
+        let (name, color) = (abbreviation(calibration.model), color(calibration.model));
         let paper: Vec<_> = (0..=100)
             .filter_map(|part| printed(calibration.model, a1(part)).map(|x| (a1(part), x)))
             .collect();

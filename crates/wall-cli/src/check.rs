@@ -17,7 +17,7 @@ use study::check::{CheckError, Fractions, SideCheck, check, governing, interpola
 use crate::args::SceneArguments;
 use crate::capacity::significant;
 use crate::output;
-use figures::template::filled;
+use figures::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -62,8 +62,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if let Some(path) = &arguments.html {
         let table = escaped(&table(&scene.title, &source, arguments, &sides));
         let figure = figure(&wall, &source, &sides)?.svg();
-        let parts = [("title", &*escaped(&scene.title)), ("figure", &figure), ("table", &table)];
-        output::to_file(path, filled(include_str!("check.html"), &parts).as_bytes())?;
+        let title = format!("{}: capacity against demand", escaped(&scene.title));
+        let parts = [("title", &*title), ("figure", &figure), ("table", &table)];
+        output::to_file(path, template::page(include_str!("check.html"), &parts).as_bytes())?;
     }
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"

@@ -112,7 +112,7 @@ impl Linearisation {
             "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, \
              h = 4 m, released from 0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio \
              of the two periods against slenderness, hinge of the strip at mid-height.</p>\n\
-             <p class=\"key\">{}</p>\n<main class=\"wide\">\n",
+             <p class=\"key\">{}</p>\n<main class=\"figures wide\">\n",
             key(&[
                 ("full rotations", BLUE),
                 ("small rotations", RED),
@@ -147,8 +147,9 @@ fn first(times: &[f64]) -> f64 {
 
 /// A key of colours.
 fn key(entries: &[(&str, &str)]) -> String {
-    let entry =
-        |(name, color): &(&str, &str)| format!("<span><i style=\"background:{color}\"></i>{name}</span>\n");
+    let entry = |(name, color): &(&str, &str)| {
+        format!("<span><i class=\"chip\" style=\"background:{color}\"></i>{name}</span>\n")
+    };
     entries.iter().map(entry).collect()
 }
 

@@ -10,7 +10,7 @@ use rocking_wall::wall::{Parameters, Wall};
 use crate::demands;
 use crate::linearisation::Counterpart;
 use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
-use figures::template::filled;
+use figures::template;
 
 const TEMPLATE: &str = include_str!("page.html");
 /// Seconds that are drawn after a fall.
@@ -76,7 +76,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         // a closing tag inside the data would end the script
         ("data", &data.to_string().replace("</", "<\\/")),
     ];
-    Ok(filled(TEMPLATE, &page))
+    Ok(template::page(TEMPLATE, &page))
 }
 
 /// The frame that tells most: that of the largest |u|, or the last one before the wall overturns.

@@ -15,7 +15,7 @@ use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
 use crate::output;
 use crate::progress::Progress;
-use figures::template::filled;
+use figures::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -141,10 +141,10 @@ fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
     for figure in drawn() {
         let _ = write!(links, "<a href=\"#figure-{0}\">{0}</a> ", figure.number);
     }
-    filled(
+    template::page(
         include_str!("reproduce.html"),
         &[
-            ("chart_style", chart::STYLE),
+            ("title", "Modelling rocking response via equivalent viscous damping, reproduced"),
             ("agree", &agree.to_string()),
             ("all", &all.to_string()),
             ("links", &links),
@@ -165,7 +165,7 @@ fn notes(notes: &[String]) -> String {
 
 fn table(table: &Table) -> String {
     let mut text = format!(
-        "<section class=\"table\"><h2>{}: {}</h2>\n{}<div><table><tr>",
+        "<section><h2>{}: {}</h2>\n{}<div class=\"scroll\"><table><tr>",
         escaped(table.name),
         escaped(table.title),
         notes(&table.notes)
@@ -209,7 +209,7 @@ fn shown(value: f64, decimals: usize) -> f64 {
 fn figure(figure: &Figure) -> String {
     let charts: String = figure.charts.iter().map(chart::figure).collect();
     format!(
-        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"charts{3}\">\n{charts}</div>\
+        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"figures{3}\">\n{charts}</div>\
          </section>\n",
         figure.number,
         escaped(figure.title),

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use figures::escaped;
-use figures::heat_map::{Axis, Cell, HeatMap, scale};
+use figures::heat_map::{Axis, Cell, HeatMap, place, scale};
 use figures::palette::mixed;
+use figures::{escaped, number};
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
@@ -18,7 +18,7 @@ use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over
 
 use crate::args::{RecordArguments, SceneArguments};
 use crate::output;
-use figures::template::filled;
+use figures::template;
 use study_folder::csv::optional;
 
 #[derive(Debug, Args)]
@@ -78,6 +78,8 @@ struct Shown {
     names: [&'static str; 2],
     /// Explains the axes.
     axes: String,
+    /// The scene's own wall: its place on the axes, and what it comes to.
+    own: Option<([f64; 2], Point)>,
 }
 
 /// The most values along an axis.
@@ -143,6 +145,7 @@ fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threa
                m_eff), which is g tan α for a parapet without overburden; walls of any size with the same \
                damping and restitution have this spectrum."
             .into(),
+        own: None,
     })
 }
 
@@ -170,8 +173,17 @@ fn walls(
     };
     let column = if size == Size::Height { "height_m" } else { "semi_diagonal_m" };
     let row = if slenderness == Slenderness::Ratio { "slenderness" } else { "angle_rad" };
+    let Parameters { height, thickness, .. } = *parameters;
+    let own = [
+        if size == Size::Height { height } else { height.hypot(thickness) / 2.0 },
+        if slenderness == Slenderness::Ratio { height / thickness } else { (thickness / height).atan() },
+    ];
+    let spectrum = over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?;
+    let alone = over_walls(parameters, motion, (size, &own[..1]), (slenderness, &own[1..]), 1);
     Ok(Shown {
-        spectrum: over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?,
+        spectrum,
+        // a wall that no such axes can have is not marked
+        own: alone.ok().map(|alone| (own, alone.points[0][0])),
         title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
         notes,
         labels: [size.label(), slenderness.label()],
@@ -270,9 +282,11 @@ fn summary(shown: &Shown) -> String {
         [first, .., last] => format!("{first} to {last}, {} values", values.len()),
         _ => String::new(),
     };
+    let own =
+        shown.own.as_ref().map_or_else(String::new, |own| format!("your wall  {}\n", own_words(shown, own)));
     format!(
         "{}\nmotion     {}\nacross     {}: {}\nup         {}: {}\npoints     {}: {} do not rock, {rocked} \
-         rock up to {largest:.3} u_ins, {overturned} overturn\n",
+         rock up to {largest:.3} u_ins, {overturned} overturn\n{own}",
         shown.title,
         shown.notes.join("; "),
         shown.labels[0],
@@ -282,6 +296,26 @@ fn summary(shown: &Shown) -> String {
         points().count(),
         points().count() - rocked - overturned,
     )
+}
+
+/// What a wall comes to.
+fn words_of(point: Point) -> String {
+    match point {
+        Point { overturning: Some(time), .. } => format!("overturns at {time:.3} s"),
+        Point { rocked: false, ratio, .. } => format!("does not rock, u_max/u_ins = {ratio:.2e}"),
+        Point { ratio, .. } => format!("u_max/u_ins = {ratio:.4}"),
+    }
+}
+
+/// The scene's own wall and what it comes to.
+fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
+    let [size, slenderness] = shown.labels;
+    let outside = if place(&shown.spectrum.columns, *x).and(place(&shown.spectrum.rows, *y)).is_none() {
+        ", outside the map"
+    } else {
+        ""
+    };
+    format!("{size} = {}, {slenderness} = {}: {}{outside}", number(*x, 4), number(*y, 4), words_of(*point))
 }
 
 fn table(shown: &Shown) -> String {
@@ -309,15 +343,13 @@ fn page(shown: &Shown) -> String {
     let RockingSpectrum { columns, rows, points } = &shown.spectrum;
     let paint = |row: usize, column: usize| {
         let point = points[row][column];
-        let (fill, what) = match point {
-            Point { overturning: Some(time), .. } => (FALLEN.into(), format!("overturns at {time:.3} s")),
-            Point { rocked: false, ratio, .. } => {
-                (STILL.into(), format!("does not rock, u_max/u_ins = {ratio:.2e}"))
-            }
-            Point { ratio, .. } => (mixed(&ROCKING, ratio), format!("u_max/u_ins = {ratio:.4}")),
+        let fill = match point {
+            Point { overturning: Some(_), .. } => FALLEN.into(),
+            Point { rocked: false, .. } => STILL.into(),
+            Point { ratio, .. } => mixed(&ROCKING, ratio),
         };
-        let title =
-            format!("{} = {}, {} = {}: {what}", shown.labels[0], columns[column], shown.labels[1], rows[row]);
+        let [x, y] = shown.labels;
+        let title = format!("{x} = {}, {y} = {}: {}", columns[column], rows[row], words_of(point));
         Cell { fill, title, crossed: false }
     };
     let side = |area: f64, count: usize| (area / count as f64).floor().max(2.0);
@@ -326,6 +358,10 @@ fn page(shown: &Shown) -> String {
         columns: Axis::even(shown.labels[0], columns),
         rows: Axis::even(shown.labels[1], rows),
         size: [side(AREA[0], columns.len()), side(AREA[1], rows.len())],
+        own: shown
+            .own
+            .as_ref()
+            .and_then(|&([x, y], _)| Some(([place(columns, x)?, place(rows, y)?], "your wall"))),
         cells: &paint,
     };
     let swatches: Vec<_> = (0..=10_u32)
@@ -334,12 +370,16 @@ fn page(shown: &Shown) -> String {
             (mixed(&ROCKING, ratio), (step % 2 == 0).then(|| format!("{ratio:.1}")))
         })
         .collect();
-    filled(
+    let own = shown.own.as_ref().map_or_else(String::new, |own| {
+        format!("<p><b>Your wall:</b> {}.</p>", escaped(&own_words(shown, own)))
+    });
+    template::page(
         include_str!("spectrum.html"),
         &[
             ("title", &escaped(&shown.title)),
             ("subtitle", &escaped(&shown.notes.join("; "))),
             ("axes", &escaped(&shown.axes)),
+            ("own", &own),
             ("still", STILL),
             ("fallen", FALLEN),
             ("scale", &scale("colours of u_max/u_ins", &swatches)),

@@ -8,7 +8,7 @@ use figures::heat_map::{self, HeatMap, scale};
 use figures::palette::mixed;
 use study::stability::{Extreme, Map, MapCell, RowQuantity};
 
-use figures::template::filled;
+use figures::template;
 
 /// Size of a cell \[px\].
 const CELL: [f64; 2] = [26.0, 20.0];
@@ -32,9 +32,10 @@ pub(crate) fn page(maps: &[Map], extremes: &[Extreme]) -> String {
             scientific(extreme.limit, 0)
         );
     }
-    filled(
+    template::page(
         include_str!("stability.html"),
         &[
+            ("title", "Stability"),
             ("steps", &section(RowQuantity::Step)),
             ("ratios", &section(RowQuantity::DampingRatio)),
             ("scale", &colours()),
@@ -91,6 +92,7 @@ fn drawing(map: &Map) -> String {
         columns: heat_map::Axis { label: "a₁".into(), count: map.columns.len(), ticks: columns },
         rows: heat_map::Axis { label: label.into(), count: map.rows.len(), ticks: middles(&map.rows) },
         size: CELL,
+        own: None,
         cells: &paint,
     }
     .svg()

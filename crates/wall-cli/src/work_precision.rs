@@ -4,10 +4,18 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use figures::escaped;
+use figures::palette::sign;
 use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
 use study::accuracy::{Measurement, WorkPrecision};
 
-use figures::template::filled;
+use figures::template;
+
+/// Settings of each of [`SOLVERS`], in markup.
+const SETTINGS: [&str; 3] = [
+    "steps of 1, 1/4, 1/16 sample",
+    "tolerance 10<sup>−3</sup> … 10<sup>−12</sup>",
+    "steps of 1 … 1/300 sample",
+];
 
 /// The page; `rotations` is its section on small rotations, `peers_csv` the output of
 /// `cargo xtask bench --peers`.
@@ -26,9 +34,14 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
             solver_plot(study)
         );
     }
-    filled(
+    let key = SOLVERS.iter().zip(SETTINGS).map(|(&(name, color, mark), settings)| {
+        format!("<span>{}{name}: {settings}</span>", sign(color, mark))
+    });
+    template::page(
         include_str!("work_precision.html"),
         &[
+            ("title", "Error against run time"),
+            ("key", &key.collect::<String>()),
             ("figures", &figures),
             ("rotations", rotations),
             ("peers", &peers_csv.map_or_else(String::new, peers)),
@@ -85,10 +98,10 @@ impl<'a> PeerRow<'a> {
 fn peers(csv: &str) -> String {
     let rows: Vec<PeerRow<'_>> = csv.lines().filter_map(PeerRow::parse).collect();
     let mut section = String::from("<h2>Beside other tools</h2>\n<p class=\"key\">");
-    for (name, color, _) in TOOLS {
-        let _ = write!(section, "<span><i style=\"background:{color}\"></i>{name}</span>");
+    for (name, color, mark) in TOOLS {
+        let _ = write!(section, "<span>{}{name}</span>", sign(color, mark));
     }
-    section.push_str("</p>\n<main>\n");
+    section.push_str("</p>\n<main class=\"figures\">\n");
     for scene in rows.chunk_by(|a, b| a.scene == b.scene).map(|rows| rows[0].scene).collect::<BTreeSet<_>>() {
         let rows: Vec<_> = rows.iter().filter(|row| row.scene == scene && row.error.is_finite()).collect();
         let _ = writeln!(

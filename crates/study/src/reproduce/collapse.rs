@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use crate::chart::{Axis, Chart, Series};
+use crate::chart::{Axis, Chart, Series, model_color};
 use crate::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
 use crate::ida::{
     Case, Exceedance, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study,
@@ -111,7 +111,7 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
 
 /// Draws the empirical fragilities of one wall.
 fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart {
-    let series = models.iter().zip(collapses).enumerate().map(|(color, (model, collapses))| {
+    let series = models.iter().zip(collapses).map(|(model, collapses)| {
         let mut points = vec![(0.0, 0.0)];
         let mut below = 0.0;
         for (intensity, part) in steps(collapses) {
@@ -120,7 +120,7 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
             below = part;
         }
         let look = if model.name.ends_with("14") { Series::dashed } else { Series::line };
-        look(&model.name, color, points)
+        look(&model.name, model_color(&model.name), points)
     });
     let series: Vec<_> = series.collect();
     // a single record far above the rest would squeeze all others

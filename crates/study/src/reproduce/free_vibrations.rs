@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
 use crate::calibration::{Grid, calibrate};
-use crate::chart::{Axis, Chart, Series};
+use crate::chart::{Axis, Chart, Series, model_color};
 use crate::free_motion::{with_damping, with_restitution};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
@@ -60,10 +60,11 @@ fn u_axis() -> Axis {
 pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
-    for (color, (model, xi)) in MODELS.into_iter().zip(FIGURE_5_RATIOS).enumerate() {
+    for (model, xi) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
         let parameters = with_damping(&strip, model, xi);
         let wall = Wall::new(&parameters)?;
         let (name, strength) = (abbreviation(model), wall.body().strength.positive);
+        let color = model_color(name);
         coefficients.push(Series::line(name, color, damping_coefficients(&wall)));
         let omega1 = wall.omega1();
         let ratio = |omega: f64| {
@@ -129,8 +130,8 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let u_ins = Wall::new(&strip)?.body().instability.positive;
     let runs = [
-        (format!("CR, e = {e}"), 0, with_restitution(&strip, e)),
-        (format!("CDR, ξ = {xi}"), 1, with_damping(&strip, DampingModel::ConstantRatio, xi)),
+        (format!("CR, e = {e}"), model_color("CR"), with_restitution(&strip, e)),
+        (format!("CDR, ξ = {xi}"), model_color("CDR"), with_damping(&strip, DampingModel::ConstantRatio, xi)),
     ];
     let (mut histories, mut phases) = (Vec::new(), Vec::new());
     for (name, color, parameters) in runs {
@@ -180,7 +181,7 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
         let series = vec![
             Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
-            Series::line("rocking body, CR", 0, rocking),
+            Series::line("rocking body, CR", model_color("CR"), rocking),
         ];
         charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::chart::{Axis, Chart, Series};
+use crate::chart::{Axis, Chart, Series, model_color};
 use crate::free_motion::{with_damping, with_restitution};
 use ground_motion::GroundMotion;
 use rocking_wall::simulation::Excitation;
@@ -57,12 +57,12 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
             ("SDR", with_damping(&with(sdr_a1), DampingModel::StiffnessProportional, sdr)),
         ];
         let mut series = Vec::new();
-        for (color, (name, parameters)) in runs.into_iter().enumerate() {
+        for (name, parameters) in runs {
             let excitation = Excitation::new(motion.clone(), None);
             let samples = history(&parameters, Some(excitation), [0.005, END])?;
             let points: Vec<_> = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
             let peak = points.iter().fold(0.0_f64, |peak, point| peak.max(point.1.abs()));
-            series.push(Series::line(&format!("{name}, peak {peak:.3}"), color, points));
+            series.push(Series::line(&format!("{name}, peak {peak:.3}"), model_color(name), points));
         }
         let panels = [("the whole motion", [0.0, END]), ("around the largest amplitude", [27.0, 33.0])];
         charts.extend(panels.map(|(panel, times)| {

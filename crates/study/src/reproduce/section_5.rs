@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use crate::calibration::{Calibration, CalibrationError, Coefficient, Fit, Grid, PowerLaw, calibrate};
-use crate::chart::{Axis, Chart, Series};
+use crate::chart::{Axis, Chart, Series, model_color};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 
@@ -189,13 +189,11 @@ impl Section5 {
     }
 
     fn figure_11(&self) -> Figure {
-        let series = self.stiffness.iter().enumerate().map(|(color, found)| {
+        let series = self.stiffness.iter().map(|found| {
             let fits = found.fits.iter().filter(|fit| fit.a1 == REFERENCE_A1);
-            Series::marks(
-                abbreviation(found.model),
-                color,
-                fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect(),
-            )
+            let points = fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect();
+            let name = abbreviation(found.model);
+            Series::marks(name, model_color(name), points)
         });
         Figure {
             number: 11,
@@ -216,9 +214,9 @@ impl Section5 {
 
     fn figure_12(&self) -> Figure {
         let mut series = Vec::new();
-        for (color, ((model, equation, [q, r]), found)) in
-            REGRESSIONS.into_iter().zip(&self.stiffness).enumerate()
-        {
+        for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
+            let model = abbreviation(model);
+            let color = model_color(model);
             let points: Vec<_> = found.coefficients.iter().map(|c| (c.a1, c.x)).collect();
             let curve = |law: PowerLaw| spaced([0.005, 0.1], 95).map(|a1| (a1, law.at(a1))).collect();
             series.push(Series::dashed(&format!("Eq. ({equation})"), color, curve(PowerLaw { q, r })));
@@ -226,7 +224,7 @@ impl Section5 {
                 let name = format!("{:.3} a₁^{:.3}", law.q, law.r);
                 series.push(Series::line(&name, color, curve(law)));
             }
-            series.push(Series::marks(abbreviation(model), color, points));
+            series.push(Series::marks(model, color, points));
         }
         Figure {
             number: 12,

@@ -10,7 +10,7 @@ use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
 use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
-use figures::template::filled;
+use figures::template;
 
 const TEMPLATE: &str = include_str!("../building.html");
 /// Height of a storey without a wall that spans it \[m\].
@@ -55,7 +55,7 @@ pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str
         // a closing tag inside the data would end the script
         ("data", &data.to_string().replace("</", "<\\/")),
     ];
-    filled(TEMPLATE, &page)
+    template::page(TEMPLATE, &page)
 }
 
 /// Storeys: what they stand on, height, width, and displacement relative to the ground.

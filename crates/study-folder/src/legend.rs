@@ -1,0 +1,24 @@
+//! Colours and marks of the damping models of a study.
+
+use std::fmt::Write;
+
+use figures::escaped;
+use figures::palette::{Mark, SERIES, sign};
+use study::chart::model_colors;
+
+use crate::contents::Manifest;
+
+/// Returns the colour and the mark of each model.
+pub(crate) fn looks(manifest: &Manifest) -> Vec<(&'static str, Mark)> {
+    let names: Vec<_> = manifest.contents.models.iter().map(|model| &*model.name).collect();
+    model_colors(&names).into_iter().map(|color| SERIES[color % SERIES.len()]).collect()
+}
+
+/// Lists the models for the top of the page.
+pub(crate) fn key(manifest: &Manifest) -> String {
+    let mut key = String::new();
+    for (model, (color, mark)) in manifest.contents.models.iter().zip(looks(manifest)) {
+        let _ = write!(key, "<span>{}{}</span>", sign(color, mark), escaped(&model.name));
+    }
+    key
+}
