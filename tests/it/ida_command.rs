@@ -285,6 +285,8 @@ fn tables_and_page_hold_the_runs() {
     // for each wall the collapse, three models' curves and three fractions
     assert_eq!(page.matches("<svg").count(), 2 * (1 + 3 + 3));
     assert!(page.contains("AvgSA (g)") && page.contains("u_max / u_ins") && page.contains("CDR 5 %"));
+    let panels = read("fragilities.svg");
+    assert!(panels.starts_with("<svg xmlns") && panels.matches("font-weight=\"600\">Wall ").count() == 2);
     // all walls at one glance, and each curve with its record
     assert_eq!(page.matches("<div class=\"track\">").count(), 2);
     assert!(page.contains("<title>synthetic 1</title>") && page.contains("<td>synthetic 1</td>"));

@@ -32,7 +32,7 @@ fn accuracy_measures_a_scene() {
         "--linearisation",
         "l.csv",
     ];
-    let output = wall(&folder, &[&arguments[..], &["--peers", "peers.csv"]].concat());
+    let output = wall(&folder, &[&arguments[..], &["--peers", "peers.csv", "--plot", "a.svg"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     let rows = rows(&folder.join("a.csv"));
     let errors = |solver: &str| -> Vec<f64> {
@@ -44,6 +44,8 @@ fn accuracy_measures_a_scene() {
     assert!(exact.iter().all(|&error| error < 1e-12), "{exact:?}");
     assert!(adaptive[5] < 1e-12 && adaptive[0] > adaptive[5], "{adaptive:?}");
     assert!(newmark[0] > 1e-3 && newmark[5] < 1e-4, "{newmark:?}");
+    let plot = std::fs::read_to_string(folder.join("a.svg")).unwrap();
+    assert!(["exact", "adaptive", "newmark", "run time (ms)"].iter().all(|name| plot.contains(name)));
     let page = std::fs::read_to_string(folder.join("a.html")).unwrap();
     assert_eq!(page.matches("<figure>").count(), 6, "the scene, the peers, and small rotations");
     let content = std::fs::read_to_string(folder.join("l.csv")).unwrap();

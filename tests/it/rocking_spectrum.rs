@@ -328,7 +328,9 @@ fn the_program_writes_a_table_and_a_page() {
     let own = "height h (m) = 4, slenderness h/b = 10: overturns at ";
     assert!(words.contains(own) && words.contains(", outside the map") && !page.contains(">your wall<"));
     let wider = ["spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
-    assert!(wall(&folder, &wider).status.success());
+    assert!(wall(&folder, &[&wider[..], &["--svg", "w.svg"]].concat()).status.success());
+    let svg = std::fs::read_to_string(folder.join("w.svg")).unwrap();
+    assert!(svg.starts_with("<svg xmlns") && svg.contains(">your wall</text>") && !svg.contains("<title>"));
     let page = std::fs::read_to_string(folder.join("w.html")).unwrap();
     assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 

@@ -12,6 +12,19 @@ pub(crate) fn run() -> Result<()> {
     wall(&["simulate", "--synthetic", "--svg", "docs/images/wall.svg"])?;
     let building = "scenes/building/three_storeys.toml";
     wall(&["building", building, "--synthetic", "--svg", "docs/images/building.svg"])?;
+    let map = ["--heights", "1:6:21", "--ratios", "5:14:19", "--svg", "docs/images/spectrum.svg"];
+    wall(&[&["spectrum", "--synthetic", "--pga", "2.5"], &map[..]].concat())?;
+    let plot = ["--plot", "docs/images/work_precision.svg"];
+    wall(&[&["accuracy", "scenes/parapet_on_a_roof.toml"], &plot[..]].concat())?;
+    let results = root().join("target/images");
+    if results.exists() {
+        // a study of another build is refused
+        std::fs::remove_dir_all(&results).map_err(|error| format!("{}: {error}", results.display()))?;
+    }
+    wall(&["ida", "studies/stripes.toml", "-o", "target/images"])?;
+    let fragilities = "fragilities.svg";
+    std::fs::copy(results.join(fragilities), folder.join(fragilities))
+        .map_err(|error| format!("{}: {error}", results.join(fragilities).display()))?;
     println!("written docs/images");
     Ok(())
 }

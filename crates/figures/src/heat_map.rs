@@ -59,7 +59,7 @@ pub struct Axis {
 pub struct Cell {
     /// Colour.
     pub fill: String,
-    /// What it says, as markup.
+    /// What it says, as markup; nothing if empty.
     pub title: String,
     /// Whether it is crossed out.
     pub crossed: bool,
@@ -91,23 +91,29 @@ pub fn place(values: &[f64], value: f64) -> Option<f64> {
 }
 
 impl HeatMap<'_> {
+    /// Returns width and height of the drawing \[px\].
+    pub fn extent(&self) -> [f64; 2] {
+        let [width, height] = self.size;
+        let (columns, rows) = (self.columns.count as f64, self.rows.count as f64);
+        [LEFT + width * columns + RIGHT, TOP + height * rows + BOTTOM]
+    }
+
     /// Draws the map.
     pub fn svg(&self) -> String {
-        let [width, height] = self.size;
-        let bottom = TOP + height * self.rows.count as f64;
-        let right = LEFT + width * self.columns.count as f64;
+        let ([width, height], [all, high]) = (self.size, self.extent());
+        let (right, bottom) = (all - RIGHT, high - BOTTOM);
         let mut svg = format!(
             "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"{}\">",
-            right + RIGHT,
-            bottom + BOTTOM,
-            self.label
+            all, high, self.label
         );
+        svg.push_str("<g shape-rendering=\"crispEdges\">");
         for row in 0..self.rows.count {
             let y = bottom - height * (row + 1) as f64;
             for column in 0..self.columns.count {
                 self.draw_cell(&mut svg, [LEFT + width * column as f64, y], (self.cells)(row, column));
             }
         }
+        svg.push_str("</g>");
         let _ = write!(
             svg,
             "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{:.0}\" height=\"{:.0}\" class=\"frame\" \
@@ -148,9 +154,12 @@ impl HeatMap<'_> {
         let Cell { fill, title, crossed } = cell;
         let _ = write!(
             svg,
-            "<rect x=\"{x:.0}\" y=\"{y:.0}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\">\
-             <title>{title}</title></rect>"
+            "<rect x=\"{x:.0}\" y=\"{y:.0}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\""
         );
+        let _ = match &*title {
+            "" => write!(svg, "/>"),
+            _ => write!(svg, "><title>{title}</title></rect>"),
+        };
         if crossed {
             let _ = write!(
                 svg,

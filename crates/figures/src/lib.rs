@@ -15,7 +15,8 @@
 //! | [`records`] | accelerograms above their response spectra |
 //! | [`work_precision`] | error against run time |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
-//! | [`many_lines`] | thousands of lines in few bytes, styled by the page |
+//! | [`many_lines`] | thousands of lines in few bytes, with their style |
+//! | [`sheet`] | drawings side by side in a file |
 //! | [`template`] | no chart: fills the gaps of a page |
 //! | [`palette`] | the colours and marks of all of them |
 
@@ -29,6 +30,7 @@ pub mod plot;
 mod points;
 pub mod records;
 pub mod response;
+pub mod sheet;
 pub mod template;
 pub mod work_precision;
 

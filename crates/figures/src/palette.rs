@@ -43,15 +43,9 @@ pub const SERIES: [(&str, Mark); study::chart::MODELS.len()] = [
     (BROWN, Mark::Star),
 ];
 
-/// Returns a mark in its colour for the text of a page.
-///
-/// ```
-/// use figures::palette::{BLUE, Mark, sign};
-///
-/// assert_eq!(sign(BLUE, Mark::Circle), "<b class=\"chip\" style=\"color:#1f5fa8\">●</b>");
-/// ```
-pub fn sign(color: &str, mark: Mark) -> String {
-    let character = match mark {
+/// Returns a mark as a character.
+pub fn character(mark: Mark) -> &'static str {
+    match mark {
         Mark::Square => "■",
         Mark::Triangle => "▲",
         Mark::Diamond => "◆",
@@ -60,7 +54,18 @@ pub fn sign(color: &str, mark: Mark) -> String {
         Mark::TriangleDown => "▼",
         Mark::Star => "★",
         _ => "●",
-    };
+    }
+}
+
+/// Returns a mark in its colour for the text of a page.
+///
+/// ```
+/// use figures::palette::{BLUE, Mark, sign};
+///
+/// assert_eq!(sign(BLUE, Mark::Circle), "<b class=\"chip\" style=\"color:#1f5fa8\">●</b>");
+/// ```
+pub fn sign(color: &str, mark: Mark) -> String {
+    let character = character(mark);
     format!("<b class=\"chip\" style=\"color:{color}\">{character}</b>")
 }
 

@@ -4,7 +4,8 @@
 //! use figures::work_precision::{SOLVERS, Tool, plot};
 //!
 //! let (_, color, mark) = SOLVERS[0];
-//! let tool = Tool { color, mark, points: vec![(0.4, 1e-9)], titles: vec!["exact".into()], joined: true };
+//! let (name, points) = ("exact", vec![(0.4, 1e-9)]);
+//! let tool = Tool { name, color, mark, points, titles: vec!["1 sample".into()], joined: true };
 //! assert!(plot(&[tool], Some(1e-12)).svg().contains("1e-9"));
 //! ```
 
@@ -29,6 +30,8 @@ const FLOOR: f64 = 1e-17;
 /// The measurements of one solver or tool.
 #[derive(Clone, Debug)]
 pub struct Tool {
+    /// Its name.
+    pub name: &'static str,
     /// A colour of the palette.
     pub color: &'static str,
     /// Its mark.
@@ -45,12 +48,14 @@ pub struct Tool {
 pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
     let exponent = |error: f64| error.max(FLOOR).log10();
     let mut series = Vec::new();
-    for Tool { color, mark, points, titles, joined } in tools.iter().filter(|tool| !tool.points.is_empty()) {
+    for Tool { name, color, mark, points, titles, joined } in
+        tools.iter().filter(|tool| !tool.points.is_empty())
+    {
         let line =
             Series::line(color, 1.2, points.iter().map(|&(time, error)| (time, exponent(error))).collect());
         let look = Look::Marks(*mark);
         let marks = Series { look, width: 4.5, titles: titles.clone(), ..line.clone() };
-        series.extend(joined.then_some(line));
+        series.extend(joined.then_some(Series { name: (*name).to_owned(), ..line }));
         series.push(marks);
     }
     let times = tools.iter().flat_map(|tool| tool.points.iter().map(|point| point.0));

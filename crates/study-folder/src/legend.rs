@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use figures::escaped;
 use figures::palette::{Mark, SERIES, sign};
+use figures::sheet::sheet;
 use study::chart::model_colors;
 
 use crate::contents::Manifest;
@@ -12,6 +13,18 @@ use crate::contents::Manifest;
 pub(crate) fn looks(manifest: &Manifest) -> Vec<(&'static str, Mark)> {
     let names: Vec<_> = manifest.contents.models.iter().map(|model| &*model.name).collect();
     model_colors(&names).into_iter().map(|color| SERIES[color % SERIES.len()]).collect()
+}
+
+/// Puts drawings of the walls on a sheet with a legend, as an SVG file.
+pub(crate) fn file(
+    manifest: &Manifest,
+    title: &str,
+    drawings: &[(String, String)],
+    size: [f64; 2],
+) -> String {
+    let models = manifest.contents.models.iter().zip(looks(manifest));
+    let legend: Vec<_> = models.map(|(model, (color, mark))| (color, mark, &*model.name)).collect();
+    sheet(title, &legend, drawings, size)
 }
 
 /// Lists the models for the top of the page.

@@ -18,6 +18,7 @@
 //! | `tables` | the tables |
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
+//! | `plots` | the plots of a wall |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
@@ -53,6 +54,7 @@ mod folder;
 mod legend;
 mod page;
 mod part;
+mod plots;
 mod population;
 mod report;
 mod tables;

@@ -9,7 +9,7 @@ use study::results::WallResults;
 
 use crate::contents::Manifest;
 use crate::legend::looks;
-use crate::page::{POINTS, SIZE};
+use crate::plots::{POINTS, SIZE};
 use crate::tables::in_g;
 
 /// Fractiles that the tables list.

@@ -16,7 +16,9 @@ use crate::contents::{Contents, Manifest};
 use crate::error::FolderError;
 use crate::file::{self, Draft};
 use crate::folder::Folder;
+use crate::legend;
 use crate::page;
+use crate::plots::{SIZE, panel};
 use crate::population::Population;
 use crate::tables::{Table, tables};
 
@@ -108,6 +110,7 @@ struct Output<'a> {
     tables: Vec<(Table, PathBuf, Draft)>,
     sections: String,
     comparison: Comparison,
+    panels: Vec<(String, String)>,
     population: Population,
     rows: String,
     contradictions: Vec<String>,
@@ -134,6 +137,7 @@ impl<'a> Output<'a> {
             tables: tables(folder.contents()).into_iter().map(draft).collect::<Result<_, _>>()?,
             sections: String::new(),
             comparison: Comparison::default(),
+            panels: Vec::new(),
             population: Population::new(folder.manifest()),
             rows: String::new(),
             contradictions: Vec::new(),
@@ -155,6 +159,7 @@ impl<'a> Output<'a> {
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
             self.comparison.add(manifest, results);
+            self.panels.extend(panel(manifest, wall, results));
             self.rows.push_str(&rows(manifest, wall, results));
         } else {
             self.population.add(results);
@@ -183,6 +188,13 @@ impl<'a> Output<'a> {
         for (_, path, draft) in self.tables {
             let written = draft.commit(true);
             written.map_err(|source| FolderError::File { path: path.clone(), what: "written", source })?;
+            files.push(path);
+        }
+        if !self.panels.is_empty() {
+            let path = self.folder.path().join("fragilities.svg");
+            let title = format!("{}: collapse fragilities", manifest.title);
+            let sheet = legend::file(manifest, &title, &self.panels, SIZE);
+            file::to_file(&path, sheet.as_bytes())?;
             files.push(path);
         }
         let path = self.folder.path().join("study.html");

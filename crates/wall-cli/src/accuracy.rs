@@ -24,6 +24,9 @@ pub(crate) struct Arguments {
     /// Write a page with work-precision plots
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// Write the work-precision plots as SVG or PNG, by the file's ending
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Measurements of other tools to show on the page, the CSV of `cargo xtask bench --peers`
     #[arg(long, value_name = "FILE", requires = "html")]
     peers: Option<PathBuf>,
@@ -49,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
     output::check_distinct(
         arguments.scenes.iter().chain(records).chain(&arguments.peers),
-        [&arguments.csv, &arguments.linearisation, &arguments.html].into_iter().flatten(),
+        [&arguments.csv, &arguments.linearisation, &arguments.html, &arguments.plot].into_iter().flatten(),
     )?;
     let problems = if scenes.is_empty() {
         let record = arguments.record.load()?;
@@ -74,6 +77,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     output::save(arguments.csv.as_ref(), || csv(&studies))?;
     output::save(arguments.linearisation.as_ref(), || rotations.csv())?;
+    if let Some(path) = &arguments.plot {
+        output::picture(path, || Ok(work_precision::picture(&studies)))?;
+    }
     output::save(arguments.html.as_ref(), || {
         work_precision::page(&studies, &rotations.section(), peers.as_deref())
     })

@@ -63,7 +63,8 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 5] = ["study.json", "levels.csv", "collapses.csv", "fragilities.csv", "study.html"];
+const FILES: [&str; 6] =
+    ["study.json", "levels.csv", "collapses.csv", "fragilities.csv", "fragilities.svg", "study.html"];
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let loaded = LoadedStudy::read(&arguments.study)?;

@@ -22,6 +22,7 @@ mod reproduce;
 mod schema;
 mod simulate;
 mod spectrum;
+mod spectrum_page;
 mod stability;
 mod stability_page;
 mod tie;

@@ -5,20 +5,17 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use figures::heat_map::{Axis, Cell, HeatMap, place, scale};
-use figures::palette::mixed;
-use figures::{escaped, number};
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Parameters, Wall};
 use study::parallel;
-use study::spectrum::{Point, PulseForm, RockingSpectrum, Size, Slenderness, over_pulses, over_walls};
+use study::spectrum::{Point, PulseForm, Size, Slenderness, over_pulses, over_walls};
 
 use crate::args::{RecordArguments, SceneArguments};
 use crate::output;
-use figures::template;
+use crate::spectrum_page::{Shown, own_words, page, svg};
 use study_folder::csv::optional;
 
 #[derive(Debug, Args)]
@@ -65,21 +62,9 @@ pub(crate) struct Arguments {
     /// Write a page with the heat map
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-}
-
-/// A spectrum with its texts.
-struct Shown {
-    spectrum: RockingSpectrum,
-    title: String,
-    notes: Vec<String>,
-    /// Labels of the columns and the rows, for the page.
-    labels: [&'static str; 2],
-    /// Their names in the CSV file.
-    names: [&'static str; 2],
-    /// Explains the axes.
-    axes: String,
-    /// The scene's own wall: its place on the axes, and what it comes to.
-    own: Option<([f64; 2], Point)>,
+    /// Write the heat map as SVG
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
 }
 
 /// The most values along an axis.
@@ -89,7 +74,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
-    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html))?;
+    let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
+    output::check_distinct(inputs, outputs.into_iter().flatten())?;
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
@@ -107,8 +93,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     shown.notes.push(law(&scene.parameters));
     output::save(arguments.csv.as_ref(), || table(&shown))?;
     output::save(arguments.html.as_ref(), || page(&shown))?;
+    output::save(arguments.svg.as_ref(), || svg(&shown))?;
     let mut text = summary(&shown);
-    for path in [&arguments.csv, &arguments.html].into_iter().flatten() {
+    for path in outputs.into_iter().flatten() {
         let _ = writeln!(text, "written    {}", path.display());
     }
     output::to_stdout(&text)
@@ -298,26 +285,6 @@ fn summary(shown: &Shown) -> String {
     )
 }
 
-/// What a wall comes to.
-fn words_of(point: Point) -> String {
-    match point {
-        Point { overturning: Some(time), .. } => format!("overturns at {time:.3} s"),
-        Point { rocked: false, ratio, .. } => format!("does not rock, u_max/u_ins = {ratio:.2e}"),
-        Point { ratio, .. } => format!("u_max/u_ins = {ratio:.4}"),
-    }
-}
-
-/// The scene's own wall and what it comes to.
-fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
-    let [size, slenderness] = shown.labels;
-    let outside = if place(&shown.spectrum.columns, *x).and(place(&shown.spectrum.rows, *y)).is_none() {
-        ", outside the map"
-    } else {
-        ""
-    };
-    format!("{size} = {}, {slenderness} = {}: {}{outside}", number(*x, 4), number(*y, 4), words_of(*point))
-}
-
 fn table(shown: &Shown) -> String {
     let [column, row] = shown.names;
     let mut text = format!("{column},{row},u_ratio_max,rocked,overturned,overturn_time_s\n");
@@ -329,61 +296,4 @@ fn table(shown: &Shown) -> String {
         }
     }
     text
-}
-
-/// What the plot area should measure \[px\].
-const AREA: [f64; 2] = [960.0, 560.0];
-const STILL: &str = "#ffffff";
-const FALLEN: &str = "#a32020";
-/// From pale to dark blue.
-const ROCKING: [[f64; 3]; 4] =
-    [[226.0, 236.0, 247.0], [150.0, 194.0, 223.0], [60.0, 135.0, 190.0], [22.0, 58.0, 112.0]];
-
-fn page(shown: &Shown) -> String {
-    let RockingSpectrum { columns, rows, points } = &shown.spectrum;
-    let paint = |row: usize, column: usize| {
-        let point = points[row][column];
-        let fill = match point {
-            Point { overturning: Some(_), .. } => FALLEN.into(),
-            Point { rocked: false, .. } => STILL.into(),
-            Point { ratio, .. } => mixed(&ROCKING, ratio),
-        };
-        let [x, y] = shown.labels;
-        let title = format!("{x} = {}, {y} = {}: {}", columns[column], rows[row], words_of(point));
-        Cell { fill, title, crossed: false }
-    };
-    let side = |area: f64, count: usize| (area / count as f64).floor().max(2.0);
-    let map = HeatMap {
-        label: "u_max/u_ins of rocking walls".into(),
-        columns: Axis::even(shown.labels[0], columns),
-        rows: Axis::even(shown.labels[1], rows),
-        size: [side(AREA[0], columns.len()), side(AREA[1], rows.len())],
-        own: shown
-            .own
-            .as_ref()
-            .and_then(|&([x, y], _)| Some(([place(columns, x)?, place(rows, y)?], "your wall"))),
-        cells: &paint,
-    };
-    let swatches: Vec<_> = (0..=10_u32)
-        .map(|step| {
-            let ratio = f64::from(step) / 10.0;
-            (mixed(&ROCKING, ratio), (step % 2 == 0).then(|| format!("{ratio:.1}")))
-        })
-        .collect();
-    let own = shown.own.as_ref().map_or_else(String::new, |own| {
-        format!("<p><b>Your wall:</b> {}.</p>", escaped(&own_words(shown, own)))
-    });
-    template::page(
-        include_str!("spectrum.html"),
-        &[
-            ("title", &escaped(&shown.title)),
-            ("subtitle", &escaped(&shown.notes.join("; "))),
-            ("axes", &escaped(&shown.axes)),
-            ("own", &own),
-            ("still", STILL),
-            ("fallen", FALLEN),
-            ("scale", &scale("colours of u_max/u_ins", &swatches)),
-            ("map", &map.svg()),
-        ],
-    )
 }

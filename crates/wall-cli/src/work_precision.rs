@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use figures::escaped;
 use figures::palette::sign;
+use figures::plot::{Picture, Plot};
 use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
 use study::accuracy::{Measurement, WorkPrecision};
 
@@ -31,7 +32,7 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
             figures,
             "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
             escaped(&study.name),
-            solver_plot(study)
+            solver_plot(study).svg()
         );
     }
     let key = SOLVERS.iter().zip(SETTINGS).map(|(&(name, color, mark), settings)| {
@@ -49,15 +50,24 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
     )
 }
 
-fn solver_plot(study: &WorkPrecision) -> String {
+/// Draws the plots of all problems, one above the other, for a file.
+pub(crate) fn picture(studies: &[WorkPrecision]) -> Picture {
+    let plots: Vec<_> = studies
+        .iter()
+        .map(|study| Plot { title: study.name.clone(), size: [560.0, 320.0], ..solver_plot(study) })
+        .collect();
+    Picture::stacked(&plots)
+}
+
+fn solver_plot(study: &WorkPrecision) -> Plot {
     let tools = SOLVERS.map(|(name, color, mark)| {
         let rows: Vec<&Measurement> =
             study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
         let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
         let titles = rows.iter().map(|row| hover(study, row)).collect();
-        Tool { color, mark, points, titles, joined: true }
+        Tool { name, color, mark, points, titles, joined: true }
     });
-    plot(&tools, Some(study.rounding())).svg()
+    plot(&tools, Some(study.rounding()))
 }
 
 /// The plot of a scene of the peers.
@@ -70,7 +80,7 @@ fn peer_plot(rows: &[&PeerRow<'_>]) -> String {
                 format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
             })
             .collect();
-        Tool { color, mark, points, titles, joined: false }
+        Tool { name, color, mark, points, titles, joined: false }
     });
     plot(&tools, None).svg()
 }
