@@ -122,18 +122,20 @@ impl Plot {
         Self { size, title: String::new(), axes, scale: Scale::Linear, series, limits: Vec::new() }
     }
 
-    /// Draws inline SVG that takes the width of its place: it has a view box instead of a size.
+    /// Draws inline SVG that takes the width of its place: it has a view box instead of a size, rounded to
+    /// pixels.
     ///
     /// # Panics
     /// If kuva writes the size of a drawing in another way.
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGINS;
         let plots = self.drawn();
-        let layout = self.layout(&plots, 13).with_legend_position(LegendPosition::InsideTopRight);
+        let [width, height] = self.size.map(f64::round);
+        let layout = self.layout(&plots, 13).with_width(width).with_height(height);
+        let layout = layout.with_legend_position(LegendPosition::InsideTopRight);
         let layout = layout.with_force_margins(left, right);
         let scene = render_multiple(plots, layout.with_force_margins_y(top, bottom));
         let svg = SvgBackend::new().render_scene(&scene);
-        let [width, height] = self.size;
         let sized = format!("width=\"{width}\" height=\"{height}\"");
         assert!(svg.contains(&sized), "kuva writes the size as {sized}");
         svg.replacen(&sized, &format!("viewBox=\"0 0 {width} {height}\""), 1)

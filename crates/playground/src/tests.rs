@@ -49,6 +49,19 @@ fn the_scene_file_computes_the_same() {
     }
 }
 
+/// Browsers have windows of any width, and zoom makes widths of any digits.
+#[test]
+fn charts_have_any_width() {
+    let mut session = Session::default();
+    for width in (270..1250).step_by(7).map(f64::from).flat_map(|width| [width, width + 0.328_125]) {
+        let motion = json!({ "kind": "sine_cycle", "amplitude": "1.5", "frequency": "1", "duration": "1" });
+        let answer =
+            ask(&mut session, &json!({ "run": { "parameters": {}, "motion": motion, "width": width } }));
+        let svg = answer["answer"]["charts"]["history"]["svg"].as_str().unwrap_or_else(|| panic!("{answer}"));
+        assert!(svg.contains("viewBox"), "{width}");
+    }
+}
+
 #[test]
 fn the_scene_of_a_record_computes_the_same() {
     let folder = std::env::temp_dir().join(format!("playground-{}", std::process::id()));
