@@ -35,6 +35,7 @@ mod properties;
 mod record_command;
 mod record_path;
 mod reproduce;
+mod risk;
 mod rocking_spectrum;
 mod study_parts;
 mod tidy;

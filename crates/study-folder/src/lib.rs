@@ -19,6 +19,8 @@
 //! | `legend` | colours and marks of the damping models |
 //! | `comparison` | the walls at one glance |
 //! | `plots` | the plots of a wall |
+//! | `nrml` | fragility functions in the format of risk engines |
+//! | `risk` | fragilities of walls and classes for risk engines |
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
@@ -52,11 +54,13 @@ mod error;
 pub mod file;
 mod folder;
 mod legend;
+mod nrml;
 mod page;
 mod part;
 mod plots;
 mod population;
 mod report;
+mod risk;
 mod tables;
 mod work;
 

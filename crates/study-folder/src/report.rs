@@ -20,6 +20,7 @@ use crate::legend;
 use crate::page;
 use crate::plots::{SIZE, panel};
 use crate::population::Population;
+use crate::risk::Risk;
 use crate::tables::{Table, tables};
 
 /// Most walls that the page and the summary show one by one.
@@ -108,6 +109,7 @@ struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
     tables: Vec<(Table, PathBuf, Draft)>,
+    risk: Risk<'a>,
     sections: String,
     comparison: Comparison,
     panels: Vec<(String, String)>,
@@ -135,6 +137,7 @@ impl<'a> Output<'a> {
             folder,
             runs,
             tables: tables(folder.contents()).into_iter().map(draft).collect::<Result<_, _>>()?,
+            risk: Risk::new(folder.path(), folder.manifest())?,
             sections: String::new(),
             comparison: Comparison::default(),
             panels: Vec::new(),
@@ -156,6 +159,7 @@ impl<'a> Output<'a> {
                 source,
             })?;
         }
+        self.risk.add(wall, results)?;
         if manifest.contents.walls.len() <= MOST_WALLS {
             self.sections.push_str(&page::section(manifest, wall, results, self.runs));
             self.comparison.add(manifest, results);
@@ -184,7 +188,7 @@ impl<'a> Output<'a> {
             if is_large { self.population.sections(manifest) } else { self.comparison.section(manifest) };
         self.sections.insert_str(0, &together);
         let (summary, warning) = (self.summary(manifest, is_large), self.warning(&manifest.contents));
-        let mut files = Vec::new();
+        let (mut files, about_risk) = self.risk.finish()?;
         for (_, path, draft) in self.tables {
             let written = draft.commit(true);
             written.map_err(|source| FolderError::File { path: path.clone(), what: "written", source })?;
@@ -200,7 +204,7 @@ impl<'a> Output<'a> {
         let path = self.folder.path().join("study.html");
         file::to_file(&path, page::page(manifest, self.runs, &self.sections).as_bytes())?;
         files.push(path);
-        Ok(Report { summary, warning, files })
+        Ok(Report { summary: summary + &about_risk, warning, files })
     }
 
     fn summary(&self, manifest: &Manifest, is_large: bool) -> String {

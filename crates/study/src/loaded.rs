@@ -110,6 +110,9 @@ impl LoadedStudy {
         let in_file = |reason: String| SceneError::File { file: name.to_owned(), reason };
         check_unique("walls", walls.iter().map(|wall| &wall.name)).map_err(in_file)?;
         check_unique("records", records.iter().map(|record| &record.name)).map_err(in_file)?;
+        for class in &report.classes {
+            class.check(walls.iter().map(|wall| wall.name.as_str())).map_err(in_file)?;
+        }
         let study = Study::new(walls, records, models, measure, levels)
             .and_then(|study| study.with_tail(tail))
             .map_err(|error| in_file(error.to_string()))?;

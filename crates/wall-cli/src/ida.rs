@@ -63,8 +63,16 @@ impl std::str::FromStr for Shard {
 }
 
 /// Files of the results, beside the parts.
-const FILES: [&str; 6] =
-    ["study.json", "levels.csv", "collapses.csv", "fragilities.csv", "fragilities.svg", "study.html"];
+const FILES: [&str; 8] = [
+    "study.json",
+    "levels.csv",
+    "collapses.csv",
+    "fragilities.csv",
+    "fragility_curves.csv",
+    "fragilities.xml",
+    "fragilities.svg",
+    "study.html",
+];
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let loaded = LoadedStudy::read(&arguments.study)?;

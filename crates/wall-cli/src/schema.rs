@@ -196,6 +196,7 @@ mod tests {
             ("Synthetic", "records = { synthetic = { x = 1 } }"),
             ("Report", "report = { x = 1 }"),
             ("Wall", "walls = [{ x = 1 }]"),
+            ("Class", "classes = [{ x = 1 }]"),
         ] {
             assert_keys(&schema["$defs"][table], &error(place));
         }

@@ -17,10 +17,11 @@
 
 mod levels;
 mod model;
+mod report;
 
 use std::path::PathBuf;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
@@ -34,13 +35,14 @@ use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model, NamedWall};
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::model;
+use report::{ClassTable, ReportTable, report};
+
+pub use report::{ReportOptions, WallClass};
 
 /// Groups of parameters that a wall of a study may state.
 const WALL_GROUPS: [&str; 5] = ["geometry", "force_law", "impact", "tie", "solver"];
 /// Most synthetic records of a study.
 const MOST_RECORDS: u64 = 10_000;
-/// Most resamples of the bootstrap.
-const MOST_RESAMPLES: u32 = 100_000;
 
 /// Content of a study file, in SI units.
 #[derive(Clone, Debug)]
@@ -96,19 +98,6 @@ pub struct RecordsEntry {
     pub synthetic: Vec<SyntheticMotion>,
 }
 
-/// Options of a study's report.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ReportOptions {
-    /// Limit states to report: fractions of `u_ins`.
-    pub fractions: Vec<f64>,
-    /// Name of the model by whose medians those of the others are divided.
-    pub reference: String,
-    /// Number of resamples of the records.
-    pub resamples: u32,
-    /// Seed of the resamples.
-    pub seed: u64,
-}
-
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Document {
@@ -120,6 +109,8 @@ struct Document {
     levels: Spanned<LevelsTable>,
     records: Spanned<RecordsTable>,
     report: Option<Spanned<ReportTable>>,
+    #[serde(default)]
+    classes: Vec<Spanned<ClassTable>>,
     #[serde(default)]
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,
@@ -146,15 +137,6 @@ struct SyntheticRecords {
     seed: Option<u64>,
     duration: Option<f64>,
     step: Option<f64>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ReportTable {
-    fractions: Option<Vec<f64>>,
-    reference: Option<Spanned<String>>,
-    resamples: Option<u32>,
-    seed: Option<u64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -223,7 +205,7 @@ impl StudyFile {
             measure: measure(document.intensity.as_ref(), place)?,
             levels: levels(&document.levels, place)?,
             tail,
-            report: report(document.report.as_ref(), &models, place)?,
+            report: report(document.report.as_ref(), &document.classes, &models, place)?,
             models,
         })
     }
@@ -336,39 +318,4 @@ fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEn
         }));
     }
     Ok(RecordsEntry { files, options, synthetic })
-}
-
-fn report(
-    table: Option<&Spanned<ReportTable>>,
-    models: &[Model],
-    place: &Place<'_>,
-) -> Result<ReportOptions, SceneError> {
-    let first = models.first().map(|model| model.name.clone()).unwrap_or_default();
-    let fractions = vec![0.1, 0.4, 0.6, 1.0];
-    let mut report = ReportOptions { fractions, reference: first, resamples: 1000, seed: 1 };
-    let Some(table) = table else { return Ok(report) };
-    let spec = table.get_ref();
-    if let Some(fractions) = &spec.fractions {
-        if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
-            let message = format!("{fraction} is not a fraction of u_ins above 0 and at most 1");
-            return Err(place.error(table.span(), message));
-        }
-        report.fractions.clone_from(fractions);
-    }
-    if let Some(reference) = &spec.reference {
-        if !models.iter().any(|model| model.name == *reference.get_ref()) {
-            let message = format!("reference = {:?} is not among the models", reference.get_ref());
-            return Err(place.error(reference.span(), message));
-        }
-        report.reference.clone_from(reference.get_ref());
-    }
-    if let Some(resamples) = spec.resamples {
-        if !(100..=MOST_RESAMPLES).contains(&resamples) {
-            let message = format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}");
-            return Err(place.error(table.span(), message));
-        }
-        report.resamples = resamples;
-    }
-    report.seed = spec.seed.unwrap_or(report.seed);
-    Ok(report)
 }

@@ -20,6 +20,7 @@
 //! ```
 
 mod bootstrap;
+mod class;
 mod compare;
 mod fit;
 mod normal;
@@ -27,6 +28,7 @@ mod observation;
 mod sample;
 
 pub use bootstrap::{Bootstrap, Interval, Resampled};
+pub use class::FragilityFunction;
 pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;

@@ -1,0 +1,189 @@
+//! Fragilities for risk engines: `fragilities.xml`, and `fragility_curves.csv` with one curve in a row, of
+//! every wall and of every class of walls.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use study::document::WallClass;
+use study::fragility::{FragilityFunction, Interval};
+use study::results::WallResults;
+
+use crate::contents::Manifest;
+use crate::csv::{optional, quoted};
+use crate::error::FolderError;
+use crate::file::Draft;
+use crate::nrml;
+use crate::tables::in_g;
+
+/// Names of the files.
+const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
+/// Columns of the table; β is the root of the squares of those after it.
+const COLUMNS: &str = "wall,geometry,model,measure,unit,limit_state,u_max_over_u_ins,theta,theta_low,\
+                       theta_high,beta,beta_records,beta_walls,beta_modelling";
+
+/// The files under construction.
+pub(crate) struct Risk<'a> {
+    manifest: &'a Manifest,
+    states: Vec<(usize, String)>,
+    table: (PathBuf, Draft),
+    xml: Option<(PathBuf, Draft, nrml::Writer)>,
+    /// Numbers of the walls of each class.
+    classes: Vec<(&'a WallClass, Vec<usize>)>,
+    /// Functions of walls in classes, one for each model where it has all curves.
+    members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
+    left_out: usize,
+}
+
+impl<'a> Risk<'a> {
+    /// Begins the files in a folder.
+    pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Self, FolderError> {
+        let [table, xml] = FILES.map(|name| folder.join(name));
+        let xml = nrml::Writer::new(manifest).map(|(writer, text)| {
+            let (path, draft) = begun(xml, &text)?;
+            Ok((path, draft, writer))
+        });
+        let walls = &manifest.contents.walls;
+        let numbers: BTreeMap<_, _> = walls.iter().enumerate().map(|(k, wall)| (&wall.name, k)).collect();
+        let classes = manifest.report.classes.iter().map(|class| {
+            let named: Vec<_> = class.walls.iter().filter_map(|name| numbers.get(name).copied()).collect();
+            (class, if class.walls.is_empty() { (0..walls.len()).collect() } else { named })
+        });
+        let classes: Vec<_> = classes.collect();
+        Ok(Self {
+            manifest,
+            states: nrml::limit_states(&manifest.report),
+            table: begun(table, &format!("{COLUMNS}\n"))?,
+            xml: xml.transpose()?,
+            members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
+            classes,
+            left_out: 0,
+        })
+    }
+
+    /// Adds a wall.
+    pub(crate) fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
+        let Manifest { contents, report, .. } = self.manifest;
+        let note = &contents.walls[wall];
+        for model in 0..contents.models.len() {
+            let summaries: Vec<_> =
+                self.states.iter().map(|(place, _)| &results.summaries(*place)[model]).collect();
+            let curves: Option<Vec<_>> = summaries.iter().map(|summary| summary.fitted.ok()).collect();
+            let function = curves.map(|curves| FragilityFunction::new(&curves, report.modelling_uncertainty));
+            let thetas: Vec<_> = summaries.iter().map(|summary| known(&summary.theta)).collect();
+            self.write([&note.name, &geometry(&note.parameters)], model, function.as_ref(), &thetas)?;
+            if let Some(functions) = self.members.get_mut(&wall) {
+                functions.push(function);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the classes, and completes the files; returns their paths and what is to be said of them.
+    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String), FolderError> {
+        let contents = &self.manifest.contents;
+        for (class, walls) in std::mem::take(&mut self.classes) {
+            let shares = class.shares(walls.len());
+            let named = |(share, &wall): (&f64, &usize)| format!("{share} {}", contents.walls[wall].name);
+            let stated: Vec<_> = shares.iter().zip(&walls).map(named).collect();
+            for model in 0..contents.models.len() {
+                let members = walls.iter().map(|wall| self.members[wall][model].clone());
+                let members: Option<Vec<_>> = members.collect();
+                let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
+                self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &[])?;
+            }
+        }
+        let told = self.words();
+        let mut drafts = vec![self.table];
+        if let Some((path, mut draft, _)) = self.xml {
+            nrml::Writer::finish(&mut draft.file).map_err(|source| unwritten(&path, source))?;
+            drafts.push((path, draft));
+        }
+        let commit = |(path, draft): (PathBuf, Draft)| match draft.commit(true) {
+            Ok(()) => Ok(path),
+            Err(source) => Err(unwritten(&path, source)),
+        };
+        Ok((drafts.into_iter().map(commit).collect::<Result<_, _>>()?, told))
+    }
+
+    /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
+    /// `intervals` are those of θ \[g\], limit state by limit state; a class has none.
+    fn write(
+        &mut self,
+        [name, geometry]: [&str; 2],
+        model: usize,
+        function: Option<&FragilityFunction>,
+        intervals: &[[f64; 2]],
+    ) -> Result<(), FolderError> {
+        let Manifest { contents, report, .. } = self.manifest;
+        let (path, draft) = &mut self.table;
+        let model = &contents.models[model].name;
+        let first = [name, geometry, model, &contents.measure].map(quoted).join(",");
+        let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
+        let betas = betas.map_or([None; 4], |betas| betas.map(Some)).map(optional).join(",");
+        for (k, (place, state)) in self.states.iter().enumerate() {
+            let [low, high] = intervals.get(k).copied().unwrap_or([f64::NAN; 2]);
+            let theta = [function.map(|function| in_g(function.medians[k])), Some(low), Some(high)];
+            let theta = theta.map(|theta| optional(theta.filter(|theta| theta.is_finite()))).join(",");
+            writeln!(draft.file, "{first},g,{state},{},{theta},{betas}", report.fractions[*place])
+                .map_err(|source| unwritten(path, source))?;
+        }
+        let Some(function) = function else {
+            self.left_out += 1;
+            return Ok(());
+        };
+        let Some((path, draft, writer)) = &mut self.xml else { return Ok(()) };
+        let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
+        writer.function(&mut draft.file, &id, function).map_err(|source| unwritten(path, source))
+    }
+
+    /// Says what the NRML file lacks, and what would mend it.
+    fn words(&self) -> String {
+        let [_, file] = FILES;
+        let measure = &self.manifest.contents.measure;
+        if self.xml.is_none() {
+            return format!(
+                "no {file}: risk engines read PGA and SA(T), not {measure}; for it run the study with \
+                 intensity = {{ measure = \"PGA\" }} or {{ measure = \"Sa\", period = T }}\n"
+            );
+        }
+        match self.left_out {
+            0 => String::new(),
+            out => format!(
+                "{file} lacks {out} functions, of walls or classes with a limit state that has no curve; \
+                 raise the highest level, or leave out their fractions of u_ins\n"
+            ),
+        }
+    }
+}
+
+/// Begins a file with a text.
+fn begun(path: PathBuf, text: &str) -> Result<(PathBuf, Draft), FolderError> {
+    let begun = Draft::new(&path).and_then(|mut draft| {
+        draft.file.write_all(text.as_bytes())?;
+        Ok(draft)
+    });
+    match begun {
+        Ok(draft) => Ok((path, draft)),
+        Err(source) => Err(unwritten(&path, source)),
+    }
+}
+
+fn unwritten(path: &Path, source: io::Error) -> FolderError {
+    FolderError::File { path: path.to_owned(), what: "written", source }
+}
+
+/// Returns the ends of an interval \[g\], NaN where the levels leave one open.
+fn known(theta: &Interval) -> [f64; 2] {
+    let [_, low, high] = theta.least;
+    let [most_low, most_high] = theta.range;
+    [(low, most_low), (high, most_high)]
+        .map(|(least, most)| if least == most { in_g(most) } else { f64::NAN })
+}
+
+/// Returns the geometry among the parameters of a wall, in one line.
+fn geometry(parameters: &str) -> String {
+    let lines = parameters.lines().skip_while(|line| *line != "[geometry]").skip(1);
+    let lines: Vec<_> = lines.take_while(|line| !line.starts_with('[')).collect();
+    lines.join("; ").replace(" = ", "=").replace('"', "")
+}

@@ -1,0 +1,158 @@
+//! What the report of a study shows: limit states, models beside a reference, classes of walls.
+
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+
+use crate::ida::Model;
+use rocking_wall::scene::{Place, SceneError, suggestion};
+
+/// Most resamples of the bootstrap.
+const MOST_RESAMPLES: u32 = 100_000;
+/// Largest β of modelling.
+const MOST_UNCERTAINTY: f64 = 2.0;
+
+/// Options of a study's report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReportOptions {
+    /// Limit states to report: fractions of `u_ins`.
+    pub fractions: Vec<f64>,
+    /// Name of the model by whose medians those of the others are divided.
+    pub reference: String,
+    /// Number of resamples of the records.
+    pub resamples: u32,
+    /// Seed of the resamples.
+    pub seed: u64,
+    /// Standard deviation of the logarithm of the intensity, due to modelling \[-\].
+    pub modelling_uncertainty: f64,
+    /// Classes of walls.
+    pub classes: Vec<WallClass>,
+}
+
+/// A class of walls that risk engines see as one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallClass {
+    /// Name.
+    pub name: String,
+    /// Names of its walls; all walls of the study where empty.
+    pub walls: Vec<String>,
+    /// Weight of each wall, of any sum; equal weights where empty.
+    pub weights: Vec<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ReportTable {
+    fractions: Option<Vec<f64>>,
+    reference: Option<Spanned<String>>,
+    resamples: Option<u32>,
+    seed: Option<u64>,
+    modelling_uncertainty: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClassTable {
+    name: String,
+    #[serde(default)]
+    walls: Vec<String>,
+    #[serde(default)]
+    weights: Vec<f64>,
+}
+
+impl WallClass {
+    /// Returns the weights of all its walls, which number `count`, with the sum 1.
+    pub fn shares(&self, count: usize) -> Vec<f64> {
+        let weights = if self.weights.is_empty() { &vec![1.0; count] } else { &self.weights };
+        let sum: f64 = weights.iter().sum();
+        weights.iter().map(|weight| weight / sum).collect()
+    }
+
+    /// Checks the class against the names of the study's walls.
+    ///
+    /// # Errors
+    /// The reason: a wall that the study does not have, weights of another number, or the name of a wall.
+    pub(crate) fn check<'a>(&self, walls: impl Iterator<Item = &'a str> + Clone) -> Result<(), String> {
+        let Self { name, walls: own, weights } = self;
+        let count = if own.is_empty() { walls.clone().count() } else { own.len() };
+        if !weights.is_empty() && weights.len() != count {
+            return Err(format!("class {name:?}: {} weights for {count} walls", weights.len()));
+        }
+        let known: std::collections::BTreeSet<_> = walls.clone().collect();
+        if known.contains(name.as_str()) {
+            return Err(format!("class {name:?}: has the name of a wall; give it its own"));
+        }
+        own.iter().find(|wall| !known.contains(wall.as_str())).map_or(Ok(()), |wall| {
+            Err(format!("class {name:?}: the study has no wall {wall:?}{}", suggestion(wall, walls)))
+        })
+    }
+}
+
+/// Reads the options of the report, and the classes.
+pub(super) fn report(
+    table: Option<&Spanned<ReportTable>>,
+    classes: &[Spanned<ClassTable>],
+    models: &[Model],
+    place: &Place<'_>,
+) -> Result<ReportOptions, SceneError> {
+    let mut report = ReportOptions {
+        fractions: vec![0.1, 0.4, 0.6, 1.0],
+        reference: models.first().map(|model| model.name.clone()).unwrap_or_default(),
+        resamples: 1000,
+        seed: 1,
+        modelling_uncertainty: 0.0,
+        classes: read_classes(classes, place)?,
+    };
+    let Some(table) = table else { return Ok(report) };
+    let spec = table.get_ref();
+    if let Some(fractions) = &spec.fractions {
+        if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
+            let message = format!("{fraction} is not a fraction of u_ins above 0 and at most 1");
+            return Err(place.error(table.span(), message));
+        }
+        report.fractions.clone_from(fractions);
+    }
+    if let Some(reference) = &spec.reference {
+        if !models.iter().any(|model| model.name == *reference.get_ref()) {
+            let message = format!("reference = {:?} is not among the models", reference.get_ref());
+            return Err(place.error(reference.span(), message));
+        }
+        report.reference.clone_from(reference.get_ref());
+    }
+    if let Some(resamples) = spec.resamples {
+        if !(100..=MOST_RESAMPLES).contains(&resamples) {
+            let message = format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}");
+            return Err(place.error(table.span(), message));
+        }
+        report.resamples = resamples;
+    }
+    if let Some(beta) = spec.modelling_uncertainty {
+        if !(0.0..=MOST_UNCERTAINTY).contains(&beta) {
+            let message = format!("modelling_uncertainty = {beta} must be from 0 to {MOST_UNCERTAINTY}");
+            return Err(place.error(table.span(), message));
+        }
+        report.modelling_uncertainty = beta;
+    }
+    report.seed = spec.seed.unwrap_or(report.seed);
+    Ok(report)
+}
+
+fn read_classes(tables: &[Spanned<ClassTable>], place: &Place<'_>) -> Result<Vec<WallClass>, SceneError> {
+    let mut classes: Vec<WallClass> = Vec::new();
+    for table in tables {
+        let ClassTable { name, walls, weights } = table.get_ref();
+        let repeated = walls.iter().enumerate().find(|(index, wall)| walls[..*index].contains(wall));
+        let message = if classes.iter().any(|class| class.name == *name) {
+            Some(format!("the class {name:?} is listed twice; give one another name"))
+        } else if let Some((_, wall)) = repeated {
+            Some(format!("class {name:?}: the wall {wall:?} is listed twice; give it one larger weight"))
+        } else {
+            let wrong = weights.iter().find(|weight| !(**weight > 0.0 && weight.is_finite()));
+            wrong.map(|weight| format!("class {name:?}: the weight {weight} must be positive and finite"))
+        };
+        if let Some(message) = message {
+            return Err(place.error(table.span(), message));
+        }
+        classes.push(WallClass { name: name.clone(), walls: walls.clone(), weights: weights.clone() });
+    }
+    Ok(classes)
+}
