@@ -2,7 +2,7 @@
 
 use crate::root;
 
-const DOCUMENTS: [&str; 10] = [
+const DOCUMENTS: [&str; 11] = [
     "README.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
@@ -13,6 +13,7 @@ const DOCUMENTS: [&str; 10] = [
     "docs/paper.md",
     "docs/platforms.md",
     "docs/record-path.md",
+    "docs/validation.md",
 ];
 const ENDINGS: [&str; 7] = [".rs", ".py", ".c", ".toml", ".xml", ".html", ".md"];
 

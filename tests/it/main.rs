@@ -41,6 +41,7 @@ mod study_parts;
 mod tidy;
 mod ties;
 mod trigonometric;
+mod validation;
 mod warnings;
 mod wiring;
 

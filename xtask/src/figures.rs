@@ -1,5 +1,5 @@
-//! `cargo xtask figures`: measures accuracy, stability and the peers, and writes the figures into
-//! `docs/accuracy.md`.
+//! `cargo xtask figures`: measures accuracy, stability and the peers, compares the model with published
+//! tests, and writes the figures into `docs/accuracy.md` and `docs/validation.md`.
 
 use std::fmt::Write as _;
 
@@ -8,6 +8,9 @@ use crate::command::{Result, cargo, output, root};
 use crate::images;
 
 const DOCUMENT: &str = "docs/accuracy.md";
+const VALIDATION: &str = "docs/validation.md";
+/// Published tests, a TOML file and a mark of the document each.
+const TESTS: &str = "tests/data/validation";
 /// First words of the last table of `wall accuracy`.
 const ROTATIONS: &str = "small rotations: their period";
 
@@ -32,7 +35,6 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
         .map_err(|error| format!("fmu_out/accuracy.csv: {error}"))?;
     let document = root().join(DOCUMENT);
     let mut text = std::fs::read_to_string(&document).map_err(|error| format!("{DOCUMENT}: {error}"))?;
-    let fenced = |text: &str| format!("```text\n{}\n```\n", text.trim_matches('\n'));
     for (mark, figures) in [
         ("accuracy", condensed(&csv)),
         ("stability", fenced(&stability)),
@@ -43,7 +45,31 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     }
     std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
+    validation()?;
     images::run()
+}
+
+/// Compares the model with each published test: its numbers and its picture.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn validation() -> Result<()> {
+    let failed = |name: &'static str| move |error: std::io::Error| format!("{name}: {error}");
+    let mut text = std::fs::read_to_string(root().join(VALIDATION)).map_err(failed(VALIDATION))?;
+    for entry in std::fs::read_dir(root().join(TESTS)).map_err(failed(TESTS))? {
+        let file = entry.map_err(failed(TESTS))?.file_name().to_string_lossy().into_owned();
+        let Some(name) = file.strip_suffix(".toml") else { continue };
+        let plot = format!("docs/images/{name}.svg");
+        let table = wall(&["validate", &format!("{TESTS}/{file}"), "--plot", &plot])?;
+        text = replaced(VALIDATION, &text, name, &fenced(&table))?;
+    }
+    std::fs::write(root().join(VALIDATION), text).map_err(failed(VALIDATION))?;
+    println!("written {VALIDATION} and its pictures");
+    Ok(())
+}
+
+fn fenced(text: &str) -> String {
+    format!("```text\n{}\n```\n", text.trim_matches('\n'))
 }
 
 fn wall(arguments: &[&str]) -> Result<String> {

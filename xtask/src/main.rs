@@ -45,9 +45,11 @@ The jobs of the project.
                                    each platform, components, notices, checksums; TAG is checked
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
-  cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools; write docs/accuracy.md and
-                                   the pages, and the pictures of docs/images
-  cargo xtask figures --images     only the pictures
+  cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
+                                   write docs/accuracy.md, docs/validation.md, the pages, and the pictures of
+                                   docs/images
+  cargo xtask figures --images     only the pictures of README
+  cargo xtask figures --validation only docs/validation.md and its pictures
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page
   cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", "--images"] => images::run(),
+        ["figures", "--validation"] => figures::validation(),
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),

@@ -16,7 +16,7 @@ use study::chart::{Axis, Chart, Look, Series};
 
 use crate::escaped;
 use crate::palette::{SERIES, sign};
-use crate::plot::{self, MARGINS, Plot};
+use crate::plot::{self, MARGINS, Picture, Plot};
 use crate::points::{simplified, within};
 
 /// Size \[px\].
@@ -47,6 +47,11 @@ pub fn figure(chart: &Chart) -> String {
     )
 }
 
+/// Draws a chart with its legend at the top right and without its title, for a file that phones show too.
+pub fn picture(chart: &Chart) -> Picture {
+    plot(chart, [460.0, 400.0], true).picture()
+}
+
 /// Whether a line carries marks too: it is one of several that have none of their own.
 fn is_marked(chart: &Chart, line: &Series) -> bool {
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
@@ -54,20 +59,26 @@ fn is_marked(chart: &Chart, line: &Series) -> bool {
 }
 
 fn svg(chart: &Chart) -> String {
+    plot(chart, SIZE, false).svg()
+}
+
+fn plot(chart: &Chart, size: [f64; 2], is_named: bool) -> Plot {
     let of = |pick: fn(&(f64, f64)) -> f64| chart.series.iter().flat_map(move |s| s.points.iter().map(pick));
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
     let ranges = [range(&chart.x, of(|point| point.0), marks), range(&chart.y, of(|point| point.1), true)];
     let [left, right, top, bottom] = MARGINS;
-    let area = [SIZE[0] - left - right, SIZE[1] - top - bottom];
+    let area = [size[0] - left - right, size[1] - top - bottom];
     let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));
     let mut drawn = Vec::new();
     for (index, series) in chart.series.iter().enumerate() {
+        let first = drawn.len();
         let (color, mark) = SERIES[series.color % SERIES.len()];
         let marks =
             |points| plot::Series { look: plot::Look::Marks(mark), ..plot::Series::line(color, 3.5, points) };
         let look = match series.look {
             Look::Marks => {
-                drawn.push(marks(series.points.clone()));
+                let name = if is_named { series.name.clone() } else { String::new() };
+                drawn.push(plot::Series { name, ..marks(series.points.clone()) });
                 continue;
             }
             Look::Line => plot::Look::Solid,
@@ -80,13 +91,16 @@ fn svg(chart: &Chart) -> String {
                 ..plot::Series::line(color, 1.4, simplified(piece, scale))
             }),
         );
+        if let Some(piece) = drawn.get_mut(first).filter(|_| is_named) {
+            piece.name.clone_from(&series.name);
+        }
         if is_marked(chart, series) {
             let part = (index as f64 + 0.5) / chart.series.len() as f64;
             drawn.push(marks(spread(&pieces.concat(), scale, part)));
         }
     }
     let axes = [Axis::over(&chart.x.label, ranges[0]), Axis::over(&chart.y.label, ranges[1])];
-    Plot::new(SIZE, axes, drawn).svg()
+    Plot::new(size, axes, drawn)
 }
 
 /// Returns [`MARKS`] points of a line, evenly along it; `part` of a distance from its start is the first.

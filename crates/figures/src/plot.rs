@@ -75,7 +75,10 @@ impl Series {
             Look::Dotted => LineStyle::Dotted,
             Look::Marks(mark) => {
                 let marks = ScatterPlot::new().with_data(self.points.clone());
-                let marks = marks.with_color(self.color).with_marker(mark).with_size(self.width);
+                let mut marks = marks.with_color(self.color).with_marker(mark).with_size(self.width);
+                if !self.name.is_empty() {
+                    marks = marks.with_legend(self.name.as_str());
+                }
                 return Drawn::Scatter(if self.titles.is_empty() {
                     marks
                 } else {

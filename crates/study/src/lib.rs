@@ -21,6 +21,7 @@
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
 //! | [`stability`] | stability maps and extremes |
 //! | [`reproduce`] | the tables and figures of the paper |
+//! | [`validation`] | the model beside published tests |
 //!
 //! Each module has a short example.
 
@@ -39,6 +40,7 @@ pub mod reproduce;
 pub mod results;
 pub mod spectrum;
 pub mod stability;
+pub mod validation;
 mod wall_table;
 
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of

@@ -26,6 +26,7 @@ mod spectrum_page;
 mod stability;
 mod stability_page;
 mod tie;
+mod validate;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -76,6 +77,8 @@ enum Command {
     Calibrate(calibrate::Arguments),
     /// Compute every table and figure of the paper and compare it with print, on one page
     Reproduce(reproduce::Arguments),
+    /// Compare the model with a published test: a slow push or a free decay
+    Validate(validate::Arguments),
     /// Print the JSON schema of scenes, studies or buildings
     Schema(schema::Arguments),
     /// Print a completion script for a shell
@@ -105,6 +108,7 @@ fn main() -> ExitCode {
         Command::Spectrum(arguments) => spectrum::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
+        Command::Validate(arguments) => validate::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -1,0 +1,132 @@
+//! Published tests as data: a TOML file beside a CSV of measured points.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
+use rocking_wall::wall::Parameters;
+
+use super::decay::Decay;
+use super::push::Push;
+
+/// Largest file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// A published test.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Title.
+    pub title: String,
+    /// Where it is published.
+    pub source: String,
+    /// The wall.
+    pub parameters: Parameters,
+    /// What was measured.
+    pub test: Test,
+    /// Files that it was read from.
+    pub inputs: [PathBuf; 2],
+}
+
+/// Kind of a test.
+#[derive(Clone, Debug)]
+pub enum Test {
+    /// A slow push.
+    Push(Push),
+    /// A release.
+    Decay(Decay),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    title: String,
+    source: String,
+    points: PathBuf,
+    geometry: Group,
+    push: Option<PushTable>,
+    decay: Option<Spanned<DecayTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PushTable {
+    a1: f64,
+    d1: f64,
+    fit_from: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DecayTable {
+    a1: f64,
+    start: f64,
+    restitution: Option<f64>,
+}
+
+impl Case {
+    /// Reads a test and the points that it names, which lie beside it.
+    ///
+    /// # Errors
+    /// [`SceneError`] with file, line and what was expected.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let (name, text) = (path.display().to_string(), text(path)?);
+        let place = &Place::new(&name, &text);
+        let document: Document = parse_toml(place)?;
+        let mut parameters = Parameters::default();
+        apply_group(&mut parameters, "geometry", &document.geometry, place)?;
+        let points_path = path.with_file_name(&document.points);
+        let points = points(&points_path)?;
+        let test = match (document.push, document.decay) {
+            (Some(PushTable { a1, d1, fit_from }), None) => Test::Push(Push { points, a1, d1, fit_from }),
+            (None, Some(table)) => {
+                let DecayTable { a1, start, restitution } = *table.get_ref();
+                if !points.iter().any(|[time, displacement]| *time >= start && *displacement != 0.0) {
+                    let message = format!("start = {start} s: the points have no peak from there on");
+                    return Err(place.error(table.span(), message));
+                }
+                Test::Decay(Decay { points, start, a1, restitution })
+            }
+            _ => {
+                let reason = "expected one table, [push] or [decay]".to_owned();
+                return Err(SceneError::File { file: name, reason });
+            }
+        };
+        let inputs = [path.to_owned(), points_path];
+        Ok(Self { title: document.title, source: document.source, parameters, test, inputs })
+    }
+}
+
+fn text(path: &Path) -> Result<String, SceneError> {
+    let fail = |reason: String| SceneError::File { file: path.display().to_string(), reason };
+    let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
+        return Err(fail(format!("expected a file of at most {MAX_FILE_BYTES} bytes")));
+    }
+    std::fs::read_to_string(path).map_err(unreadable)
+}
+
+/// Reads two columns of numbers that rise in the first one; the first line is their header.
+fn points(path: &Path) -> Result<Vec<[f64; 2]>, SceneError> {
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for (index, line) in text(path)?.lines().enumerate().skip(1) {
+        let numbers: Vec<f64> = line.split(',').filter_map(|field| field.trim().parse().ok()).collect();
+        match numbers[..] {
+            [x, y] if x.is_finite() && y.is_finite() && points.last().is_none_or(|last| x > last[0]) => {
+                points.push([x, y]);
+            }
+            _ => {
+                let message = "expected two numbers, the first above that of the line before".to_owned();
+                let file = path.display().to_string();
+                return Err(SceneError::Line { file, line: index + 1, message });
+            }
+        }
+    }
+    if points.len() < 3 {
+        let reason = "expected at least three points after a header".to_owned();
+        return Err(SceneError::File { file: path.display().to_string(), reason });
+    }
+    Ok(points)
+}

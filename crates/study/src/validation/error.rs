@@ -1,0 +1,27 @@
+//! Errors of comparisons with tests.
+
+use rocking_wall::scene::SceneError;
+use rocking_wall::solver::SolverError;
+use rocking_wall::wall::ParameterError;
+
+/// Why a test cannot be compared with the model.
+#[derive(Debug, thiserror::Error)]
+pub enum ValidationError {
+    /// The files of the test.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// A run.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// The model comes to rest before the last peak.
+    #[error("the wall comes to rest after {found} of {expected} peaks; leave out the last points")]
+    Rest {
+        /// Peaks of the model.
+        found: usize,
+        /// Peaks of the test after its start.
+        expected: usize,
+    },
+}
