@@ -1,6 +1,10 @@
 //! `wall check` and `wall tie`.
 
+use std::f64::consts::TAU;
 use std::path::Path;
+
+use ground_motion::{Spectrum, SyntheticMotion};
+use rocking_wall::scene::Scene;
 
 use crate::command_line::{folder, refused, text, wall};
 
@@ -54,6 +58,34 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("0,1\n1,0.5\n0.5,0.3\n", "line 3: expected periods from 0 on that rise");
     refuses("0,1\n1,0.5\n", "has no T = 1.4");
     refuses("0,1\n1\n", "line 2: expected T in s and Sa");
+}
+
+/// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
+#[test]
+fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
+    let folder = folder("check_storeys");
+    let scene = crate::root().join("scenes/parapet_on_a_roof.toml");
+    let ground = SyntheticMotion::default().motion().unwrap();
+    let times = ground.samples().iter().enumerate();
+    let rows = times.map(|(k, sample)| format!("{:?},{sample:?}\n", k as f64 * ground.step()));
+    std::fs::write(folder.join("record.csv"), format!("time,a_g\n{}", rows.collect::<String>())).unwrap();
+    let arguments = ["check", scene.to_str().unwrap(), "--records", "record.csv", "--unit", "m/s2", "--json"];
+    let value: serde_json::Value = serde_json::from_str(&printed(&folder, &arguments)).unwrap();
+    assert_eq!(value["demand"], "median of 1 record felt on 3 storeys, T = 0.510, 0.211, 0.144 s");
+    let side = &value["sides"][0];
+    let number = |name: &str| side[name].as_f64().unwrap();
+    let storeys = Scene::read(&scene).unwrap().floors.unwrap().storeys().clone();
+    let roof = storeys.floor(&ground, ground.duration() + 10.0, 3).unwrap().acceleration;
+    let period = number("secant_period");
+    let demand = Spectrum::default().acceleration(&roof, period).unwrap() * (period / TAU).powi(2);
+    for (name, expected) in [("peak_acceleration", roof.peak()), ("displacement_demand", demand)] {
+        assert!((number(name) / expected - 1.0).abs() < 1e-9, "{name}: {side} for {expected}");
+    }
+    assert!(roof.peak() > 1.5 * ground.peak());
+    std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n4,0.3\n").unwrap();
+    let output =
+        wall(&folder, &["check", scene.to_str().unwrap(), "--spectrum", "spectrum.csv", "--unit", "m/s2"]);
+    assert!(text(&output.stderr).contains("storeys shape records only"));
 }
 
 /// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.

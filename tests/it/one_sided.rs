@@ -6,6 +6,7 @@ use rocking_wall::solver::{Phase, Segment};
 use rocking_wall::variables::{DampingModel, Impact, Mechanism, RestitutionSource, Rocking};
 use rocking_wall::wall::{Parameters, Support, Wall, restitution};
 
+use crate::command_line::{folder, text, wall};
 use crate::properties::{configuration, motions, solvers_agree, splits, walls};
 use crate::record_path::{lanes_agree, records_agree};
 use crate::ties::tied;
@@ -202,4 +203,37 @@ fn one_sided_starts_and_rests() {
     whole.advance(&Segment { duration: 1.0, from, to }).unwrap();
     let apart = whole.progress().state.displacement - state.displacement;
     assert!(apart.abs() < 1e-14, "{apart:e}");
+}
+
+/// The page and the animation show the transverse walls, on the side to which the wall cannot rock.
+#[test]
+fn pictures_show_the_transverse_walls() {
+    let folder = folder("one_sided_pictures");
+    let drawn = |rocking: &str| {
+        let sets = [&format!("rocking={rocking}"), "impact=restitution", "restitution_source=given"];
+        let more = ["restitution=0.4", "damping_model=none", "u_start=0", "height=3"];
+        let sets = sets.into_iter().chain(more).flat_map(|set| ["--set", set]);
+        let arguments = ["simulate", "--synthetic", "--html", "w.html", "--svg", "w.svg"];
+        let output = wall(&folder, &arguments.into_iter().chain(sets).collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        ["w.html", "w.svg"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap())
+    };
+    for (rocking, page, svg) in [
+        // the wall is 0.4 m thick and 26 px wide, and turns about its foot at 110 px
+        (
+            "one_sided_positive",
+            "x=\"-12.6000\" y=\"0.0000\" width=\"12.4000\"",
+            "x=\"8.0\" y=\"66.0\" width=\"88.9\"",
+        ),
+        (
+            "one_sided_negative",
+            "x=\"0.2000\" y=\"0.0000\" width=\"12.4000\"",
+            "x=\"123.1\" y=\"66.0\" width=\"98.9\"",
+        ),
+    ] {
+        let [html, picture] = drawn(rocking);
+        assert!(html.contains(page) && picture.contains(svg), "{rocking}: {picture}");
+    }
+    let [html, picture] = drawn("two_sided");
+    assert!(html.matches("fill:var(--ground)").count() == 1 && !picture.contains("#e4e1dc"));
 }

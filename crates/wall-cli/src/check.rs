@@ -10,6 +10,8 @@ use figures::escaped;
 use figures::plot::Plot;
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{GroundMotion, Maxima, RecordOptions, Spectrum, Unit, read};
+use rocking_wall::scene::{DEFAULT_TAIL, Floors};
+use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 use study::check::{CheckError, Fractions, SideCheck, check, governing, interpolated};
@@ -26,7 +28,7 @@ pub(crate) struct Arguments {
     /// Demand: a response spectrum as CSV, T in s and Sa, from T = 0 on; of the ground or of a floor
     #[arg(long, value_name = "FILE", required_unless_present = "records", conflicts_with = "records")]
     spectrum: Option<PathBuf>,
-    /// Demand: the median spectrum of these records
+    /// Demand: the median spectrum of these records, felt on the floor of a scene with storeys
     #[arg(long, value_name = "FILE", num_args = 1..)]
     records: Vec<PathBuf>,
     /// Unit of the spectrum, or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
@@ -55,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.spectrum).chain(&arguments.records);
     output::check_distinct(inputs, &arguments.html)?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    let source = Source::read(arguments)?;
+    let source = Source::read(arguments, scene.floors.as_ref(), &wall)?;
     let fractions =
         Fractions { displacement: arguments.displacement_fraction, secant: arguments.secant_fraction };
     let sides = check(&wall, fractions, |period| source.at(period))?;
@@ -95,11 +97,14 @@ enum Of {
 const MAX_FILE_BYTES: u64 = 1 << 20;
 
 impl Source {
-    fn read(arguments: &Arguments) -> Result<Self> {
+    fn read(arguments: &Arguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
         let damping = arguments.damping;
         let of = Spectrum::new(damping, Maxima::Everywhere)?;
         if let (Some(path), Some(unit)) = (&arguments.spectrum, unit) {
+            if floors.is_some() {
+                output::warn("--spectrum is that of the wall's floor: the storeys shape records only");
+            }
             let name = format!("{}, Sa in {unit}", path.display());
             return Ok(Self { name, damping, spectrum: Of::Points(points(path, unit)?) });
         }
@@ -110,10 +115,17 @@ impl Source {
             for warning in &record.check().warnings {
                 output::warn(&format!("{}: {warning}", path.display()));
             }
-            motions.push(record.motion);
+            motions.push(match floors {
+                Some(floors) => felt(floors, wall, record.motion)?,
+                None => record.motion,
+            });
         }
         let count = motions.len();
-        let name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+        let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+        if let Some(floors) = floors {
+            floors.warning(wall).iter().for_each(|warning| output::warn(warning));
+            let _ = write!(name, " {}", floors.note());
+        }
         Ok(Self { name, damping, spectrum: Of::Records(of, motions) })
     }
 
@@ -145,6 +157,13 @@ impl Source {
         };
         (0..=200).map(at).collect()
     }
+}
+
+/// Computes the acceleration that a wall feels on its floors; those of a strip wall count by their weights.
+fn felt(floors: &Floors, wall: &Wall, ground: GroundMotion) -> Result<GroundMotion> {
+    let end = ground.duration() + DEFAULT_TAIL;
+    let motion = floors.motion(wall.body().mechanism, &Excitation::new(ground, None), end)?;
+    Ok(motion.effective(wall.body())?)
 }
 
 /// Reads the points of a spectrum; a first line that holds no numbers is a header.

@@ -128,11 +128,16 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
             support + &body("lower", 0.0, h1) + &body("upper", h1, h - h1)
         }
     };
+    let transverse = wall.free_side().map_or_else(String::new, |side| {
+        let from = if side > 0.0 { -far } else { b / 2.0 };
+        rect([from, 0.0], [far - b / 2.0, h], "style=\"fill:var(--ground);stroke:var(--frame)\"")
+    });
     format!(
         "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
          <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
          <path d=\"M{:.4} 0H{far:.4}\" style=\"stroke:var(--frame)\"/>\
-         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{ties}{bodies}</g></svg>",
+         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{transverse}{ties}{bodies}\
+         </g></svg>",
         -half,
         -(h + top),
         2.0 * half,

@@ -41,11 +41,13 @@ pub(super) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     let factor = factor(wall, response);
     let motion: Vec<_> = frames.iter().map(|sample| [factor * sample.outputs.displacement, 0.0]).collect();
     let line = frames.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
+    let shape = shape(scene, wall, motion.last().map_or(0.0, |last| last[0]));
     let parts = format!(
         "<path d=\"M8 {GROUND}H{}\" stroke=\"#555\" stroke-width=\"2\"/>\n\
-         <g fill=\"#c9a183\" stroke=\"#6b4a33\">{}</g>\n{}",
+         {}<g fill=\"#c9a183\" stroke=\"#6b4a33\">{}</g>\n{}",
         ROOM[0] + 2.0,
-        shape(scene, wall, motion.last().map_or(0.0, |last| last[0])).rocking(&motion, &period),
+        wall.free_side().map_or_else(String::new, |side| transverse(&shape, side)),
+        shape.rocking(&motion, &period),
         history(&[(line, BLUE, String::new())], span, &period)
     );
     let scale = if factor == 1.0 { String::new() } else { format!(", rotation × {factor}") };
@@ -69,6 +71,20 @@ fn shape(scene: &Scene, wall: &Wall, end: f64) -> Shape {
         (room / height, width / 2.0)
     };
     Shape { foot: [axis, GROUND], px, height, thickness, hinge: hinge(wall) }
+}
+
+/// Transverse walls, on the side to which the wall cannot rock.
+fn transverse(shape: &Shape, side: f64) -> String {
+    let Shape { foot: [axis, ground], px, height, thickness, .. } = *shape;
+    let face = axis - side * px * thickness / 2.0;
+    let (left, right) = if side > 0.0 { (8.0, face) } else { (face, ROOM[0] + 2.0) };
+    format!(
+        "<rect x=\"{left:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#e4e1dc\" \
+         stroke=\"#555\"/>\n",
+        ground - px * height,
+        right - left,
+        px * height
+    )
 }
 
 /// The largest factor that keeps the rotation drawable; a fall is to scale.
