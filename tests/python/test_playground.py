@@ -116,6 +116,9 @@ CASES = {
     "a rigid block": "force_law=rigid_linear&damping_model=none&impact=restitution&kind=harmonic"
     "&amplitude=1.2&frequency=0.8&duration=6",
     "a fall": "height=2&thickness=0.2&pga=8&damping_model=constant_coefficient&damping_source=predicted",
+    "a tied parapet": "tie_stiffness=50000&tie_height=3.5&tie_side=both&tie_slack=0.01&pga=4",
+    "a wall that transverse walls stop": "rocking=one_sided_negative&damping_model=none&impact=restitution"
+    "&restitution_source=analytic&pga=3",
     "released by hand": "kind=none&u_start=0.15&damping_model=stiffness_proportional",
 }
 
@@ -124,6 +127,21 @@ CASES = {
 def test_the_numbers_are_those_of_the_command_line(browser, wall, page, tmp_path, state):
     shown = visit(browser, page, state)
     compare_with_command_line(browser, wall, tmp_path, shown["toml"])
+
+
+def test_ties_and_transverse_walls_are_drawn(browser, page):
+    """A tie follows the wall; a wall against transverse walls has restitution at once."""
+    visit(browser, page, "tie_stiffness=50000&tie_height=3.5&pga=4")
+    tie = browser.find_element(By.CSS_SELECTOR, "#wall .tie")
+    before = float(tie.get_attribute("x2"))
+    browser.execute_script("pose(0)")
+    assert abs(before) > 0.01 and abs(float(tie.get_attribute("x2"))) < 0.01
+    supports = len(browser.find_elements(By.CSS_SELECTOR, "#wall .support"))
+    browser.execute_script("set('tie_stiffness', '0'); set('rocking', 'one_sided_positive')")
+    shown = answered(browser)
+    assert 'impact = "restitution"' in shown["toml"]
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#wall .support")) == supports + 1
+    assert not browser.find_elements(By.CSS_SELECTOR, "#wall .tie")
 
 
 def test_a_record_of_the_user_gives_the_numbers_of_the_command_line(browser, wall, page, tmp_path):

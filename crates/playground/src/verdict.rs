@@ -69,6 +69,12 @@ pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[Str
     if parameters.impact == Impact::Restitution {
         rows.push(row("coefficient of restitution e", wall.restitution(), ""));
     }
+    if let Some(tie) = &response.demands.tie {
+        rows.push(row("largest force of the tie", 1e-3 * tie.force.value, "kN"));
+        if let Some(reached) = tie.strength {
+            rows.push(row("the tie reaches its strength at", reached.time, "s"));
+        }
+    }
     rows.push(["half cycles of rocking".to_owned(), response.demands.half_cycles.to_string()]);
     let largest = response.demands.reaction_bottom.largest().value.abs();
     rows.push(row("largest horizontal force at the base", 1e-3 * largest, "kN"));

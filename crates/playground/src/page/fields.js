@@ -6,6 +6,8 @@ const block = v => v.damping_model === "free_standing_block";
 const elastic = v => v.force_law !== "rigid_linear";
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
+const parapet = v => v.mechanism === "parapet";
+const tied = v => parapet(v) && Number(v.tie_stiffness) !== 0;
 const GROUPS = [
   ["Wall", [
     { name: "mechanism", label: "Kind",
@@ -68,6 +70,17 @@ const GROUPS = [
     { name: "restitution_source", label: "Restitution", when: v => v.impact === "restitution" },
     { name: "restitution", label: "Restitution e", range: [0.5, 1, 0.005],
       when: v => v.impact === "restitution" && v.restitution_source === "given" },
+  ]],
+  ["Ties and transverse walls", [
+    { name: "tie_stiffness", label: "Stiffness of a tie", range: [0, 1000000, 5000], when: parapet },
+    { name: "tie_height", label: "Height of the tie", start: "3", range: [0.1, 8, 0.05], when: tied },
+    { name: "tie_side", label: "It resists", when: tied,
+      names: { positive: "u above 0", negative: "u below 0", both: "both" } },
+    { name: "tie_slack", label: "Slack of the tie", range: [0, 0.1, 0.001], when: tied },
+    { name: "tie_strength", label: "Strength of the tie", range: [0, 20000, 100], when: tied },
+    { name: "rocking", label: "It rocks",
+      names: { two_sided: "to both sides", one_sided_positive: "to u above 0",
+        one_sided_negative: "to u below 0" } },
   ]],
 ];
 const FIELDS = GROUPS.flatMap(([, fields]) => fields);

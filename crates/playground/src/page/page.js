@@ -117,6 +117,10 @@ function refresh() {
 function set(name, value) {
   values[name] = value;
   if (name === "kind" && value === "none") { values.u_start = "0.18"; }
+  if (name === "rocking" && value !== "two_sided") {
+    // transverse walls turn the wall back by restitution
+    Object.assign(values, { damping_model: "none", impact: "restitution", restitution_source: "analytic" });
+  }
   refresh();
   schedule();
 }
@@ -144,9 +148,9 @@ function schedule() {
 }
 function run() {
   const begin = performance.now();
-  const { answer, faults } = ask({ run: inputs(at("history").clientWidth) });
+  const asked = inputs(at("history").clientWidth), { answer, faults } = ask({ run: asked });
   tell(faults ?? {});
-  if (answer) { show({ ...answer, frames: ask("frames").answer }); }
+  if (answer) { show({ ...answer, asked: asked.parameters, frames: ask("frames").answer }); }
   timings.push(performance.now() - begin);
   at("fragility_result").classList.add("stale");
   remember();
@@ -187,7 +191,7 @@ function show(answer) {
   at("scene").textContent = answer.toml;
   const times = answer.frames.t;
   at("time").max = times.length - 1;
-  draw(answer.wall);
+  draw(answer.wall, answer.asked);
   const instant = answer.summary.overturn_time ?? answer.summary.peak_time;
   const frame = times.findIndex(time => time >= instant);
   pose(playing === null ? (frame < 0 ? times.length - 1 : frame)

@@ -1,6 +1,7 @@
 // The drawn wall: its bodies turn as the history says, and cursors follow.
 let factor = 1;
-function draw(wall) {
+// `asked` are the parameters of the run.
+function draw(wall, asked) {
   const { height: h, thickness: b, hinge, overburden } = wall, falls = shown.summary.overturn_time !== null;
   const arm = hinge === null ? h / 2 : Math.min(hinge, h - hinge);
   const largest = shown.summary.u_max / arm;
@@ -17,10 +18,18 @@ function draw(wall) {
   const bodies = hinge === null ? `<g id="lower">${rect("body", -b / 2, 0, b, h)}${load}</g>`
     : `<g id="lower">${rect("body", -b / 2, 0, b, hinge)}</g>` +
       `<g id="upper">${rect("body", -b / 2, hinge, b, h - hinge)}${load}</g>`;
+  // ties pull towards the side that they hold the wall from
+  const stiffness = Number(asked.tie_stiffness ?? 0), y = Number(asked.tie_height ?? 0);
+  const pulls = { positive: [-1], negative: [1], both: [-1, 1] }[asked.tie_side] ?? [];
+  const ties = stiffness === 0 ? "" : pulls.map(side =>
+    `<line class="tie" data-height="${y}" x1="${20 * side * h}" x2="0" y1="${y}" y2="${y}"/>`).join("");
+  const stop = { one_sided_positive: -20 * h - b / 2, one_sided_negative: b / 2 }[asked.rocking];
+  const transverse = stop === undefined ? "" : rect("support", stop, 0, 20 * h, 0.94 * h);
   at("wall").setAttribute("viewBox", `${-half} ${-(h + top)} ${2 * half} ${h + top + below}`);
   at("wall").innerHTML = `<g transform="scale(1 -1)" stroke-width="${line}">` +
     rect("support", -20 * h, -20 * h, 40 * h, 20 * h) + `<path class="line" d="M${-20 * h} 0H${20 * h}"/>` +
-    `${support}<path class="line" stroke-dasharray="${4 * line}" d="M0 0V${1.1 * h}"/>${bodies}</g>`;
+    `${transverse}${ties}${support}` +
+    `<path class="line" stroke-dasharray="${4 * line}" d="M0 0V${1.1 * h}"/>${bodies}</g>`;
 }
 // Turns the bodies: the point of a body at the height `arm` is displaced by u.
 function pose(frame) {
@@ -29,7 +38,11 @@ function pose(frame) {
   const angle = arm => Math.asin(Math.max(-1, Math.min(1, factor * u / arm)));
   const b = wall.thickness, toe = (u < 0 ? -1 : 1) * b / 2;
   if (wall.hinge === null) {
-    at("lower").setAttribute("transform", `rotate(${-angle(wall.height / 2) * degrees} ${toe} 0)`);
+    const turn = angle(wall.height / 2);
+    at("lower").setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
+    for (const tie of document.querySelectorAll(".tie")) {
+      tie.setAttribute("x2", toe - toe * Math.cos(turn) + Math.sin(turn) * tie.dataset.height);
+    }
   } else {
     const h1 = wall.hinge, turn = angle(h1), back = angle(wall.height - h1);
     at("lower").setAttribute("transform", `rotate(${-turn * degrees} ${toe} 0)`);
