@@ -134,7 +134,8 @@ fn risk_engines_read_the_fragilities() {
 /// A class of one wall is that wall to the last bit; one of several has the total variance.
 #[test]
 fn classes_join_walls() {
-    let [xml, table, _] = run("risk_classes", STUDY);
+    let [xml, table, told] = run("risk_classes", STUDY);
+    assert!(told.contains("class \"both\" with CDC: theta 0.") && told.contains("modelling 0)"), "{told}");
     let of =
         |name: &str| xml.split(&format!("id=\"{name}\"")).nth(1).unwrap().split("</frag").next().unwrap();
     assert_eq!(of("alone"), of("high"));
@@ -165,6 +166,28 @@ fn modelling_uncertainty_widens_the_curves() {
             assert_close(wide_beta, beta.hypot(0.3));
         }
     }
+}
+
+/// With several models their names tell functions apart. Where a limit state has no curve, none is written.
+#[test]
+fn functions_of_several_models() {
+    let [xml, table, told] = run(
+        "risk_models",
+        &STUDY
+            .replace("[\"CDC\"]", "[\"CDC\", \"CR\"]")
+            .replace("top = 8", "top = 0.25")
+            .replace("[0.4, 0.1, 1]", "[0.1]")
+            .replace("name = \"low\"", "name = \"l'ow\""),
+    );
+    let ids: Vec<_> = xml.split("id=\"").skip(2).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert_eq!(&ids[..2], ["l_ow (CDC)", "l_ow (CR)"], "{told}");
+    assert!(table.contains("\nl'ow,") && !told.contains("lacks"), "{told}");
+    let [xml, table, told] = run("risk_open", &STUDY.replace("top = 8", "top = 0.15"));
+    assert_eq!((xml.matches("<fragilityFunction").count(), table.lines().count()), (0, 13), "{table}");
+    assert!(
+        told.contains("fragilities.xml lacks 4 functions") && told.contains("raise the highest"),
+        "{told}"
+    );
 }
 
 #[test]

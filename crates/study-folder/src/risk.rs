@@ -82,6 +82,7 @@ impl<'a> Risk<'a> {
     /// Adds the classes, and completes the files; returns their paths and what is to be said of them.
     pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String), FolderError> {
         let contents = &self.manifest.contents;
+        let mut told = String::new();
         for (class, walls) in std::mem::take(&mut self.classes) {
             let shares = class.shares(walls.len());
             let named = |(share, &wall): (&f64, &usize)| format!("{share} {}", contents.walls[wall].name);
@@ -91,9 +92,10 @@ impl<'a> Risk<'a> {
                 let members: Option<Vec<_>> = members.collect();
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
                 self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &[])?;
+                told.extend(function.map(|function| line(class, &contents.models[model].name, &function)));
             }
         }
-        let told = self.words();
+        told.push_str(&self.words());
         let mut drafts = vec![self.table];
         if let Some((path, mut draft, _)) = self.xml {
             nrml::Writer::finish(&mut draft.file).map_err(|source| unwritten(&path, source))?;
@@ -155,6 +157,20 @@ impl<'a> Risk<'a> {
             ),
         }
     }
+}
+
+/// Says what a class comes to.
+fn line(class: &WallClass, model: &str, function: &FragilityFunction) -> String {
+    let thetas: Vec<_> = function.medians.iter().map(|theta| format!("{:.3}", in_g(*theta))).collect();
+    format!(
+        "class {:?} with {model}: theta {} g, beta {:.3} (records {:.3}, walls {:.3}, modelling {})\n",
+        class.name,
+        thetas.join(", "),
+        function.dispersion(),
+        function.beta_records,
+        function.beta_walls,
+        function.beta_modelling
+    )
 }
 
 /// Begins a file with a text.
