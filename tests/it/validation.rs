@@ -144,9 +144,13 @@ fn tests_that_cannot_be_used_are_refused() {
     };
     fs::copy(data.join("brick_wall_11.csv"), folder.join("brick_wall_11.csv")).unwrap();
     fs::write(folder.join("short.csv"), "time_s,displacement_over_thickness\n0,0.5\n0,0.4\n").unwrap();
+    fs::write(folder.join("beyond.csv"), "time_s,displacement_over_thickness\n0,0.5\n0.7,-1.1\n1,0\n")
+        .unwrap();
     for (from, to, words) in [
         ("[decay]", "[push]", &["test.toml", "line"][..]),
         ("start = 0.64", "start = 9", &["start = 9", "no peak"]),
+        ("start = 0.64", "start = 0.64\nrestitution = 1.2", &["restitution = 1.2", "from 0 to 1"]),
+        ("brick_wall_11.csv", "beyond.csv", &["|d|/t = 1.1", "u_ins = 1 t"]),
         ("brick_wall_11.csv", "none.csv", &["none.csv", "cannot be read"]),
         ("brick_wall_11.csv", "short.csv", &["short.csv, line 3", "above"]),
         ("thickness = 0.11", "thickness = -1", &["test.toml, line", "thickness"]),

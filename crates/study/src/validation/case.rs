@@ -86,6 +86,10 @@ impl Case {
                     let message = format!("start = {start} s: the points have no peak from there on");
                     return Err(place.error(table.span(), message));
                 }
+                if let Some(e) = restitution.filter(|e| !(0.0..=1.0).contains(e)) {
+                    let message = format!("restitution = {e} must be from 0 to 1");
+                    return Err(place.error(table.span(), message));
+                }
                 Test::Decay(Decay { points, start, a1, restitution })
             }
             _ => {

@@ -70,13 +70,17 @@ impl Decay {
     /// by Eqs. (20)–(22). Two more runs have the calibrated and the analytic e, fitted to nothing.
     ///
     /// # Errors
-    /// [`ValidationError`]: a wall that is refused, or one that rests before the last peak.
+    /// [`ValidationError`]: a wall that is refused, a peak beyond `u_ins`, or rest before the last peak.
     pub fn compare(&self, parameters: &Parameters) -> Result<DecayComparison, ValidationError> {
         let from = self.points.iter().position(|[time, _]| *time >= self.start).unwrap_or(0);
         let measured: Vec<f64> =
             self.points[from..].iter().map(|[_, d]| d.abs()).filter(|d| *d > 0.0).collect();
         let rigid = Parameters { force_law: ForceLaw::RigidLinear, a3: 1.0, ..parameters.clone() };
         let with = |e: f64| with_restitution(&rigid, e);
+        let instability = Wall::new(&with(1.0))?.body().instability.positive / parameters.thickness;
+        if let Some(&peak) = measured.iter().find(|peak| **peak >= instability) {
+            return Err(ValidationError::Peak { peak, instability });
+        }
         let e = match self.restitution {
             Some(e) => e,
             None => fitted(&with, &measured)?,
@@ -101,10 +105,10 @@ impl Decay {
             models.push(model(name, e, None, &with(e), &measured)?);
         }
         let wall = Wall::new(&with(e))?;
-        let scale = parameters.thickness / wall.body().instability.positive;
         // 1 − (1 − A)² is the energy at a peak A of u/u_ins, over that at u_ins
-        let energy = |peak: f64| 1.0 - (1.0 - peak * scale).powi(2);
-        let half_cycle = |peak: f64| 2.0 * libm::acosh(1.0 / (1.0 - peak * scale)) / wall.rocking_rate();
+        let energy = |peak: f64| 1.0 - (1.0 - peak / instability).powi(2);
+        let half_cycle =
+            |peak: f64| 2.0 * libm::acosh(1.0 / (1.0 - peak / instability)) / wall.rocking_rate();
         let passages = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
             let between = points.windows(3).filter(|three| three[0][1] == 0.0 && three[2][1] == 0.0);
             between.map(|three| (three[2][0] - three[0][0], three[1][1].abs())).collect()

@@ -16,6 +16,14 @@ pub enum ValidationError {
     /// A run.
     #[error(transparent)]
     Solver(#[from] SolverError),
+    /// A free decay cannot start beyond `u_ins`.
+    #[error("the peak |d|/t = {peak} is not below u_ins = {instability} t; leave it out")]
+    Peak {
+        /// |u|/t of the peak \[-\].
+        peak: f64,
+        /// `u_ins` over the thickness \[-\].
+        instability: f64,
+    },
     /// The model comes to rest before the last peak.
     #[error("the wall comes to rest after {found} of {expected} peaks; leave out the last points")]
     Rest {
