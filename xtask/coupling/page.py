@@ -14,7 +14,7 @@ COLORS = {
 WALL_COLORS = {"strip": "#1f5fa8", "parapet": "#c8440f"}
 
 STYLE = """
-:root { color-scheme: light; }
+:root { color-scheme: light dark; }
 body { font: 16px/1.45 system-ui, sans-serif; color: #222; margin: 0 auto; max-width: 1360px; padding: 16px; }
 h1 { font-size: 1.5rem; margin: .2em 0; }
 h2 { font-size: 1.15rem; margin: 1.2em 0 .3em; }
@@ -26,6 +26,11 @@ main { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 
 figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: 8px; }
 figcaption { font-size: .92rem; }
 svg { width: 100%; height: auto; display: block; font: 12px system-ui, sans-serif; }
+@media (prefers-color-scheme: dark) {
+  body { color: #e8e6e3; background: #161616; }
+  figure { border-color: #3d3d3d; }
+  svg, .key i { filter: invert(.9) hue-rotate(180deg); }
+}
 """
 
 INTRODUCTION = """

@@ -13,8 +13,24 @@ use crate::points::{clipped, decimated};
 
 /// Width of the plots \[px\].
 pub const WIDTH: f64 = 620.0;
+/// Largest |u|/`u_ins` of a history.
+const EDGE: f64 = 1.25;
 /// Looks of the curves of [`period_ratios`], the first for the smallest start.
 const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
+
+/// Ends a history of u/`u_ins` where it leaves the plot: drawn on, a fallen wall would look like one at rest.
+///
+/// ```
+/// let fallen = figures::response::cut(vec![(0.0, 0.5), (0.1, 1.2), (0.2, 1.9), (0.3, 10.0)]);
+/// assert_eq!(fallen, [(0.0, 0.5), (0.1, 1.2), (0.2, 1.25)]);
+/// ```
+pub fn cut(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    if let Some(last) = points.iter().position(|point| point.1.abs() > EDGE) {
+        points.truncate(last + 1);
+        points[last].1 = points[last].1.clamp(-EDGE, EDGE);
+    }
+    points
+}
 
 /// Draws u/`u_ins` over the time \[s\], with the limits ±1.
 pub fn history(points: &[(f64, f64)], end: f64) -> Plot {

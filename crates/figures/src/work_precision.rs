@@ -30,7 +30,7 @@ const FLOOR: f64 = 1e-17;
 /// The measurements of one solver or tool.
 #[derive(Clone, Debug)]
 pub struct Tool {
-    /// Its name.
+    /// Its name in the legend of a picture.
     pub name: &'static str,
     /// A colour of the palette.
     pub color: &'static str,

@@ -97,7 +97,10 @@ fn instant(py: Python<'_>, Instant { value, time }: Instant) -> PyResult<Bound<'
     Ok(instant)
 }
 
-/// Draws the motion of the bottom support above u/`u_ins`, as SVG.
+/// Seconds that are drawn after a fall.
+const AFTER_FALL: f64 = 2.0;
+
+/// Draws the motion of the bottom support above u/`u_ins`, as SVG; the axes end soon after a fall.
 #[pyfunction]
 pub(crate) fn picture_of_response(
     time: &Bound<'_, PyAny>,
@@ -105,9 +108,13 @@ pub(crate) fn picture_of_response(
     u_ratio: &Bound<'_, PyAny>,
 ) -> PyResult<String> {
     let times = samples(time)?;
-    let end = times.last().copied().unwrap_or_default();
     let over_time = |values: Vec<f64>| times.iter().copied().zip(values).collect::<Vec<_>>();
-    let motion = response::motion(&over_time(samples(a_bottom)?), None, end);
-    let history = response::history(&over_time(samples(u_ratio)?), end);
+    let ratios = response::cut(over_time(samples(u_ratio)?));
+    let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
+    let mut motion = over_time(samples(a_bottom)?);
+    let end = if ratios.len() < motion.len() { last(&ratios) + AFTER_FALL } else { f64::INFINITY };
+    motion.retain(|point| point.0 <= end);
+    let end = last(&motion);
+    let (motion, history) = (response::motion(&motion, None, end), response::history(&ratios, end));
     Ok(Picture::stacked(&[motion, history]).svg())
 }

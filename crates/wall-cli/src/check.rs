@@ -63,9 +63,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let sides = check(&wall, fractions, |period| source.at(period))?;
     if let Some(path) = &arguments.html {
         let table = escaped(&table(&scene.title, &source, arguments, &sides));
-        let figure = figure(&wall, &source, &sides)?.svg();
+        let wide = figure(&wall, &source, &sides)?;
+        // on a phone the legend would hide the curves
+        let mut narrow = Plot { size: [390.0, 330.0], ..wide.clone() };
+        narrow.series.iter_mut().for_each(|series| series.name.clear());
+        let [wide, narrow] = [wide.svg(), narrow.svg()];
         let title = format!("{}: capacity against demand", escaped(&scene.title));
-        let parts = [("title", &*title), ("figure", &figure), ("table", &table)];
+        let parts = [("title", &*title), ("wide", &wide), ("narrow", &narrow), ("table", &table)];
         output::to_file(path, template::page(include_str!("check.html"), &parts).as_bytes())?;
     }
     let text = if arguments.json {

@@ -112,7 +112,7 @@ impl Linearisation {
             "<h2>What small rotations leave out</h2>\n<p>The wall of Figure 2 of the paper (b = 0.4 m, \
              h = 4 m, released from 0.9 u<sub>ins</sub>) with small and with full rotations, and the ratio \
              of the two periods against slenderness, hinge of the strip at mid-height.</p>\n\
-             <p class=\"key\">{}</p>\n<main class=\"figures wide\">\n",
+             <p class=\"key\">{}</p>\n<main class=\"figures\">\n",
             key(&[
                 ("full rotations", BLUE),
                 ("small rotations", RED),
@@ -141,6 +141,9 @@ impl Linearisation {
     }
 }
 
+/// Size of the plots on the page of `wall accuracy` \[px\].
+const SIZE: [f64; 2] = [440.0, 290.0];
+
 fn first(times: &[f64]) -> f64 {
     times.first().copied().unwrap_or(f64::NAN)
 }
@@ -158,7 +161,7 @@ fn histories(comparison: &Comparison, duration: f64) -> String {
         history.iter().enumerate().map(|(index, &u)| (index as f64 * comparison.step, u)).collect()
     };
     let (linear, full) = (timed(&comparison.linear.history), timed(&comparison.trigonometric.history));
-    both_rotations(&full, &linear, duration, 290.0).svg()
+    Plot { size: SIZE, ..both_rotations(&full, &linear, duration, SIZE[1]) }.svg()
 }
 
 /// Ratios of periods of one mechanism.
@@ -168,7 +171,8 @@ fn ratios(periods: &[Vec<Period>]) -> String {
         upright.chain(periods.iter().filter_map(|period| Some((period.slenderness, of(period)?)))).collect()
     };
     let curves = periods.iter().map(|periods| points(&|period| Some(period.ratio()), periods)).collect();
-    period_ratios(curves, points(&Period::over_housner, &periods[0]), None, 290.0).svg()
+    let housner = points(&Period::over_housner, &periods[0]);
+    Plot { size: SIZE, ..period_ratios(curves, housner, None, SIZE[1]) }.svg()
 }
 
 /// The same run with the other kinematics, for a rigid wall that allows it.

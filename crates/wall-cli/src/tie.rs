@@ -248,8 +248,8 @@ fn picture(rows: &[Row]) -> Picture {
         let top = 1.08 * largest.iter().map(|point| point.1).fold(0.0, f64::max);
         let marks = Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 3.0, largest) };
         let series = vec![Series::line(color, 1.6, points(0)), marks];
-        let x = [points(0).first().map_or(0.0, |p| p.0), points(0).last().map_or(1.0, |p| p.0)];
-        let axes = [Axis::over("log10 of the stiffness (N/m)", x), Axis::over(label, [0.0, top])];
+        let x = [points(0).first().map_or(0.0, |p| p.0 - 0.1), points(0).last().map_or(1.0, |p| p.0 + 0.1)];
+        let axes = [Axis::over("log10 of the stiffness (N/m)", x), Axis::over(label, [-0.02 * top, top])];
         Plot { scale: Scale::Linear, ..Plot::new([820.0, 320.0], axes, series) }
     };
     Picture::stacked(&[

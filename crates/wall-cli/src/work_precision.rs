@@ -32,7 +32,7 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
             figures,
             "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
             escaped(&study.name),
-            solver_plot(study).svg()
+            solver_plot(study, false).svg()
         );
     }
     let key = SOLVERS.iter().zip(SETTINGS).map(|(&(name, color, mark), settings)| {
@@ -54,18 +54,19 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
 pub(crate) fn picture(studies: &[WorkPrecision]) -> Picture {
     let plots: Vec<_> = studies
         .iter()
-        .map(|study| Plot { title: study.name.clone(), size: [560.0, 320.0], ..solver_plot(study) })
+        .map(|study| Plot { title: study.name.clone(), size: [560.0, 320.0], ..solver_plot(study, true) })
         .collect();
     Picture::stacked(&plots)
 }
 
-fn solver_plot(study: &WorkPrecision) -> Plot {
+/// The plot of a problem; with the names of the solvers if it is `named`.
+fn solver_plot(study: &WorkPrecision, named: bool) -> Plot {
     let tools = SOLVERS.map(|(name, color, mark)| {
         let rows: Vec<&Measurement> =
             study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
         let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
         let titles = rows.iter().map(|row| hover(study, row)).collect();
-        Tool { name, color, mark, points, titles, joined: true }
+        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: true }
     });
     plot(&tools, Some(study.rounding()))
 }

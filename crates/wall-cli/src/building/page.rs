@@ -5,7 +5,7 @@ use building::{Building, Coupled, Parts};
 use figures::escaped;
 use figures::palette::{DARK_GREY, RED, SERIES};
 use figures::plot::Plot;
-use figures::response::histories;
+use figures::response::{cut, histories};
 use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
@@ -21,8 +21,6 @@ const LEAST_WIDTH: f64 = 7.0;
 /// Sway of the roof that is drawn, over the height; factors that it may be drawn with.
 const SWAY: f64 = 0.06;
 const FACTORS: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
-/// Largest u/`u_ins` drawn.
-const EDGE: f64 = 1.25;
 /// Seconds drawn after the last fall and the last peak.
 const AFTER_ALL: f64 = 5.0;
 /// u/`u_ins` at which a wall on its way down is easily told from one that stands or lies.
@@ -259,14 +257,7 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
     }
     let walls = building.walls.iter().zip(&run.walls).enumerate();
     let ratio = walls.clone().map(|(index, (wall, history))| {
-        let mut line = points(&history.ratio.values, 1.0, None);
-        // a line that went on would look like a wall at rest
-        let left = line.iter().position(|point| point.1.abs() > EDGE).map_or(line.len(), |first| first + 1);
-        line.truncate(left);
-        for point in &mut line {
-            point.1 = point.1.clamp(-EDGE, EDGE);
-        }
-        (wall.name.clone(), line, color(index))
+        (wall.name.clone(), cut(points(&history.ratio.values, 1.0, None)), color(index))
     });
     let (keys, figure) = drawn(ratio.collect(), "u / u_ins", &[-1.0, 1.0]);
     let figure = Plot { limits: vec![(-1.0, RED), (1.0, RED)], ..figure };
