@@ -201,6 +201,23 @@ def test_the_page_of_a_study(browser, study, width):
     assert [row.split()[0] for row in rows] == ["CR", "CDR", "CDR"]
 
 
+def test_the_page_of_many_walls_fits_a_phone(browser, wall, tmp_path):
+    rows = "".join(f"wall {k},{2 + 0.05 * k},0.3\n" for k in range(41))
+    (tmp_path / "walls.csv").write_text(f"name,height,thickness\n{rows}")
+    (tmp_path / "study.toml").write_text(
+        'models = ["CR", "CDC"]\nlevels = { method = "step", step = 0.4, top = 2 }\n'
+        "records = { synthetic = { count = 2, duration = 10, step = 0.02 } }\n"
+        'report = { resamples = 100 }\nwalls = [{ table = "walls.csv" }]\n'
+    )
+    subprocess.run([wall, "ida", "study.toml", "-o", "out"], cwd=tmp_path, check=True, capture_output=True)
+    browser.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": 390, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
+    )
+    browser.get((tmp_path / "out/study.html").as_uri())
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= 390
+
+
 def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tmp_path):
     path = tmp_path / "spectrum.html"
     ranges = ["--heights", "1:6:21", "--ratios", "5:20:16"]
