@@ -69,7 +69,7 @@ fn plot(chart: &Chart, size: [f64; 2], is_named: bool) -> Plot {
     let [left, right, top, bottom] = MARGINS;
     let area = [size[0] - left - right, size[1] - top - bottom];
     let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));
-    let mut drawn = Vec::new();
+    let (mut drawn, mut on_top) = (Vec::new(), Vec::new());
     for (index, series) in chart.series.iter().enumerate() {
         let first = drawn.len();
         let (color, mark) = SERIES[series.color % SERIES.len()];
@@ -96,9 +96,10 @@ fn plot(chart: &Chart, size: [f64; 2], is_named: bool) -> Plot {
         }
         if is_marked(chart, series) {
             let part = (index as f64 + 0.5) / chart.series.len() as f64;
-            drawn.push(marks(spread(&pieces.concat(), scale, part)));
+            on_top.push(marks(spread(&pieces.concat(), scale, part)));
         }
     }
+    drawn.extend(on_top);
     let axes = [Axis::over(&chart.x.label, ranges[0]), Axis::over(&chart.y.label, ranges[1])];
     Plot::new(size, axes, drawn)
 }
