@@ -164,6 +164,7 @@ impl Simulation {
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
     }
 
+    #[inline]
     fn step(&mut self, segment: &Segment, demands: Option<&mut Demands>) -> Result<Step, SolverError> {
         let body = self.motion.wall().body();
         let before = self.progress;
@@ -181,10 +182,8 @@ impl Simulation {
         if !before.state.departed {
             let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
             // ∫ of a quantity linear over the segment, up to `length`
-            let integrate = |from: f64, to: f64| {
-                let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
-                length * (from + 0.5 * (to - from) * fraction)
-            };
+            let fraction = if segment.duration > 0.0 { length / segment.duration } else { 0.0 };
+            let integrate = |from: f64, to: f64| length * (from + 0.5 * (to - from) * fraction);
             let (from, to) = (segment.from, segment.to);
             let supports = [integrate(from.bottom, to.bottom), integrate(from.top, to.top)];
             let couple = if integral {

@@ -10,8 +10,8 @@ use super::state::Peaks;
 
 /// Motion on a branch in closed form.
 #[derive(Clone, Debug)]
-pub(super) struct ClosedForm {
-    oscillator: Oscillator,
+pub(super) struct ClosedForm<'a> {
+    oscillator: &'a Oscillator,
     start: KinematicState,
     /// Rate of the forcing p₁ \[m/s³\].
     forcing_rate: f64,
@@ -48,11 +48,11 @@ fn rounded(duration: f64) -> f64 {
     f64::from_bits((duration.to_bits() + half) & !((1 << ROUNDED_BITS) - 1))
 }
 
-impl ClosedForm {
+impl<'a> ClosedForm<'a> {
     /// The motion from `start`, for `remaining` or as long as the closed form is well behaved. An oscillation
     /// within the `bounds` of u and its `peaks` so far needs no search for events.
     pub(super) fn new(
-        oscillator: Oscillator,
+        oscillator: &'a Oscillator,
         start: KinematicState,
         forcing_rate: f64,
         remaining: f64,
@@ -67,14 +67,13 @@ impl ClosedForm {
         piece
     }
 
-    /// The same piece, its end known.
-    pub(super) fn ending_at(mut self, end: KinematicState) -> Self {
+    /// Takes the end of the piece as known.
+    pub(super) fn end_at(&mut self, end: KinematicState) {
         self.end = Some(end);
-        self
     }
 
-    /// The same piece, its end found with the remembered propagator.
-    pub(super) fn remembered(mut self, branch: usize, memo: &mut Memo) -> Self {
+    /// Finds the end of the piece with the remembered propagator.
+    pub(super) fn remember(&mut self, branch: usize, memo: &mut Memo) {
         let duration = rounded(self.horizon);
         if memo.duration != duration || memo.branch != branch {
             let rows = self.oscillator.propagator(duration);
@@ -91,7 +90,6 @@ impl ClosedForm {
             velocity: velocity + rest * acceleration,
             acceleration: acceleration + rest * self.oscillator.jerk(end, self.forcing_rate),
         });
-        self
     }
 
     fn series(&self) -> Option<&Polynomial> {
@@ -111,7 +109,8 @@ impl ClosedForm {
         let drift = self.forcing_rate / k;
         let swing_rate = velocity - drift;
         let swing = -(acceleration + c * swing_rate) / k;
-        let amplitude = swing.hypot((swing_rate + 0.5 * c * swing) / omega);
+        let (cosine, sine) = (swing, (swing_rate + 0.5 * c * swing) / omega);
+        let amplitude = (cosine * cosine + sine * sine).sqrt();
         let from = displacement - swing;
         let to = from + drift * self.horizon;
         let (highest, lowest) = (from.max(to) + amplitude, from.min(to) - amplitude);
@@ -123,7 +122,7 @@ impl ClosedForm {
 /// Rounding of the amplitude against a peak already seen.
 const PEAK_ROUNDING: f64 = 1e-14;
 
-impl Piece for ClosedForm {
+impl Piece for ClosedForm<'_> {
     fn start(&self) -> KinematicState {
         self.start
     }

@@ -9,6 +9,7 @@
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
 )]
+#![cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "other processors have no wide vectors"))]
 
 mod active_run;
 mod batch;

@@ -36,6 +36,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
+    #[inline]
     pub(crate) fn advance_watched(
         &self,
         state: &mut State,
@@ -49,16 +50,16 @@ impl Motion {
         let mut run = Run::new(self, *state, segment.duration, [from, to], integral, memo);
         run.watch =
             watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
-        let (end, report) = run.finish()?;
-        *state = end;
-        Ok(report)
+        run.finish()?;
+        *state = run.state;
+        Ok(run.report)
     }
 }
 
 /// The motion through one segment.
 pub(super) struct Run<'a> {
     motion: &'a Motion,
-    state: State,
+    pub(super) state: State,
     time: f64,
     duration: f64,
     /// Forcing at the start of the segment \[m/s²\] and its rate \[m/s³\].
@@ -69,11 +70,12 @@ pub(super) struct Run<'a> {
     /// The motion at the end of the segment if nothing happens before, where it is known.
     pub(super) first_end: Option<KinematicState>,
     watch: Option<Watch<'a>>,
-    report: Report,
+    pub(super) report: Report,
 }
 
 impl<'a> Run<'a> {
     /// Prepares a segment of `duration` \[s\] with a forcing linear between two values \[m/s²\].
+    #[inline]
     pub(super) fn new(
         motion: &'a Motion,
         state: State,
@@ -99,11 +101,10 @@ impl<'a> Run<'a> {
     }
 
     /// Moves to the end of the segment.
-    pub(super) fn finish(mut self) -> Result<(State, Report), SolverError> {
+    pub(super) fn finish(&mut self) -> Result<(), SolverError> {
         for _ in 0..self.motion.most_pieces() {
             if self.time >= self.duration {
-                self.check()?;
-                return Ok((self.state, self.report));
+                return self.check();
             }
             match self.state.phase {
                 Phase::Landed => self.time = self.duration,
@@ -187,16 +188,21 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm {
-        let branch = &self.motion.wall.branches()[index];
-        let (oscillator, rate, peaks) = (self.motion.oscillators[index], self.rate, &self.state.peaks);
-        let piece = ClosedForm::new(oscillator, start, rate, remaining, [branch.lower, branch.upper], peaks);
+    fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm<'a> {
+        let motion = self.motion;
+        let branch = &motion.wall.branches()[index];
+        let (oscillator, rate, peaks) = (&motion.oscillators[index], self.rate, &self.state.peaks);
+        let bounds = [branch.lower, branch.upper];
+        let mut piece = ClosedForm::new(oscillator, start, rate, remaining, bounds, peaks);
         // only whole segments come again
-        let whole = self.time == 0.0 && piece.horizon() == self.duration;
-        if let (true, Some(end)) = (whole, self.first_end) {
-            return piece.ending_at(end);
+        if self.time == 0.0 && piece.horizon() == self.duration {
+            match self.first_end {
+                Some(end) => piece.end_at(end),
+                None if oscillator.is_spread(self.duration) => {}
+                None => piece.remember(index, self.memo),
+            }
         }
-        if whole && !oscillator.is_spread(self.duration) { piece.remembered(index, self.memo) } else { piece }
+        piece
     }
 
     /// Follows a piece to its end or to the first corner.

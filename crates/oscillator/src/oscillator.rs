@@ -13,6 +13,7 @@ pub struct Oscillator {
     /// √|k| and its inverse.
     root: f64,
     inverse_root: f64,
+    longest_piece: f64,
 }
 
 /// Form of the free motion.
@@ -73,9 +74,17 @@ impl Oscillator {
             let fast = -(half + omega).max(f64::MIN_POSITIVE);
             Regime::Exponential(stiffness / fast, fast)
         };
+        let longest_piece = match regime {
+            // a little more than a period; without stiffness and damping there is no limit
+            Regime::Oscillating(omega) => 7.0 / omega.max(SLOWEST),
+            // a softening branch grows by e³⁶ at most, 1/ε: no displacement lies closer to its equilibrium
+            Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow.max(SLOWEST),
+            Regime::Exponential(..) => f64::INFINITY,
+        };
         let root = stiffness.abs().sqrt();
         // without stiffness nothing asks for the inverse; no division by zero, also for hosts that trap it
-        Self { damping, stiffness, regime, root, inverse_root: 1.0 / root.max(f64::MIN_POSITIVE) }
+        let inverse_root = 1.0 / root.max(f64::MIN_POSITIVE);
+        Self { damping, stiffness, regime, root, inverse_root, longest_piece }
     }
 
     /// Returns damping c \[1/s\].
@@ -100,13 +109,7 @@ impl Oscillator {
     /// points \[s\].
     #[inline]
     pub fn longest_piece(&self) -> f64 {
-        match self.regime {
-            // a little more than a period; without stiffness and damping there is no limit
-            Regime::Oscillating(omega) => 7.0 / omega.max(SLOWEST),
-            // a softening branch grows by e³⁶ at most, 1/ε: no displacement lies closer to its equilibrium
-            Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow.max(SLOWEST),
-            Regime::Exponential(..) => f64::INFINITY,
-        }
+        self.longest_piece
     }
 
     /// Computes Green's functions after `time` \[s\].

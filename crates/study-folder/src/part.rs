@@ -134,7 +134,14 @@ fn rows(
         |contents, index| &contents.records[contents.case(index).record].name,
     ];
     for name in names {
-        let texts: Vec<_> = runs.iter().map(|&(index, _)| ByteArray::from(name(contents, index))).collect();
+        // one text a curve: its runs share it
+        let texts: Vec<_> = contents
+            .part(part)
+            .zip(curves)
+            .flat_map(|(index, curve)| {
+                std::iter::repeat_n(ByteArray::from(name(contents, index)), curve.runs().len())
+            })
+            .collect();
         column::<ByteArrayType>(group, &texts, None)?;
     }
     let numbers = |number: fn(&Run) -> f64| runs.iter().map(|(_, run)| number(run)).collect::<Vec<_>>();

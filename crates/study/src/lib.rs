@@ -26,6 +26,7 @@
 //! Each module has a short example.
 
 pub mod accuracy;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod calibration;
 pub mod chart;
 pub mod check;
@@ -36,6 +37,7 @@ pub mod ida;
 pub mod loaded;
 pub mod parallel;
 mod random;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod reproduce;
 pub mod results;
 pub mod spectrum;

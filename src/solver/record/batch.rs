@@ -17,11 +17,13 @@ mod rounds;
 mod table;
 mod vector;
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Simd;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Avx2, Avx512, Level};
 
 use super::super::SolverError;
 use super::forcing::{Blocks, Forcing};
-use super::solver::{Outcome, RecordSolver, RunStart};
+use super::solver::{Outcome, RecordSolver, RunStart, unseen};
 use super::step_map::StepMap;
 use curved::CurvedLanes;
 use lanes::Lanes;
@@ -35,7 +37,36 @@ pub const LANES: usize = vector::WIDTH;
 pub struct Batch<'a> {
     solver: &'a RecordSolver<'a>,
     record: Blocks<'a>,
-    side_by_side: Option<(Level, SideBySide)>,
+    side_by_side: Option<(Vectors, SideBySide)>,
+}
+
+/// Vectors with which runs go faster side by side. No other code is made for them: it takes long to build.
+#[derive(Clone, Copy, Debug)]
+enum Vectors {
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
+}
+
+impl Vectors {
+    /// Returns the widest of this processor, if it has any.
+    fn widest() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let level = Level::new();
+            level.as_avx512().map(Self::Avx512).or_else(|| level.as_avx2().map(Self::Avx2))
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        None
+    }
+
+    /// Lists those of this processor.
+    #[cfg(all(test, target_arch = "x86_64"))]
+    fn all() -> Vec<Self> {
+        let level = Level::new();
+        [level.as_avx2().map(Self::Avx2), level.as_avx512().map(Self::Avx512)].into_iter().flatten().collect()
+    }
 }
 
 /// How runs go side by side.
@@ -60,12 +91,12 @@ impl SideBySide {
 impl RecordSolver<'_> {
     /// Prepares a record for many runs.
     pub fn batch<'a>(&'a self, forcing: Forcing<'a>) -> Batch<'a> {
-        self.batch_on(forcing, wide_level())
+        self.batch_on(forcing, Vectors::widest())
     }
 
-    /// Prepares a record on a processor with vectors of that level; `None` lets runs go one by one.
-    fn batch_on<'a>(&'a self, forcing: Forcing<'a>, level: Option<Level>) -> Batch<'a> {
-        let side_by_side = level.and_then(|level| Some((level, SideBySide::new(self, forcing)?)));
+    /// Prepares a record for some vectors; `None` lets runs go one by one.
+    fn batch_on<'a>(&'a self, forcing: Forcing<'a>, vectors: Option<Vectors>) -> Batch<'a> {
+        let side_by_side = vectors.and_then(|vectors| Some((vectors, SideBySide::new(self, forcing)?)));
         Batch { solver: self, record: Blocks::new(forcing), side_by_side }
     }
 }
@@ -83,37 +114,50 @@ impl Batch<'_> {
     /// [`SolverError`] of the first run that could not be followed.
     pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
         let Self { solver, record, .. } = self;
-        let Some((level, way)) = &self.side_by_side else {
-            let run = |&start| solver.run_through(start, record, until_overturning, &mut |_, _, _| {});
-            return starts.iter().map(run).collect();
-        };
+        match &self.side_by_side {
+            #[cfg(target_arch = "x86_64")]
+            Some((Vectors::Avx2(simd), way)) => self.follow(*simd, way, starts, until_overturning),
+            #[cfg(target_arch = "x86_64")]
+            Some((Vectors::Avx512(simd), way)) => self.follow(*simd, way, starts, until_overturning),
+            _ => {
+                let run = |&start| solver.run_through(start, record, until_overturning, &mut unseen);
+                starts.iter().map(run).collect()
+            }
+        }
+    }
+
+    /// Follows runs side by side.
+    fn follow(
+        &self,
+        simd: impl Simd,
+        way: &SideBySide,
+        starts: &[RunStart],
+        until_overturning: bool,
+    ) -> Result<Vec<Outcome>, SolverError> {
+        let Self { solver, record, .. } = self;
         let curved = || CurvedLanes::new(solver, record, starts, until_overturning);
         match way {
             SideBySide::Affine(responses) => {
                 let mut lanes = Lanes::new(solver, record, responses, starts, until_overturning);
-                dispatch!(*level, simd => lanes.follow(simd));
+                simd.vectorize(
+                    #[inline(always)]
+                    || lanes.follow(simd),
+                );
                 lanes.outcomes()
             }
-            SideBySide::Curved { is_ratio: true } => {
-                dispatch!(*level, simd => curved().follow::<_, true>(simd))
-            }
-            SideBySide::Curved { is_ratio: false } => {
-                dispatch!(*level, simd => curved().follow::<_, false>(simd))
-            }
+            SideBySide::Curved { is_ratio: true } => simd.vectorize(
+                #[inline(always)]
+                || curved().follow::<_, true>(simd),
+            ),
+            SideBySide::Curved { is_ratio: false } => simd.vectorize(
+                #[inline(always)]
+                || curved().follow::<_, false>(simd),
+            ),
         }
     }
 }
 
-/// Returns the level of this processor's vectors if runs go faster side by side with them.
-fn wide_level() -> Option<Level> {
-    #[cfg(target_arch = "x86_64")]
-    if Level::new().as_avx2().is_some() {
-        return Some(Level::new());
-    }
-    None
-}
-
-#[cfg(test)]
+#[cfg(all(test, target_arch = "x86_64"))]
 mod tests {
     use super::*;
     use crate::choices::DampingModel;
@@ -145,24 +189,27 @@ mod tests {
         (0..21).map(|i| RunStart { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
     }
 
-    /// Side by side, with many corners passed, and the same bits whatever vectors the processor has.
+    /// Side by side, with many corners passed, and the same bits with all vectors that the processor has.
     #[test]
     fn runs_do_not_depend_on_the_processor() {
         let motion = motion(0.018);
         let samples = shaking();
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
         let starts = starts(&motion);
-        let mut by_level = vector::tests::levels().into_iter().map(|level| {
-            let batch = solver.batch_on(samples, Some(level));
-            assert!(batch.is_side_by_side());
-            batch.run(&starts, false).expect("bounded motions")
-        });
-        let portable = by_level.next().expect("a level");
-        for wider in by_level {
-            assert_eq!(wider, portable);
+        let outcomes: Vec<_> = Vectors::all()
+            .into_iter()
+            .map(|vectors| {
+                let batch = solver.batch_on(samples, Some(vectors));
+                assert!(batch.is_side_by_side());
+                batch.run(&starts, false).expect("bounded motions")
+            })
+            .collect();
+        let Some(first) = outcomes.first() else { return };
+        for other in &outcomes {
+            assert_eq!(other, first);
         }
-        let corners: u64 = portable.iter().map(|outcome| outcome.work.corners).sum();
-        let overturned = portable.iter().filter(|outcome| outcome.overturning.is_some()).count();
+        let corners: u64 = first.iter().map(|outcome| outcome.work.corners).sum();
+        let overturned = first.iter().filter(|outcome| outcome.overturning.is_some()).count();
         assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
     }
 
@@ -183,7 +230,8 @@ mod tests {
         };
         let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
         let still = Forcing::Samples(&still);
-        let batch = solver.batch_on(still, Some(Level::new()));
+        let Some(vectors) = Vectors::widest() else { return };
+        let batch = solver.batch_on(still, Some(vectors));
         assert!(batch.is_side_by_side());
         let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
         for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
@@ -208,14 +256,14 @@ mod tests {
         let samples = shaking();
         let all = Forcing::Samples(&samples);
         let (soft, stiff) = (motion(0.018), motion(1e-4));
-        let side_by_side = |motion: &Motion, samples, level| {
-            RecordSolver::new(motion, 5e-3).batch_on(samples, level).is_side_by_side()
+        let side_by_side = |motion: &Motion, samples, vectors| {
+            RecordSolver::new(motion, 5e-3).batch_on(samples, vectors).is_side_by_side()
         };
-        let level = Some(Level::new());
-        assert!(side_by_side(&soft, all, level));
+        let widest = Vectors::widest();
+        assert_eq!(side_by_side(&soft, all, widest), widest.is_some());
         assert!(!side_by_side(&soft, all, None));
-        assert!(!side_by_side(&stiff, all, level));
-        assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), level));
+        assert!(!side_by_side(&stiff, all, widest));
+        assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), widest));
         let solver = RecordSolver::new(&stiff, 5e-3);
         let starts = starts(&stiff);
         let together = solver.batch(all).run(&starts, false).expect("bounded motions");

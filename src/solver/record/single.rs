@@ -3,7 +3,7 @@
 use super::super::{SolverError, Work};
 use super::active_run::{ActiveRun, PlainSteps};
 use super::forcing::{Blocks, Forcing};
-use super::solver::{Outcome, RecordSolver, RunStart};
+use super::solver::{Outcome, RecordSolver, RunStart, unseen};
 
 impl RecordSolver<'_> {
     /// Moves a wall through a record; `until_overturning` stops it when it overturns.
@@ -16,7 +16,7 @@ impl RecordSolver<'_> {
         forcing: Forcing<'_>,
         until_overturning: bool,
     ) -> Result<Outcome, SolverError> {
-        self.run_through(start, &Blocks::new(forcing), until_overturning, &mut |_, _, _| {})
+        self.run_through(start, &Blocks::new(forcing), until_overturning, &mut unseen)
     }
 
     /// Does the same, and shows `observe` the number, u and u̇ of each sample after the first.

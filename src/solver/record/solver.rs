@@ -65,3 +65,7 @@ impl<'a> RecordSolver<'a> {
         largest
     }
 }
+
+/// Observes no sample: one function for all who ask for none, so that their runs share one code.
+#[inline(always)]
+pub(super) fn unseen(_: usize, _: f64, _: f64) {}

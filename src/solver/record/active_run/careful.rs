@@ -200,9 +200,9 @@ impl<'a> ActiveRun<'a> {
         let (length, p) = (self.remaining(), self.rest_of(p));
         let mut run = Run::new(self.solver.motion, self.state, length, p, false, &mut self.memo);
         run.first_end = known_end;
-        let (state, report) = run.finish()?;
-        let Report { overturning, work, put_to_rest, .. } = report;
-        self.state = state;
+        run.finish()?;
+        let Report { overturning, work, put_to_rest, .. } = run.report;
+        self.state = run.state;
         self.tally.put_to_rest |= put_to_rest;
         if let (Some(offset), None) = (overturning, self.tally.overturning) {
             self.overturn(offset);

@@ -2,7 +2,7 @@
 
 use super::super::super::secant::SecantBranch;
 use super::super::super::{Phase, SolverError};
-use super::super::solver::Outcome;
+use super::super::solver::{Outcome, unseen};
 use super::super::step_map::{AffineSteps, StepMap, Way};
 use super::ActiveRun;
 
@@ -53,21 +53,20 @@ impl ActiveRun<'_> {
     /// # Errors
     /// [`SolverError`] if the motion could not be followed.
     pub(in super::super) fn follow_to_curve(&mut self, step: bool) -> Result<Option<Outcome>, SolverError> {
-        let unseen = &mut |_, _, _| {};
         if step {
-            self.step(unseen)?;
+            self.step(&mut unseen)?;
         }
         loop {
-            if let Some(outcome) = self.reach_plain_steps(unseen)? {
+            if let Some(outcome) = self.reach_plain_steps(&mut unseen)? {
                 return Ok(Some(outcome));
             }
             match self.map.map(|map| (map, &map.way)) {
-                Some((map, Way::Affine(steps))) => self.take_pairs(map, steps, unseen),
+                Some((map, Way::Affine(steps))) => self.take_pairs(map, steps, &mut unseen),
                 Some((_, Way::Curved(_))) => return Ok(None),
                 None => {}
             }
             if self.cursor.index < self.cursor.limit {
-                self.step(unseen)?;
+                self.step(&mut unseen)?;
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::super::active_run::{ActiveRun, LaneValues, PlainSteps};
 use super::super::block::Nodes;
 use super::super::forcing::{AT_ONCE, Blocks};
-use super::super::solver::{Outcome, RecordSolver, RunStart};
+use super::super::solver::{Outcome, RecordSolver, RunStart, unseen};
 use super::responses::Responses;
 use super::vector::{Row, WIDTH};
 use crate::solver::{SolverError, Work};
@@ -148,15 +148,14 @@ impl<'a> Lanes<'a> {
     /// Lets a run go by itself until it may go side by side; tells whether that comes before its end.
     fn advance(&mut self, i: usize, mut step: bool) -> bool {
         let Some(run) = &mut self.runs[i] else { return false };
-        let unseen = &mut |_, _, _| {};
         loop {
-            if step && let Err(error) = run.step(unseen) {
+            if step && let Err(error) = run.step(&mut unseen) {
                 if self.failure.as_ref().is_none_or(|(first, _)| self.numbers[i] < *first) {
                     self.failure = Some((self.numbers[i], error));
                 }
                 return false;
             }
-            if let Some(outcome) = run.next_block(unseen) {
+            if let Some(outcome) = run.next_block(&mut unseen) {
                 self.outcomes[self.numbers[i]] = Some(outcome);
                 return false;
             }
