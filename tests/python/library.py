@@ -17,6 +17,7 @@ SYSTEM = {
     "libpthread.so.0",
     "libgcc_s.so.1",
     "ld-linux-x86-64.so.2",
+    "ld-linux-aarch64.so.1",
     "kernel32.dll",
     "ntdll.dll",
     "/usr/lib/libSystem.B.dylib",

@@ -31,11 +31,15 @@ def wine():
     return Wine(program, os.environ[DRIVER], os.environ["ROCKING_WALL_EXE"])
 
 
-@pytest.mark.parametrize("platform", PLATFORMS)
+@pytest.mark.parametrize("platform", [*PLATFORMS, "aarch64-linux"])
 @pytest.mark.parametrize("name", ["wall", "floor"])
 def test_library(name, platform, fmu, floor_fmu, tmp_path):
-    library = f"binaries/{platform}/{name}.{PLATFORMS[platform]}"
-    with zipfile.ZipFile({"wall": fmu, "floor": floor_fmu}[name]) as archive:
+    library = f"binaries/{platform}/{name}.{PLATFORMS.get(platform, 'so')}"
+    unit = {"wall": fmu, "floor": floor_fmu}[name]
+    if platform not in PLATFORMS:
+        # FMI 2.0 has no name for it
+        unit = unit.parent / "fmi3" / unit.name
+    with zipfile.ZipFile(unit) as archive:
         archive.extract(library, tmp_path)
     assert problems(tmp_path / library) == []
     content = (tmp_path / library).read_bytes()

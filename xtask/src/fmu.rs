@@ -38,7 +38,7 @@ pub(crate) const FLOOR: Unit =
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 
 /// The platforms of portable FMUs.
-pub(crate) const PORTABLE: &str = "linux64,win64,darwin64";
+pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 ///

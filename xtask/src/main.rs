@@ -41,8 +41,8 @@ The jobs of the project.
                                    interface against fmi-sys
   cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
                                    Windows library under wine
-  cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` for
-                                   each platform, components, notices, checksums; TAG is checked
+  cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` and
+                                   wheels for each platform, components, notices, checksums; TAG is checked
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;

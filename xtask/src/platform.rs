@@ -98,17 +98,30 @@ impl Platform {
     /// # Errors
     /// If zig cannot be installed.
     pub(crate) fn cargo(&self, subcommand: &str) -> Result<Command> {
-        let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
-        let mut build = zig.program("cargo-zigbuild");
+        let mut build = Environment::of("zig", "xtask/locks/zig.lock")?.program("cargo-zigbuild");
         build.args([subcommand, "--target", &format!("{}{}", self.target, self.glibc)]);
+        self.link_with_zig(&mut build)?;
+        Ok(build)
+    }
+
+    /// Lets a job of cargo or maturin find zig, and give the same bytes in every folder.
+    ///
+    /// # Errors
+    /// If zig cannot be installed.
+    pub(crate) fn link_with_zig(&self, build: &mut Command) -> Result<()> {
+        let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
         let mut path = zig.programs().into_os_string();
         if let Some(rest) = std::env::var_os("PATH") {
             path.push(":");
             path.push(rest);
         }
         build.env("PATH", path).env("MACOSX_DEPLOYMENT_TARGET", OLDEST_MACOS);
-        reproducible(&mut build, self.link);
-        Ok(build)
+        // a list of the names that programs need, where zig has Apple's C library alone
+        let frameworks = format!("-Clink-arg=-F{}", root().join("xtask/release/macos").display());
+        let of_apple = self.target.contains("apple").then_some(frameworks.as_str());
+        let link: Vec<_> = self.link.iter().copied().chain(of_apple).collect();
+        reproducible(build, &link);
+        Ok(())
     }
 }
 

@@ -5,19 +5,20 @@ use std::path::{Path, PathBuf};
 use crate::command::{Result, output, program, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
+use crate::wheel;
 
 /// The version of every crate, of the descriptions and of the changelog; a test holds them together.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The platforms of the program `wall`.
+/// The platforms of the program `wall` and of the Python package.
 const PLATFORMS: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Packages that are linked into the files.
 const LINKED: [&str; 3] = ["rocking-wall-cli", "rocking-wall", "rocking-floor"];
 
-/// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the list of
-/// components (SBOM), the notices of third parties and the checksums into `target/release-files/`. The same
-/// commit gives the same bytes.
+/// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the Python package
+/// for all but Windows, the list of components (SBOM), the notices of third parties and the checksums into
+/// `target/release-files/`. The same commit gives the same bytes.
 ///
 /// # Errors
 /// If files are not committed, `tag` is not that of the version, or something does not build.
@@ -42,6 +43,11 @@ pub(crate) fn run(tag: Option<&str>) -> Result<()> {
     for platform in platforms {
         let (built, ending) = wall(platform)?;
         copy(&built, &folder.join(format!("wall-{VERSION}-{}{ending}", platform.fmi3)))?;
+        // maturin hands its list of exports for Windows to every library, those of FMUs among them
+        if ending.is_empty() {
+            let package = wheel::build("release", &folder.join("wall.fmu"), Some(platform))?;
+            copy(&package, &folder.join(package.file_name().unwrap_or_default()))?;
+        }
     }
     let mut components = program("python3");
     components.arg("xtask/release/components.py").arg(folder.join(format!("rocking-wall-{VERSION}")));

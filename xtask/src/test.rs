@@ -156,7 +156,7 @@ fn python() -> Result<()> {
 /// Tests the wheel; it is also installed where there is nothing but numpy, and beside `FMPy`.
 fn python_package() -> Result<()> {
     let unit = packed(fmu::WALL)?;
-    let package = wheel::build("dev", &unit)?;
+    let package = wheel::build("dev", &unit, None)?;
     let [python, bare, fmpy] = [WHEEL, BARE, TESTS].map(|(name, lock)| Environment::of(name, lock));
     let (python, bare, fmpy) = (python?, bare?, fmpy?);
     for environment in [&python, &bare, &fmpy] {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command::{Result, output, root, succeed, target};
 use crate::fmu;
+use crate::platform::Platform;
 use crate::python::Environment;
 
 /// The general FMU in the package, for `rocking_wall.package`.
@@ -18,15 +19,16 @@ const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
 /// If the FMU or the wheel does not build.
 pub(crate) fn run() -> Result<()> {
     let unit = fmu::build(fmu::WALL)?;
-    println!("{}", build("release", &unit)?.display());
+    println!("{}", build("release", &unit, None)?.display());
     Ok(())
 }
 
-/// Builds the wheel with a profile and a general FMU, and returns its path.
+/// Builds the wheel with a profile and a general FMU, for this machine or for a platform, and returns its
+/// path.
 ///
 /// # Errors
 /// If it does not build.
-pub(crate) fn build(profile: &str, unit: &Path) -> Result<PathBuf> {
+pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
     std::fs::copy(unit, root().join(UNIT)).map_err(|error| format!("{UNIT}: {error}"))?;
     for text in TEXTS {
         let [from, to] = LICENCES.map(|folder| root().join(folder).join(text));
@@ -38,6 +40,16 @@ pub(crate) fn build(profile: &str, unit: &Path) -> Result<PathBuf> {
     let _ = std::fs::remove_dir_all(&folder);
     let mut build = maturin.program("maturin");
     build.args(["build", "--locked", "--manifest-path", "crates/python/Cargo.toml", "--profile", profile]);
+    if let Some(platform) = platform {
+        build.args(["--zig", "--target", platform.target]);
+        if platform.target.ends_with("linux-gnu") {
+            // glibc 2.17
+            build.args(["--compatibility", "manylinux2014"]);
+        }
+        platform.link_with_zig(&mut build)?;
+        // the time in the archive
+        build.env("SOURCE_DATE_EPOCH", "315532800").env("CARGO_TARGET_DIR", target().join("fmu"));
+    }
     succeed(build.arg("--out").arg(&folder), "see its message above")?;
     let failed = |error| format!("{}: {error}", folder.display());
     let mut files = std::fs::read_dir(&folder).map_err(failed)?.map_while(std::result::Result::ok);

@@ -88,7 +88,8 @@ impl<S: Simd> Branches<S> {
     }
 }
 
-#[cfg(all(test, target_arch = "x86_64"))]
+#[cfg(target_arch = "x86_64")]
+#[cfg(test)]
 mod tests {
     use fearless_simd::Level;
 
