@@ -48,7 +48,7 @@ The jobs of the project.
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
                                    write docs/accuracy.md, docs/validation.md, the pages, and the pictures of
                                    docs/images
-  cargo xtask figures --images     only the pictures of README
+  cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --validation only docs/validation.md and its pictures
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page

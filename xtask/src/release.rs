@@ -14,7 +14,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PLATFORMS: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Packages that are linked into the files.
-const LINKED: [&str; 3] = ["rocking-wall-cli", "rocking-wall", "rocking-floor"];
+const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", "rocking-wall-python"];
 
 /// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the Python package
 /// for all but Windows, the list of components (SBOM), the notices of third parties and the checksums into

@@ -1,6 +1,6 @@
-//! Colours and marks, told apart by people who see fewer colours too.
+//! Colours and marks. Colour-blind readers can tell them apart.
 //!
-//! They have a contrast of at least 3 to a white page and, inverted, to a dark one.
+//! All but `PALE` have a contrast of at least 3 to a white page and, inverted, to a dark one.
 //!
 //! ```
 //! use figures::palette::{BLUE, SERIES, mixed};

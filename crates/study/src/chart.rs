@@ -16,17 +16,23 @@ pub const MODELS: [&str; 8] = ["CDC", "CDR", "SDR", "CDR Eq. 14", "block", "CR",
 /// A name such as `CDC 0.05` has the number of `CDC`, unless another model of the study has it already.
 ///
 /// ```
-/// assert_eq!(study::chart::model_colors(&["CR", "CDR 0.05", "CDR"]), [5, 0, 1]);
+/// use study::chart::model_colors;
+///
+/// assert_eq!(model_colors(&["CR", "CDR 0.05", "CDR"]), [5, 0, 1]);
+/// assert_eq!(model_colors(&["mine", "CDC 0.05"]), [1, 0]);
 /// ```
 pub fn model_colors(names: &[&str]) -> Vec<usize> {
     let number = |name: &str| MODELS.iter().position(|model| *model == name);
+    let is_free = |colors: &[Option<usize>], color: &usize| !colors.contains(&Some(*color));
+    // first the models themselves, then their variants, then what has another name
     let mut colors: Vec<Option<usize>> = names.iter().map(|name| number(name)).collect();
+    for (index, name) in names.iter().enumerate() {
+        let model = name.split(' ').next().and_then(number);
+        colors[index] = colors[index].or(model.filter(|color| is_free(&colors, color)));
+    }
     for index in 0..names.len() {
-        if colors[index].is_none() {
-            let own = names[index].split(' ').next().and_then(number);
-            let free = |color: &usize| !colors.contains(&Some(*color));
-            colors[index] = own.filter(free).or_else(|| (0..=colors.len()).find(free));
-        }
+        let free = || (0..=names.len()).find(|color| is_free(&colors, color));
+        colors[index] = colors[index].or_else(free);
     }
     colors.into_iter().flatten().collect()
 }
