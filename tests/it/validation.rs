@@ -70,7 +70,7 @@ fn the_push_has_its_numbers() {
     assert_rounded(&[largest / comparison.strength], &[0.939], 5e-4);
     let rigid = &comparison.laws[0];
     let over: Vec<f64> = push.points.iter().zip(&rigid.forces).map(|([_, p], force)| p / force).collect();
-    assert!(over[3..10].iter().all(|ratio| (0.975..=1.0255).contains(ratio)), "{over:?}");
+    assert!(over[3..10].iter().all(|ratio| (0.974..=1.026).contains(ratio)), "{over:?}");
     assert_rounded(&over[10..], &[0.922, 0.887], 6e-4);
     // each softening within 5 % of F0 where it is fitted; the chord is the best
     assert!(comparison.laws[1..].iter().all(|law| law.difference.largest < 0.05));
@@ -107,11 +107,13 @@ fn the_decay_has_its_numbers() {
     let whole = Decay { start: 0.0, restitution: Some(0.9), ..decay };
     let whole = whole.compare(&case("brick_wall_11.toml").parameters).unwrap();
     assert_rounded(&whole.implied[..1], &[0.826], 2e-3);
+    // no passage precedes the release
+    assert!(whole.half_cycles[0].is_none() && whole.half_cycles[1..] == comparison.half_cycles);
     let e: Vec<f64> = comparison.models.iter().map(|model| model.restitution).collect();
     assert!((0.885..=0.905).contains(&e[0]) && comparison.is_fitted && !whole.is_fitted, "{e:?}");
     assert_rounded(&e[4..], &[0.9 * 0.958, 0.958], 5e-4);
-    let ratios: Vec<f64> =
-        comparison.half_cycles.iter().zip(&comparison.rigid_half_cycles).map(|(a, b)| a / b).collect();
+    let half_cycles = comparison.half_cycles.iter().map(|time| time.unwrap());
+    let ratios: Vec<f64> = half_cycles.zip(&comparison.rigid_half_cycles).map(|(a, b)| a / b).collect();
     assert!((ratios[0] - 1.265).abs() < 0.005 && ratios.iter().all(|ratio| *ratio > 1.2), "{ratios:?}");
 }
 
@@ -144,12 +146,18 @@ fn tests_that_cannot_be_used_are_refused() {
     };
     fs::copy(data.join("brick_wall_11.csv"), folder.join("brick_wall_11.csv")).unwrap();
     fs::write(folder.join("short.csv"), "time_s,displacement_over_thickness\n0,0.5\n0,0.4\n").unwrap();
-    fs::write(folder.join("beyond.csv"), "time_s,displacement_over_thickness\n0,0.5\n0.7,-1.1\n1,0\n")
-        .unwrap();
+    fs::write(
+        folder.join("beyond.csv"),
+        "time_s,displacement_over_thickness\n0,0.5\n0.7,-1.1\n1,0\n1.2,0.4\n",
+    )
+    .unwrap();
     for (from, to, words) in [
         ("[decay]", "[push]", &["test.toml", "line"][..]),
-        ("start = 0.64", "start = 9", &["start = 9", "no peak"]),
-        ("start = 0.64", "start = 0.64\nrestitution = 1.2", &["restitution = 1.2", "from 0 to 1"]),
+        ("start = 0.64", "start = 9", &["start = 9", "fewer than two peaks"]),
+        ("start = 0.64", "start = 2.1", &["start = 2.1", "fewer than two peaks"]),
+        ("a1 = 0.03", "a1 = -0.1", &["test.toml, line", "a1 = -0.1", "limit"]),
+        ("start = 0.64", "start = 0.64\nrestitution = 0", &["restitution = 0", "above 0"]),
+        ("start = 0.64", "start = 0.64\nrestitution = 1.2", &["restitution = 1.2", "at most 1"]),
         ("brick_wall_11.csv", "beyond.csv", &["|d|/t = 1.1", "u_ins = 1 t"]),
         ("brick_wall_11.csv", "none.csv", &["none.csv", "cannot be read"]),
         ("brick_wall_11.csv", "short.csv", &["short.csv, line 3", "above"]),
@@ -157,6 +165,14 @@ fn tests_that_cannot_be_used_are_refused() {
     ] {
         copy("brick_wall_11.toml", from, to);
         refused(&folder, &["validate", "test.toml", "--plot", "plot.svg"], words);
+    }
+    fs::copy(data.join("brick_wall_12.csv"), folder.join("brick_wall_12.csv")).unwrap();
+    for (from, to, words) in [
+        ("fit_from = 0.058", "fit_from = 0.5", &["fit_from = 0.5", "fewer than two points"][..]),
+        ("d1 = 0.94", "d1 = 5", &["d1 = 5", "limit"]),
+    ] {
+        copy("brick_wall_12.toml", from, to);
+        refused(&folder, &["validate", "test.toml"], words);
     }
     assert!(!Path::new(&folder).join("plot.svg").exists());
 }

@@ -15,7 +15,7 @@ use crate::output;
 pub(crate) struct Arguments {
     /// A test (TOML), such as those of `tests/data/validation`
     test: PathBuf,
-    /// Write the points and the model as SVG
+    /// Write the points and the model as SVG or PNG, by the file's ending
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }
@@ -26,7 +26,7 @@ const MEASURED: usize = 3;
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let case = Case::read(&arguments.test)?;
     output::check_distinct(&case.inputs, &arguments.plot)?;
-    let mut text = format!("{}\n", case.title);
+    let mut text = format!("{}\nsource: {}\n", case.title, case.source.trim());
     let chart = match &case.test {
         Test::Push(push) => {
             let comparison = push.compare(&case.parameters)?;
@@ -105,22 +105,30 @@ fn about_decay(text: &mut String, comparison: &DecayComparison) {
             model.name, model.restitution, model.difference.rms, model.difference.largest
         );
     }
-    let row = |name: &str, values: &[f64]| {
-        values.iter().fold(format!("{name:<14}"), |row, value| format!("{row}{value:>8.3}"))
-    };
+    let row = |name: &str, values: &[f64]| some_row(name, values.iter().copied().map(Some));
     let _ = writeln!(text, "\npeaks |d|/t\n{}", row("measured", peaks));
     for model in models {
         let _ = writeln!(text, "{}", row(&model.name, &model.peaks));
     }
     let _ = writeln!(text, "\nrestitution from each peak to the next\n{}", row("rigid law", implied));
-    let _ = writeln!(text, "\ntime between passages, s\n{}", row("measured", half_cycles));
+    let half_cycles = half_cycles.iter().copied();
+    let _ = writeln!(text, "\ntime between passages, s\n{}", some_row("measured", half_cycles.clone()));
     let _ = writeln!(text, "{}", row("rigid law*", rigid_half_cycles));
-    let ratios: Vec<_> = half_cycles.iter().zip(rigid_half_cycles).map(|(a, b)| a / b).collect();
-    let _ = writeln!(text, "{}", row("ratio", &ratios));
+    let ratios = half_cycles.zip(rigid_half_cycles).map(|(time, rigid)| Some(time? / rigid));
+    let _ = writeln!(text, "{}", some_row("ratio", ratios));
     for model in &models[..4] {
-        let _ = writeln!(text, "{}", row(&format!("{:<22}", model.name), &model.half_cycles));
+        // a model starts at the first peak
+        let half_cycles = model.half_cycles.iter().copied().map(Some);
+        let _ = writeln!(text, "{}", some_row(&model.name, std::iter::once(None).chain(half_cycles)));
     }
     let _ = writeln!(text, "* at the measured peaks, whatever e is");
+}
+
+/// Puts a name and numbers in columns; a number that there is not leaves its column blank.
+fn some_row(name: &str, values: impl Iterator<Item = Option<f64>>) -> String {
+    let text = |value: Option<f64>| value.map_or_else(|| " ".repeat(8), |value| format!("{value:>8.3}"));
+    let row = values.fold(format!("{name:<14}"), |row, value| row + &text(value));
+    row.trim_end().to_owned()
 }
 
 fn decay_chart(title: &str, comparison: &DecayComparison) -> Chart {

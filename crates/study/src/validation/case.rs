@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
 use rocking_wall::wall::Parameters;
@@ -45,22 +45,22 @@ struct Document {
     source: String,
     points: PathBuf,
     geometry: Group,
-    push: Option<PushTable>,
+    push: Option<Spanned<PushTable>>,
     decay: Option<Spanned<DecayTable>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PushTable {
-    a1: f64,
-    d1: f64,
+    a1: Spanned<Value>,
+    d1: Spanned<Value>,
     fit_from: f64,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DecayTable {
-    a1: f64,
+    a1: Spanned<Value>,
     start: f64,
     restitution: Option<f64>,
 }
@@ -79,18 +79,28 @@ impl Case {
         let points_path = path.with_file_name(&document.points);
         let points = points(&points_path)?;
         let test = match (document.push, document.decay) {
-            (Some(PushTable { a1, d1, fit_from }), None) => Test::Push(Push { points, a1, d1, fit_from }),
+            (Some(table), None) => {
+                let PushTable { a1, d1, fit_from } = table.get_ref();
+                let Parameters { a1, d1, .. } = law([("a1", a1), ("d1", d1)], place)?;
+                if points.iter().filter(|[displacement, _]| displacement >= fit_from).count() < 2 {
+                    let message = format!("fit_from = {fit_from}: fewer than two points from there on");
+                    return Err(place.error(table.span(), message));
+                }
+                Test::Push(Push { points, a1, d1, fit_from: *fit_from })
+            }
             (None, Some(table)) => {
-                let DecayTable { a1, start, restitution } = *table.get_ref();
-                if !points.iter().any(|[time, displacement]| *time >= start && *displacement != 0.0) {
-                    let message = format!("start = {start} s: the points have no peak from there on");
+                let DecayTable { a1, start, restitution } = table.get_ref();
+                let Parameters { a1, .. } = law([("a1", a1)], place)?;
+                let peaks = points.iter().filter(|[time, d]| time >= start && *d != 0.0);
+                if peaks.count() < 2 {
+                    let message = format!("start = {start} s: fewer than two peaks from there on");
                     return Err(place.error(table.span(), message));
                 }
-                if let Some(e) = restitution.filter(|e| !(0.0..=1.0).contains(e)) {
-                    let message = format!("restitution = {e} must be from 0 to 1");
+                if let Some(e) = restitution.filter(|e| !(*e > 0.0 && *e <= 1.0)) {
+                    let message = format!("restitution = {e} must be above 0 and at most 1");
                     return Err(place.error(table.span(), message));
                 }
-                Test::Decay(Decay { points, start, a1, restitution })
+                Test::Decay(Decay { points, start: *start, a1, restitution: *restitution })
             }
             _ => {
                 let reason = "expected one table, [push] or [decay]".to_owned();
@@ -100,6 +110,17 @@ impl Case {
         let inputs = [path.to_owned(), points_path];
         Ok(Self { title: document.title, source: document.source, parameters, test, inputs })
     }
+}
+
+/// Reads parameters of the force law, within the limits of the model description.
+fn law<const N: usize>(
+    entries: [(&str, &Spanned<Value>); N],
+    place: &Place<'_>,
+) -> Result<Parameters, SceneError> {
+    let entries = entries.map(|(name, value)| (Spanned::new(value.span(), name.to_owned()), value.clone()));
+    let mut parameters = Parameters::default();
+    apply_group(&mut parameters, "force_law", &entries.into(), place)?;
+    Ok(parameters)
 }
 
 fn text(path: &Path) -> Result<String, SceneError> {

@@ -36,8 +36,8 @@ pub struct Decay {
 pub struct DecayComparison {
     /// |u|/t of the peaks from the start on \[-\].
     pub peaks: Vec<f64>,
-    /// Times between passages, one for each peak that lies between two \[s\].
-    pub half_cycles: Vec<f64>,
+    /// Time between the passages before and after each peak \[s\], where both were measured.
+    pub half_cycles: Vec<Option<f64>>,
     /// Restitution from each peak to the next that the rigid law implies \[-\].
     pub implied: Vec<f64>,
     /// Times between passages of the rigid law about the measured peaks, whatever e is \[s\].
@@ -59,7 +59,7 @@ pub struct DecayModel {
     pub damping: Option<f64>,
     /// |u|/t of the peaks, that of the start first \[-\].
     pub peaks: Vec<f64>,
-    /// Times between passages from the first on \[s\].
+    /// Times between passages, one for each peak after the start \[s\].
     pub half_cycles: Vec<f64>,
     /// Differences of the peaks after the start, over the thickness.
     pub difference: Difference,
@@ -71,10 +71,15 @@ impl Decay {
     ///
     /// # Errors
     /// [`ValidationError`]: a wall that is refused, a peak beyond `u_ins`, or rest before the last peak.
+    ///
+    /// # Panics
+    /// If there are fewer than two peaks from the start on.
     pub fn compare(&self, parameters: &Parameters) -> Result<DecayComparison, ValidationError> {
-        let from = self.points.iter().position(|[time, _]| *time >= self.start).unwrap_or(0);
-        let measured: Vec<f64> =
-            self.points[from..].iter().map(|[_, d]| d.abs()).filter(|d| *d > 0.0).collect();
+        let points = &self.points;
+        let is_peak = |[time, displacement]: [f64; 2]| time >= self.start && displacement != 0.0;
+        let places: Vec<_> = (0..points.len()).filter(|&place| is_peak(points[place])).collect();
+        let measured: Vec<f64> = places.iter().map(|&place| points[place][1].abs()).collect();
+        assert!(measured.len() >= 2, "fewer than two peaks from the start on");
         let rigid = Parameters { force_law: ForceLaw::RigidLinear, a3: 1.0, ..parameters.clone() };
         let with = |e: f64| with_restitution(&rigid, e);
         let instability = Wall::new(&with(1.0))?.body().instability.positive / parameters.thickness;
@@ -109,15 +114,11 @@ impl Decay {
         let energy = |peak: f64| 1.0 - (1.0 - peak / instability).powi(2);
         let half_cycle =
             |peak: f64| 2.0 * libm::acosh(1.0 / (1.0 - peak / instability)) / wall.rocking_rate();
-        let passages = |points: &[[f64; 2]]| -> Vec<(f64, f64)> {
-            let between = points.windows(3).filter(|three| three[0][1] == 0.0 && three[2][1] == 0.0);
-            between.map(|three| (three[2][0] - three[0][0], three[1][1].abs())).collect()
-        };
-        let cycles = passages(&self.points);
-        let cycles = &cycles[cycles.len().saturating_sub(measured.len())..];
+        let passage = |place: usize| points.get(place).filter(|point| point[1] == 0.0).map(|point| point[0]);
+        let between = |&place: &usize| Some(passage(place + 1)? - passage(place.checked_sub(1)?)?);
         Ok(DecayComparison {
-            half_cycles: cycles.iter().map(|(time, _)| *time).collect(),
-            rigid_half_cycles: cycles.iter().map(|(_, peak)| half_cycle(*peak)).collect(),
+            half_cycles: places.iter().map(between).collect(),
+            rigid_half_cycles: measured.iter().map(|peak| half_cycle(*peak)).collect(),
             implied: measured.windows(2).map(|pair| (energy(pair[1]) / energy(pair[0])).sqrt()).collect(),
             peaks: measured,
             is_fitted: self.restitution.is_none(),
@@ -128,17 +129,19 @@ impl Decay {
 
 /// Returns the e of least squares of the peaks, to 0.001.
 fn fitted(with: &impl Fn(f64) -> Parameters, measured: &[f64]) -> Result<f64, ValidationError> {
-    let mut best = (f64::INFINITY, 1.0);
+    let mut best = Err(ValidationError::Rest { found: 0, expected: measured.len() - 1 });
     for step in LEAST_E..1000 {
         let e = E_STEP * f64::from(step);
         match model("", e, None, &with(e), measured) {
-            Ok(model) if model.difference.rms < best.0 => best = (model.difference.rms, e),
+            Ok(model) if best.as_ref().is_ok_and(|(least, _)| *least <= model.difference.rms) => {}
+            Ok(model) => best = Ok((model.difference.rms, e)),
             // a small e leaves no motion before the last peak
-            Ok(_) | Err(ValidationError::Rest { .. }) => {}
+            Err(ValidationError::Rest { .. }) if best.is_ok() => {}
+            Err(error @ ValidationError::Rest { .. }) => best = Err(error),
             Err(error) => return Err(error),
         }
     }
-    Ok(best.1)
+    best.map(|(_, e)| e)
 }
 
 /// Runs a model from the first of the measured peaks.

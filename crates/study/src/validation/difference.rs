@@ -11,8 +11,12 @@ pub struct Difference {
 
 impl Difference {
     /// Measures differences.
+    ///
+    /// # Panics
+    /// If there is none.
     pub(super) fn of(differences: impl IntoIterator<Item = f64>) -> Self {
         let differences: Vec<f64> = differences.into_iter().collect();
+        assert!(!differences.is_empty(), "no point is compared");
         let squares: f64 = differences.iter().map(|difference| difference * difference).sum();
         Self {
             rms: (squares / differences.len() as f64).sqrt(),

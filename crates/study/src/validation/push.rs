@@ -54,6 +54,9 @@ impl Push {
     ///
     /// # Errors
     /// [`ValidationError::Parameters`] if the wall or no trilinear law is valid.
+    ///
+    /// # Panics
+    /// If no point lies from `fit_from` on.
     pub fn compare(&self, parameters: &Parameters) -> Result<PushComparison, ValidationError> {
         // damping does not act in a slow push
         let still = Parameters { damping_model: DampingModel::None, ..parameters.clone() };
