@@ -85,7 +85,7 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n4,0.3\n").unwrap();
     let output =
         wall(&folder, &["check", scene.to_str().unwrap(), "--spectrum", "spectrum.csv", "--unit", "m/s2"]);
-    assert!(text(&output.stderr).contains("storeys shape records only"));
+    assert!(text(&output.stderr).contains("storeys are not applied to --spectrum"));
 }
 
 /// A stiffer tie takes more force and lets the wall move less; without one it is the wall alone.

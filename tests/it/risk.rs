@@ -185,7 +185,7 @@ fn functions_of_several_models() {
     let [xml, table, told] = run("risk_open", &STUDY.replace("top = 8", "top = 0.15"));
     assert_eq!((xml.matches("<fragilityFunction").count(), table.lines().count()), (0, 13), "{table}");
     assert!(
-        told.contains("fragilities.xml lacks 4 functions") && told.contains("raise the highest"),
+        told.contains("fragilities.xml lacks 4 functions, ") && told.contains("add levels below or above"),
         "{told}"
     );
 }
@@ -194,7 +194,22 @@ fn functions_of_several_models() {
 fn other_measures_have_no_nrml() {
     let [xml, table, told] = run("risk_measures", &STUDY.replace("PGA", "AvgSA"));
     assert!(xml.is_empty() && !table.is_empty());
-    assert!(told.contains("PGA and SA(T), not AvgSA") && told.contains("measure = \"PGA\""), "{told}");
+    assert!(
+        told.contains("cannot state the periods of AvgSA") && told.contains("measure = \"PGA\""),
+        "{told}"
+    );
+}
+
+/// A file of an earlier report that the present one does not have is removed.
+#[test]
+fn no_file_of_an_earlier_report_stays() {
+    let folder = folder("risk_earlier");
+    for (study, is_drawn) in [(STUDY.to_owned(), true), (STUDY.replace("0.1, 1]", "0.1]"), false)] {
+        fs::write(folder.join("study.toml"), study).unwrap();
+        let output = wall(&folder, &["ida", "study.toml", "-o", "out"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert_eq!(folder.join("out/fragilities.svg").exists(), is_drawn);
+    }
 }
 
 #[test]
@@ -211,6 +226,7 @@ fn classes_that_cannot_be_made_are_refused() {
         ("[3, 1]", "[3, -1]", &["class \"both\"", "-1 must be positive"]),
         ("name = \"both\"", "name = \"alone\"", &["\"alone\" is listed twice"]),
         ("name = \"both\"", "name = \"low\"", &["class \"low\"", "name of a wall"]),
+        ("fractions = [0.4, 0.1, 1]", "fractions = []", &["fractions is empty", "at least one"]),
         ("resamples = 100", "modelling_uncertainty = -1", &["modelling_uncertainty = -1", "from 0 to 2"]),
     ] {
         fs::write(folder.join("study.toml"), STUDY.replace(from, to)).unwrap();

@@ -8,7 +8,7 @@ use parquet::errors::ParquetError;
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum FolderError {
-    /// A file or folder cannot be read, written or made.
+    /// A file or folder cannot be read, written, made or removed.
     #[error("{}: cannot be {what}: {source}", path.display())]
     File { path: PathBuf, what: &'static str, source: std::io::Error },
     /// There is no study.

@@ -43,6 +43,19 @@ pub(crate) fn to_file_unsynced(path: &Path, content: &[u8]) -> Result<(), Folder
     written.map_err(failed)
 }
 
+/// Removes a file, if there is one.
+///
+/// # Errors
+/// [`FolderError::File`].
+pub(crate) fn remove(path: &Path) -> Result<(), FolderError> {
+    match std::fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(FolderError::File { path: path.to_owned(), what: "removed", source })
+        }
+        _ => Ok(()),
+    }
+}
+
 /// A file that gets its name when it is complete.
 pub(crate) struct Draft {
     pub(crate) file: BufWriter<File>,

@@ -38,7 +38,7 @@ pub(crate) struct Writer {
 }
 
 impl Writer {
-    /// Writes what precedes the functions; `None` if NRML does not have the study's measure.
+    /// Writes what precedes the functions; `None` if NRML cannot state the study's measure.
     pub(crate) fn new(manifest: &Manifest) -> Option<(Self, String)> {
         let measure = measure(&manifest.contents.measure)?;
         let states = limit_states(&manifest.report);
@@ -56,17 +56,23 @@ impl Writer {
         Some((Self { measure, states, ids: BTreeSet::new() }, text))
     }
 
-    /// Writes a function. Below `minIML` and `noDamageLimit` the first limit state has a probability of less
-    /// than 1e-4, above `maxIML` the last one of more than 1 − 1e-4.
+    /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
+    /// `minIML` and `noDamageLimit` the first limit state has a probability of less than 1e-4, above `maxIML`
+    /// the last one of more than 1 − 1e-4.
     pub(crate) fn function(
         &mut self,
         out: &mut dyn Write,
         name: &str,
         function: &FragilityFunction,
-    ) -> io::Result<()> {
+    ) -> io::Result<bool> {
         let (medians, beta) = (&function.medians, function.dispersion());
         let tail = libm::exp(TAIL * beta);
         let (least, most) = (in_g(medians[0]) / tail, in_g(medians[medians.len() - 1]) * tail);
+        let params: Vec<_> = medians.iter().map(|median| moments(in_g(*median), beta)).collect();
+        let mut numbers = params.iter().flatten().chain([&least, &most]);
+        if !numbers.all(|number| number.is_finite() && *number > 0.0) {
+            return Ok(false);
+        }
         writeln!(
             out,
             "    <fragilityFunction id=\"{}\" format=\"continuous\" shape=\"logncdf\">\n      \
@@ -74,11 +80,11 @@ impl Writer {
             escaped(&self.unique(name)),
             self.measure
         )?;
-        for ((_, state), median) in self.states.iter().zip(medians) {
-            let [mean, deviation] = moments(in_g(*median), beta);
+        for ((_, state), [mean, deviation]) in self.states.iter().zip(&params) {
             writeln!(out, "      <params ls=\"{state}\" mean=\"{mean:e}\" stddev=\"{deviation:e}\"/>")?;
         }
-        writeln!(out, "    </fragilityFunction>")
+        writeln!(out, "    </fragilityFunction>")?;
+        Ok(true)
     }
 
     /// Writes what follows the functions.
@@ -115,6 +121,18 @@ mod tests {
             let square = libm::log1p((deviation / mean).powi(2));
             let theta = mean * libm::exp(-0.5 * square);
             assert!((theta / 0.37 - 1.0).abs() < 1e-14 && (square.sqrt() / beta - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_function_of_infinite_numbers_is_left_out() {
+        let states = vec![(0, "u_ins_1".to_owned())];
+        let mut writer = Writer { measure: "PGA".into(), states, ids: BTreeSet::new() };
+        for (beta, is_written) in [(0.5, true), (50.0, false)] {
+            let curve = study::fragility::Lognormal { median: 3.0, dispersion: beta };
+            let (function, mut out) = (FragilityFunction::new(&[curve], 0.0), Vec::new());
+            assert_eq!(writer.function(&mut out, "wall", &function).unwrap(), is_written);
+            assert_eq!(out.is_empty(), !is_written);
         }
     }
 

@@ -68,15 +68,14 @@ fn reading(manifest: &Manifest) -> String {
     let stripes = manifest.contents.grid.is_some();
     let (drawn, observed) = if stripes {
         (
-            "marks are the fractions of the records that exceed it at each level",
-            "their numbers (Baker 2015, \
-           Eq. 11)",
+            "marks are the fractions of the records that exceed the limit state at each level",
+            "the numbers of exceedances at each level (Baker 2015, Eq. 11)",
         )
     } else {
         (
             "steps are the records",
-            "the records' own intensities; those that stood at the highest level count \
-           as censored (Baker 2015, Eq. 8)",
+            "the records' own intensities; those that stood at the highest level count as censored (Baker \
+             2015, Eq. 8)",
         )
     };
     let runs =

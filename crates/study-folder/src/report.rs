@@ -194,8 +194,11 @@ impl<'a> Output<'a> {
             written.map_err(|source| FolderError::File { path: path.clone(), what: "written", source })?;
             files.push(path);
         }
-        if !self.panels.is_empty() {
-            let path = self.folder.path().join("fragilities.svg");
+        let path = self.folder.path().join("fragilities.svg");
+        if self.panels.is_empty() {
+            // that of an earlier report
+            file::remove(&path)?;
+        } else {
             let title = format!("{}: collapse fragilities", manifest.title);
             let sheet = legend::file(manifest, &title, &self.panels, SIZE);
             file::to_file(&path, sheet.as_bytes())?;

@@ -12,7 +12,7 @@ use study::results::WallResults;
 use crate::contents::Manifest;
 use crate::csv::{optional, quoted};
 use crate::error::FolderError;
-use crate::file::Draft;
+use crate::file::{self, Draft};
 use crate::nrml;
 use crate::tables::in_g;
 
@@ -32,17 +32,22 @@ pub(crate) struct Risk<'a> {
     classes: Vec<(&'a WallClass, Vec<usize>)>,
     /// Functions of walls in classes, one for each model where it has all curves.
     members: BTreeMap<usize, Vec<Option<FragilityFunction>>>,
-    left_out: usize,
+    /// Number of functions without a curve, and of those that NRML cannot hold.
+    left_out: [usize; 2],
 }
 
 impl<'a> Risk<'a> {
     /// Begins the files in a folder.
     pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Self, FolderError> {
         let [table, xml] = FILES.map(|name| folder.join(name));
-        let xml = nrml::Writer::new(manifest).map(|(writer, text)| {
+        let xml = if let Some((writer, text)) = nrml::Writer::new(manifest) {
             let (path, draft) = begun(xml, &text)?;
-            Ok((path, draft, writer))
-        });
+            Some((path, draft, writer))
+        } else {
+            // that of an earlier study
+            file::remove(&xml)?;
+            None
+        };
         let walls = &manifest.contents.walls;
         let numbers: BTreeMap<_, _> = walls.iter().enumerate().map(|(k, wall)| (&wall.name, k)).collect();
         let classes = manifest.report.classes.iter().map(|class| {
@@ -54,10 +59,10 @@ impl<'a> Risk<'a> {
             manifest,
             states: nrml::limit_states(&manifest.report),
             table: begun(table, &format!("{COLUMNS}\n"))?,
-            xml: xml.transpose()?,
+            xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
-            left_out: 0,
+            left_out: [0; 2],
         })
     }
 
@@ -131,12 +136,14 @@ impl<'a> Risk<'a> {
                 .map_err(|source| unwritten(path, source))?;
         }
         let Some(function) = function else {
-            self.left_out += 1;
+            self.left_out[0] += 1;
             return Ok(());
         };
         let Some((path, draft, writer)) = &mut self.xml else { return Ok(()) };
         let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
-        writer.function(&mut draft.file, &id, function).map_err(|source| unwritten(path, source))
+        let is_written = writer.function(&mut draft.file, &id, function);
+        self.left_out[1] += usize::from(!is_written.map_err(|source| unwritten(path, source))?);
+        Ok(())
     }
 
     /// Says what the NRML file lacks, and what would mend it.
@@ -145,21 +152,25 @@ impl<'a> Risk<'a> {
         let measure = &self.manifest.contents.measure;
         if self.xml.is_none() {
             return format!(
-                "no {file}: risk engines read PGA and SA(T), not {measure}; for it run the study with \
-                 intensity = {{ measure = \"PGA\" }} or {{ measure = \"Sa\", period = T }}\n"
+                "no {file}: it is written for PGA and Sa(T) only, because NRML cannot state the periods of \
+                 {measure}; for it run the study with intensity = {{ measure = \"PGA\" }} or \
+                 {{ measure = \"Sa\", period = T }}\n"
             );
         }
-        match self.left_out {
+        let lack = |(count, reason): (usize, &str)| match count {
             0 => String::new(),
-            out => format!(
-                "{file} lacks {out} functions, of walls or classes with a limit state that has no curve; \
-                 raise the highest level, or leave out their fractions of u_ins\n"
-            ),
-        }
+            1 => format!("{file} lacks 1 function, of a wall or class {reason}\n"),
+            _ => format!("{file} lacks {count} functions, of walls or classes {reason}\n"),
+        };
+        let without_curve = "with a limit state that has no curve: it is exceeded by no run or by all, \
+             or its records do not scatter; add levels below or above, or drop its fraction";
+        let without_numbers =
+            "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
+        [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat()
     }
 }
 
-/// Says what a class comes to.
+/// Says the result of a class.
 fn line(class: &WallClass, model: &str, function: &FragilityFunction) -> String {
     let thetas: Vec<_> = function.medians.iter().map(|theta| format!("{:.3}", in_g(*theta))).collect();
     format!(

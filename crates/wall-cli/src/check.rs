@@ -107,7 +107,9 @@ impl Source {
         let of = Spectrum::new(damping, Maxima::Everywhere)?;
         if let (Some(path), Some(unit)) = (&arguments.spectrum, unit) {
             if floors.is_some() {
-                output::warn("--spectrum is that of the wall's floor: the storeys shape records only");
+                output::warn(
+                    "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
+                );
             }
             let name = format!("{}, Sa in {unit}", path.display());
             return Ok(Self { name, damping, spectrum: Of::Points(points(path, unit)?) });

@@ -17,11 +17,11 @@ pub(crate) struct Shown {
     pub(crate) names: [&'static str; 2],
     /// Explains the axes.
     pub(crate) axes: String,
-    /// The scene's own wall: its place on the axes, and what it comes to.
+    /// The scene's own wall: its place on the axes, and its result.
     pub(crate) own: Option<([f64; 2], Point)>,
 }
 
-/// What a wall comes to.
+/// Says the result of a wall.
 fn words_of(point: Point) -> String {
     match point {
         Point { overturning: Some(time), .. } => format!("overturns at {time:.3} s"),
@@ -30,7 +30,7 @@ fn words_of(point: Point) -> String {
     }
 }
 
-/// The scene's own wall and what it comes to.
+/// The scene's own wall and its result.
 pub(crate) fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
     let [size, slenderness] = shown.labels;
     let outside = if place(&shown.spectrum.columns, *x).and(place(&shown.spectrum.rows, *y)).is_none() {

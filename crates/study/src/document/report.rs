@@ -105,6 +105,10 @@ pub(super) fn report(
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();
     if let Some(fractions) = &spec.fractions {
+        if fractions.is_empty() {
+            let message = "fractions is empty; list at least one fraction of u_ins";
+            return Err(place.error(table.span(), message));
+        }
         if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
             let message = format!("{fraction} is not a fraction of u_ins above 0 and at most 1");
             return Err(place.error(table.span(), message));
