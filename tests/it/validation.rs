@@ -70,7 +70,7 @@ fn the_push_has_its_numbers() {
     assert_rounded(&[largest / comparison.strength], &[0.939], 5e-4);
     let rigid = &comparison.laws[0];
     let over: Vec<f64> = push.points.iter().zip(&rigid.forces).map(|([_, p], force)| p / force).collect();
-    assert!(over[3..10].iter().all(|ratio| (0.974..=1.026).contains(ratio)), "{over:?}");
+    assert!(over[3..10].iter().all(|ratio| (0.975..=1.0255).contains(ratio)), "{over:?}");
     assert_rounded(&over[10..], &[0.922, 0.887], 6e-4);
     // each softening within 5 % of F0 where it is fitted; the chord is the best
     assert!(comparison.laws[1..].iter().all(|law| law.difference.largest < 0.05));

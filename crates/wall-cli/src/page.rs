@@ -87,7 +87,7 @@ fn telling(frames: &[&Sample], overturned: Option<f64>) -> usize {
     peak.map_or(0, |(frame, _)| frame)
 }
 
-/// What the wall comes to.
+/// Says what becomes of the wall.
 fn said(response: &Response) -> String {
     let ratio = 100.0 * response.summary.u_ratio_max;
     match response.summary.overturn_time {

@@ -158,7 +158,7 @@ fn telling(run: &Coupled, frames: &[usize]) -> usize {
     falling.or(peak.map(|(index, _)| index)).unwrap_or(0)
 }
 
-/// What the building comes to.
+/// Says what becomes of the building.
 pub(super) fn said(building: &Building, run: &Coupled) -> String {
     let falls = falls(building, run);
     let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
