@@ -4,8 +4,8 @@
 use std::fmt::Write as _;
 
 use crate::bench;
-use crate::command::{Result, cargo, output, root};
-use crate::images;
+use crate::command::{Result, root};
+use crate::images::{self, wall};
 
 const DOCUMENT: &str = "docs/accuracy.md";
 const VALIDATION: &str = "docs/validation.md";
@@ -70,12 +70,6 @@ pub(crate) fn validation() -> Result<()> {
 
 fn fenced(text: &str) -> String {
     format!("```text\n{}\n```\n", text.trim_matches('\n'))
-}
-
-fn wall(arguments: &[&str]) -> Result<String> {
-    let mut run = cargo();
-    run.args(["run", "--release", "--locked", "--quiet", "--bin", "wall", "--"]).args(arguments);
-    output(&mut run, "see its message above")
 }
 
 /// Replaces the text between `<!-- mark -->` and `<!-- end mark -->` in a document.

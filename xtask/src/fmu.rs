@@ -37,7 +37,7 @@ pub(crate) const FLOOR: Unit =
 /// All FMUs.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 
-/// The platforms of portable FMUs.
+/// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.

@@ -29,7 +29,11 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-fn wall(arguments: &[&str]) -> Result<String> {
+/// Runs `wall` as released, from the root, and returns what it prints.
+///
+/// # Errors
+/// If the program fails.
+pub(crate) fn wall(arguments: &[&str]) -> Result<String> {
     let mut run = cargo();
     run.current_dir(root()).args(["run", "--release", "--locked", "--quiet", "--bin", "wall", "--"]);
     output(run.args(arguments), "see its message above")

@@ -10,9 +10,6 @@ use crate::wheel;
 /// The version of every crate, of the descriptions and of the changelog; a test holds them together.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The platforms of the program `wall` and of the Python package.
-const PLATFORMS: &str = "linux64,aarch64-linux,win64,darwin64";
-
 /// Packages that are linked into the files.
 const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", "rocking-wall-python"];
 
@@ -30,7 +27,7 @@ pub(crate) fn run(tag: Option<&str>) -> Result<()> {
     if !changed.is_empty() {
         return Err(format!("commit or remove these files first:\n{}", changed.trim_end()));
     }
-    let platforms = Platform::named(PLATFORMS)?;
+    let platforms = Platform::named(fmu::PORTABLE)?;
     let folder = target().join("release-files");
     // nothing of an earlier release may stay
     let _ = std::fs::remove_dir_all(&folder);
