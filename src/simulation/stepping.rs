@@ -42,16 +42,6 @@ pub struct Step {
     pub put_to_rest: bool,
 }
 
-impl Step {
-    fn add(&mut self, later: Self) {
-        self.impulses.bottom += later.impulses.bottom;
-        self.impulses.top += later.impulses.top;
-        self.overturned |= later.overturned;
-        self.departed |= later.departed;
-        self.put_to_rest |= later.put_to_rest;
-    }
-}
-
 /// Why a wall could not be moved to the end of a step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
@@ -120,7 +110,8 @@ impl Simulation {
     /// # Errors
     /// [`SolverError`]; the simulation is then as it was.
     pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
-        self.step(segment, None)
+        let mut step = Step::default();
+        self.step(segment, None, &mut step).map(|()| step)
     }
 
     /// Moves the wall through a segment, and takes up its demands in `demands`.
@@ -129,7 +120,8 @@ impl Simulation {
     /// [`SolverError`]; the simulation is then as it was, and `demands` may hold the motion up to the
     /// failure.
     pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
-        self.step(segment, Some(demands))
+        let mut step = Step::default();
+        self.step(segment, Some(demands), &mut step).map(|()| step)
     }
 
     /// Moves the wall through the segments of a step, and takes up their demands in `demands`. `next`
@@ -154,8 +146,8 @@ impl Simulation {
             if remaining <= 0.0 {
                 return Ok(whole);
             }
-            let step = self.step(&segment, demands.as_deref_mut());
-            whole.add(step.map_err(|source| RunError::Solver { time, source })?);
+            let moved = self.step(&segment, demands.as_deref_mut(), &mut whole);
+            moved.map_err(|source| RunError::Solver { time, source })?;
             done += segment.duration;
             if segment.duration >= remaining {
                 return Ok(whole);
@@ -164,8 +156,14 @@ impl Simulation {
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
     }
 
+    /// Moves the wall through a segment, and adds what it does to `step`.
     #[inline]
-    fn step(&mut self, segment: &Segment, demands: Option<&mut Demands>) -> Result<Step, SolverError> {
+    fn step(
+        &mut self,
+        segment: &Segment,
+        demands: Option<&mut Demands>,
+        step: &mut Step,
+    ) -> Result<(), SolverError> {
         let body = self.motion.wall().body();
         let before = self.progress;
         let drift = before.drift || segment.from.drift != 0.0 || segment.to.drift != 0.0;
@@ -173,12 +171,9 @@ impl Simulation {
         let mut state = before.state;
         let watch = demands.map(|demands| (demands, before.time, drift));
         let report = self.motion.advance_watched(&mut state, segment, integral, &mut self.memo, watch)?;
-        let mut step = Step {
-            overturned: report.overturning.is_some(),
-            departed: report.departure.is_some(),
-            put_to_rest: report.put_to_rest,
-            ..Step::default()
-        };
+        step.overturned |= report.overturning.is_some();
+        step.departed |= report.departure.is_some();
+        step.put_to_rest |= report.put_to_rest;
         if !before.state.departed {
             let [length, velocity] = report.departure.unwrap_or([segment.duration, state.velocity]);
             // ∫ of a quantity linear over the segment, up to `length`
@@ -191,7 +186,9 @@ impl Simulation {
             } else {
                 0.0
             };
-            step.impulses = body.impulses(supports, velocity - before.state.velocity, couple);
+            let Ends { bottom, top } = body.impulses(supports, velocity - before.state.velocity, couple);
+            step.impulses.bottom += bottom;
+            step.impulses.top += top;
         }
         self.progress.time += segment.duration;
         self.progress.state = state;
@@ -200,7 +197,7 @@ impl Simulation {
         if let (None, Some(offset)) = (before.overturn_time, report.overturning) {
             self.progress.overturn_time = Some(before.time + offset);
         }
-        Ok(step)
+        Ok(())
     }
 
     /// Sets the time \[s\], where the importer's and the sum of steps differ by rounding.

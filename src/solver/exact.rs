@@ -48,6 +48,40 @@ fn rounded(duration: f64) -> f64 {
     f64::from_bits((duration.to_bits() + half) & !((1 << ROUNDED_BITS) - 1))
 }
 
+impl Memo {
+    #[cold]
+    fn new(branch: usize, oscillator: &Oscillator, duration: f64) -> Self {
+        let rows = oscillator.propagator(duration);
+        Self { branch, duration, propagator: Matrix3::from_fn(|i, j| rows[i][j]) }
+    }
+
+    /// The end of a whole step on a branch, whose propagator it remembers.
+    #[inline]
+    pub(super) fn end(
+        &mut self,
+        branch: usize,
+        oscillator: &Oscillator,
+        start: KinematicState,
+        forcing_rate: f64,
+        length: f64,
+    ) -> KinematicState {
+        let duration = rounded(length);
+        if self.duration != duration || self.branch != branch {
+            *self = Self::new(branch, oscillator, duration);
+        }
+        let from = Vector3::new(start.velocity, start.acceleration, forcing_rate);
+        let change = self.propagator * from;
+        let (velocity, acceleration) = (change[1], change[2]);
+        let end = KinematicState { displacement: start.displacement + change[0], velocity, acceleration };
+        let rest = length - duration;
+        KinematicState {
+            displacement: end.displacement + rest * velocity,
+            velocity: velocity + rest * acceleration,
+            acceleration: acceleration + rest * oscillator.jerk(end, forcing_rate),
+        }
+    }
+}
+
 impl<'a> ClosedForm<'a> {
     /// The motion from `start`, for `remaining` or as long as the closed form is well behaved. An oscillation
     /// within the `bounds` of u and its `peaks` so far needs no search for events.
@@ -74,22 +108,7 @@ impl<'a> ClosedForm<'a> {
 
     /// Finds the end of the piece with the remembered propagator.
     pub(super) fn remember(&mut self, branch: usize, memo: &mut Memo) {
-        let duration = rounded(self.horizon);
-        if memo.duration != duration || memo.branch != branch {
-            let rows = self.oscillator.propagator(duration);
-            *memo = Memo { branch, duration, propagator: Matrix3::from_fn(|i, j| rows[i][j]) };
-        }
-        let from = Vector3::new(self.start.velocity, self.start.acceleration, self.forcing_rate);
-        let change = memo.propagator * from;
-        let (velocity, acceleration) = (change[1], change[2]);
-        let end =
-            KinematicState { displacement: self.start.displacement + change[0], velocity, acceleration };
-        let rest = self.horizon - duration;
-        self.end = Some(KinematicState {
-            displacement: end.displacement + rest * velocity,
-            velocity: velocity + rest * acceleration,
-            acceleration: acceleration + rest * self.oscillator.jerk(end, self.forcing_rate),
-        });
+        self.end = Some(memo.end(branch, self.oscillator, self.start, self.forcing_rate, self.horizon));
     }
 
     fn series(&self) -> Option<&Polynomial> {

@@ -93,6 +93,19 @@ impl Motion {
         if let Method::Newmark { .. } = self.method { MOST_NEWMARK_STEPS } else { MOST_PIECES }
     }
 
+    /// Whether the method takes the motion on a branch in closed form.
+    #[inline]
+    pub(super) fn has_closed_form(&self, branch: usize) -> bool {
+        match self.method {
+            Method::Exact => true,
+            Method::Adaptive { .. } => {
+                let viscous = self.wall.rotations().is_none() && self.secants[branch].is_none();
+                viscous && self.wall.branches()[branch].stiffness > 0.0
+            }
+            Method::Newmark { .. } => false,
+        }
+    }
+
     /// Prepares the motion of a wall.
     ///
     /// # Panics

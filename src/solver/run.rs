@@ -4,11 +4,11 @@ use oscillator::KinematicState;
 
 use super::adaptive::{Series, Viscous};
 use super::demand::Demands;
-use super::event::{self, Ending, Exit, Piece};
+use super::event::{self, Ending, Exit, Piece, Verdict};
 use super::exact::{ClosedForm, Memo};
 use super::motion::{Method, Motion};
 use super::newmark;
-use super::state::{Phase, Report, Segment, SolverError, State};
+use super::state::{Phase, Report, Segment, SolverError, State, Work};
 use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
@@ -46,13 +46,46 @@ impl Motion {
         watch: Option<(&mut Demands, f64, bool)>,
     ) -> Result<Report, SolverError> {
         let body = self.wall.body();
-        let (from, to) = (body.forcing(segment.from), body.forcing(segment.to));
-        let mut run = Run::new(self, *state, segment.duration, [from, to], integral, memo);
+        let forcing = [body.forcing(segment.from), body.forcing(segment.to)];
+        if !integral
+            && watch.is_none()
+            && let Some(end) = self.quiet_end(state, segment.duration, forcing, memo)
+        {
+            (state.displacement, state.velocity) = (end.displacement, end.velocity);
+            return Ok(Report { work: Work { pieces: 1, ..Work::default() }, ..Report::default() });
+        }
+        let mut run = Run::new(self, *state, segment.duration, forcing, integral, memo);
         run.watch =
             watch.map(|(demands, time, drift)| Watch { demands, wall: &self.wall, segment, time, drift });
         run.finish()?;
         *state = run.state;
         Ok(run.report)
+    }
+
+    /// Returns the end of a segment in which nothing happens: one step in closed form that keeps away from
+    /// corners and within the peaks so far. It gives the bits of a [`Run`].
+    #[inline]
+    fn quiet_end(
+        &self,
+        state: &State,
+        duration: f64,
+        [from, to]: [f64; 2],
+        memo: &mut Memo,
+    ) -> Option<KinematicState> {
+        let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
+        let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
+        let is_whole = duration > 0.0 && duration <= oscillator.longest_piece();
+        let is_plain = phase == Phase::Moving && is_whole && self.has_closed_form(index);
+        if !is_plain || oscillator.is_spread(duration) {
+            return None;
+        }
+        let acceleration = branch.acceleration(displacement, velocity, from);
+        let start = KinematicState { displacement, velocity, acceleration };
+        let rate = (to - from) / duration;
+        let end = memo.end(index, oscillator, start, rate, duration);
+        let most = oscillator.bounds(start, rate, duration);
+        let corners = [branch.lower, branch.upper];
+        matches!(event::settle([start, end], duration, most, corners, peaks), Verdict::Quiet).then_some(end)
     }
 }
 
@@ -161,31 +194,26 @@ impl<'a> Run<'a> {
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
         let remaining = self.duration - self.time;
-        if let (Method::Adaptive { .. }, Some(secant)) = (&motion.method, &motion.secants[index]) {
-            let forcing = [forcing, forcing + self.rate * remaining];
-            let now = [displacement, velocity];
-            return self.follow(&Series::secant(secant, now, forcing, remaining, motion.tolerances));
+        if motion.has_closed_form(index) {
+            let piece = self.closed_form(index, start, remaining);
+            return self.follow(&piece);
         }
-        let forcing = [forcing, self.rate];
-        match (&motion.method, motion.wall.rotations()) {
-            (Method::Adaptive { .. }, Some(rotations)) => {
-                let rotation = Rotation::new(rotations, branch.side(), start, forcing);
-                self.follow(&Series::new(rotation, remaining, motion.tolerances))
-            }
-            (Method::Adaptive { .. }, None) if branch.stiffness <= 0.0 => {
-                self.follow(&Series::new(Viscous::new(branch, start, forcing), remaining, motion.tolerances))
-            }
-            (Method::Exact | Method::Adaptive { .. }, _) => {
-                let piece = self.closed_form(index, start, remaining);
-                self.follow(&piece)
-            }
-            (Method::Newmark { step }, _) => {
-                // equal steps, none longer than asked for
-                let steps = (remaining / step - 1e-9).ceil().max(1.0);
-                let step = remaining / steps;
-                self.follow(&newmark::step(branch, start, self.rate * step, step))
-            }
+        if let Method::Newmark { step } = motion.method {
+            // equal steps, none longer than asked for
+            let steps = (remaining / step - 1e-9).ceil().max(1.0);
+            let step = remaining / steps;
+            return self.follow(&newmark::step(branch, start, self.rate * step, step));
         }
+        if let Some(rotations) = motion.wall.rotations() {
+            let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
+            return self.follow(&Series::new(rotation, remaining, motion.tolerances));
+        }
+        if let Some(secant) = &motion.secants[index] {
+            let (now, ends) = ([displacement, velocity], [forcing, forcing + self.rate * remaining]);
+            return self.follow(&Series::secant(secant, now, ends, remaining, motion.tolerances));
+        }
+        let viscous = Viscous::new(branch, start, [forcing, self.rate]);
+        self.follow(&Series::new(viscous, remaining, motion.tolerances))
     }
 
     fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm<'a> {

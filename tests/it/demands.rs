@@ -128,6 +128,28 @@ fn widen(range: &mut [f64; 2], value: f64) {
 proptest! {
     #![proptest_config(configuration())]
 
+    /// A step in which nothing happens is taken at once where nobody watches, and as a piece that is searched
+    /// where somebody does: with the same bits.
+    #[test]
+    fn watching_changes_no_bit(
+        parameters in walls(),
+        step in prop::sample::select(vec![1e-4, 2e-3, 0.01]),
+        motion in prop::collection::vec(-1.2_f64..1.2, 8..200),
+    ) {
+        let mut watched = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+        let body = watched.wall().body();
+        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        let mut demands = watched.demands(Support::default(), &[]);
+        let mut alone = watched.clone();
+        for ends in motion.windows(2) {
+            let [from, to] = [ends[0], ends[1]].map(|part| Support::rigid(onset * part));
+            let segment = Segment { duration: step, from, to };
+            let expected = watched.advance_watched(&segment, &mut demands).unwrap();
+            prop_assert_eq!(alone.advance(&segment).unwrap(), expected);
+            prop_assert_eq!(alone.progress(), watched.progress());
+        }
+    }
+
     /// No dense sample exceeds the extremes, and the extremes exceed the dense samples by no more than
     /// sampling misses.
     #[test]

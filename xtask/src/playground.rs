@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::command::{Result, cargo, root, succeed, target};
+use crate::command::{Result, cargo, program, root, succeed, target};
 use crate::platform::{has_rust_library, reproducible};
 
 const TARGET: &str = "wasm32-unknown-unknown";
@@ -35,18 +35,8 @@ pub(crate) fn build() -> Result<PathBuf> {
     succeed(&mut build, "see its message above")?;
     let library = target().join(TARGET).join("playground/playground.wasm");
     let page = root().join(PAGE);
-    let mut pack = cargo();
-    pack.args([
-        "run",
-        "--quiet",
-        "--locked",
-        "--package",
-        "rocking-playground",
-        "--bin",
-        "playground-page",
-        "--",
-    ]);
-    succeed(pack.args([&library, &page]), "see its message above")?;
+    let mut pack = program("python3");
+    succeed(pack.arg("xtask/playground/pack.py").args([&library, &page]), "install Python 3.11 or newer")?;
     let size = std::fs::metadata(&page).map_err(|error| format!("{PAGE}: {error}"))?.len();
     if size > LARGEST {
         return Err(format!("{PAGE} has {size} bytes, more than {LARGEST}"));

@@ -2,7 +2,7 @@
 //!
 //! The crate compiles to WebAssembly. The page sends a request as JSON and gets an answer as JSON: the
 //! library computes, `figures` draws, the page's script only shows. On other machines the crate is a library
-//! of the same answers, for tests, and the program `playground-page` that packs the page into one file.
+//! of the same answers, for tests. `cargo xtask playground` packs the page into one file.
 //!
 //! ```
 //! use playground::Session;

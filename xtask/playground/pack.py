@@ -1,0 +1,39 @@
+"""Packs the page that computes into one file.
+
+    python pack.py LIBRARY.wasm PAGE.html
+
+The library is compressed and written as text; the browser unpacks it. The page loads nothing else.
+"""
+
+import gzip
+import sys
+from base64 import b64encode
+from html import escape
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "crates/playground/src/page"
+# Marks of the template, and the files that take their place; those of texts are no markup.
+PARTS = {"style": "page.css", "fields": "fields.js", "wall": "wall.js", "script": "page.js"}
+TEXTS = {"notices": PAGE / "notices.txt", "mit": ROOT / "LICENSE-MIT", "apache": ROOT / "LICENSE-APACHE"}
+
+
+def main():
+    library, page = map(Path, sys.argv[1:])
+    parts = {mark: read(PAGE / name) for mark, name in PARTS.items()}
+    parts |= {mark: escape(read(path)) for mark, path in TEXTS.items()}
+    # no time in the archive: the same library makes the same page
+    parts["library"] = b64encode(gzip.compress(library.read_bytes(), mtime=0)).decode()
+    html = read(PAGE / "page.html")
+    for mark, text in parts.items():
+        before, after = html.split("{{" + mark + "}}")
+        html = before + text + after
+    page.write_text(html, encoding="utf-8", newline="\n")
+
+
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
