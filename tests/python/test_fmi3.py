@@ -108,6 +108,22 @@ def test_both_versions_give_the_same_history(units, kind):
     assert np.abs(new[output[0]]).max() > 0.01, "it moves"
 
 
+def until_overturning(unpacked, settings, step, early):
+    """Steps until the wall has overturned: whether the step ended early, its end, and variables there."""
+    with Unit(unpacked, earlyReturnAllowed=early, eventModeUsed=early) as unit:
+        unit.start(**OVERTURNING | settings)
+        if early:
+            unit.slave.updateDiscreteStates()
+            unit.slave.enterStepMode()
+        for _ in range(1000):
+            event, terminate, returned, time = unit.slave.doStep(unit.time, step)
+            unit.time = time
+            assert not terminate and event == returned
+            if unit.get("overturned"):
+                return (returned, time, *unit.get("overturn_time", "u", "u_ins", "time"))
+        raise AssertionError("it does not overturn")
+
+
 @pytest.mark.parametrize(
     "settings",
     [{}, {"damping_model": "none"}, {"damping_model": "stiffness_proportional"}],
@@ -115,28 +131,26 @@ def test_both_versions_give_the_same_history(units, kind):
 )
 @pytest.mark.parametrize("step", [0.01, 0.3])
 def test_a_step_ends_early_where_the_wall_overturns(unpacked3, settings, step):
-    def until_overturning(early):
-        with Unit(unpacked3, earlyReturnAllowed=early, eventModeUsed=early) as unit:
-            unit.start(**OVERTURNING | settings)
-            if early:
-                unit.slave.updateDiscreteStates()
-                unit.slave.enterStepMode()
-            for _ in range(1000):
-                event, terminate, returned, time = unit.slave.doStep(unit.time, step)
-                unit.time = time
-                assert not terminate and event == returned
-                if unit.get("overturned"):
-                    return (returned, time, *unit.get("overturn_time", "u", "u_ins"), unit.get("time"))
-            raise AssertionError("it does not overturn")
-
-    _, _, expected, *_ = until_overturning(False)
-    returned, time, located, u, u_ins, now = until_overturning(True)
+    _, _, expected, *_ = until_overturning(unpacked3, settings, step, False)
+    returned, time, located, u, u_ins, now = until_overturning(unpacked3, settings, step, True)
     assert returned
     assert located == pytest.approx(expected, abs=1e-9)
     assert 0.0 <= time - expected <= 1e-9
     assert now == time
     # at 0.3 m/s or more, 1e-9 s is 1e-9 m
     assert abs(u) == pytest.approx(u_ins, abs=1e-8)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.3])
+def test_newmark_ends_early_within_its_own_error(unpacked3, step):
+    """A step that ends elsewhere has other steps of Newmark inside, so that overturning moves a little."""
+    _, _, exact, *_ = until_overturning(unpacked3, {}, step, False)
+    _, _, expected, *_ = until_overturning(unpacked3, {"solver": "newmark"}, step, False)
+    error = abs(expected - exact)
+    assert 0.0 < error < 1e-5
+    returned, time, located, *_, now = until_overturning(unpacked3, {"solver": "newmark"}, step, True)
+    assert returned and now == time
+    assert abs(located - expected) <= error and abs(time - expected) <= error
 
 
 def test_a_run_with_early_return_goes_on(fmu3):
