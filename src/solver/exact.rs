@@ -106,11 +106,6 @@ impl<'a> ClosedForm<'a> {
         self.end = Some(end);
     }
 
-    /// Finds the end of the piece with the remembered propagator.
-    pub(super) fn remember(&mut self, branch: usize, memo: &mut Memo) {
-        self.end = Some(memo.end(branch, self.oscillator, self.start, self.forcing_rate, self.horizon));
-    }
-
     fn series(&self) -> Option<&Polynomial> {
         let make = || self.oscillator.series_from(self.start, self.forcing_rate, self.horizon);
         self.series.get_or_init(make).as_ref()

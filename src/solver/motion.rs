@@ -95,12 +95,12 @@ impl Motion {
 
     /// Whether the method takes the motion on a branch in closed form.
     #[inline]
-    pub(super) fn has_closed_form(&self, branch: usize) -> bool {
+    pub(super) fn takes_closed_form(&self, branch: usize) -> bool {
         match self.method {
             Method::Exact => true,
             Method::Adaptive { .. } => {
-                let viscous = self.wall.rotations().is_none() && self.secants[branch].is_none();
-                viscous && self.wall.branches()[branch].stiffness > 0.0
+                let linear = self.wall.rotations().is_none() && self.secants[branch].is_none();
+                linear && self.wall.branches()[branch].stiffness > 0.0
             }
             Method::Newmark { .. } => false,
         }

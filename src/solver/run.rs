@@ -62,8 +62,8 @@ impl Motion {
         Ok(run.report)
     }
 
-    /// Returns the end of a segment in which nothing happens: one step in closed form that keeps away from
-    /// corners and within the peaks so far. It gives the bits of a [`Run`].
+    /// Returns the end of a segment that is one step in closed form and keeps away from corners and within
+    /// the peaks so far, `None` for every other segment. It gives the bits of a [`Run`].
     #[inline]
     fn quiet_end(
         &self,
@@ -74,9 +74,11 @@ impl Motion {
     ) -> Option<KinematicState> {
         let &State { displacement, velocity, branch: index, phase, ref peaks, .. } = state;
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
-        let is_whole = duration > 0.0 && duration <= oscillator.longest_piece();
-        let is_plain = phase == Phase::Moving && is_whole && self.has_closed_form(index);
-        if !is_plain || oscillator.is_spread(duration) {
+        let is_one_piece = duration > 0.0 && duration <= oscillator.longest_piece();
+        if phase != Phase::Moving || !is_one_piece || !self.takes_closed_form(index) {
+            return None;
+        }
+        if oscillator.is_spread(duration) {
             return None;
         }
         let acceleration = branch.acceleration(displacement, velocity, from);
@@ -85,7 +87,9 @@ impl Motion {
         let end = memo.end(index, oscillator, start, rate, duration);
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
-        matches!(event::settle([start, end], duration, most, corners, peaks), Verdict::Quiet).then_some(end)
+        let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Verdict::Quiet);
+        // a run tells what has overflown
+        (is_quiet && end.displacement.is_finite() && end.velocity.is_finite()).then_some(end)
     }
 }
 
@@ -194,7 +198,7 @@ impl<'a> Run<'a> {
             acceleration: branch.acceleration(displacement, velocity, forcing),
         };
         let remaining = self.duration - self.time;
-        if motion.has_closed_form(index) {
+        if motion.takes_closed_form(index) {
             let piece = self.closed_form(index, start, remaining);
             return self.follow(&piece);
         }
@@ -222,12 +226,14 @@ impl<'a> Run<'a> {
         let (oscillator, rate, peaks) = (&motion.oscillators[index], self.rate, &self.state.peaks);
         let bounds = [branch.lower, branch.upper];
         let mut piece = ClosedForm::new(oscillator, start, rate, remaining, bounds, peaks);
+        // that of the first branch: a corner at the very start leads to another
+        let known = self.first_end.take();
         // only whole segments come again
         if self.time == 0.0 && piece.horizon() == self.duration {
-            match self.first_end {
+            match known {
                 Some(end) => piece.end_at(end),
                 None if oscillator.is_spread(self.duration) => {}
-                None => piece.remember(index, self.memo),
+                None => piece.end_at(self.memo.end(index, oscillator, start, rate, remaining)),
             }
         }
         piece

@@ -142,15 +142,16 @@ def test_a_step_ends_early_where_the_wall_overturns(unpacked3, settings, step):
 
 
 @pytest.mark.parametrize("step", [0.01, 0.3])
-def test_newmark_ends_early_within_its_own_error(unpacked3, step):
-    """A step that ends elsewhere has other steps of Newmark inside, so that overturning moves a little."""
-    _, _, exact, *_ = until_overturning(unpacked3, {}, step, False)
-    _, _, expected, *_ = until_overturning(unpacked3, {"solver": "newmark"}, step, False)
-    error = abs(expected - exact)
-    assert 0.0 < error < 1e-5
-    returned, time, located, *_, now = until_overturning(unpacked3, {"solver": "newmark"}, step, True)
-    assert returned and now == time
-    assert abs(located - expected) <= error and abs(time - expected) <= error
+def test_newmark_ends_early_where_its_own_steps_allow(unpacked3, step):
+    """A step that ends elsewhere has other steps of Newmark inside, so that overturning moves: by less than
+    Newmark is wrong anyway. Where the wall does not overturn in them, the step goes on to its end."""
+    newmark = {"solver": "newmark"}
+    _, _, reference, *_ = until_overturning(unpacked3, {}, step, False)
+    _, _, expected, *_ = until_overturning(unpacked3, newmark, step, False)
+    returned, time, located, *_, now = until_overturning(unpacked3, newmark, step, True)
+    assert now == time
+    assert abs(located - expected) <= abs(expected - reference)
+    assert time == pytest.approx(located, abs=1e-7) if returned else located == expected
 
 
 def test_a_run_with_early_return_goes_on(fmu3):

@@ -36,7 +36,7 @@ pub(crate) fn build() -> Result<PathBuf> {
     let library = target().join(TARGET).join("playground/playground.wasm");
     let page = root().join(PAGE);
     let mut pack = program("python3");
-    succeed(pack.arg("xtask/playground/pack.py").args([&library, &page]), "install Python 3.11 or newer")?;
+    succeed(pack.arg("xtask/playground/pack.py").args([&library, &page]), "see its message above")?;
     let size = std::fs::metadata(&page).map_err(|error| format!("{PAGE}: {error}"))?.len();
     if size > LARGEST {
         return Err(format!("{PAGE} has {size} bytes, more than {LARGEST}"));
