@@ -153,7 +153,8 @@ impl Wall {
     ) -> PyResult<[Numbers<'py>; 3]> {
         let (record, factors) = (motion(&record)?, samples(factors)?);
         check("tail", tail, LONGEST_TAIL)?;
-        if let Some(factor) = factors.iter().find(|factor| !(*factor * record.peak()).is_finite()) {
+        let pga = record.peak();
+        if let Some(factor) = factors.iter().find(|factor| !(*factor * pga).is_finite()) {
             return Err(refused(format!(
                 "a factor is {factor}; give finite factors that keep the record finite"
             )));
