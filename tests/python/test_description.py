@@ -8,7 +8,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from conftest import ROOT
+from conftest import ROOT, built
 from library import problems
 from unit import Unit
 
@@ -229,7 +229,7 @@ def test_library_exports_the_interface_alone(fmu, tmp_path):
     assert problems(library, portable=False) == []
 
 
-def test_packing_is_reproducible(fmu, tmp_path):
+def test_packing_is_reproducible(fmu, wall, tmp_path):
     libraries = []
     with zipfile.ZipFile(fmu) as archive:
         for name in archive.namelist():
@@ -237,19 +237,7 @@ def test_packing_is_reproducible(fmu, tmp_path):
                 library = archive.extract(name, tmp_path)
                 libraries += ["--binary", library, "--platform", name.split("/")[1]]
     again = tmp_path / "again.fmu"
-    command = [
-        "cargo",
-        "run",
-        "--quiet",
-        "--locked",
-        "-p",
-        "fmu-export-build",
-        "--features",
-        "archive",
-        "--bin",
-        "fmu-pack",
-        "--",
-    ]
+    command = [built("ROCKING_WALL_PACK", wall.parent / "fmu-pack", "cargo build --release --bins")]
     command += [
         "--description",
         "modelDescription/modelDescription.xml",

@@ -33,12 +33,26 @@ impl Environment {
             std::fs::remove_dir_all(&self.folder)
                 .map_err(|error| format!("{}: {error}", self.folder.display()))?;
         }
-        let remedy = "install Python 3.11 or newer with its venv module";
-        succeed(program("python3").args(["-m", "venv"]).arg(&self.folder), remedy)?;
-        let mut pip = self.program("python");
-        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
-        pip.args(["--require-hashes", "-r"]);
+        // without a pip of its own, which takes longer to install than most packages
+        venv(&["--without-pip"], &self.folder)?;
+        let mut pip = self.pip_install()?;
+        pip.args(["--no-compile", "--require-hashes", "-r"]);
         succeed(pip.arg(lock), "check the network, then run the job again")
+    }
+
+    /// Prepares an installation into the environment, by one pip for all of them.
+    ///
+    /// # Errors
+    /// If Python 3 with venv is missing.
+    pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
+        let installer = target().join("python").join("pip");
+        if !installer.join("bin/pip").exists() {
+            venv(&[], &installer)?;
+        }
+        let mut pip = program(installer.join("bin/python"));
+        pip.args(["-m", "pip", "--python"]).arg(&self.folder);
+        pip.args(["install", "--quiet", "--disable-pip-version-check"]);
+        Ok(pip)
     }
 
     /// Prepares a program of the environment.
@@ -60,4 +74,10 @@ impl Environment {
     pub(crate) fn programs(&self) -> PathBuf {
         self.folder.join("bin")
     }
+}
+
+/// Makes a virtual environment.
+fn venv(options: &[&str], folder: &Path) -> Result<()> {
+    let remedy = "install Python 3.11 or newer with its venv module";
+    succeed(program("python3").args(["-m", "venv"]).args(options).arg(folder), remedy)
 }

@@ -62,7 +62,7 @@ pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> 
 /// # Errors
 /// If pip fails.
 pub(crate) fn install(wheel: &Path, environment: &Environment) -> Result<()> {
-    let mut pip = environment.program("python");
-    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index"]);
-    output(pip.args(["--no-deps", "--force-reinstall"]).arg(wheel), "see its message above").map(drop)
+    let mut pip = environment.pip_install()?;
+    output(pip.args(["--no-index", "--no-deps", "--force-reinstall"]).arg(wheel), "see its message above")
+        .map(drop)
 }
