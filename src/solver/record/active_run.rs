@@ -270,10 +270,17 @@ impl<'a> ActiveRun<'a> {
         }
     }
 
-    /// Goes on from where lanes have taken the run, and the work of the corners they passed.
-    pub(super) fn resume(&mut self, index: usize, now: [f64; 2], branch: usize, nodes: Nodes, work: Work) {
+    /// Goes on from where lanes have taken the run, and the work of the steps that passed corners.
+    pub(super) fn resume(
+        &mut self,
+        index: usize,
+        now: [f64; 2],
+        branch: usize,
+        nodes: Nodes,
+        (work, steps): (Work, u64),
+    ) {
         self.tally.work.add(work);
-        self.tally.steps += work.corners;
+        self.tally.steps += steps;
         self.cursor.index = index;
         self.cursor.forcing = self.factor * self.record.forcing.at(index);
         self.block.nodes = nodes;

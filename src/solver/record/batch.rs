@@ -4,7 +4,7 @@
 //! (docs/record-path.md, §6): the response of the branches to the record is taken once for all runs (module
 //! `responses`), plain steps go four at once and corners are passed several at once (`rounds`, `corners`).
 //! Runs go one by one without AVX2, where that is measured to be faster, and where a step is long beside the
-//! wall's shortest period, so that four steps reach a corner too often.
+//! wall's shortest period, so that they reach corners too often.
 //!
 //! What becomes of a run never depends on the other runs. Side by side it gives the same bits with every
 //! level of vectors, and agrees with [`RecordSolver::run`] to rounding; one by one it is that run.

@@ -8,6 +8,9 @@ use super::responses::Responses;
 use super::table::BranchTable;
 use super::vector::Branches;
 
+/// Corners of one step that are passed here.
+const MOST_CORNERS: u32 = 4;
+
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 24] = {
     let mut inverse = [1.0; 24];
@@ -40,29 +43,60 @@ pub(super) struct Leaving<S: Simd> {
     pub(super) rest_speed: f64,
 }
 
-/// The end of a step that passed a corner.
+/// The end of a step that passed corners.
 #[derive(Clone, Copy)]
 pub(super) struct Arrival<S: Simd> {
     /// Lanes for which that was found.
     pub(super) lanes: mask64x8<S>,
     pub(super) end: [f64x8<S>; 2],
     pub(super) branch: f64x8<S>,
-    /// Of these lanes those whose corner was a passage of u = 0.
-    pub(super) passages: mask64x8<S>,
+    /// The corners passed, and of these the passages of u = 0.
+    pub(super) corners: f64x8<S>,
+    pub(super) passages: f64x8<S>,
+}
+
+impl<S: Simd> Arrival<S> {
+    /// Adds lanes whose last part ends the step.
+    #[inline(always)]
+    fn take(&mut self, lanes: mask64x8<S>, part: &Part<S>, corners: u32) {
+        self.lanes |= lanes;
+        let [u, v, _] = part.to;
+        self.end = [lanes.select(u, self.end[0]), lanes.select(v, self.end[1])];
+        self.branch = lanes.select(part.branch, self.branch);
+        self.corners = lanes.select(f64x8::splat(u.simd, f64::from(corners)), self.corners);
+        self.passages = lanes.select(part.passages, self.passages);
+    }
+}
+
+/// A part of a step, along the branch that each lane is on.
+#[derive(Clone, Copy)]
+struct Part<S: Simd> {
+    /// Lanes that have come to it.
+    lanes: mask64x8<S>,
+    branch: f64x8<S>,
+    law: Law<S>,
+    /// u, u̇ and ü at its start, and at its end if the branch goes on.
+    from: [f64x8<S>; 3],
+    to: [f64x8<S>; 3],
+    length: f64x8<S>,
+    /// p at its start \[m/s²\].
+    forcing: f64x8<S>,
+    /// Passages of u = 0 before it.
+    passages: f64x8<S>,
 }
 
 /// The branch of each lane: c, k, f(0) and A over P + c V + f̂.
 #[derive(Clone, Copy)]
-struct Law<S: Simd> {
-    c: f64x8<S>,
+pub(super) struct Law<S: Simd> {
+    pub(super) c: f64x8<S>,
     k: f64x8<S>,
-    force_at_zero: f64x8<S>,
-    growth: f64x8<S>,
+    pub(super) force_at_zero: f64x8<S>,
+    pub(super) growth: f64x8<S>,
 }
 
 impl<S: Simd> Law<S> {
     #[inline(always)]
-    fn of(branches: &Branches<S>, table: &BranchTable) -> Self {
+    pub(super) fn of(branches: &Branches<S>, table: &BranchTable) -> Self {
         Self {
             c: branches.of(&table.damping),
             k: branches.of(&table.stiffness),
@@ -72,7 +106,7 @@ impl<S: Simd> Law<S> {
     }
 
     #[inline(always)]
-    fn force(&self, u: f64x8<S>) -> f64x8<S> {
+    pub(super) fn force(&self, u: f64x8<S>) -> f64x8<S> {
         self.force_at_zero + self.k * u
     }
 
@@ -107,63 +141,82 @@ impl<S: Simd> Leaving<S> {
         self.forcing = [lanes.select(forcing[0], self.forcing[0]), lanes.select(forcing[1], self.forcing[1])];
     }
 
-    /// Passes the one corner of the step, or the one passage of u = 0: u is monotone up to it and beyond it.
-    /// Other lanes are left alone.
+    /// Passes the corners of the step as long as u is monotone up to each and beyond it. Other lanes are left
+    /// alone.
     #[inline(always)]
     pub(super) fn pass(self, responses: &Responses) -> Arrival<S> {
-        let Self { from: [u, v], to: [to_u, to_v], forcing: [p0, p1], step, .. } = self;
-        let (table, terms) = (&responses.table, responses.terms);
-        let branches = Branches::new(self.branch);
-        let here = Law::of(&branches, table);
+        let Self { lanes, branch, from: [u, v], to: [to_u, to_v], forcing: [p0, p1], step, .. } = self;
+        let (zero, length) = (f64x8::splat(u.simd, 0.0), f64x8::splat(u.simd, step));
+        let law = Law::of(&Branches::new(branch), &responses.table);
+        let [a0, a1] = [[u, v, p0], [to_u, to_v, p1]].map(|[u, v, p]| p - law.c * v - law.force(u));
+        let (from, to) = ([u, v, a0], [to_u, to_v, a1]);
+        let mut part = Part { lanes, branch, law, from, to, length, forcing: p0, passages: zero };
+        let (end, none) = (self.to, lanes & !lanes);
+        let mut arrival = Arrival { lanes: none, end, branch, corners: zero, passages: zero };
         let rate = (p1 - p0) * (1.0 / step);
-        let forces = [here.force(u), here.force(to_u)];
-        let (a0, a1) = (p0 - here.c * v - forces[0], p1 - here.c * to_v - forces[1]);
-        let steady = self.keeps_its_sign(&here, [v, to_v], forces, f64x8::splat(u.simd, step));
-        let upwards = u.simd_lt(to_u);
+        part.lanes &= part.keeps_its_sign(self.forcing_bound);
+        for corners in 1..=MOST_CORNERS {
+            part = self.cross(&part, rate, responses);
+            part.lanes &= part.keeps_its_sign(self.forcing_bound);
+            let (u, branches) = (part.to[0], Branches::new(part.branch));
+            let inside = branches.of(&responses.table.lower).simd_lt(u)
+                & u.simd_lt(branches.of(&responses.table.upper));
+            let known = self.limits[0].simd_le(u) & u.simd_le(self.limits[1]);
+            arrival.take(part.lanes & inside & known, &part, corners);
+            part.lanes &= !inside;
+            if !part.lanes.any_true() {
+                break;
+            }
+        }
+        arrival
+    }
+
+    /// Goes on beyond the corner by which lanes leave their branch, in those where it is found and ordinary or
+    /// a passage of u = 0.
+    #[inline(always)]
+    fn cross(&self, part: &Part<S>, rate: f64x8<S>, responses: &Responses) -> Part<S> {
+        let (table, terms) = (&responses.table, responses.terms);
+        let branches = Branches::new(part.branch);
+        let upwards = part.from[0].simd_lt(part.to[0]);
         let corner = upwards.select(branches.of(&table.ordinary_upper), branches.of(&table.ordinary_lower));
         let rebound = upwards.select(branches.of(&table.rebound_upper), branches.of(&table.rebound_lower));
         let passes = rebound.simd_eq(rebound);
-        let share = self.share(corner, [a0, a1]);
-        let sought = self.lanes & steady & share.simd_gt(0.0) & share.simd_lt(1.0);
-        let Passage { found, time, velocity, acceleration } =
-            self.find(&here, corner, step * share, sought, [a0, rate], terms);
-        let other = upwards.select(self.branch + 1.0, (self.branch - 1.0).max(0.0));
-        let branch = self.lanes.select(other, self.branch);
-        let branches = Branches::new(branch);
-        let ahead = Law::of(&branches, table);
+        let Passage { found, time, velocity, acceleration } = part.find(corner, rate, terms);
+        let other = upwards.select(part.branch + 1.0, (part.branch - 1.0).max(0.0));
+        let branch = part.lanes.select(other, part.branch);
+        let law = Law::of(&Branches::new(branch), table);
         let rebounding = rebound * velocity;
         let velocity = passes.select(rebounding, velocity);
-        let anew = p0 + rate * time - ahead.c * velocity - ahead.force(corner);
-        let acceleration = passes.select(anew, acceleration);
-        let found = found & (!passes | velocity.abs().simd_ge(self.rest_speed));
-        let remaining = step - time;
-        let [end_u, end_v, _] = ahead.after(terms, remaining, [corner, velocity, acceleration], rate);
-        let within = branches.of(&table.lower).simd_lt(end_u)
-            & end_u.simd_lt(branches.of(&table.upper))
-            & self.limits[0].simd_le(end_u)
-            & end_u.simd_le(self.limits[1]);
-        let forces = [ahead.force(corner), ahead.force(end_u)];
-        let lanes = found & within & self.keeps_its_sign(&ahead, [velocity, end_v], forces, remaining);
-        Arrival { lanes, end: [end_u, end_v], branch, passages: lanes & passes }
+        let forcing = part.forcing + rate * time;
+        let anew = forcing - law.c * velocity - law.force(corner);
+        let from = [corner, velocity, passes.select(anew, acceleration)];
+        let length = part.length - time;
+        Part {
+            lanes: found & (!passes | velocity.abs().simd_ge(self.rest_speed)),
+            branch,
+            law,
+            from,
+            to: law.after(terms, length, from, rate),
+            length,
+            forcing,
+            passages: passes.select(part.passages + 1.0, part.passages),
+        }
     }
+}
 
+impl<S: Simd> Part<S> {
     /// Finds when lanes reach the corner, and how: from a guess by the derivatives there, again from where
     /// that leads.
     #[inline(always)]
-    fn find(
-        &self,
-        here: &Law<S>,
-        corner: f64x8<S>,
-        mut time: f64x8<S>,
-        mut sought: mask64x8<S>,
-        [a0, rate]: [f64x8<S>; 2],
-        terms: usize,
-    ) -> Passage<S> {
-        let Self { from: [u, v], step, .. } = *self;
+    fn find(&self, corner: f64x8<S>, rate: f64x8<S>, terms: usize) -> Passage<S> {
+        let Self { lanes, law: here, from, length, .. } = *self;
+        let share = self.share(corner);
+        let mut sought = lanes & share.simd_gt(0.0) & share.simd_lt(1.0);
+        let mut time = length * share;
         let zero = f64x8::splat(time.simd, 0.0);
         let mut passage = Passage { found: sought & !sought, time: zero, velocity: zero, acceleration: zero };
         for guess in 0..MOST_GUESSES {
-            let [near_u, near_v, near_a] = here.after(terms, time, [u, v, a0], rate);
+            let [near_u, near_v, near_a] = here.after(terms, time, from, rate);
             let beyond = near_u - corner;
             let jerk = rate - here.c * near_a - here.k * near_v;
             let pace = 1.0 / near_v;
@@ -172,8 +225,8 @@ impl<S: Simd> Leaving<S> {
             let third = jerk * (first * first) * pace * (1.0 / 6.0);
             let shift = first * (1.0 - bend * (1.0 - (bend + bend)) - third);
             let next = time + shift;
-            let inside = next.simd_ge(0.0) & next.simd_lt(step);
-            let small = shift.abs().simd_le(SMALL_SHIFT * step) & bend.abs().simd_le(SMALL_BEND);
+            let inside = next.simd_ge(0.0) & next.simd_lt(length);
+            let small = shift.abs().simd_le(SMALL_SHIFT * length) & bend.abs().simd_le(SMALL_BEND);
             let now = sought & inside & small;
             // d⁴u/dt⁴ = −c d³u/dt³ − k ü
             let snap = -(here.c * jerk) - here.k * near_a;
@@ -194,32 +247,26 @@ impl<S: Simd> Leaving<S> {
         passage
     }
 
-    /// Tells the lanes whose u̇ keeps its sign between two instants: |ü| ≤ A, so that u̇ has no zero between
-    /// values of one sign that are larger together than A times the time between; A of docs/record-path.md,
-    /// §3, with
-    /// |u̇| and |f| at both ends for V and f̂.
+    /// Tells the lanes whose u̇ keeps its sign: |ü| ≤ A, so that u̇ has no zero between values of one sign that
+    /// are larger together than A times the length; A of docs/record-path.md, §3, with |u̇| and |f| at both
+    /// ends for V and f̂.
     #[inline(always)]
-    fn keeps_its_sign(
-        &self,
-        law: &Law<S>,
-        [v0, v1]: [f64x8<S>; 2],
-        [f0, f1]: [f64x8<S>; 2],
-        time: f64x8<S>,
-    ) -> mask64x8<S> {
-        let driving = self.forcing_bound + law.c * v0.abs().max(v1.abs()) + f0.abs().max(f1.abs());
-        let most = law.growth * driving;
-        (v0 * v1).simd_gt(0.0) & (most * time).simd_lt(v0.abs() + v1.abs())
+    fn keeps_its_sign(&self, forcing_bound: f64x8<S>) -> mask64x8<S> {
+        let Self { law, from: [u0, v0, _], to: [u1, v1, _], length, .. } = *self;
+        let force = law.force(u0).abs().max(law.force(u1).abs());
+        let most = law.growth * (forcing_bound + law.c * v0.abs().max(v1.abs()) + force);
+        (v0 * v1).simd_gt(0.0) & (most * length).simd_lt(v0.abs() + v1.abs())
     }
 
-    /// Returns the fraction of the step after which u passes a corner: by the quintic t(u) through the ends,
+    /// Returns the fraction of the length after which u passes a corner: by the quintic t(u) through the ends,
     /// where the velocity does not change much.
     #[inline(always)]
-    fn share(&self, corner: f64x8<S>, [a0, a1]: [f64x8<S>; 2]) -> f64x8<S> {
-        let Self { from: [u, v], to: [to_u, to_v], step, .. } = *self;
+    fn share(&self, corner: f64x8<S>) -> f64x8<S> {
+        let Self { from: [u, v, a0], to: [to_u, to_v, a1], length, .. } = *self;
         let rise = to_u - u;
         let inverse = 1.0 / rise;
-        let (w0, w1) = (rise / (v * step), rise / (to_v * step));
-        let bend = -0.5 * step * step * inverse;
+        let (w0, w1) = (rise / (v * length), rise / (to_v * length));
+        let bend = -0.5 * length * length * inverse;
         let (b0, b1) = (bend * a0 * (w0 * w0 * w0), bend * a1 * (w1 * w1 * w1));
         let (d, dv, db) = (1.0 - w0 - b0, w1 - w0 - (b0 + b0), b1 - b0);
         let c3 = 10.0 * d - 4.0 * dv + db;

@@ -48,9 +48,10 @@ pub(super) struct Rows {
     /// The |u| beyond which f̂ is to be taken anew, and where u is known to stay \[m\].
     pub(super) half_reach: Row,
     pub(super) limits: [Row; 2],
-    /// Corners passed side by side, and of these passages of u = 0.
+    /// Corners passed side by side, of these the passages of u = 0, and the steps that passed any.
     pub(super) corners: Row,
     pub(super) impacts: Row,
+    pub(super) crossings: Row,
     /// Where one step, and four at once, may start and end, u and |u̇|.
     pub(super) range: [Row; 2],
     pub(super) range4: [Row; 2],
@@ -116,7 +117,6 @@ impl<'a> Lanes<'a> {
             self.runs[i] = Some(run);
             self.numbers[i] = self.next;
             self.rows.factor[i] = start.factor;
-            (self.rows.corners[i], self.rows.impacts[i]) = (0.0, 0.0);
             self.next += 1;
             if self.advance(i, false) {
                 self.busy |= 1 << i;
@@ -178,10 +178,10 @@ impl<'a> Lanes<'a> {
         if let Some(run) = &mut self.runs[i] {
             let nodes = Nodes { highest: rows.highest[i], lowest: rows.lowest[i] };
             let (index, branch) = (rows.index[i] as usize, rows.branch[i] as usize);
-            let [corners, impacts] = [rows.corners[i], rows.impacts[i]].map(|count| count as u64);
-            let work = Work { pieces: 2 * corners, corners, impacts };
-            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, work);
-            (rows.corners[i], rows.impacts[i]) = (0.0, 0.0);
+            let [corners, impacts, crossings] = [&mut rows.corners, &mut rows.impacts, &mut rows.crossings]
+                .map(|row| std::mem::take(&mut row[i]) as u64);
+            let work = Work { pieces: crossings + corners, corners, impacts };
+            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, (work, crossings));
         }
     }
 }

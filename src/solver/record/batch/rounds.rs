@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::super::forcing::AT_ONCE;
-use super::corners::{Arrival, Leaving};
+use super::corners::{Arrival, Law, Leaving};
 use super::lanes::{Lanes, Rows};
 use super::responses::{ROWS_AHEAD, Responses};
 use super::vector::{Branches, Row, WIDTH, bits, indices, load, unzip};
@@ -220,22 +220,22 @@ impl Lanes<'_> {
         self.sort(reached.now[0], index, goes)
     }
 
-    /// Takes one to four steps of lanes that wait, the last of them past a corner if need be; tells which
-    /// made none.
+    /// Takes one to four steps of lanes that wait, the last of them past corners if need be; tells which made
+    /// none.
     #[inline(always)]
     fn step<S: Simd>(&mut self, simd: S, waiting: u8) -> u8 {
         let waits = mask64x8::from_bitmask(simd, waiting.into());
         let mut reached = Reached::start(simd, &self.rows);
         let leaving = self.stay(waits, &mut reached);
         if leaving.lanes.any_true() {
-            let Arrival { lanes, end, branch, passages } = leaving.pass(self.responses);
+            let Arrival { lanes, end, branch, corners, passages } = leaving.pass(self.responses);
             reached.take(lanes, end, reached.steps + 1.0);
             let rows = &mut self.rows;
-            lanes.select(branch, leaving.branch).store_array(&mut rows.branch);
-            let corners = load(simd, &rows.corners);
-            lanes.select(corners + 1.0, corners).store_array(&mut rows.corners);
-            let impacts = load(simd, &rows.impacts);
-            passages.select(impacts + 1.0, impacts).store_array(&mut rows.impacts);
+            branch.store_array(&mut rows.branch);
+            (load(simd, &rows.corners) + corners).store_array(&mut rows.corners);
+            (load(simd, &rows.impacts) + passages).store_array(&mut rows.impacts);
+            let crossings = load(simd, &rows.crossings);
+            lanes.select(crossings + 1.0, crossings).store_array(&mut rows.crossings);
         }
         reached.store(waits, &mut self.rows);
         bits(reached.steps.simd_lt(1.0)) & waiting
@@ -251,10 +251,11 @@ impl Lanes<'_> {
         let branches = Branches::new(branch);
         let [u_by, v_by] = [branches.of_each(&table.one_step[0]), branches.of_each(&table.one_step[1])];
         let (lower, upper) = (branches.of(&table.lower), branches.of(&table.upper));
-        let force = branches.of(&table.force_at_zero);
+        let law = Law::of(&branches, table);
         let limits = [load(simd, &rows.limits[0]), load(simd, &rows.limits[1])];
         let range = Range::load(simd, &rows.range, &rows.speed);
         let velocity_change = load(simd, &rows.velocity_change);
+        let eighth = 0.125 * self.solver.step * self.solver.step;
         // lanes that do not wait may be near the end
         let furthest = self.record.forcing.count() - 1 - AT_ONCE;
         let samples = indices(load(simd, &rows.index))
@@ -275,17 +276,24 @@ impl Lanes<'_> {
         };
         for n in 1..=AT_ONCE {
             let p1 = factor * nth(simd, samples, n);
-            let q = [p0 - force, p1 - force];
+            let q = [p0 - law.force_at_zero, p1 - law.force_at_zero];
             let to = [from[0] + change(u_by, from, q), from[1] + change(v_by, from, q)];
             let to_holds = range.holds(to);
             let inside = lower.simd_lt(to[0]) & to[0].simd_lt(upper);
             let (speed0, speed1) = (from[1].abs(), to[1].abs());
+            let (low, high, speed) = (from[0].min(to[0]), from[0].max(to[0]), speed0.max(speed1));
             let steady = (from[1] * to[1]).simd_gt(0.0)
                 & velocity_change.simd_lt(speed0 + speed1)
-                & speed0.max(speed1).simd_le(range.speed)
-                & limits[0].simd_le(from[0].min(to[0]))
-                & from[0].max(to[0]).simd_le(limits[1]);
-            let stays = goes & ((from_holds & to_holds) | (inside & steady));
+                & limits[0].simd_le(low)
+                & high.simd_le(limits[1]);
+            // by |p|, |u̇| and |f| at the ends of the step itself
+            let forces = [from[0], to[0]].map(|u| law.force(u).abs());
+            let most = law.growth * (p0.abs().max(p1.abs()) + law.c * speed + forces[0].max(forces[1]));
+            let margin = eighth * most;
+            let near =
+                lower.max(limits[0]).simd_le(low - margin) & (high + margin).simd_le(upper.min(limits[1]));
+            let slow = speed.simd_le(range.speed);
+            let stays = goes & ((from_holds & to_holds) | (slow & (near | (inside & steady))));
             let leaves = goes & !stays & !inside;
             leaving.take(leaves, to, [p0, p1]);
             reached.take(stays, to, reached.steps + 1.0);
