@@ -1,4 +1,5 @@
-//! Tests that every variable of the model description is wired, and that every wired variable is described.
+//! Tests that every variable of the model description has a getter or a field, and that every field is
+//! described.
 //!
 //! The compiler holds the rest together: code that names a variable does not build without it, a `match`
 //! without a `_` arm does not build with one more, and the generated start values name every field of

@@ -17,7 +17,9 @@ impl Environment {
     pub(crate) fn of(name: &str, lock: &str) -> Result<Self> {
         let environment = Self { folder: target().join("python").join(name) };
         let lock = root().join(lock);
-        let wanted = std::fs::read(&lock).map_err(|error| format!("{}: {error}", lock.display()))?;
+        let packages = std::fs::read(&lock).map_err(|error| format!("{}: {error}", lock.display()))?;
+        // environments made with a pip of their own are made again
+        let wanted = [b"without pip\n".as_slice(), &packages].concat();
         let stamp = environment.folder.join("lock");
         if std::fs::read(&stamp).is_ok_and(|found| found == wanted) {
             return Ok(environment);
@@ -46,10 +48,12 @@ impl Environment {
     /// If Python 3 with venv is missing.
     pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
         let installer = target().join("python").join("pip");
-        if !installer.join("bin/pip").exists() {
+        let python = installer.join("bin/python");
+        if output(program(&python).args(["-m", "pip", "--version"]), "").is_err() {
+            let _ = std::fs::remove_dir_all(&installer);
             venv(&[], &installer)?;
         }
-        let mut pip = program(installer.join("bin/python"));
+        let mut pip = program(python);
         pip.args(["-m", "pip", "--python"]).arg(&self.folder);
         pip.args(["install", "--quiet", "--disable-pip-version-check"]);
         Ok(pip)

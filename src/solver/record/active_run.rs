@@ -271,16 +271,9 @@ impl<'a> ActiveRun<'a> {
     }
 
     /// Goes on from where lanes have taken the run, and the work of the steps that passed corners.
-    pub(super) fn resume(
-        &mut self,
-        index: usize,
-        now: [f64; 2],
-        branch: usize,
-        nodes: Nodes,
-        (work, steps): (Work, u64),
-    ) {
+    pub(super) fn resume(&mut self, index: usize, now: [f64; 2], branch: usize, nodes: Nodes, work: Work) {
         self.tally.work.add(work);
-        self.tally.steps += steps;
+        self.tally.steps += work.pieces - work.corners;
         self.cursor.index = index;
         self.cursor.forcing = self.factor * self.record.forcing.at(index);
         self.block.nodes = nodes;

@@ -171,8 +171,8 @@ impl<S: Simd> Leaving<S> {
         arrival
     }
 
-    /// Goes on beyond the corner by which lanes leave their branch, in those where it is found and ordinary or
-    /// a passage of u = 0.
+    /// Goes on beyond the corner by which lanes leave their branch, where it is found and is ordinary or a
+    /// passage of u = 0.
     #[inline(always)]
     fn cross(&self, part: &Part<S>, rate: f64x8<S>, responses: &Responses) -> Part<S> {
         let (table, terms) = (&responses.table, responses.terms);
@@ -247,9 +247,9 @@ impl<S: Simd> Part<S> {
         passage
     }
 
-    /// Tells the lanes whose u̇ keeps its sign: |ü| ≤ A, so that u̇ has no zero between values of one sign that
-    /// are larger together than A times the length; A of docs/record-path.md, §3, with |u̇| and |f| at both
-    /// ends for V and f̂.
+    /// Tells the lanes whose u̇ keeps its sign. As |ü| ≤ A, u̇ has no zero between values of one sign that
+    /// are larger together than A times the length. A is that of docs/record-path.md, §3, with |u̇| and |f|
+    /// at both ends for V and f̂.
     #[inline(always)]
     fn keeps_its_sign(&self, forcing_bound: f64x8<S>) -> mask64x8<S> {
         let Self { law, from: [u0, v0, _], to: [u1, v1, _], length, .. } = *self;
@@ -258,8 +258,8 @@ impl<S: Simd> Part<S> {
         (v0 * v1).simd_gt(0.0) & (most * length).simd_lt(v0.abs() + v1.abs())
     }
 
-    /// Returns the fraction of the length after which u passes a corner: by the quintic t(u) through the ends,
-    /// where the velocity does not change much.
+    /// Returns the fraction of the length after which u passes a corner: by the quintic t(u) through the
+    /// ends, where the velocity does not change much.
     #[inline(always)]
     fn share(&self, corner: f64x8<S>) -> f64x8<S> {
         let Self { from: [u, v, a0], to: [to_u, to_v, a1], length, .. } = *self;

@@ -180,8 +180,9 @@ impl<'a> Lanes<'a> {
             let (index, branch) = (rows.index[i] as usize, rows.branch[i] as usize);
             let [corners, impacts, crossings] = [&mut rows.corners, &mut rows.impacts, &mut rows.crossings]
                 .map(|row| std::mem::take(&mut row[i]) as u64);
+            // each step makes one piece more than it passes corners
             let work = Work { pieces: crossings + corners, corners, impacts };
-            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, (work, crossings));
+            run.resume(index, [rows.u[i], rows.v[i]], branch, nodes, work);
         }
     }
 }

@@ -64,9 +64,8 @@ impl Responses {
             table.enter(branch, (map, steps), solver);
             table.response[branch] = known.map_or(responses.rows.len() as f64, |known| table.response[known]);
             // where it is infinite no four steps are plain
-            if table.growth4[branch].is_finite() {
-                responses.growth = responses.growth.max(table.growth4[branch]);
-            }
+            let growth = Some(table.growth4[branch]).filter(|growth| growth.is_finite());
+            responses.growth = responses.growth.max(growth.unwrap_or(0.0));
             if known.is_none() {
                 responses.respond(steps, forcing, solver.step);
             }

@@ -1,8 +1,8 @@
 //! What lanes do side by side: plain steps, four at once, and the steps of those that wait.
 //!
 //! Lanes go on by four plain steps at once until all but one of them wait: at a corner, at the end of a
-//! block, near an extreme in the search for those. Lanes at a corner pass it side by side; what is not
-//! ordinary is left to the run by itself. What a lane does never depends on the others.
+//! block, near an extreme in the search for those. Lanes pass ordinary corners and u = 0 side by side; the
+//! rest is left to the run by itself. What a lane does never depends on the others.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};

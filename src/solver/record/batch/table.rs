@@ -6,6 +6,9 @@ use super::super::step_map::{Affine, AffineSteps, StepMap, growth};
 use super::vector::Row;
 use crate::wall::Corner;
 
+/// Largest γ over four plain steps: beyond, every block would have to be searched for extremes.
+const MOST_GROWTH: f64 = 4.0;
+
 /// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
 #[derive(Debug, Default)]
 #[repr(align(64))]
@@ -86,7 +89,8 @@ impl BranchTable {
         self.ordinary_upper[branch] = ordinary(branch + 1, Some(branch + 1)).unwrap_or(f64::NAN);
         (self.rebound_lower[branch], self.rebound_upper[branch]) = (rebound(branch), rebound(branch + 1));
         self.growth[branch] = map.growth[0];
-        self.growth4[branch] = growth(&steps.oscillator, four_steps);
+        let growth4 = growth(&steps.oscillator, four_steps);
+        self.growth4[branch] = if growth4 > MOST_GROWTH { f64::INFINITY } else { growth4 };
         self.speed_share[branch] = map.speed_share;
         self.damping_share[branch] = map.damping_share();
     }
