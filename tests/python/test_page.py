@@ -220,7 +220,7 @@ def test_the_page_of_many_walls_fits_a_phone(browser, wall, tmp_path):
 
 def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tmp_path):
     path = tmp_path / "spectrum.html"
-    ranges = ["--heights", "1:6:11", "--ratios", "5:20:8"]
+    ranges = ["--heights", "1:6:21", "--ratios", "5:20:16"]
     subprocess.run(
         [wall, "spectrum", "--synthetic", *ranges, "--html", path], check=True, capture_output=True
     )
@@ -228,7 +228,7 @@ def test_the_rocking_spectrum_loads_clean_and_shows_every_wall(browser, wall, tm
     browser.get(path.as_uri())
     assert browser.get_log("browser") == []
     cells = browser.find_elements(By.CSS_SELECTOR, "figure rect:not(.frame)")
-    assert len(cells) == 11 * 8
+    assert len(cells) == 21 * 16
     titles = [cell.find_element(By.TAG_NAME, "title").get_attribute("textContent") for cell in cells]
     assert any("overturns at" in title for title in titles) and any(
         "u_max/u_ins = 0." in title for title in titles

@@ -156,8 +156,8 @@ impl Batch<'_> {
 mod tests {
     use super::*;
     use crate::choices::{DampingModel, Impact};
-    use crate::solver::{Method, Motion};
-    use crate::wall::{Parameters, Support, Wall};
+    use crate::solver::Motion;
+    use crate::wall::{Parameters, Support};
 
     /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
     fn shaking() -> Vec<f64> {
@@ -170,12 +170,13 @@ mod tests {
 
     /// A wall of 6 m, its first corner at a share a₁ of its instability.
     fn motion(a1: f64) -> Motion {
-        let damping_model = DampingModel::ConstantCoefficient;
-        let parameters =
-            Parameters { height: 6.0, thickness: 0.6, a1, damping_model, ..Parameters::default() };
-        let wall = Wall::new(&parameters).expect("a valid wall");
-        let method = Method::new(&parameters, &wall, 1e-8).expect("a method");
-        Motion::new(wall, method)
+        losing(a1, DampingModel::ConstantCoefficient, Impact::None)
+    }
+
+    /// The same with other ways of losing energy.
+    fn losing(a1: f64, damping_model: DampingModel, impact: Impact) -> Motion {
+        let wall = Parameters { height: 6.0, thickness: 0.6, ..Parameters::default() };
+        Motion::of(&Parameters { a1, damping_model, impact, ..wall }, 1e-8).expect("a valid wall")
     }
 
     /// Moves walls side by side with the vectors that every processor has.
@@ -215,20 +216,8 @@ mod tests {
     /// corners. Beside each other they do what they do alone.
     #[test]
     fn steps_with_several_corners_are_those_of_single_runs() {
-        for (a1, damping_model, impact) in [
-            (1.2e-3, DampingModel::None, Impact::Restitution),
-            (2.4e-3, DampingModel::None, Impact::Restitution),
-            (8e-4, DampingModel::ConstantCoefficient, Impact::None),
-        ] {
-            let parameters = Parameters {
-                height: 6.0,
-                thickness: 0.6,
-                a1,
-                damping_model,
-                impact,
-                ..Parameters::default()
-            };
-            let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
+        let bouncing = |a1| losing(a1, DampingModel::None, Impact::Restitution);
+        for motion in [bouncing(1.2e-3), bouncing(2.4e-3), motion(8e-4)] {
             let samples = &shaking()[..2000];
             let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
             let starts = starts(&motion);
