@@ -63,6 +63,6 @@ fn every_crate_in_the_python_package_is_named() {
 
 #[test]
 fn every_crate_in_the_page_that_computes_is_named() {
-    let crates = crates(&["rocking-playground"]);
+    let crates = crates(&["rocking-playground", "--target", "wasm32-unknown-unknown"]);
     check_names(&crates, "crates/playground/src/page/notices.txt");
 }

@@ -18,6 +18,7 @@
 
 use std::sync::Arc;
 
+#[cfg(not(target_arch = "wasm32"))]
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LegendPosition, LinePlot, LineStyle, ScatterPlot};
@@ -232,6 +233,7 @@ impl Picture {
     ///
     /// # Errors
     /// The reason why kuva could not.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn png(&self) -> Result<Vec<u8>, String> {
         PngBackend::new().render_scene(&self.0)
     }
