@@ -88,13 +88,14 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
     Ok(libraries)
 }
 
-/// Builds the programs of some packages with a profile and returns their folder.
+/// Builds the programs of some packages with a profile, without Parquet, and returns their folder.
 ///
 /// # Errors
 /// If they do not build.
 pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--locked", "--bins", "--features", "fmu-export-build/archive"]);
+    build.args(["build", "--locked", "--bins", "--no-default-features"]);
+    build.args(["--features", "fmu-export-build/archive"]);
     build.args(["--profile", profile]);
     build.args(packages.iter().flat_map(|package| ["--package", *package]));
     succeed(&mut build, "see the compiler's message above")?;

@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use parquet::errors::ParquetError;
-
 /// Why a study cannot be kept in a folder, or its results not be written.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
@@ -46,5 +44,5 @@ pub enum FolderError {
     Part { part: usize },
     /// A part cannot be made.
     #[error("part {part}: {source}")]
-    Parquet { part: usize, source: ParquetError },
+    Parquet { part: usize, source: Box<dyn std::error::Error + Send + Sync> },
 }

@@ -54,7 +54,7 @@ pub fn encode(
 ) -> Result<Vec<u8>, FolderError> {
     assert_eq!(curves.len(), contents.part(part).len(), "one curve for each combination");
     let written = write(contents, study, part, curves);
-    let mut bytes = written.map_err(|source| FolderError::Parquet { part, source })?;
+    let mut bytes = written.map_err(|source| FolderError::Parquet { part, source: source.into() })?;
     let at = place_of_checksum(&bytes).unwrap_or_else(|| unreachable!("the footer has been written"));
     let checksum = fingerprint(&bytes);
     bytes[at..at + NO_CHECKSUM.len()].copy_from_slice(checksum.as_bytes());
