@@ -11,6 +11,7 @@ mod indicators;
 mod motion;
 mod newmark;
 pub mod record;
+mod regularised;
 mod run;
 mod scaled;
 mod secant;

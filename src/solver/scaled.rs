@@ -73,7 +73,7 @@ pub(super) struct Start<T> {
 
 /// Computes Σ aᵢ bₙ₋ᵢ for 0 < i < N.
 #[inline(always)]
-fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
+pub(super) fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
     let middle = N / 2;
     let mut sum = a[middle] * b[N - middle];
     for i in (1..middle).rev() {
@@ -87,7 +87,7 @@ fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T
 
 /// Computes half of Σ aᵢ aₙ₋ᵢ for 0 < i < N.
 #[inline(always)]
-fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
+pub(super) fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
     let middle = a[N / 2] * a[N - N / 2];
     let mut sum = if N.is_multiple_of(2) { middle * 0.5 } else { middle };
     for i in (1..N / 2).rev() {

@@ -8,24 +8,15 @@
 use crate::wall::{Branch, BranchDamping, Line};
 use oscillator::{HIGHEST_ORDER, Polynomial};
 
+use super::regularised::Regularised;
 use super::scaled::{ORDER, Scaled, Start};
-use super::tolerances::Tolerances;
+use super::tolerances::{Tolerances, within};
 
 /// Least force in κ, as a share of f(0).
 pub(super) const LEAST: f64 = 1e-30;
 
-/// The share of a tolerance that a series may leave out.
-pub(super) const CAUTION: f64 = 0.1;
-
-/// Tells whether a series to order N leaves out no more than `CAUTION` times `most`, of x and of ẋ.
-///
-/// Pairs of terms fall like a geometric series: from m₀, the larger of orders N − 3 and N − 2, to m₁, the
-/// larger of the last two. With q = m₁/m₀ what is left out is 2 m₁ q/(1 − q) at most, and N times that of ẋ.
-#[inline(always)]
-fn within<const N: usize>([a, b, c, d]: [f64; 4], most: f64) -> bool {
-    let (before, last) = (a.abs().max(b.abs()), c.abs().max(d.abs()));
-    (2 * N) as f64 * last * last <= CAUTION * most * (before - last)
-}
+/// The share of u by which it changes in a step from which on a regularised series costs less, as measured.
+const FAST: f64 = 0.1;
 
 /// Returns the share of a step, at most all of it, after which the last terms of the highest order are within
 /// what may be left out.
@@ -36,6 +27,44 @@ fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
     };
     // what is left out after the last term is a geometric series of about the same size
     (0.9 * of(before, ORDER - 1).min(of(last, ORDER))).min(1.0)
+}
+
+/// Returns u/u₀ − 1 and h u̇/u₀ at the end of a step with c = 2ξ ω; `None` where the highest order leaves out
+/// too much.
+#[inline(always)]
+fn end_with_ratio(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
+    if start.velocity.abs() < FAST {
+        let mut series = Scaled::new(start, 1.0);
+        series.extend_to_8::<true>();
+        if within::<8>(series.last::<8>(), most) {
+            return Some(series.end::<8>());
+        }
+        series.extend_to_10::<true>();
+        if within::<10>(series.last::<10>(), most) {
+            return Some(series.end::<10>());
+        }
+    }
+    Regularised::new(start).end(most)
+}
+
+/// Does the same with c = (2ξ₁/ω₁) ω².
+#[inline(always)]
+fn end_with_stiffness(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
+    let mut series = Scaled::new(start, 1.0);
+    series.extend_to_8::<false>();
+    if within::<8>(series.last::<8>(), most) {
+        return Some(series.end::<8>());
+    }
+    series.extend_to_10::<false>();
+    if within::<10>(series.last::<10>(), most) {
+        return Some(series.end::<10>());
+    }
+    series.extend_to_12::<false>();
+    if within::<12>(series.last::<12>(), most) {
+        return Some(series.end::<12>());
+    }
+    series.extend_to_16::<false>();
+    within::<ORDER>(series.last::<ORDER>(), most).then(|| series.end::<ORDER>())
 }
 
 /// A branch with secant damping.
@@ -70,7 +99,7 @@ impl SecantBranch {
 
     /// Prepares the series from u and u̇ under a forcing from p₀ to p₁ over a length L, and 1/u.
     #[inline(always)]
-    fn start(&self, [u, v]: [f64; 2], p: [f64; 2], length: f64) -> (Scaled<f64>, f64) {
+    fn start(&self, [u, v]: [f64; 2], p: [f64; 2], length: f64) -> (Start<f64>, f64) {
         let force = self.force + self.stiffness * (u - self.anchor);
         let inverse = 1.0 / u;
         // at u₃ the wall's own force is zero, and so is c, but κ must not divide by it
@@ -86,7 +115,7 @@ impl SecantBranch {
             stiffness: self.stiffness * (length * length),
             damping,
         };
-        (Scaled::new(start, 1.0), inverse)
+        (start, inverse)
     }
 
     /// Returns u and u̇ after a step; `None` where the highest order leaves out too much.
@@ -98,27 +127,9 @@ impl SecantBranch {
         [length, rate]: [f64; 2],
         tolerances: Tolerances,
     ) -> Option<[f64; 2]> {
-        let (mut series, inverse) = self.start([u, v], p, length);
+        let (start, inverse) = self.start([u, v], p, length);
         let most = tolerances.over(inverse, length);
-        let end = 'end: {
-            series.extend_to_8::<RATIO>();
-            if within::<8>(series.last::<8>(), most) {
-                break 'end series.end::<8>();
-            }
-            series.extend_to_10::<RATIO>();
-            if within::<10>(series.last::<10>(), most) {
-                break 'end series.end::<10>();
-            }
-            series.extend_to_12::<RATIO>();
-            if within::<12>(series.last::<12>(), most) {
-                break 'end series.end::<12>();
-            }
-            series.extend_to_16::<RATIO>();
-            if within::<ORDER>(series.last::<ORDER>(), most) {
-                break 'end series.end::<ORDER>();
-            }
-            return None;
-        };
+        let end = if RATIO { end_with_ratio(start, most) } else { end_with_stiffness(start, most) }?;
         Some([u + u * end[0], u * rate * end[1]])
     }
 
@@ -139,6 +150,32 @@ impl SecantBranch {
                 self.step::<RATIO>(now, [p(part), p(part + 1)], lengths, tolerances)
             })
         })
+    }
+
+    /// Follows a motion with a constant damping ratio on which u̇ keeps its sign, over a length of time or to
+    /// a corner if that comes first. Returns the time, and u and u̇ then; `None` where that is not found at
+    /// once.
+    pub(super) fn to_end_or_corner(
+        &self,
+        [u, v]: [f64; 2],
+        p: [f64; 2],
+        length: f64,
+        corner: Option<f64>,
+        tolerances: Tolerances,
+    ) -> Option<(f64, [f64; 2])> {
+        if !self.is_ratio {
+            return None;
+        }
+        let (start, inverse) = self.start([u, v], p, length);
+        let (series, most) = (Regularised::new(start), tolerances.over(inverse, length));
+        if let Some(corner) = corner {
+            let [share, velocity] = series.passage((corner - u) * inverse, most)?;
+            if share < 1.0 {
+                return (share > 0.0).then_some((length * share, [corner, u / length * velocity]));
+            }
+        }
+        let [rise, velocity] = series.end(most)?;
+        Some((length, [u + u * rise, u / length * velocity]))
     }
 
     /// Returns the motion under a forcing from p₀ to p₁ over a length, and the time up to which it is within
@@ -164,7 +201,8 @@ impl SecantBranch {
         length: f64,
         tolerances: Tolerances,
     ) -> (Polynomial, f64) {
-        let (mut series, inverse) = self.start(now, p, length);
+        let (start, inverse) = self.start(now, p, length);
+        let mut series = Scaled::new(start, 1.0);
         let most = tolerances.over(inverse, length);
         let (mut order, mut horizon) = (8, length);
         series.extend_to_8::<RATIO>();

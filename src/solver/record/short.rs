@@ -84,10 +84,10 @@ impl Short {
                 }
             }
         }
-        let total: [f64; 4] = std::array::from_fn(|place| {
+        let total = |place: usize| {
             (sums[0][place] + time * sums[1][place]) + square * (sums[2][place] + time * sums[3][place])
-        });
-        [time * total[0], square * total[1], square * time * total[2]]
+        };
+        [time * total(0), square * total(1), square * time * total(2)]
     }
 }
 

@@ -55,20 +55,22 @@ impl Affine {
     /// Returns u and u̇ after one step.
     #[inline(always)]
     pub(super) fn one_step(&self, [u, v]: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|part| {
+        let part = |part: usize| {
             let c = |term: usize| self.terms[term][part];
             // the products with the state last: they are what the next step waits for
             [u, v][part] + ((c(2) * q[0] + c(3) * q[1]) + (c(0) * u + c(1) * v))
-        })
+        };
+        [part(0), part(1)]
     }
 
     /// Returns u and u̇ after two steps.
     #[inline(always)]
     pub(super) fn two_steps(&self, [u, v]: [f64; 2], q: [f64; 3]) -> [f64; 2] {
-        [0, 1].map(|part| {
+        let part = |part: usize| {
             let c = |term: usize| self.terms[term][part];
             [u, v][part] + (((c(2) * q[0] + c(3) * q[1]) + c(4) * q[2]) + (c(0) * u + c(1) * v))
-        })
+        };
+        [part(0), part(1)]
     }
 }
 

@@ -37,6 +37,8 @@ pub(super) enum Flow<'a> {
     Linear(&'a AffineSteps),
     /// A Taylor series from the start of the part on.
     Series(Polynomial),
+    /// One on which u̇ keeps its sign, known at its end: that of the step, or a corner.
+    Known,
 }
 
 /// The motion at one instant, with its third and fourth derivatives.
@@ -51,10 +53,18 @@ struct Near {
 pub(super) enum Course {
     /// It ends on its branch.
     Stays,
-    /// It leaves its branch, u being monotone.
-    Leaves,
+    /// It leaves its branch.
+    Leaves(WayOut),
     /// More may happen than is looked for here.
     Unclear,
+}
+
+/// How a part leaves its branch.
+#[derive(Clone, Copy)]
+pub(super) struct WayOut {
+    pub(super) upwards: bool,
+    /// Whether u turns before, ü keeping its sign; else u is monotone.
+    pub(super) turns: bool,
 }
 
 impl StepPart<'_> {
@@ -63,15 +73,18 @@ impl StepPart<'_> {
     pub(super) fn course(&self, corners: [f64; 2], peaks: &mut Peaks) -> Course {
         let Self { from, to, length, rate, .. } = *self;
         let within = to.displacement > corners[0] && to.displacement < corners[1];
+        let leaves = |turns: bool| Course::Leaves(WayOut { upwards: to.displacement >= corners[1], turns });
         let bounds = match &self.flow {
+            Flow::Known => return if within { Course::Stays } else { leaves(false) },
             Flow::Linear(steps) => steps.oscillator.bounds(from, rate, length),
             Flow::Series(polynomial) => polynomial.bounds(length),
         };
         match settle([from, to], length, bounds, corners, peaks) {
             Verdict::Quiet => Course::Stays,
             Verdict::Monotone if within => Course::Stays,
-            Verdict::Monotone => Course::Leaves,
-            Verdict::Turning if within && self.turn(corners, peaks).is_some() => Course::Stays,
+            Verdict::Monotone => leaves(false),
+            Verdict::Turning if !within => leaves(true),
+            Verdict::Turning if self.turn(corners, peaks).is_some() => Course::Stays,
             Verdict::Turning | Verdict::Split => Course::Unclear,
         }
     }
@@ -86,6 +99,7 @@ impl StepPart<'_> {
     #[inline(always)]
     fn near(&self, time: f64) -> Option<Near> {
         match &self.flow {
+            Flow::Known => None,
             Flow::Linear(steps) => {
                 let motion = steps.short.as_ref()?.after(time, self.from, self.rate);
                 let jerk = steps.oscillator.jerk(motion, self.rate);
@@ -132,13 +146,48 @@ impl StepPart<'_> {
         x * length
     }
 
-    /// Finds when u, monotone, passes `corner`, beyond which the stiffness is greater by `change`, and the
-    /// motion there; `None` where that is not found at once. An infinite `change` asks for the corner itself.
+    /// Finds when u leaves the branch, beyond which the stiffness is greater by `change`, and the motion
+    /// there; `None` where that is not found at once. An infinite `change` asks for the corner itself.
     /// docs/record-path.md, §4, has the error.
     #[inline(always)]
-    pub(super) fn passage(&self, corner: f64, change: f64) -> Option<(f64, KinematicState)> {
+    pub(super) fn leave(
+        &self,
+        WayOut { upwards, turns }: WayOut,
+        corners: [f64; 2],
+        change: f64,
+        peaks: &Peaks,
+    ) -> Option<(f64, KinematicState)> {
+        let corner = corners[usize::from(upwards)];
+        if turns {
+            let (time, there) = self.passage(self.way_back(corner), corner, change)?;
+            // before it turns, u̇ is never larger than at the start
+            let furthest = self.from.displacement + self.from.velocity * time;
+            let (lowest, highest) = (furthest.min(corner), furthest.max(corner));
+            let known = lowest >= corners[0] && highest <= corners[1] && peaks.cover(lowest, highest);
+            let comes_back = (there.velocity > 0.0) == upwards;
+            return (known && comes_back).then_some((time, there));
+        }
+        if let Flow::Known = self.flow {
+            return Some((self.length, KinematicState { displacement: corner, ..self.to }));
+        }
+        self.passage(self.length * self.share(corner), corner, change)
+    }
+
+    /// Returns about when u, after it has turned, comes to a corner: with constant ü, then with the mean of ü
+    /// that counts, ü after a third of the way.
+    #[inline(always)]
+    fn way_back(&self, corner: f64) -> f64 {
+        let KinematicState { displacement, velocity, acceleration } = self.from;
+        let square = velocity * velocity;
+        let after = |a: f64| (velocity.abs() + (square - 2.0 * a * (displacement - corner)).sqrt()) / a.abs();
+        let jerk = (self.to.acceleration - acceleration) / self.length;
+        after(acceleration + jerk * after(acceleration) / 3.0)
+    }
+
+    /// Finds when u passes a corner, and the motion there, from a guess of the time on.
+    #[inline(always)]
+    fn passage(&self, mut guess: f64, corner: f64, change: f64) -> Option<(f64, KinematicState)> {
         let length = self.length;
-        let mut guess = length * self.share(corner);
         for _ in 0..MOST_GUESSES {
             let Near { motion, jerk, snap } = self.near(guess)?;
             let KinematicState { displacement, velocity, acceleration } = motion;
@@ -228,7 +277,10 @@ mod tests {
                 let Some(short) = &steps.short else { panic!("a short step") };
                 let (to, flow) = (short.after(step, from, 0.0), Flow::Linear(&steps));
                 let part = StepPart { flow, from, to, length: step, forcing: 0.0, rate: 0.0 };
-                let Some((time, there)) = part.passage(corner, -stiffness) else {
+                let way_out = WayOut { upwards: true, turns: false };
+                let corners = [f64::NEG_INFINITY, corner];
+                let peaks = Peaks::at(0.0);
+                let Some((time, there)) = part.leave(way_out, corners, -stiffness, &peaks) else {
                     continue;
                 };
                 found += 1;
@@ -249,5 +301,39 @@ mod tests {
         assert!(found > 10_000, "{found}");
         // u and u̇, of order 1, at the corner and at the end round by a few units each
         assert!(worst <= 8.0 * f64::EPSILON, "{worst:e}");
+    }
+
+    /// Walls thrown off a corner come back to it when halving says so.
+    #[test]
+    fn ways_back_are_found() {
+        let (damping, stiffness, step) = (0.05, -1.0, 0.5);
+        let steps = AffineSteps::new(Oscillator::new(damping, stiffness), step);
+        let Some(short) = &steps.short else { panic!("a short step") };
+        let (mut found, mut worst) = (0, 0.0_f64);
+        for (depth, rate) in (1..200).flat_map(|depth| [-1.5, 0.0, 0.5].map(|rate| (depth, rate))) {
+            let velocity = 0.2 * 0.95_f64.powi(depth);
+            let acceleration = -1.0 - damping * velocity;
+            let from = KinematicState { displacement: 0.0, velocity, acceleration };
+            let to = short.after(step, from, rate);
+            let part = StepPart { flow: Flow::Linear(&steps), from, to, length: step, forcing: -1.0, rate };
+            let corners = [0.0, 1.0];
+            let mut peaks = Peaks::at(0.5);
+            let Course::Leaves(way_out) = part.course(corners, &mut peaks) else { continue };
+            assert!(way_out.turns && !way_out.upwards);
+            let Some((time, there)) = part.leave(way_out, corners, f64::INFINITY, &peaks) else { continue };
+            found += 1;
+            let (mut low, mut high) = (velocity / 2.0, step);
+            for _ in 0..80 {
+                let middle = 0.5 * (low + high);
+                let above = short.after(middle, from, rate).displacement > 0.0;
+                (low, high) = if above { (middle, high) } else { (low, middle) };
+            }
+            let exact = short.after(low, from, rate);
+            assert_eq!(there.displacement, 0.0);
+            worst = worst.max((time - low).abs() / low).max((there.velocity / exact.velocity - 1.0).abs());
+        }
+        assert!(found > 400, "{found}");
+        // time and u̇ of a flight round by a few units each
+        assert!(worst <= 16.0 * f64::EPSILON, "{worst:e}");
     }
 }

@@ -1,15 +1,17 @@
 //! Steps that are not plain: new extremes, turning points, corners.
 
 use super::super::super::run::Run;
+use super::super::super::secant::SecantBranch;
 use super::super::super::transition::{Rebound, branch_beyond, pass};
-use super::super::super::{Motion, Report, SolverError, State, Work};
+use super::super::super::{Phase, Report, SolverError, State, Work};
 use super::super::step_map::{AffineSteps, StepMap, Way};
-use super::super::step_part::{Course, Flow, StepPart};
+use super::super::step_part::{Course, Flow, StepPart, WayOut};
 use super::ActiveRun;
 use oscillator::KinematicState;
 
-/// Parts of one step without the general search.
-const MOST_PARTS: u32 = 16;
+/// Parts of one step without the general search: bounces become fewer than these before a wall comes to rest,
+/// unless it loses next to nothing.
+const MOST_PARTS: u32 = 1024;
 
 impl<'a> ActiveRun<'a> {
     /// Takes a step that may reach a corner or a new extreme, and that ends at `end` if it does not leave its
@@ -48,7 +50,7 @@ impl<'a> ActiveRun<'a> {
         self.include_nodes();
         let (rate, [start, _]) = ((p[1] - p[0]) / self.solver.step, self.rest_of(p));
         let from = KinematicState { displacement, velocity, acceleration: 0.0 };
-        match part_on(map, from, self.remaining(), [start, rate], self.solver.motion) {
+        match self.part_on(map, from, self.remaining(), [start, rate]) {
             Some(part) => self.take_part(map, &part, p),
             None => self.search_step(p, None),
         }
@@ -90,9 +92,9 @@ impl<'a> ActiveRun<'a> {
         self.bound_grown_force();
     }
 
-    /// Follows a step part by part, past corners at which the wall neither overturns, departs, lands nor
-    /// stops, to its end, or to a branch on which lanes go on. Tells whether that was all; else nothing has
-    /// changed.
+    /// Follows a step part by part, past corners at which the wall neither overturns, departs nor lands, to
+    /// its end, to rest until then, or to a branch on which lanes go on. Tells whether that was all; else
+    /// nothing has changed.
     #[inline(always)]
     fn follow_parts(&mut self, first: &StepPart<'a>, mut course: Course) -> bool {
         let mut part = *first;
@@ -113,24 +115,35 @@ impl<'a> ActiveRun<'a> {
                     }
                     (part.to, part.length, part.forcing_after(part.length))
                 }
-                Course::Leaves => match self.cross(&part, &mut state, &mut work) {
+                Course::Leaves(way_out) => match self.cross(&part, way_out, &mut state, &mut work) {
                     Some((from, time)) => (from, time, part.forcing_after(time)),
                     None => return false,
                 },
             };
             remaining -= time;
+            if state.phase == Phase::Resting {
+                let rests = self.rests_under([forcing, forcing + part.rate * remaining]);
+                if rests {
+                    self.state = state;
+                    self.count(work);
+                }
+                return rests;
+            }
             let Some(map) = self.map_of(state.branch) else { return false };
-            if self.plain.parts && matches!(map.way, Way::Curved(_)) && remaining > 0.0 {
+            let share = 1.0 - remaining / self.solver.step;
+            // a share that grows and leaves something: else the step goes on here
+            let shared = share > self.cursor.share && share < 1.0;
+            if self.plain.parts && matches!(map.way, Way::Curved(_)) && shared {
                 (state.displacement, state.velocity) = (from.displacement, from.velocity);
                 self.state = state;
                 // the step itself is counted where it ends
                 self.tally.work.add(work);
                 self.load_state();
                 self.bound_grown_force();
-                self.cursor.share = 1.0 - remaining / self.solver.step;
+                self.cursor.share = share;
                 return true;
             }
-            let Some(next) = part_on(map, from, remaining, [forcing, part.rate], self.solver.motion) else {
+            let Some(next) = self.part_on(map, from, remaining, [forcing, part.rate]) else {
                 return false;
             };
             part = next;
@@ -140,28 +153,29 @@ impl<'a> ActiveRun<'a> {
     }
 
     /// Takes the state through the corner that a part leaves its branch by; returns the motion beyond it, and
-    /// when that is. `None` where it is not an ordinary corner, or not found at once.
+    /// when that is. `None` where the wall overturns, departs or lands there, or where that is not found at
+    /// once.
     #[inline(always)]
     fn cross(
         &self,
         part: &StepPart<'a>,
+        way_out: WayOut,
         state: &mut State,
         work: &mut Work,
     ) -> Option<(KinematicState, f64)> {
         let motion = self.solver.motion;
-        let upwards = part.to.displacement > part.from.displacement;
-        let index = state.branch + usize::from(upwards);
+        let index = state.branch + usize::from(way_out.upwards);
         let corner = motion.wall.corners()[index];
         let special = corner.overturning || corner.departure || corner.landing;
-        if special || part.from.displacement == corner.displacement {
+        if special || (!way_out.turns && part.from.displacement == corner.displacement) {
             return None;
         }
-        let next = if corner.stop { state.branch } else { branch_beyond(index, upwards) };
+        let next = if corner.stop { state.branch } else { branch_beyond(index, way_out.upwards) };
         let (map, ahead) = (self.map_of(state.branch)?, self.map_of(next)?);
         // where more than the stiffness changes, the corner itself is asked for, and ü taken anew
         let even = !corner.passage && matches!((&map.way, &ahead.way), (Way::Affine(_), Way::Affine(_)));
         let change = if even { ahead.stiffness - map.stiffness } else { f64::INFINITY };
-        let (time, mut from) = part.passage(corner.displacement, change)?;
+        let (time, mut from) = part.leave(way_out, map.corners, change, &state.peaks)?;
         let forcing = part.forcing_after(time);
         state.peaks.include(corner.displacement);
         state.velocity = from.velocity;
@@ -169,9 +183,9 @@ impl<'a> ActiveRun<'a> {
             let velocity = state.velocity * motion.wall.passage_factor();
             Rebound { velocity, rests: velocity.abs() < motion.rest_speed }
         };
-        let event = pass(motion, state, (index, upwards), [forcing, part.rate], rebound);
-        // a wall that is stopped goes on by the forcing
-        if event.stopped || state.branch != next {
+        let event = pass(motion, state, (index, way_out.upwards), [forcing, part.rate], rebound);
+        // a wall that e = 0 stops goes on by the forcing
+        if !event.stopped && state.branch != next {
             return None;
         }
         if !even {
@@ -181,6 +195,13 @@ impl<'a> ActiveRun<'a> {
         }
         work.add(event.work);
         Some((from, time))
+    }
+
+    /// Tells whether a wall that rests does so while the forcing goes from one value to another.
+    #[inline(always)]
+    pub(super) fn rests_under(&self, p: [f64; 2]) -> bool {
+        let [lowest, highest] = self.solver.motion.rest_band;
+        p.iter().all(|&p| lowest < p && p < highest)
     }
 
     /// Returns the map of a branch.
@@ -219,31 +240,65 @@ impl<'a> ActiveRun<'a> {
         self.load_state();
         self.bound_grown_force();
     }
-}
 
-/// Makes a part of a step on a branch, up to `length` from an instant on under a forcing and its rate; `None`
-/// where that needs the general search.
-#[inline(always)]
-fn part_on<'a>(
-    map: &'a StepMap,
-    from: KinematicState,
-    length: f64,
-    [forcing, rate]: [f64; 2],
-    motion: &Motion,
-) -> Option<StepPart<'a>> {
-    match &map.way {
-        Way::Affine(steps) => {
-            let to = steps.short.as_ref()?.after(length, from, rate);
-            Some(StepPart { flow: Flow::Linear(steps), from, to, length, forcing, rate })
+    /// Makes a part of a step on a branch, up to `length` from an instant on under a forcing and its rate;
+    /// `None` where that needs the general search.
+    #[inline(always)]
+    fn part_on(
+        &self,
+        map: &'a StepMap,
+        from: KinematicState,
+        length: f64,
+        [forcing, rate]: [f64; 2],
+    ) -> Option<StepPart<'a>> {
+        match &map.way {
+            Way::Affine(steps) => {
+                let to = steps.short.as_ref()?.after(length, from, rate);
+                Some(StepPart { flow: Flow::Linear(steps), from, to, length, forcing, rate })
+            }
+            Way::Curved(_) if length <= 0.0 => None,
+            Way::Curved(secant) => {
+                let now = [from.displacement, from.velocity];
+                let ends = [forcing, forcing + rate * length];
+                if let Some((length, end)) = self.to_end_or_corner(map, secant, now, ends, length) {
+                    let [displacement, velocity] = end;
+                    // beyond a corner ü is taken anew
+                    let to = KinematicState { displacement, velocity, acceleration: 0.0 };
+                    return Some(StepPart { flow: Flow::Known, from, to, length, forcing, rate });
+                }
+                let tolerances = self.solver.motion.tolerances;
+                let (polynomial, horizon) = secant.series(now, ends, length, tolerances);
+                let length = horizon.min(length);
+                let (from, to) = (polynomial.start(), polynomial.at(length));
+                let flow = Flow::Series(polynomial);
+                Some(StepPart { flow, from, to, length, forcing, rate })
+            }
         }
-        Way::Curved(secant) => {
-            let now = [from.displacement, from.velocity];
-            let ends = [forcing, forcing + rate * length];
-            let (polynomial, horizon) = secant.series(now, ends, length, motion.tolerances);
-            let length = horizon.min(length);
-            let (from, to) = (polynomial.start(), polynomial.at(length));
-            let flow = Flow::Series(polynomial);
-            Some(StepPart { flow, from, to, length, forcing, rate })
+    }
+
+    /// Follows a motion to the end of a length, or to the corner ahead if that comes first; returns the time,
+    /// and u and u̇ then. `None` where u̇ is not known to keep its sign (docs/record-path.md, §7), and as
+    /// [`SecantBranch::to_end_or_corner`].
+    #[inline(always)]
+    fn to_end_or_corner(
+        &self,
+        map: &StepMap,
+        secant: &SecantBranch,
+        [u, v]: [f64; 2],
+        p: [f64; 2],
+        length: f64,
+    ) -> Option<(f64, [f64; 2])> {
+        // u gets no further while |u̇| is at most 3/2 of what it is now
+        let furthest = u + 1.5 * v * length;
+        let corner = map.corners[usize::from(v > 0.0)];
+        let leaves = (furthest - corner) * v >= 0.0;
+        let reached = if leaves { corner } else { furthest };
+        let force = map.force(u).abs().max(map.force(reached).abs());
+        let most = p[0].abs().max(p[1].abs()) + force + 1.5 * map.damping * v.abs();
+        // u̇ changes by less than half of it
+        if 2.0 * most * length >= v.abs() {
+            return None;
         }
+        secant.to_end_or_corner([u, v], p, length, leaves.then_some(corner), self.solver.motion.tolerances)
     }
 }

@@ -106,7 +106,7 @@ impl ActiveRun<'_> {
         let mut q = self.cursor.forcing - force_at_zero;
         let mut taken = 0;
         for &[next, after] in ahead {
-            let [next, after] = [next, after].map(|p: f64| factor * p - force_at_zero);
+            let [next, after] = [factor * next - force_at_zero, factor * after - force_at_zero];
             let end = double.two_steps(now, [q, next, after]);
             if !range.holds(end) {
                 break;
@@ -206,8 +206,7 @@ impl ActiveRun<'_> {
     #[inline(always)]
     fn move_one(&mut self, p: [f64; 2]) -> Result<(), SolverError> {
         let Some(map) = self.map else {
-            let [lowest, highest] = self.solver.motion.rest_band;
-            if self.state.phase == Phase::Resting && p.iter().all(|&p| lowest < p && p < highest) {
+            if self.state.phase == Phase::Resting && self.rests_under(p) {
                 self.tally.steps += 1;
                 return Ok(());
             }
@@ -218,7 +217,7 @@ impl ActiveRun<'_> {
             Way::Curved(_) => return self.curved_step(map, p),
         };
         let start = self.now;
-        let end = steps.single.one_step(start, p.map(|p| p - map.force_at_zero));
+        let end = steps.single.one_step(start, [p[0] - map.force_at_zero, p[1] - map.force_at_zero]);
         let range = self.range(map, 1);
         if range.holds(start) && range.holds(end) {
             self.now = end;

@@ -123,7 +123,8 @@ impl<S: Simd> Law<S> {
         let mut sum_u = 0.5 * a + (1.0 / 6.0) * odd;
         for n in (2..terms).step_by(2) {
             (even, odd) = (p * odd + q * even, p2 * odd + q2 * even);
-            let [of_v, of_even, of_odd] = [n + 1, n + 2, n + 3].map(|n| INVERSE_FACTORIALS[n]);
+            let [of_v, of_even, of_odd] =
+                [INVERSE_FACTORIALS[n + 1], INVERSE_FACTORIALS[n + 2], INVERSE_FACTORIALS[n + 3]];
             sum_v += of_v * even + of_even * odd;
             sum_u += of_even * even + of_odd * odd;
         }
@@ -148,7 +149,7 @@ impl<S: Simd> Leaving<S> {
         let Self { lanes, branch, from: [u, v], to: [to_u, to_v], forcing: [p0, p1], step, .. } = self;
         let (zero, length) = (f64x8::splat(u.simd, 0.0), f64x8::splat(u.simd, step));
         let law = Law::of(&Branches::new(branch), &responses.table);
-        let [a0, a1] = [[u, v, p0], [to_u, to_v, p1]].map(|[u, v, p]| p - law.c * v - law.force(u));
+        let (a0, a1) = (p0 - law.c * v - law.force(u), p1 - law.c * to_v - law.force(to_u));
         let (from, to) = ([u, v, a0], [to_u, to_v, a1]);
         let mut part = Part { lanes, branch, law, from, to, length, forcing: p0, passages: zero };
         let (end, none) = (self.to, lanes & !lanes);

@@ -8,8 +8,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::super::super::scaled::{Number, Scaled, Start};
-use super::super::super::secant::{CAUTION, LEAST, SecantBranch};
-use super::super::super::tolerances::Tolerances;
+use super::super::super::secant::{LEAST, SecantBranch};
+use super::super::super::tolerances::{CAUTION, Tolerances};
 use super::super::active_run::{ActiveRun, CurvedValues, PlainSteps};
 use super::super::block::Nodes;
 use super::super::forcing::Blocks;
@@ -232,7 +232,8 @@ impl<'a> CurvedLanes<'a> {
             let forcing = [from + (to - from) * share, (to - from) * most];
             let (end, within) = end_of_part::<S, RATIO>(&rows.law, [u, v], forcing, length, tolerances);
             let taken = goes & fits & within;
-            let finished = taken & most.simd_ge(rest);
+            // also where the sum rounds to the whole step
+            let finished = taken & (most.simd_ge(rest) | (share + most).simd_ge(1.0));
             u = taken.select(end[0], u);
             v = taken.select(end[1], v);
             highest = highest.max(u);
@@ -284,8 +285,8 @@ fn end_of_part<S: Simd, const RATIO: bool>(
     let force_at_zero = load(simd, &law.force_at_zero);
     let stiffness = load(simd, &law.stiffness);
     let force = load(simd, &law.force) + stiffness * (u - load(simd, &law.anchor));
-    let [own_anchor, own_force, own_slope] = [0, 1, 2].map(|part| load(simd, &law.own[part]));
-    let own = own_force + own_slope * (u - own_anchor);
+    let [own_anchor, own_force, own_slope] = &law.own;
+    let own = load(simd, own_force) + load(simd, own_slope) * (u - load(simd, own_anchor));
     let inverse = 1.0 / u;
     let ratio = (own * inverse).max(LEAST * (force_at_zero * inverse).abs());
     let secant = if RATIO { ratio.sqrt() } else { ratio };
@@ -306,7 +307,7 @@ fn end_of_part<S: Simd, const RATIO: bool>(
     ([u + u * x, u / length * velocity], within::<S>(series.last::<10>(), 10.0, most))
 }
 
-/// Tells the lanes in which what a series leaves out is small enough (`secant::within`).
+/// Tells the lanes in which what a series leaves out is small enough (`tolerances::within`).
 #[inline(always)]
 fn within<S: Simd>([a, b, c, d]: [f64x8<S>; 4], order: f64, most: f64x8<S>) -> mask64x8<S> {
     let (before, last) = (a.abs().max(b.abs()), c.abs().max(d.abs()));

@@ -287,8 +287,8 @@ impl Lanes<'_> {
                 & limits[0].simd_le(low)
                 & high.simd_le(limits[1]);
             // by |p|, |u̇| and |f| at the ends of the step itself
-            let forces = [from[0], to[0]].map(|u| law.force(u).abs());
-            let most = law.growth * (p0.abs().max(p1.abs()) + law.c * speed + forces[0].max(forces[1]));
+            let force = law.force(from[0]).abs().max(law.force(to[0]).abs());
+            let most = law.growth * (p0.abs().max(p1.abs()) + law.c * speed + force);
             let margin = eighth * most;
             let near =
                 lower.max(limits[0]).simd_le(low - margin) & (high + margin).simd_le(upper.min(limits[1]));
