@@ -155,7 +155,7 @@ impl SecantBranch {
     /// Follows a motion with a constant damping ratio on which u̇ keeps its sign, over a length of time or to
     /// a corner if that comes first. Returns the time, and u and u̇ then; `None` where that is not found at
     /// once.
-    pub(super) fn to_end_or_corner(
+    pub(super) fn follow_to_corner(
         &self,
         [u, v]: [f64; 2],
         p: [f64; 2],

@@ -260,7 +260,7 @@ impl<'a> ActiveRun<'a> {
             Way::Curved(secant) => {
                 let now = [from.displacement, from.velocity];
                 let ends = [forcing, forcing + rate * length];
-                if let Some((length, end)) = self.to_end_or_corner(map, secant, now, ends, length) {
+                if let Some((length, end)) = self.follow_to_corner(map, secant, now, ends, length) {
                     let [displacement, velocity] = end;
                     // beyond a corner ü is taken anew
                     let to = KinematicState { displacement, velocity, acceleration: 0.0 };
@@ -278,9 +278,9 @@ impl<'a> ActiveRun<'a> {
 
     /// Follows a motion to the end of a length, or to the corner ahead if that comes first; returns the time,
     /// and u and u̇ then. `None` where u̇ is not known to keep its sign (docs/record-path.md, §7), and as
-    /// [`SecantBranch::to_end_or_corner`].
+    /// [`SecantBranch::follow_to_corner`].
     #[inline(always)]
-    fn to_end_or_corner(
+    fn follow_to_corner(
         &self,
         map: &StepMap,
         secant: &SecantBranch,
@@ -299,6 +299,6 @@ impl<'a> ActiveRun<'a> {
         if 2.0 * most * length >= v.abs() {
             return None;
         }
-        secant.to_end_or_corner([u, v], p, length, leaves.then_some(corner), self.solver.motion.tolerances)
+        secant.follow_to_corner([u, v], p, length, leaves.then_some(corner), self.solver.motion.tolerances)
     }
 }
