@@ -29,20 +29,24 @@ fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
     (0.9 * of(before, ORDER - 1).min(of(last, ORDER))).min(1.0)
 }
 
-/// Returns u/u₀ − 1 and h u̇/u₀ at the end of a step with c = 2ξ ω; `None` where the highest order leaves out
-/// too much.
+/// Returns u/u₀ − 1 and h u̇/u₀ at the end of a step by order 8 or 10; `None` where these leave out too much.
+#[inline(always)]
+fn end_to_10<const RATIO: bool>(series: &mut Scaled<f64>, most: f64) -> Option<[f64; 2]> {
+    series.extend_to_8::<RATIO>();
+    if within::<8>(series.last::<8>(), most) {
+        return Some(series.end::<8>());
+    }
+    series.extend_to_10::<RATIO>();
+    within::<10>(series.last::<10>(), most).then(|| series.end::<10>())
+}
+
+/// Does the same by any order, with c = 2ξ ω.
 #[inline(always)]
 fn end_with_ratio(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
-    if start.velocity.abs() < FAST {
-        let mut series = Scaled::new(start, 1.0);
-        series.extend_to_8::<true>();
-        if within::<8>(series.last::<8>(), most) {
-            return Some(series.end::<8>());
-        }
-        series.extend_to_10::<true>();
-        if within::<10>(series.last::<10>(), most) {
-            return Some(series.end::<10>());
-        }
+    if start.velocity.abs() < FAST
+        && let Some(end) = end_to_10::<true>(&mut Scaled::new(start, 1.0), most)
+    {
+        return Some(end);
     }
     Regularised::new(start).end(most)
 }
@@ -51,13 +55,8 @@ fn end_with_ratio(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
 #[inline(always)]
 fn end_with_stiffness(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
     let mut series = Scaled::new(start, 1.0);
-    series.extend_to_8::<false>();
-    if within::<8>(series.last::<8>(), most) {
-        return Some(series.end::<8>());
-    }
-    series.extend_to_10::<false>();
-    if within::<10>(series.last::<10>(), most) {
-        return Some(series.end::<10>());
+    if let Some(end) = end_to_10::<false>(&mut series, most) {
+        return Some(end);
     }
     series.extend_to_12::<false>();
     if within::<12>(series.last::<12>(), most) {
@@ -163,9 +162,6 @@ impl SecantBranch {
         corner: Option<f64>,
         tolerances: Tolerances,
     ) -> Option<(f64, [f64; 2])> {
-        if !self.is_ratio {
-            return None;
-        }
         let (start, inverse) = self.start([u, v], p, length);
         let (series, most) = (Regularised::new(start), tolerances.over(inverse, length));
         if let Some(corner) = corner {

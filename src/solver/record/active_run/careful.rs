@@ -288,6 +288,9 @@ impl<'a> ActiveRun<'a> {
         p: [f64; 2],
         length: f64,
     ) -> Option<(f64, [f64; 2])> {
+        if !secant.is_ratio {
+            return None;
+        }
         // u gets no further while |u̇| is at most 3/2 of what it is now
         let furthest = u + 1.5 * v * length;
         let corner = map.corners[usize::from(v > 0.0)];
