@@ -4,6 +4,7 @@ use crate::element::Element;
 use crate::error::{Fault, Problem};
 use crate::names::camel_case;
 use crate::structure;
+use crate::usage;
 use crate::variable::{
     BaseType, Causality, EnumerationType, Initial, Kind, Variability, Variable, simple_type,
 };
@@ -33,6 +34,7 @@ pub(crate) fn all(
             return Err(variable.fault(Problem::NoGroup { name: variable.name.clone() }));
         }
     }
+    usage::check(variables, enumerations)?;
     structure::check(variables, root.required_child("ModelStructure")?)?;
     interfaces(root, variables)
 }

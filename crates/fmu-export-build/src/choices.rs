@@ -1,32 +1,61 @@
-//! Writes `choices.rs`: plain enumerations and the start values of the parameters. It knows no FMI.
+//! Writes `choices.rs`: plain enumerations, the start values of the parameters, and where variables
+//! matter. It knows no FMI.
 
+use crate::condition::words;
 use crate::description::Description;
 use crate::names::{HEAD, add, camel, field, markdown, type_name};
-use crate::variable::{EnumerationType, Item, Kind, Variable};
+use crate::usage;
+use crate::variable::{Causality, EnumerationType, Item, Kind, Variable};
 
-/// The text of `choices.rs`: one enum per enumeration type, and the macro `start_values`.
+/// The text of `choices.rs`: one enum per enumeration type, and the macros `start_values` and `usages`.
 pub(crate) fn module(description: &Description) -> String {
     let mut code = String::from(HEAD);
     for enumeration in &description.enumerations {
         enumeration_type(&mut code, enumeration);
     }
-    let start = |variable: &Variable| {
-        let value = match &variable.kind {
-            Kind::Real { start, .. } => format!("{:?}", start.unwrap_or_default()),
-            Kind::Integer { start, .. } => start.unwrap_or_default().to_string(),
-            Kind::Boolean { start } => start.unwrap_or_default().to_string(),
-            Kind::String { start } => format!("{:?}.to_owned()", start.as_deref().unwrap_or_default()),
-            Kind::Enumeration { start } => {
-                let items = variable.items(&description.enumerations);
-                let item = items.iter().find(|item| Some(item.value) == *start);
-                format!("{}::{}", type_name(variable), camel(item.map_or("", |item| &item.name)))
-            }
-        };
-        format!("            {}: {value},\n", field(variable))
+    let start = |variable: &Variable| match &variable.kind {
+        Kind::Real { start, .. } => format!("{:?}", start.unwrap_or_default()),
+        Kind::Integer { start, .. } => start.unwrap_or_default().to_string(),
+        Kind::Boolean { start } => start.unwrap_or_default().to_string(),
+        Kind::String { start } => format!("{:?}.to_owned()", start.as_deref().unwrap_or_default()),
+        Kind::Enumeration { start } => {
+            let items = variable.items(&description.enumerations);
+            let item = items.iter().find(|item| Some(item.value) == *start);
+            format!("{}::{}", type_name(variable), camel(item.map_or("", |item| &item.name)))
+        }
     };
-    let fields: String = description.parameters().map(start).collect();
-    code + &START_VALUES.replace("@fields@", &fields)
+    let line = |variable: &Variable| format!("            {}: {},\n", field(variable), start(variable));
+    let fields: String = description.parameters().map(line).collect();
+    let line_of_usage = |variable: &Variable| {
+        let is_start = match variable.causality {
+            Causality::Parameter => format!("$parameters.{} == {}", field(variable), start(variable)),
+            _ => "true".to_owned(),
+        };
+        let matters = usage::code(variable, &description.variables);
+        let (name, words) = (&variable.name, words(&variable.conditions));
+        format!(
+            "            Usage {{ name: {name:?}, is_start: {is_start}, matters: {matters}, condition: {:?} \
+             }},\n",
+            words.unwrap_or_default()
+        )
+    };
+    let usages: String = description.variables.iter().map(line_of_usage).collect();
+    code + &START_VALUES.replace("@fields@", &fields) + &USAGES.replace("@usages@", &usages)
 }
+
+const USAGES: &str = "
+/// Says of each variable whether its value is its start value, and whether it matters beside the others, from
+/// a struct with one field per parameter. A struct `Usage` is in scope.
+#[allow(unused_macros)]
+macro_rules! usages {
+    ($parameters:expr) => {
+        [
+@usages@        ]
+    };
+}
+#[allow(unused_imports)]
+pub(crate) use usages;
+";
 
 const START_VALUES: &str = "
 /// Makes a struct of the parameters: each has a field of its name, set to its start value. Other fields

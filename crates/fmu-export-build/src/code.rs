@@ -5,6 +5,7 @@
 
 use crate::description::Description;
 use crate::names::{HEAD, add, camel, field, markdown, type_name};
+use crate::usage::described;
 use crate::variable::{BaseType, EnumerationType, Item, Kind, Variable};
 
 /// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to
@@ -121,7 +122,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
     let of = if base == BaseType::Integer { "Integer or Enumeration" } else { &format!("{base:?}") };
     add(code, format_args!("\n/// Variables of type {of}.\n{DERIVE}pub enum {base:?}Variable {{\n"));
     for variable in variables {
-        let text = markdown(&variable.description);
+        let text = markdown(&described(variable));
         // Plain brackets would be a link to rustdoc.
         let unit = match variable.unit.as_deref() {
             None | Some("1") => String::new(),
@@ -191,7 +192,8 @@ static @table@: [::fmu_export::Variable; @count@] = [
 ";
 
 fn table_row(variable: &Variable, enumerations: &[EnumerationType]) -> String {
-    let Variable { name, reference, description, causality, variability, unit, .. } = variable;
+    let Variable { name, reference, causality, variability, unit, .. } = variable;
+    let description = described(variable);
     let kind = match &variable.kind {
         Kind::Enumeration { start } => {
             let items =

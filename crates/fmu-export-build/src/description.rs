@@ -1,9 +1,11 @@
 //! A description that has passed every check.
 
 use crate::check;
+use crate::condition::words;
 use crate::element::Element;
 use crate::error::{Fault, Problem};
 use crate::fingerprint::{fingerprint, with_guid, without_annotations};
+use crate::usage::written;
 use crate::variable::{Causality, EnumerationType, Variable};
 
 /// A description that has passed every check.
@@ -47,7 +49,7 @@ impl Description {
 
     /// The guid that follows from the text: 32 hexadecimal digits in braces.
     pub fn guid(&self) -> String {
-        fingerprint(&self.text)
+        fingerprint(&written(&self.text, &self.variables))
     }
 
     /// The guid written in the description.
@@ -94,9 +96,19 @@ impl Description {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
-    /// The text as it was read, with `guid` as its guid and without the annotations of variables.
+    /// The text as it was read, with `guid` as its guid. Variables have no annotations; where they matter
+    /// stands in their descriptions.
     pub fn text_with_guid(&self, guid: &str) -> String {
-        with_guid(&without_annotations(&self.text), guid)
+        let text = with_guid(&without_annotations(&self.text), guid);
+        written(&text, &self.variables)
+    }
+
+    /// Where the variable `name` matters, in words; `None` for one that always does, or that is not there.
+    pub fn condition(&self, name: &str) -> Option<String> {
+        self.variables
+            .iter()
+            .find(|variable| variable.name == name)
+            .and_then(|variable| words(&variable.conditions))
     }
 
     /// The description in canonical form: no comments, two blanks per level.

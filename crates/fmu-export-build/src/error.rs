@@ -100,6 +100,8 @@ pub enum Problem {
     BadDerivative { name: String, of: String },
     #[error("the parameter `{name}` has no annotation <Group name=\"…\"/>, but others have one")]
     NoGroup { name: String },
+    #[error("<Where> of `{name}` {why}")]
+    BadCondition { name: String, why: String },
     #[error("{list} lists `{name}`, which {why}")]
     NotInList { list: &'static str, name: String, why: &'static str },
     #[error("{list} leaves out `{name}`, which {why}")]

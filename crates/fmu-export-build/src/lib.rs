@@ -31,7 +31,9 @@
 //!
 //! ```text
 //! element      XML with line numbers ─► Element ─► XML in canonical form
+//! condition    where a variable matters, from `<Where>`
 //! variable     Element ─► variables and enumerations
+//! usage        what conditions mean for each other
 //! check        what the FMI 2.0 schema cannot check of these; structure: of the ModelStructure
 //! description  Description: what has passed every check
 //! choices      Description ─► choices.rs; code: ─► variables.rs
@@ -47,6 +49,7 @@ pub mod archive;
 mod check;
 mod choices;
 mod code;
+mod condition;
 mod description;
 mod element;
 mod error;
@@ -59,6 +62,7 @@ mod reduced;
 #[cfg(feature = "archive")]
 pub mod sources;
 mod structure;
+mod usage;
 mod variable;
 
 pub use description::Description;
@@ -96,9 +100,9 @@ pub fn build_script(xml: &str) -> ExitCode {
 /// Reads the description `xml`, checks it, and writes `choices.rs` and `variables.rs` into the folder
 /// `out_dir`.
 ///
-/// `choices.rs` stands alone: enumerations, and `start_values!` for a struct `Parameters` with one field per
-/// parameter. `variables.rs` refers to the crate `fmu_export`, and needs `Parameters` and the enumerations
-/// in scope.
+/// `choices.rs` stands alone: enumerations, `start_values!` for a struct `Parameters` with one field per
+/// parameter, and `usages!`, which says where each variable matters. `variables.rs` refers to the crate
+/// `fmu_export`, and needs `Parameters` and the enumerations in scope.
 ///
 /// # Errors
 /// A file that cannot be read or written, and any [`Problem`] of the description, with its line.

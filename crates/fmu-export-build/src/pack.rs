@@ -77,14 +77,18 @@ pub enum PackError {
     /// The documentation does not have the page importers open.
     #[error("{}: has no index.html, the page that importers open", path.display())]
     NoIndex { path: PathBuf },
+    /// The documentation asks for a condition that the description does not have.
+    #[error("documentation/index.html: {{where {name}}}, but the description has no <Where> of `{name}`")]
+    NoCondition { name: String },
 }
 
 impl Package {
-    /// Reads everything and puts it together; the description gets its guid.
+    /// Reads everything and puts it together; the description gets its guid, and the page the conditions of
+    /// variables where it says `{where NAME}`.
     ///
     /// # Errors
     /// A description that contradicts itself, files that cannot be read, an unknown platform, no
-    /// `index.html`.
+    /// `index.html`, or one that asks for a condition that is not there.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = read_text(&self.description)?;
         let invalid = |path: &Path, fault| DescriptionError::Invalid {
@@ -119,9 +123,10 @@ impl Package {
             }
         }
         add_folder(&mut archive, "documentation", &self.documentation, MAX_DEPTH)?;
-        if archive.get("documentation/index.html").is_none() {
-            return Err(PackError::NoIndex { path: self.documentation.clone() });
-        }
+        let page =
+            archive.get(PAGE).ok_or_else(|| PackError::NoIndex { path: self.documentation.clone() })?;
+        let page = with_conditions(&String::from_utf8_lossy(page), &description)?;
+        archive.insert(PAGE, page);
         if let Some(resources) = &self.resources {
             add_folder(&mut archive, "resources", resources, MAX_DEPTH)?;
         }
@@ -138,6 +143,24 @@ impl Package {
         let folders = if self.fmi3 { of_3 } else { &[of_2][..] };
         Ok(folders.iter().map(|folder| format!("binaries/{folder}/{name}.{ending}")).collect())
     }
+}
+
+/// The page that importers open.
+const PAGE: &str = "documentation/index.html";
+
+/// Writes the condition of a variable where the page says `{where NAME}`.
+fn with_conditions(page: &str, description: &Description) -> Result<String, PackError> {
+    let mut parts = page.split("{where ");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once('}').unwrap_or((part, ""));
+        let condition =
+            description.condition(name).ok_or_else(|| PackError::NoCondition { name: name.to_owned() })?;
+        text.push_str("; where ");
+        text.push_str(&condition);
+        text.push_str(rest);
+    }
+    Ok(text)
 }
 
 fn read_text(path: &Path) -> Result<String, PackError> {

@@ -1,5 +1,6 @@
 //! Variables and enumerations, as a description declares them.
 
+use crate::condition::{self, Alternative};
 use crate::element::Element;
 use crate::error::{Fault, Problem};
 
@@ -21,6 +22,8 @@ pub(crate) struct Variable {
     pub(crate) derivative: Option<usize>,
     /// The name in an annotation `<Group name="…"/>`.
     pub(crate) group: Option<String>,
+    /// Where it matters; everywhere if there are none.
+    pub(crate) conditions: Vec<Alternative>,
     pub(crate) kind: Kind,
 }
 
@@ -135,8 +138,8 @@ impl Variable {
             let own = typed.attribute(attribute);
             own.or_else(|| inherited?.attribute(attribute)).map(str::to_owned)
         };
-        let mut tools = element.children_of("Annotations").iter();
-        let group = tools.find_map(|tool| tool.child("Group")?.attribute("name"));
+        let tools = || element.children_of("Annotations").iter();
+        let group = tools().find_map(|tool| tool.child("Group")?.attribute("name"));
         Ok(Self {
             line: element.line,
             reference: element.parsed("valueReference", "a value reference")?.unwrap_or_default(),
@@ -150,6 +153,7 @@ impl Variable {
             display_unit: text("displayUnit"),
             derivative: typed.parsed("derivative", "an index")?,
             group: group.map(str::to_owned),
+            conditions: condition::read(tools()),
             kind: Kind::read(typed, inherited)?,
             name,
             declared_type,
