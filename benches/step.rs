@@ -11,7 +11,7 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::{DampingModel, DampingSource, RealVariable};
+use rocking_wall::variables::{DampingModel, RealVariable};
 use rocking_wall::wall::{Parameters, Support};
 
 const RUNS: usize = 25;
@@ -40,13 +40,7 @@ fn main() {
         ("rocking, constant ratio", DampingModel::ConstantRatio, 0.5),
     ];
     for (name, damping_model, scale) in walls {
-        let parameters = Parameters {
-            damping_model,
-            damping_source: DampingSource::Given,
-            xi: 0.02,
-            u_start: 0.0,
-            ..Parameters::default()
-        };
+        let parameters = Parameters { damping_model, xi: 0.02, u_start: 0.0, ..Parameters::default() };
         let start = Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
         let cost = least(steps, || {
             let mut simulation = start.clone();

@@ -34,7 +34,7 @@ def by_impulses(connections):
 
 # Parameters of the examples: a parapet that weighs 15 % of its floor, whose frequency is 5 Hz.
 WALL = {"height": 3.0, "thickness": 0.3, "a1": 0.05, "u_start": 0.0, "damping_model": "constant_coefficient",
-        "damping_source": "given", "xi": 0.05}  # fmt: skip
+        "xi": 0.05}  # fmt: skip
 FLOOR = {"mass": 1.08e4, "stiffness": 1.08e4 * 31.4**2, "damping_ratio": 0.05}
 
 STOREYS = {
@@ -44,9 +44,9 @@ STOREYS = {
 WALLS = {
     "strip": {"mechanism": "vertical_spanning", "height": 3.0, "thickness": 0.2, "hinge_ratio": 0.6,
               "overburden": 5000.0, "a1": 0.05, "u_start": 0.0,
-              "damping_model": "constant_coefficient", "damping_source": "given", "xi": 0.05},
+              "damping_model": "constant_coefficient", "xi": 0.05},
     "parapet": {"height": 1.2, "thickness": 0.3, "a1": 0.05, "u_start": 0.0,
-                "damping_model": "constant_coefficient", "damping_source": "given", "xi": 0.05},
+                "damping_model": "constant_coefficient", "xi": 0.05},
 }  # fmt: skip
 
 

@@ -21,7 +21,7 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{Mechanism, RealVariable};
-use crate::wall::{Kinematics, Parameters};
+use crate::wall::{COMPUTABLE, Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
@@ -34,7 +34,7 @@ pub use storeys::{Floors, StoreyTable, SupportsTable};
 pub use document::parse_toml;
 pub use error::Place;
 pub use nearest::suggestion;
-pub use parameter::apply_group;
+pub use parameter::{apply_group, check_limits};
 pub use storeys::read_floors;
 
 /// A wall, its motion, and how long it is watched.
@@ -262,7 +262,7 @@ fn name_of(file: &str) -> String {
         .map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
 }
 
-/// A scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
+/// Writes a scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
 pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let mut text = String::new();
     // writing to a String cannot fail
@@ -273,6 +273,12 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     }
     let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
+    let usages: Vec<_> = usage(&scene.parameters).collect();
+    // what has its start value, and does not matter or is computed
+    let is_left_out = |name: &str| {
+        let is_computed = COMPUTABLE.contains(&name);
+        usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
+    };
     for (group, names) in GROUPS {
         let _ = writeln!(text, "\n[{group}]");
         if group == "geometry" && scene.parameters.kinematics != Kinematics::default() {
@@ -285,7 +291,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
                     let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
                     let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
                 }
-                (Some(_), "a1" | "a3" | "d1" | "softening") => {}
+                _ if is_left_out(name) => {}
                 _ => {
                     if let Some(value) = parameter_text(&scene.parameters, name) {
                         let _ = writeln!(text, "{name} = {value}");

@@ -97,7 +97,9 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
         let all: Vec<_> = names.chain([KINEMATICS]).collect();
         let meant = suggestion(name, all.iter().copied());
-        let message = format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "));
+        let message = gone(name).unwrap_or_else(|| {
+            format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "))
+        });
         return Err(SceneError::Value { message });
     }
     let value = if let Ok(number) = text.trim().parse::<f64>() {
@@ -134,6 +136,9 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
         if item.is_some_and(|item| parameters.set_integer(variable, item.value)) {
             return Ok(());
         }
+        if (name, value.as_str()) == ("restitution_source", Some("given")) {
+            return Err("restitution counts where it is given: leave restitution_source out".to_owned());
+        }
         let names: Vec<_> = items.iter().map(|item| item.name).collect();
         return Err(format!("{name} = {} is not one of {}", shown(value), names.join(", ")));
     }
@@ -163,7 +168,11 @@ fn number(value: &Value) -> Option<f64> {
     }
 }
 
-fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
+/// Checks a number against the limits of a variable of the model description.
+///
+/// # Errors
+/// A message with name, value and limit.
+pub fn check_limits(variable: &Variable, number: f64) -> Result<(), String> {
     let Kind::Real { min, max, .. } = variable.kind else { return Ok(()) };
     // the model description writes "1" for what has no unit
     let unit = variable.unit.filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
@@ -193,9 +202,21 @@ fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
     list.iter().map(|item| pair(item).ok_or_else(shape)).collect()
 }
 
+/// What to do about a parameter that there was.
+fn gone(name: &str) -> Option<String> {
+    (name == "damping_source").then(|| {
+        "there is no damping_source: xi and c_bar count where they are given, and are computed where they \
+         are left out; leave damping_source out"
+            .to_owned()
+    })
+}
+
 fn unknown(name: &str, group: &str, names: &[&str]) -> String {
     if name == KINEMATICS {
         return format!("{name:?} belongs in [{KINEMATICS_GROUP}], not in [{group}]");
+    }
+    if let Some(message) = gone(name) {
+        return message;
     }
     let elsewhere = GROUPS.iter().find(|(_, others)| others.contains(&name));
     elsewhere.map_or_else(

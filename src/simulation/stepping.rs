@@ -74,6 +74,7 @@ impl Simulation {
     ) -> Result<Self, ParameterError> {
         let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
         let motion = Motion::of(parameters, tolerance)?;
+        motion.wall().check_start(parameters.u_start)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
         let drift = support.drift != 0.0;

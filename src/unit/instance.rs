@@ -30,7 +30,10 @@ pub struct Unit {
     pub(super) exchange: Option<Exchange>,
     /// The outputs at the present state and inputs, once needed.
     outputs: Cell<Option<Outputs>>,
-    pub(super) top_ignored_told: bool,
+    /// What has been warned of: an unused `a_top`, and a start that was forgotten.
+    pub(super) warned: [bool; 2],
+    /// Its scene says where it starts.
+    pub(super) has_scene: bool,
 }
 
 impl Unit {
@@ -50,7 +53,8 @@ impl Unit {
             impulses: Ends::default(),
             exchange,
             outputs: Cell::new(None),
-            top_ignored_told: false,
+            warned: [false; 2],
+            has_scene: false,
         };
         unit.prepare()?;
         Ok(unit)
@@ -176,13 +180,25 @@ impl Unit {
         }
     }
 
-    /// Warns once where `a_top` is given to a wall without a top support.
-    pub(super) fn warn_of_unused_top(&mut self, log: &mut Log<'_>) {
-        let driven = self.inputs.top != Input::default();
-        if driven && !self.top_ignored_told && self.parameters.mechanism == Mechanism::Parapet {
-            self.top_ignored_told = true;
+    /// Warns once where `a_top` is given to a wall without a top support, and once where an input shakes a
+    /// wall that the start value of `u_start` has displaced.
+    pub(super) fn warn_of_inputs(&mut self, log: &mut Log<'_>) {
+        if self.inputs == Inputs::default() {
+            return;
+        }
+        let [top_warned, start_warned] = &mut self.warned;
+        let is_parapet = self.parameters.mechanism == Mechanism::Parapet;
+        if self.inputs.top != Input::default() && is_parapet && !std::mem::replace(top_warned, true) {
             log.warning(format_args!(
                 "a_top is ignored: a parapet has no top support; give its base motion in a_bottom or a_g"
+            ));
+        }
+        let start = self.parameters.u_start;
+        let by_default = !self.has_scene && start == Parameters::default().u_start;
+        if by_default && !std::mem::replace(start_warned, true) {
+            log.warning(format_args!(
+                "the wall is shaken and was released from u_start = {start} m, the start value: for a wall \
+                 that is at rest before set u_start = 0"
             ));
         }
     }

@@ -42,7 +42,9 @@ impl Model for Unit {
         }
         let motion = scene.support_motion().map_err(|error| format!("resources/scene.toml: {error}"))?;
         let motion = motion.map(|motion| Arc::new(motion.into_owned()));
-        Self::new(scene.parameters, motion, exchange)
+        let mut unit = Self::new(scene.parameters, motion, exchange)?;
+        unit.has_scene = true;
+        Ok(unit)
     }
 
     fn real(&self, variable: RealVariable) -> f64 {
@@ -187,21 +189,22 @@ impl Model for Unit {
         for warning in self.wall().warnings() {
             log.warning(format_args!("{warning}"));
         }
-        self.warn_of_unused_top(log);
+        self.warn_of_inputs(log);
         if self.parameters.u_start != 0.0 {
-            log.info(format_args!(
-                "released from u_start = {} m; a wall that is coupled or shaken wants u_start = 0",
-                self.parameters.u_start
-            ));
+            log.info(format_args!("released from u_start = {} m", self.parameters.u_start));
         }
         if self.exchange.is_none() {
             log.info(format_args!("solver: {}", self.simulation.method()));
+        } else if self.parameters.solver != Parameters::default().solver {
+            log.warning(format_args!(
+                "solver is set and has no effect: in Model Exchange the importer's solver integrates"
+            ));
         }
         Ok(())
     }
 
     fn do_step(&mut self, step: CommunicationStep, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
-        self.warn_of_unused_top(log);
+        self.warn_of_inputs(log);
         self.advance(step, log)
     }
 

@@ -66,7 +66,7 @@ impl ModelExchange for Unit {
     }
 
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
-        self.warn_of_unused_top(log);
+        self.warn_of_inputs(log);
         let time = self.simulation.progress().time;
         let ended = |end: f64| self.elapsed() >= end - TIME_ROUNDING * time.abs().max(1.0);
         let next_sample = self.exchange.is_some_and(|exchange| exchange.own_motion.end.is_some_and(ended));
@@ -102,7 +102,8 @@ impl ModelExchange for Unit {
         })
     }
 
-    fn complete_step(&mut self, _log: &mut Log<'_>) -> Result<bool, Failure> {
+    fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure> {
+        self.warn_of_inputs(log);
         let support = self.support();
         self.simulation.complete_step(self.exchange.is_some_and(|exchange| exchange.rising), support);
         Ok(self.indicators().iter().any(|&indicator| indicator <= 0.0))

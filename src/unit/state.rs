@@ -28,7 +28,9 @@ impl Unit {
         codec.option(tolerance)?;
         codec.option(stop)?;
         codec.bool(&mut self.running)?;
-        codec.bool(&mut self.top_ignored_told)?;
+        for warned in &mut self.warned {
+            codec.bool(warned)?;
+        }
         let Ends { bottom, top } = &mut self.impulses;
         codec.f64s([bottom, top])?;
         transfer_progress(&mut progress, codec)?;

@@ -1,12 +1,12 @@
 //! Viscous damping: the coefficient C(u) of Eq. (12), per unit effective mass.
 
-use crate::choices::{DampingModel, DampingSource};
+use crate::choices::DampingModel;
 
 use super::equivalence;
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, given};
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,13 +48,15 @@ pub(super) struct Damping {
     pub(super) ratio: f64,
     /// C/`m_eff` on the elastic branch, and everywhere for a constant coefficient \[1/s\].
     pub(super) elastic: f64,
+    /// ξ or c̄ is computed from e, Eqs. (20)–(23).
+    pub(super) is_computed: bool,
     omega1: f64,
 }
 
 impl Damping {
     /// # Errors
     /// [`ParameterError::NoElasticBranch`] where CDC, CDR or SDR meets the rigid-linear law;
-    /// [`ParameterError::Prediction`] where e = 0 leaves no prediction.
+    /// [`ParameterError::Computed`] where e = 0 leaves none to compute; [`ParameterError::NotGiven`].
     pub(super) fn new(
         parameters: &Parameters,
         body: &Body,
@@ -63,18 +65,21 @@ impl Damping {
     ) -> Result<Self, ParameterError> {
         let model = parameters.damping_model;
         let omega1 = force.omega1(body.effective_mass);
-        let given = parameters.damping_source == DampingSource::Given;
-        if !given && model != DampingModel::None && restitution <= 0.0 {
-            return Err(ParameterError::Prediction { restitution });
-        }
         let needs_none = matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
         if force.elastic_stiffness.is_none() && !needs_none {
             return Err(ParameterError::NoElasticBranch { model: model.name() });
         }
-        let value = match (given, model) {
-            (false, _) => equivalence::predicted(model, force.elastic_fraction, restitution),
-            (true, DampingModel::FreeStandingBlock) => parameters.c_bar,
-            (true, _) => parameters.xi,
+        let (xi, c_bar) = (given("xi", parameters.xi)?, given("c_bar", parameters.c_bar)?);
+        let (name, number) = match model {
+            DampingModel::FreeStandingBlock => ("c_bar", c_bar),
+            _ => ("xi", xi),
+        };
+        let value = match number {
+            Some(number) => number,
+            None if model != DampingModel::None && restitution <= 0.0 => {
+                return Err(ParameterError::Computed { name, restitution });
+            }
+            None => equivalence::predicted(model, force.elastic_fraction, restitution),
         };
         let (ratio, elastic) = match model {
             DampingModel::None => (0.0, 0.0),
@@ -86,7 +91,8 @@ impl Damping {
             // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
             _ => (value, 2.0 * omega1 * value),
         };
-        Ok(Self { model, ratio, elastic, omega1 })
+        let is_computed = model != DampingModel::None && number.is_none();
+        Ok(Self { model, ratio, elastic, is_computed, omega1 })
     }
 
     /// Whether C is constant on every branch.

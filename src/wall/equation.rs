@@ -53,9 +53,9 @@ impl Wall {
             body.turn_fully(rotations);
         }
         let tie = Tie::new(parameters, &body)?;
-        let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), impact);
+        let at_impacts = impact.then_some(restitution);
+        let warnings = Warning::collect(parameters, &body, &force, tie.as_ref(), &damping, at_impacts);
         let rocking = parameters.rocking;
-        check_start(parameters.u_start, rocking, &body)?;
         let fully = rotations.is_some();
         let free_side = free_side(rocking);
         let corners = layout::corners(&body, &force, &damping, tie.as_ref(), impact, fully, free_side);
@@ -108,6 +108,18 @@ impl Wall {
     /// The sign of u to which a wall can rock that rocks to one side only.
     pub fn free_side(&self) -> Option<f64> {
         free_side(self.rocking)
+    }
+
+    /// Checks a displacement \[m\] at which a run is to start.
+    ///
+    /// # Errors
+    /// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartsOverturned`].
+    pub fn check_start(&self, u_start: f64) -> Result<(), ParameterError> {
+        if self.free_side().is_some_and(|side| side * u_start < 0.0) {
+            return Err(ParameterError::StartsBehindWalls { u_start, rocking: self.rocking.name() });
+        }
+        let u_ins = self.body.instability.of(u_start);
+        if u_start.abs() <= u_ins { Ok(()) } else { Err(ParameterError::StartsOverturned { u_start, u_ins }) }
     }
 
     /// The signs of u to which the wall can rock.
@@ -285,14 +297,4 @@ fn free_side(rocking: Rocking) -> Option<f64> {
         Rocking::OneSidedPositive => Some(1.0),
         Rocking::OneSidedNegative => Some(-1.0),
     }
-}
-
-/// # Errors
-/// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartBeyondLanding`].
-fn check_start(u_start: f64, rocking: Rocking, body: &Body) -> Result<(), ParameterError> {
-    if free_side(rocking).is_some_and(|side| side * u_start < 0.0) {
-        return Err(ParameterError::StartsBehindWalls { u_start, rocking: rocking.name() });
-    }
-    let limit = body.landing.of(u_start);
-    if u_start.abs() < limit { Ok(()) } else { Err(ParameterError::StartBeyondLanding { u_start, limit }) }
 }

@@ -29,7 +29,7 @@ pub enum ParameterError {
     /// A squat wall.
     #[error(
         "restitution_source = {source} gives e = {value}, outside 0 to 1: the wall is too squat for this \
-         formula; set restitution_source = given and restitution"
+         formula; set restitution"
     )]
     Restitution {
         #[allow(missing_docs)]
@@ -42,12 +42,15 @@ pub enum ParameterError {
          damping_model = free_standing_block, impact = restitution, or force_law = bilinear"
     )]
     NoElasticBranch { model: &'static str },
-    /// e = 0 leaves no prediction of damping.
+    /// e = 0 leaves no damping to compute.
     #[error(
-        "damping_source = predicted needs a coefficient of restitution above 0, but it is {restitution}; \
-         give xi or c_bar instead"
+        "{name} = -1 asks for damping computed from the coefficient of restitution, which has to be above 0 \
+         but is {restitution}; set {name}"
     )]
-    Prediction { restitution: f64 },
+    Computed { name: &'static str, restitution: f64 },
+    /// A number that is neither given nor to be computed.
+    #[error("{name} = {value}: set a number from 0 on, or -1 for the one computed from the geometry")]
+    NotGiven { name: &'static str, value: f64 },
     /// A tie of a strip.
     #[error(
         "tie_stiffness holds a parapet, and mechanism = {mechanism} is none; set tie_stiffness = 0, or \
@@ -69,12 +72,9 @@ pub enum ParameterError {
          side to which it can rock, or at 0"
     )]
     StartsBehindWalls { u_start: f64, rocking: &'static str },
-    /// The start is beyond the landing.
-    #[error(
-        "u_start = {u_start} m is beyond the end of the fall at {limit} m; start the wall nearer to \
-         upright"
-    )]
-    StartBeyondLanding { u_start: f64, limit: f64 },
+    /// A start at which the wall has overturned.
+    #[error("u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: for a wall at rest set u_start = 0")]
+    StartsOverturned { u_start: f64, u_ins: f64 },
     /// Full rotations are those of rigid bodies with impacts only.
     #[error(
         "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or \

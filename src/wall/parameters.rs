@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use super::error::ParameterError;
 use crate::choices::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking,
-    Softening, Solver, TieSide, start_values,
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
+    Solver, TieSide, start_values,
 };
 
 /// The parameters of a wall and of its solution, in SI units, named as in `modelDescription.xml`.
@@ -34,7 +35,6 @@ pub struct Parameters {
     pub d1: f64,
     pub softening: Softening,
     pub damping_model: DampingModel,
-    pub damping_source: DampingSource,
     pub xi: f64,
     pub c_bar: f64,
     pub impact: Impact,
@@ -62,6 +62,44 @@ impl Default for Parameters {
     /// The start values of the model description.
     fn default() -> Self {
         start_values!(Self { kinematics: Kinematics::Linear, multilinear: None })
+    }
+}
+
+/// The parameters that are computed from the geometry where they are not given.
+pub const COMPUTABLE: [&str; 3] = ["xi", "c_bar", "restitution"];
+/// Their value that asks for the computed number.
+pub const COMPUTED: f64 = -1.0;
+
+/// Returns the number that is given; `None` for one to be computed.
+///
+/// # Errors
+/// [`ParameterError::NotGiven`] for a negative number other than [`COMPUTED`].
+pub fn given(name: &'static str, value: f64) -> Result<Option<f64>, ParameterError> {
+    match value {
+        COMPUTED => Ok(None),
+        0.0.. => Ok(Some(value)),
+        _ => Err(ParameterError::NotGiven { name, value }),
+    }
+}
+
+impl Parameters {
+    /// Sets a damping model and its number: c̄ of a free-standing block, ξ of the others, or [`COMPUTED`].
+    ///
+    /// ```
+    /// use rocking_wall::{variables::DampingModel, wall::{Parameters, Wall}};
+    ///
+    /// let mut parameters = Parameters::default();
+    /// parameters.set_damping(DampingModel::ConstantCoefficient, 0.05);
+    /// assert_eq!(Wall::new(&parameters)?.damping_ratio(), 0.05);
+    /// # Ok::<(), rocking_wall::wall::ParameterError>(())
+    /// ```
+    pub fn set_damping(&mut self, model: DampingModel, number: f64) {
+        self.damping_model = model;
+        (self.xi, self.c_bar) = match model {
+            DampingModel::None => (COMPUTED, COMPUTED),
+            DampingModel::FreeStandingBlock => (COMPUTED, number),
+            _ => (number, COMPUTED),
+        };
     }
 }
 

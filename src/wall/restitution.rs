@@ -1,10 +1,10 @@
 //! The coefficient of restitution, Eqs. (2)–(4).
 
-use crate::choices::{DampingModel, DampingSource, Impact, Mechanism, RestitutionSource, Rocking};
+use crate::choices::{DampingModel, Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::error::ParameterError;
 use super::mechanism::Body;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, given};
 
 /// Analytic coefficient of restitution of a parapet, `e_an` = 1 − (3/2) sin²α. Eq. (2).
 pub fn analytic_parapet(slenderness: f64) -> f64 {
@@ -56,25 +56,25 @@ pub fn analytic_one_sided(slenderness: f64) -> f64 {
 ///
 /// # Errors
 /// [`ParameterError::Restitution`] where a squat wall makes the formula leave 0…1,
-/// [`ParameterError::OneSided`] for what does not go with one-sided rocking.
+/// [`ParameterError::OneSided`] for what does not go with one-sided rocking, [`ParameterError::NotGiven`].
 pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, ParameterError> {
+    let number = given("restitution", parameters.restitution)?;
+    if parameters.rocking != Rocking::TwoSided {
+        return one_sided(parameters, body, number);
+    }
+    if let Some(number) = number {
+        return Ok(number);
+    }
     let analytic = match body.mechanism {
         Mechanism::Parapet => analytic_parapet(body.slenderness),
         Mechanism::VerticalSpanning => analytic_vertical_spanning(body.slenderness),
     };
     let source = parameters.restitution_source;
-    if parameters.rocking != Rocking::TwoSided {
-        return one_sided(parameters, body);
-    }
-    let value = match source {
-        RestitutionSource::Given => parameters.restitution,
-        RestitutionSource::Analytic => analytic,
-        RestitutionSource::Calibrated => calibration(body.mechanism) * analytic,
-        RestitutionSource::Momentum => match body.mechanism {
-            // Eq. (2) is the conservation of angular momentum about the new toe.
-            Mechanism::Parapet => analytic,
-            Mechanism::VerticalSpanning => momentum_vertical_spanning(body),
-        },
+    let value = match (source, body.mechanism) {
+        // Eq. (2) is the conservation of angular momentum about the new toe.
+        (RestitutionSource::Analytic, _) | (RestitutionSource::Momentum, Mechanism::Parapet) => analytic,
+        (RestitutionSource::Calibrated, mechanism) => calibration(mechanism) * analytic,
+        (RestitutionSource::Momentum, Mechanism::VerticalSpanning) => momentum_vertical_spanning(body),
     };
     if (0.0..=1.0).contains(&value) {
         Ok(value)
@@ -84,29 +84,29 @@ pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, P
 }
 
 /// e₁ of one-sided rocking \[-\].
-fn one_sided(parameters: &Parameters, body: &Body) -> Result<f64, ParameterError> {
+fn one_sided(parameters: &Parameters, body: &Body, number: Option<f64>) -> Result<f64, ParameterError> {
     let rocking = parameters.rocking.name();
     let refuse = |name, value: String, remedy| Err(ParameterError::OneSided { rocking, name, value, remedy });
     if parameters.impact != Impact::Restitution {
         return refuse("impact", parameters.impact.name().into(), "impact = restitution");
     }
-    if parameters.damping_model != DampingModel::None && parameters.damping_source != DampingSource::Given {
-        let remedy = "damping_model = none or damping_source = given";
-        return refuse("damping_source", parameters.damping_source.name().into(), remedy);
+    let (name, ratio, remedy) = match parameters.damping_model {
+        DampingModel::FreeStandingBlock => ("c_bar", parameters.c_bar, "c_bar, or damping_model = none"),
+        _ => ("xi", parameters.xi, "xi, or damping_model = none"),
+    };
+    if parameters.damping_model != DampingModel::None && given(name, ratio)?.is_none() {
+        return refuse(name, "-1 (computed)".into(), remedy);
     }
     let source = parameters.restitution_source;
-    let value = match (source, body.mechanism) {
-        (RestitutionSource::Given, _) if parameters.restitution < 1.0 => parameters.restitution,
-        (RestitutionSource::Given, _) => {
-            return refuse("restitution", parameters.restitution.to_string(), "restitution below 1");
-        }
-        (RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
-        (_, Mechanism::Parapet) => {
-            let remedy = "restitution_source = analytic, or given and restitution";
-            return refuse("restitution_source", source.name().into(), remedy);
-        }
-        (_, Mechanism::VerticalSpanning) => {
-            let remedy = "restitution_source = given and restitution";
+    let value = match (number, source, body.mechanism) {
+        (Some(number), ..) if number < 1.0 => number,
+        (Some(number), ..) => return refuse("restitution", number.to_string(), "restitution below 1"),
+        (None, RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
+        (None, _, mechanism) => {
+            let remedy = match mechanism {
+                Mechanism::Parapet => "restitution, or restitution_source = analytic",
+                Mechanism::VerticalSpanning => "restitution",
+            };
             return refuse("restitution_source", source.name().into(), remedy);
         }
     };

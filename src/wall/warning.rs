@@ -1,12 +1,14 @@
 //! What a user should know about valid parameters.
 
-use crate::choices::{DampingModel, DampingSource, Mechanism, Solver};
+use crate::choices::{DampingModel, Mechanism, Solver};
 
+use super::damping::Damping;
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::tie::Tie;
+use super::usage::{Usage, usage};
 
 /// A usual step of records and importers \[s\].
 const USUAL_STEP: f64 = 0.01;
@@ -19,9 +21,11 @@ const MOST_USUAL_STEPS: f64 = 10_000.0;
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum Warning {
+    /// A parameter that is set and has no effect.
+    NoEffect { name: &'static str, condition: &'static str },
     /// Eq. (23) outside an unloaded parapet.
-    PredictedFreeStanding,
-    /// Viscous damping predicted from e, and e applied at impacts as well.
+    ComputedFreeStanding,
+    /// Viscous damping computed from e, and e applied at impacts as well.
     CountedTwice,
     /// a₁ outside the fit of Eqs. (20)–(22).
     OutsideFit { a1: f64 },
@@ -31,8 +35,6 @@ pub enum Warning {
     Fast { omega1: f64 },
     /// A step of Newmark that makes steps expensive \[s\].
     SmallStep { step: f64 },
-    /// A start beyond the static instability displacement.
-    StartsOverturned { u_start: f64, u_ins: f64 },
     /// A tie that holds the wall beyond its instability.
     TieHolds { u_ins: f64 },
     /// A number that walls rarely have: a slip of the keyboard or another unit.
@@ -42,16 +44,19 @@ pub enum Warning {
 impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::PredictedFreeStanding => f.write_str(
-                "predicted c_bar (Eq. 23) holds for a parapet without overburden only; give c_bar instead",
+            Self::NoEffect { name, condition } => {
+                write!(f, "{name} is set and has no effect: it counts where {condition}")
+            }
+            Self::ComputedFreeStanding => f.write_str(
+                "computed c_bar (Eq. 23) holds for a parapet without overburden only; set c_bar instead",
             ),
             Self::CountedTwice => f.write_str(
-                "predicted damping already stands for the impacts: with impact = restitution the loss counts \
+                "computed damping already stands for the impacts: with impact = restitution the loss counts \
                  twice; set damping_model = none or impact = none",
             ),
             Self::OutsideFit { a1 } => write!(
                 f,
-                "a1 = {a1} is outside the range {} to {} in which predicted damping (Eqs. 20 to 22) was \
+                "a1 = {a1} is outside the range {} to {} in which computed damping (Eqs. 20 to 22) was \
                  fitted",
                 equivalence::FITTED_A1.start(),
                 equivalence::FITTED_A1.end()
@@ -70,11 +75,6 @@ impl std::fmt::Display for Warning {
                 "newmark_step = {step:e} s: {:.0} steps for each {USUAL_STEP} s, and computing takes as much \
                  longer than usual; 1e-4 s is usual",
                 USUAL_STEP / step
-            ),
-            Self::StartsOverturned { u_start, u_ins } => write!(
-                f,
-                "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: the wall has overturned at the start; \
-                 set u_start = 0 or less than u_ins"
             ),
             Self::TieHolds { u_ins } => write!(
                 f,
@@ -104,37 +104,31 @@ fn six_digits(value: f64) -> String {
 }
 
 impl Warning {
+    /// Collects the warnings of a wall; `restitution` is that of impacts, where it has them.
     pub(super) fn collect(
         parameters: &Parameters,
         body: &Body,
         force: &RestoringForce,
         tie: Option<&Tie>,
-        impact: bool,
+        damping: &Damping,
+        restitution: Option<f64>,
     ) -> Vec<Self> {
-        let mut warnings = Vec::new();
-        let model = parameters.damping_model;
-        let predicted = model != DampingModel::None && parameters.damping_source == DampingSource::Predicted;
-        let free_standing = model == DampingModel::FreeStandingBlock;
-        if predicted && free_standing && (body.mechanism != Mechanism::Parapet || body.overburden > 0.0) {
-            warnings.push(Self::PredictedFreeStanding);
+        let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);
+        let mut warnings: Vec<_> =
+            unused.map(|Usage { name, condition, .. }| Self::NoEffect { name, condition }).collect();
+        let computed = damping.is_computed;
+        let free_standing = damping.model == DampingModel::FreeStandingBlock;
+        if computed && free_standing && (body.mechanism != Mechanism::Parapet || body.overburden > 0.0) {
+            warnings.push(Self::ComputedFreeStanding);
         }
-        if predicted && impact {
+        if computed && restitution.is_some() {
             warnings.push(Self::CountedTwice);
         }
-        if predicted && !free_standing && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
+        if computed && !free_standing && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
             warnings.push(Self::OutsideFit { a1: force.elastic_fraction });
         }
-        let undamped = match model {
-            DampingModel::None => true,
-            DampingModel::FreeStandingBlock => parameters.c_bar == 0.0 && !predicted,
-            _ => parameters.xi == 0.0 && !predicted,
-        };
-        if impact && undamped && parameters.restitution == 1.0 {
+        if damping.elastic == 0.0 && restitution == Some(1.0) {
             warnings.push(Self::NeverRests);
-        }
-        let (u_start, u_ins) = (parameters.u_start, body.instability.of(parameters.u_start));
-        if u_start.abs() > u_ins {
-            warnings.push(Self::StartsOverturned { u_start, u_ins });
         }
         let held = |sign: f64| tie.is_some_and(|tie| tie.holds(sign) && tie.steadies(force, sign));
         if let Some(sign) = [1.0, -1.0].into_iter().find(|sign| held(*sign)) {

@@ -24,7 +24,7 @@ fn parapet(width: f64) -> String {
     format!(
         "inputs = [\"a_bottom\"]\n[geometry]\nheight = 1.2\nthickness = 0.3\nwidth = {width:?}\n\
          [force_law]\na1 = 0.05\n[damping]\ndamping_model = \"constant_coefficient\"\n\
-         damping_source = \"given\"\nxi = 0.05\n"
+         xi = 0.05\n"
     )
 }
 

@@ -9,8 +9,7 @@ use ground_motion::{GroundMotion, Pulse, Shape};
 use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Segment, Work};
 use rocking_wall::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking,
-    Softening, Solver, TieSide,
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Rocking, Softening, Solver, TieSide,
 };
 use rocking_wall::wall::{Parameters, Support};
 use serde_json::Value;
@@ -94,11 +93,9 @@ impl Case {
                 "SDR" => DampingModel::StiffnessProportional,
                 other => panic!("damping {other}"),
             },
-            damping_source: DampingSource::Given,
             xi: self.number("/damping/xi").unwrap_or(0.0),
             c_bar: self.number("/damping/cbar").unwrap_or(0.0),
             impact: if restitution.is_some() { Impact::Restitution } else { Impact::None },
-            restitution_source: RestitutionSource::Given,
             restitution: restitution.unwrap_or(1.0),
             rocking: self.item("/rocking", Rocking::TwoSided, Rocking::from_name),
             tie_height: self.number("/tie/y").unwrap_or(0.0),

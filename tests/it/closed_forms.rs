@@ -2,19 +2,14 @@
 
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, RestitutionSource};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RestitutionSource};
 use rocking_wall::wall::{Parameters, Support, equivalence, restitution};
 
 /// Relative to the scale of the quantity.
 const TOLERANCE: f64 = 1e-12;
 
 fn undamped() -> Parameters {
-    Parameters {
-        damping_model: DampingModel::None,
-        damping_source: DampingSource::Given,
-        impact: Impact::None,
-        ..Parameters::default()
-    }
+    Parameters { damping_model: DampingModel::None, impact: Impact::None, ..Parameters::default() }
 }
 
 fn free(simulation: &mut Simulation, duration: f64) {
@@ -101,7 +96,6 @@ fn decay_by_restitution() {
     let parameters = Parameters {
         force_law: ForceLaw::RigidLinear,
         impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
         restitution: e,
         u_start: 0.18,
         ..undamped()

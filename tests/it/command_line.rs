@@ -87,11 +87,12 @@ fn pipes_in_place_of_files_are_refused() {
 }
 
 /// A scene, and words that the message must contain.
-const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
+const BAD_SCENES: [(&str, &str, &[&str]); 25] = [
     ("unknown_key", "[geometry]\nheight = 3\ncolour = 1\n", &["line 3", "colour", "thickness"]),
     ("unknown_table", "[geomtry]\nheight = 3\n", &["line 1", "geomtry"]),
     ("wrong_table", "[geometry]\nxi = 0.1\n", &["line 2", "xi", "[damping]"]),
     ("not_toml", "title = \"a\"\nheight 3\n", &["line 2"]),
+    ("source", "[damping]\ndamping_source = \"given\"\nxi = 0.05\n", &["line 2", "leave damping_source out"]),
     ("twice", "[start]\nu_start = 0\nu_start = 1\n", &["line 3", "u_start"]),
     ("negative", "[geometry]\n\nthickness = -0.3\n", &["line 3", "thickness", "-0.3", "0.0001 m"]),
     ("nan", "[damping]\nxi = nan\n", &["line 2", "xi", "finite"]),
@@ -111,7 +112,7 @@ const BAD_SCENES: [(&str, &str, &[&str]); 24] = [
     ),
     ("exact_ratio", "[solver]\nsolver = \"exact\"\n", &["exact", "constant_ratio", "adaptive"]),
     ("eccentric", "[geometry]\noverburden = 1e6\noverburden_eccentricity = 0.3\n", &["F0", "overburden"]),
-    ("far", "[start]\nu_start = 5\n", &["u_start = 5", "2 m"]),
+    ("far", "[start]\nu_start = 5\n", &["u_start = 5 m is beyond u_ins = 0.2", "set u_start = 0"]),
     (
         "points",
         "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.1, 1.0], [0.05, 0.0]]\n",
@@ -178,7 +179,12 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--set", "xi"], &["NAME=VALUE"]);
     refused(&folder, &["simulate", "--set", "mass=3"], &["mass", "height"]);
     refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
-    refused(&folder, &["simulate", "--set", "xi=-1"], &["xi = -1 is below its limit 0\n"]);
+    refused(&folder, &["simulate", "--set", "xi=-2"], &["xi = -2 is below its limit -1\n"]);
+    refused(&folder, &["simulate", "--set", "xi=-0.5"], &["xi = -0.5", "from 0 on, or -1 for"]);
+    let gone = "xi and c_bar count where they are given";
+    refused(&folder, &["simulate", "--set", "damping_source=given"], &[gone, "leave damping_source out"]);
+    let gone = "restitution counts where it is given: leave restitution_source out";
+    refused(&folder, &["simulate", "--set", "restitution_source=given"], &[gone]);
     refused(&folder, &["simulate", "--set", "xi=much"], &["xi = \"much\" is not a number"]);
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
     refused(&folder, &["accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);

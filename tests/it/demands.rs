@@ -6,7 +6,7 @@ use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Demands, Extremes, Segment};
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, RestitutionSource};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support};
 
 use crate::command_line::{folder, refused, text, wall};
@@ -104,16 +104,12 @@ fn the_last_threshold_is_overturning() {
 /// end.
 #[test]
 fn half_cycles_are_excursions() {
-    let parameters = Parameters {
-        impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
-        restitution: 0.9,
-        ..undamped(ForceLaw::RigidLinear)
-    };
+    let parameters =
+        Parameters { impact: Impact::Restitution, restitution: 0.9, ..undamped(ForceLaw::RigidLinear) };
     let (simulation, demands) = free(&parameters, 400, &[]);
     // the first excursion had begun; the last is under way
     assert_eq!(demands.half_cycles, simulation.progress().work.impacts + 1);
-    let damped = Parameters { damping_source: DampingSource::Given, xi: 0.05, ..Parameters::default() };
+    let damped = Parameters { xi: 0.05, ..Parameters::default() };
     let (simulation, demands) = free(&damped, 3000, &[]);
     let corners = simulation.progress().work.corners;
     // out through a corner and back through it; the start was outside
@@ -132,7 +128,7 @@ proptest! {
     #[test]
     fn watching_changes_no_bit(
         parameters in walls(),
-        start in prop::sample::select(vec![0.0, 0.02, -0.5, 1.2]),
+        start in prop::sample::select(vec![0.0, 0.02, -0.5, 0.999]),
         step in prop::sample::select(vec![1e-4, 2e-3, 0.01, 1.0]),
         motion in prop::collection::vec(-1.2_f64..1.2, 8..200),
     ) {

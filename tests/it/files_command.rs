@@ -115,7 +115,7 @@ fn a_lost_stderr_does_not_end_the_program() {
     assert_eq!(status(&["simulate", "none.toml"]).code(), Some(2));
     // a wall that never comes to rest brings a warning
     let arguments = ["simulate", "s.toml", "--set", "impact=restitution", "--set", "restitution=1"];
-    let arguments = [&arguments[..], &["--set", "restitution_source=given", "--csv", "x.csv"]].concat();
+    let arguments = [&arguments[..], &["--set", "damping_model=none", "--csv", "x.csv"]].concat();
     assert!(text(&succeed(&folder, &arguments).stderr).contains("warning"));
     fs::remove_file(folder.join("x.csv")).unwrap();
     assert_eq!(status(&arguments).code(), Some(0));

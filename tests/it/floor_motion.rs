@@ -125,7 +125,6 @@ thickness = 0.3
 a1 = 0.05
 [damping]
 damping_model = \"constant_coefficient\"
-damping_source = \"given\"
 xi = 0.05
 ";
 
@@ -140,7 +139,6 @@ overburden = 5000.0
 a1 = 0.05
 [damping]
 damping_model = \"constant_coefficient\"
-damping_source = \"given\"
 xi = 0.05
 ";
 

@@ -308,7 +308,7 @@ fn other_studies_and_bad_ones_are_refused() {
     refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
     refused(&folder, &["ida", "none.toml"], &["none.toml"]);
     refused_in_words(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
-    let cases: [(&str, &str, &[&str]); 20] = [
+    let cases: [(&str, &str, &[&str]); 22] = [
         ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
         ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
         ("gap = 0.3", "values = [1]", &["line 5", "values", "no part"]),
@@ -317,7 +317,9 @@ fn other_studies_and_bad_ones_are_refused() {
         ("top = 8", "top = nan", &["top", "NaN"]),
         ("\"CDC\"", "\"CDX\"", &["line 3", "CDX", "CDR"]),
         ("\"CDC\"", "\"CR\"", &["line 3", "\"CR\"", "twice"]),
-        ("xi = 0.05", "xi = -1", &["line 3", "xi = -1", "from 0 to 100"]),
+        ("xi = 0.05", "xi = 11", &["line 3", "xi = 11 is above its limit 10"]),
+        ("xi = 0.05", "xi = -0.5", &["line 3", "xi = -0.5", "or -1 for the one computed"]),
+        ("xi = 0.05", "c_bar = 0.5", &["line 3", "takes no c_bar", "give xi"]),
         ("xi = 0.05", "e = 0.9", &["line 3", "\"e\"", "name, model, xi, c_bar"]),
         ("[report]", "[report]\nreference = \"SDR\"", &["SDR", "not among the models"]),
         ("[report]", "[report]\nfractions = [0.5, 1.5]", &["1.5", "at most 1"]),

@@ -6,9 +6,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
-use rocking_wall::variables::{
-    DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
-};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Support, Wall};
 use study::accuracy::{Setting, defaults, measure_at};
 
@@ -17,8 +15,6 @@ use crate::properties::{configuration, motions};
 fn parapet() -> Parameters {
     Parameters {
         damping_model: DampingModel::ConstantCoefficient,
-        damping_source: DampingSource::Given,
-        restitution_source: RestitutionSource::Given,
         restitution: 0.9,
         xi: 0.05,
         u_start: 0.0,

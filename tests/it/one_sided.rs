@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Phase, Segment};
 use rocking_wall::variables::{DampingModel, Impact, Mechanism, RestitutionSource, Rocking};
-use rocking_wall::wall::{Parameters, Support, Wall, restitution};
+use rocking_wall::wall::{COMPUTED, Parameters, Support, Wall, restitution};
 
 use crate::command_line::{folder, text, wall};
 use crate::properties::{configuration, motions, solvers_agree, splits, walls};
@@ -17,7 +17,6 @@ fn one_sided() -> impl Strategy<Value = Parameters> {
         Parameters {
             rocking: if positive { Rocking::OneSidedPositive } else { Rocking::OneSidedNegative },
             impact: Impact::Restitution,
-            restitution_source: RestitutionSource::Given,
             restitution: e,
             ..parameters
         }
@@ -132,7 +131,6 @@ fn undamped() -> Parameters {
     Parameters {
         rocking: Rocking::OneSidedPositive,
         impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
         restitution: 0.4,
         damping_model: DampingModel::None,
         u_start: 0.0,
@@ -153,29 +151,39 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
     refused(|p| p.impact = Impact::None, ["impact = none", "set impact = restitution"]);
     refused(|p| p.restitution = 1.0, ["restitution = 1;", "restitution below 1"]);
     refused(
-        |p| p.restitution_source = RestitutionSource::Calibrated,
-        ["restitution_source = calibrated", "restitution_source = analytic, or given"],
+        |p| p.restitution = COMPUTED,
+        ["restitution_source = calibrated", "set restitution, or restitution_source = analytic"],
     );
-    refused(|p| p.restitution_source = RestitutionSource::Momentum, ["momentum", "analytic, or given"]);
+    refused(
+        |p| {
+            p.restitution = COMPUTED;
+            p.restitution_source = RestitutionSource::Momentum;
+        },
+        ["restitution_source = momentum", "set restitution, or restitution_source = analytic"],
+    );
     refused(
         |p| {
             p.mechanism = Mechanism::VerticalSpanning;
+            p.restitution = COMPUTED;
             p.restitution_source = RestitutionSource::Analytic;
         },
-        ["restitution_source = analytic", "set restitution_source = given"],
+        ["restitution_source = analytic", "set restitution,"],
     );
     refused(
         |p| {
             p.thickness = 3.0;
+            p.restitution = COMPUTED;
             p.restitution_source = RestitutionSource::Analytic;
         },
-        ["outside 0 to 1", "restitution_source = given"],
+        ["outside 0 to 1", "set restitution"],
     );
     refused(
         |p| p.damping_model = DampingModel::StiffnessProportional,
-        ["damping_source = predicted", "damping_source = given"],
+        ["xi = -1 (computed)", "set xi, or damping_model = none"],
     );
-    refused(|p| p.u_start = -0.01, ["u_start = -0.01", "one_sided_positive"]);
+    // a start is that of a run, not of a wall
+    let behind = Wall::new(&good).unwrap().check_start(-0.01).unwrap_err().to_string();
+    assert!(behind.contains("u_start = -0.01") && behind.contains("one_sided_positive"), "{behind}");
 }
 
 /// A start at u = 0 towards the transverse walls is an impact; at rest the wall leaves where −λ a turns away.
@@ -210,7 +218,7 @@ fn one_sided_starts_and_rests() {
 fn pictures_show_the_transverse_walls() {
     let folder = folder("one_sided_pictures");
     let drawn = |rocking: &str| {
-        let sets = [&format!("rocking={rocking}"), "impact=restitution", "restitution_source=given"];
+        let sets = [&format!("rocking={rocking}"), "impact=restitution"];
         let more = ["restitution=0.4", "damping_model=none", "u_start=0", "height=3"];
         let sets = sets.into_iter().chain(more).flat_map(|set| ["--set", set]);
         let arguments = ["simulate", "--synthetic", "--html", "w.html", "--svg", "w.svg"];

@@ -6,8 +6,7 @@ use proptest::test_runner::RngSeed;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{
-    DampingModel, DampingSource, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Softening,
-    Solver,
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Softening, Solver,
 };
 use rocking_wall::wall::{Parameters, Support, Wall};
 
@@ -44,11 +43,9 @@ pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
             d1,
             softening: Softening::ALL[usize::try_from(softening).unwrap()],
             damping_model: if rigid && viscous { DampingModel::None } else { model },
-            damping_source: DampingSource::Given,
             xi,
             c_bar: xi,
             impact: if impact { Impact::Restitution } else { Impact::None },
-            restitution_source: RestitutionSource::Given,
             restitution,
             u_start: 0.0,
             u_dot_start: 0.0,

@@ -5,7 +5,7 @@ use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::Parameters;
 use study::spectrum::{
     PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, over_pulses, over_walls,
@@ -18,7 +18,6 @@ fn rigid(restitution: f64) -> Parameters {
         force_law: ForceLaw::RigidLinear,
         damping_model: DampingModel::None,
         impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
         restitution,
         ..Parameters::default()
     }
@@ -26,7 +25,7 @@ fn rigid(restitution: f64) -> Parameters {
 
 /// Returns a bilinear wall whose damping does not depend on its shape.
 fn bilinear() -> Parameters {
-    Parameters { damping_source: DampingSource::Given, xi: 0.03, ..Parameters::default() }
+    Parameters { xi: 0.03, ..Parameters::default() }
 }
 
 /// Returns the least a_p/a₀ that overturns, by bisection to rounding.

@@ -5,7 +5,7 @@ use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, TieSide};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, TieSide};
 use rocking_wall::wall::{Parameters, Support, Wall, Warning};
 
 use crate::properties::{configuration, motions, solvers_agree, splits, walls};
@@ -169,13 +169,12 @@ fn tie_force_is_a_demand() {
 fn a_slack_tie_changes_nothing() {
     let scene = |slack: f64, model: DampingModel, law: ForceLaw| {
         let mut scene = Scene::read(&crate::root().join("scenes/shaken_parapet.toml")).unwrap();
-        let damping_source = DampingSource::Given;
         scene.parameters = Parameters {
             tie_height: 4.0,
             tie_stiffness: if slack > 0.0 { 1e8 } else { 0.0 },
             tie_slack: slack,
             damping_model: model,
-            damping_source,
+            xi: 0.03,
             force_law: law,
             ..scene.parameters
         };

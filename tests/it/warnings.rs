@@ -1,10 +1,14 @@
 //! Tests what the program and the FMU warn of: numbers that walls rarely have, and starts that overturn.
 
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status};
+use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status, Step};
+use rocking_wall::scene::{GROUPS, Scene};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::RealVariable;
+use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::command_line::{folder, text, wall};
 
@@ -21,15 +25,18 @@ fn improbable_walls_are_warned_of() {
     for (changes, words) in [
         (vec!["density=1.8"], ["density = 1.8 kg/m3", "400 to 3000 kg/m3"]),
         (vec!["overburden=10"], ["overburden = 10 N", "100 to 1000000 N"]),
-        (vec![heavy, "overburden_eccentricity=0.25"], ["overburden_eccentricity = 0.25 m", "-0.2 to 0.2 m"]),
+        (
+            vec![heavy, "overburden_eccentricity=0.25", "u_start=0"],
+            ["overburden_eccentricity = 0.25 m", "-0.2 to 0.2 m"],
+        ),
         // 100 N/m times 0.07 m is 7.000000000000001 N
         (vec!["width=0.07", "overburden=1"], ["overburden = 1 N is", "7 to 70000 N"]),
         (vec!["width=0.07", "overburden=1e11"], ["overburden = 1e11 N is", "7 to 70000 N"]),
         (vec!["height=300"], ["height = 300 m", "0.2 to 30 m"]),
-        (vec!["thickness=5", "u_start=0"], ["height/thickness = 0.8 is", "1 to 100 is"]),
+        (vec!["thickness=5"], ["height/thickness = 0.8 is", "1 to 100 is"]),
         (vec!["gravity=1.62"], ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
     ] {
-        let mut arguments = vec!["simulate", "--stop-time", "0.1"];
+        let mut arguments = vec!["simulate", "--stop-time", "0.1", "--set", "u_start=0"];
         for change in changes {
             arguments.extend(["--set", change]);
         }
@@ -38,40 +45,153 @@ fn improbable_walls_are_warned_of() {
             assert!(message.contains(word), "{arguments:?}: no {word:?} in {message}");
         }
     }
-    // usual walls are silent, also where an eccentricity has no load
+    // usual walls are silent
     assert_eq!(warned(&["simulate", "--stop-time", "0.1"]), "");
-    let eccentric = ["simulate", "--stop-time", "0.1", "--set", "overburden_eccentricity=0.25"];
-    assert_eq!(warned(&eccentric), "");
 }
 
-/// The default start of 0.18 m is beyond u_ins of a wall 0.3 m thick, 0.15 m.
+/// A parameter that is set counts, or is named in a warning with what would make it count.
 #[test]
-fn a_start_beyond_u_ins_is_warned_of() {
-    let message = warned(&["simulate", "--set", "thickness=0.3", "--stop-time", "1"]);
-    assert!(message.contains("u_start = 0.18 m is beyond u_ins = 0.150000 m"), "{message}");
-    assert!(!warned(&["simulate", "--set", "thickness=0.37", "--stop-time", "1"]).contains("beyond"));
+fn a_parameter_without_effect_is_warned_of() {
+    let ratio = "damping_model = constant_coefficient, constant_ratio or stiffness_proportional";
+    let mut named = BTreeSet::new();
+    for (changes, name, condition) in [
+        (vec!["damping_model=none", "xi=0.2"], "xi", ratio),
+        (vec!["c_bar=0.2"], "c_bar", "damping_model = free_standing_block"),
+        (
+            vec!["xi=0.05", "restitution=0.9"],
+            "restitution",
+            "impact = restitution, or xi = -1, or c_bar = -1",
+        ),
+        (vec!["restitution=0.9", "restitution_source=analytic"], "restitution_source", "restitution = -1"),
+        (vec!["hinge_ratio=0.6"], "hinge_ratio", "mechanism = vertical_spanning"),
+        (vec!["overburden_eccentricity=0.1"], "overburden_eccentricity", "overburden is not 0"),
+        (
+            vec!["overburden=3000", "eccentricity_mode=follows_pivot"],
+            "eccentricity_mode",
+            "overburden_eccentricity is not 0",
+        ),
+        (
+            vec!["force_law=rigid_linear", "damping_model=none", "a1=0.05"],
+            "a1",
+            "force_law = bilinear or trilinear",
+        ),
+        (vec!["d1=0.7"], "d1", "force_law = trilinear"),
+        (vec!["softening=chord"], "softening", "a3 is not 1"),
+        (vec!["tie_height=3"], "tie_height", "tie_stiffness is not 0"),
+        (vec!["tie_slack=0.01"], "tie_slack", "tie_stiffness is not 0"),
+        (vec!["tie_strength=1000"], "tie_strength", "tie_stiffness is not 0"),
+        (vec!["tie_side=both"], "tie_side", "tie_stiffness is not 0"),
+        (
+            vec!["damping_model=constant_coefficient", "tolerance=1e-10"],
+            "tolerance",
+            "solver = adaptive, or solver = automatic and damping_model = constant_ratio or \
+             stiffness_proportional",
+        ),
+        (vec!["newmark_step=1e-4"], "newmark_step", "solver = newmark"),
+    ] {
+        let mut arguments = vec!["simulate", "--stop-time", "0.1"];
+        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
+        let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
+        assert!(warned(&arguments).ends_with(&expected), "{}\n{expected}", warned(&arguments));
+        named.insert(name);
+    }
+    // the list is complete: a new condition needs a line here
+    let conditional = usage(&Parameters::default()).filter(|usage| !usage.condition.is_empty());
+    let parameters = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+    let parameters: BTreeSet<_> = parameters.collect();
+    let conditional: BTreeSet<_> = conditional.map(|usage| usage.name).collect();
+    assert_eq!(named, &conditional & &parameters);
 }
 
+/// What a multilinear law replaces is warned of too.
 #[test]
-fn the_unit_logs_a_start_beyond_u_ins() {
-    let logged = |thickness: f64| {
-        let texts = Arc::new(Mutex::new(Vec::new()));
-        let sink = texts.clone();
-        let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
-        let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
-        let environment = Environment {
-            interface: Interface::CoSimulation,
-            instance_name: "wall",
-            resources: None,
-            payload: None,
-        };
-        let mut unit = Unit::instantiate(environment, &mut log).unwrap();
-        unit.set_real(RealVariable::Thickness, thickness);
-        unit.initialize(&mut log).unwrap();
-        texts.lock().unwrap().concat()
+fn a_law_of_points_replaces_the_named_one() {
+    let text = "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.03, 0.9], [1, 0]]\na1 = 0.05\n";
+    let scene = Scene::parse("s.toml", text, Path::new(".")).unwrap();
+    let warnings: Vec<_> =
+        Wall::new(&scene.parameters).unwrap().warnings().iter().map(ToString::to_string).collect();
+    assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
+}
+
+/// A number that is set is the one in use, whatever the start values are.
+#[test]
+fn a_number_that_is_given_counts() {
+    let used = |changes: &[&str]| {
+        let mut arguments = vec!["describe", "--json"];
+        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
+        let output = wall(&folder("given"), &arguments);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let facts: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        ["xi_used", "restitution_used"].map(|name| facts[name].as_f64().unwrap())
     };
-    assert!(logged(0.3).contains("u_start = 0.18 m is beyond u_ins"), "{}", logged(0.3));
-    assert_eq!(logged(0.4), "");
+    assert_eq!(used(&["xi=0.2"])[0], 0.2);
+    assert_eq!(used(&["xi=0"])[0], 0.0);
+    // Eq. (21) with a1 = 0.03 and the calibrated e
+    let [xi, e] = used(&[]);
+    assert!((xi + 0.350 * 0.03_f64.powf(0.074) * e.ln()).abs() < 1e-15, "{xi} {e}");
+    assert_eq!(used(&["xi=-1"]), [xi, e]);
+    assert_eq!(used(&["damping_model=none", "impact=restitution", "restitution=0.8"])[1], 0.8);
+    // a given e is behind the computed damping, too
+    assert!((used(&["restitution=0.8"])[0] + 0.350 * 0.03_f64.powf(0.074) * 0.8_f64.ln()).abs() < 1e-15);
+}
+
+/// The default start of 0.18 m is beyond u_ins of a wall 0.25 m thick, 0.125 m.
+#[test]
+fn a_start_beyond_u_ins_is_refused() {
+    let folder = folder("start_beyond");
+    let output = wall(&folder, &["simulate", "--set", "thickness=0.25"]);
+    let message = text(&output.stderr);
+    let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m: for a wall at rest set u_start = 0";
+    assert!(output.status.code() == Some(2) && message.contains(remedy), "{message}");
+    // what does not move has no start
+    assert_eq!(warned(&["describe", "--set", "thickness=0.25"]), "");
+    assert_eq!(warned(&["simulate", "--set", "thickness=0.37", "--stop-time", "1"]), "");
+}
+
+/// What a unit logs with these parameters and inputs, in co-simulation, and whether it could start.
+fn logged(parameters: &[(RealVariable, f64)], inputs: &[(RealVariable, f64)]) -> (bool, String) {
+    let texts = Arc::new(Mutex::new(Vec::new()));
+    let sink = texts.clone();
+    let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
+    let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
+    let environment = Environment {
+        interface: Interface::CoSimulation,
+        instance_name: "wall",
+        resources: None,
+        payload: None,
+    };
+    let mut unit = Unit::instantiate(environment, &mut log).unwrap();
+    for &(variable, value) in parameters {
+        unit.set_real(variable, value);
+    }
+    let started = unit.initialize(&mut log);
+    for step in 0..3_u32 {
+        for &(variable, value) in inputs {
+            unit.set_real(variable, value);
+        }
+        let step = Step { from: 0.01 * f64::from(step), duration: 0.01, may_end_early: false };
+        if started.is_ok() {
+            unit.do_step(step, &mut log).unwrap();
+        }
+    }
+    let reason = started.as_ref().err().map(|failure| failure.0.clone()).unwrap_or_default();
+    (started.is_ok(), reason + &texts.lock().unwrap().concat())
+}
+
+#[test]
+fn the_unit_warns_once_of_a_start_that_was_forgotten() {
+    use RealVariable::{ABottom, AG, D1, Thickness, UStart};
+    let (started, reason) = logged(&[(Thickness, 0.25)], &[]);
+    assert!(!started && reason.contains("u_start = 0.18 m is beyond u_ins"), "{reason}");
+    assert_eq!(logged(&[], &[]), (true, String::new()));
+    assert_eq!(logged(&[], &[(AG, 0.0)]).1, "");
+    for input in [AG, ABottom] {
+        let text = logged(&[], &[(input, 0.1)]).1;
+        assert_eq!(text.matches("released from u_start = 0.18 m, the start value").count(), 1, "{text}");
+        assert_eq!(logged(&[(UStart, 0.0)], &[(input, 0.1)]).1, "");
+        assert_eq!(logged(&[(UStart, 0.1)], &[(input, 0.1)]).1, "");
+    }
+    assert!(logged(&[(D1, 0.7)], &[]).1.starts_with("d1 is set and has no effect"));
 }
 
 /// A strip wall whose supports have motions of their own shows both, and both peaks.

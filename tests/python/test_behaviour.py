@@ -14,6 +14,7 @@ import threading
 from pathlib import Path
 
 import pytest
+from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
@@ -134,7 +135,7 @@ def test_numbers_must_be_finite(unpacked, unpacked2, bad):
         ({"overburden": 1e6, "overburden_eccentricity": 0.3}, ("F0", "overburden")),
         ({"solver": "exact"}, ("exact", "constant_ratio", "adaptive")),
         ({"force_law": "rigid_linear"}, ("rigid_linear", "free_standing_block")),
-        ({"u_start": 2.5}, ("u_start = 2.5", "2 m")),
+        ({"u_start": 2.5}, ("u_start = 2.5", "u_ins = 0.2", "set u_start = 0")),
         (
             {"thickness": 6.0, "restitution_source": "analytic", "impact": "restitution"},
             ("restitution", "squat"),
@@ -375,7 +376,6 @@ def test_output_derivatives(unpacked, model, shape):
         unit.start(
             **shape,
             damping_model=model,
-            damping_source="given",
             xi=0.05,
             c_bar=0.1,
             u_start=0.3 * u_ins,
@@ -401,7 +401,7 @@ STATES = [
     {"u_start": 0.08, "u_dot_start": 0.2},
     {"u_start": -0.12, "u_dot_start": 0.1},
     {"u_start": 0.03, "u_dot_start": -0.2, "force_law": "trilinear", "d1": 0.6},
-    {"u_start": 0.25, "u_dot_start": 0.1},
+    {"u_start": 0.195, "u_dot_start": 0.1},
 ]
 
 
@@ -417,7 +417,7 @@ def test_directional_derivatives(unpacked, model, state, shape):
     difference is rounding, 1e-10 over 1e-6, and 1e-12 of the curvature.
     """
     unknowns = [name for name in NAMES if name != "overturned"]
-    settings = {"damping_model": model, "damping_source": "given", "xi": 0.05} | shape | state
+    settings = {"damping_model": model, "xi": 0.05} | shape | state
 
     def outputs(**change):
         with Unit(unpacked) as other:
@@ -518,10 +518,26 @@ def test_a_parapet_says_once_that_it_has_no_top(unpacked):
         assert len(told) == 1
 
 
+def test_a_given_damping_ratio_counts(unpacked):
+    """`fmpy simulate wall.fmu --start-values xi 0.05`: C is proportional to xi, and history follows."""
+    given = simulate_fmu(str(unpacked.path), start_values={"xi": 0.05}, output=["u"], stop_time=3.0)
+    default = simulate_fmu(str(unpacked.path), output=["u"], stop_time=3.0)
+    assert max(abs(given["u"] - default["u"])) > 0.01
+    for xi in (0.05, -1.0):
+        with Unit(unpacked) as unit:
+            # on the elastic branch, where C = 2 m_eff omega1 xi; Eq. (21) with the calibrated e
+            unit.start(u_start=0.0, u_dot_start=0.001, xi=xi)
+            used = -0.350 * 0.03**0.074 * math.log(unit.get("restitution_used")) if xi < 0.0 else xi
+            assert unit.get("xi_used") == pytest.approx(used, rel=1e-14)
+            force = 2.0 * unit.get("effective_mass") * unit.get("omega1") * used * 0.001
+            assert unit.get("damping_force") == pytest.approx(force, rel=1e-12)
+
+
 def test_log_of_starts_and_events(unpacked):
     with Unit(unpacked, logging=True) as unit:
         unit.start(u_start=0.15, u_dot_start=1.0)
-        assert any("wants u_start = 0" in text for _, category, text in unit.messages if category == "logAll")
+        told = [text for _, category, text in unit.messages if category == "logAll"]
+        assert "released from u_start = 0.15 m" in told
         for _ in range(200):
             unit.step(0.01)
         events = [text for _, category, text in unit.messages if category == "logEvents"]
@@ -551,7 +567,6 @@ def test_the_log_names_the_solver(unpacked, settings, text):
         (
             {
                 "impact": "restitution",
-                "restitution_source": "given",
                 "restitution": 1.0,
                 "damping_model": "none",
             },

@@ -44,7 +44,6 @@ def parameters(case):
         "eccentricity_mode": {"mirrored": "fixed_to_wall", "same": "follows_pivot"}[case["c_mode"]],
         "force_law": LAWS[law["typ"]],
         "damping_model": MODELS[damping["kind"]],
-        "damping_source": "given",
         "u_start": case["u0"],
         "u_dot_start": case["v0"],
         "tolerance": 1e-12,
@@ -61,7 +60,7 @@ def parameters(case):
     if "cbar" in damping:
         values["c_bar"] = damping["cbar"]
     if "e" in damping:
-        values |= {"impact": "restitution", "restitution_source": "given", "restitution": damping["e"]}
+        values |= {"impact": "restitution", "restitution": damping["e"]}
     if "tie" in case:
         keys = {"y": "height", "K": "stiffness", "g0": "slack", "side": "side"}
         values |= {f"tie_{keys[key]}": value for key, value in case["tie"].items()}

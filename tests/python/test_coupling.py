@@ -242,7 +242,7 @@ def test_restitution_on_a_floor_that_reacts(archives, fraction, ratio):
     e, step, speed = 0.9, 1e-6, 0.5
     mass = 3.0 * 0.3 * 1800
     floor = {"mass": mass / ratio, "stiffness": 0.0, "damping_ratio": 0.0, "coupling": "impulses"}
-    wall = RIGID | {"impact": "restitution", "restitution_source": "given", "restitution": e}
+    wall = RIGID | {"impact": "restitution", "restitution": e}
     wall |= {"u_start": (1 + fraction) * speed * step, "u_dot_start": -speed}
     found = {}
     for scheme in ("iterated, held", "Jacobi, held"):

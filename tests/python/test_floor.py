@@ -351,7 +351,7 @@ def test_a_wall_and_a_floor_are_integrated_together(unpacked, unpacked_floor):
     parapet = {"height": 1.5, "thickness": 0.3, "a1": 0.05, "xi": 0.03, "u_start": 0.12}
     storey = {"mass": 2e3, "stiffness": 8e5, "damping_ratio": 0.02, "displacement_start": 0.01}
     with Exchange(unpacked) as wall, Exchange(unpacked_floor, "floor") as floor:
-        wall.run(**parapet, damping_model="constant_coefficient", damping_source="given")
+        wall.run(**parapet, damping_model="constant_coefficient")
         floor.run(**storey)
         times = 0.05 * np.arange(1, 41)
         truth = Monolith([storey], [Wall(parapet, 0)]).solve(times)

@@ -71,8 +71,8 @@ def test_a_plain_parapet_lists_what_it_needs(packages):
         ),
         (
             "strip_between_floors",
-            {"a_bottom", "a_top", "drift", "hinge_ratio", "overburden", "d1"},
-            {"a_g", "xi", "c_bar"},
+            {"a_bottom", "a_top", "drift", "hinge_ratio", "overburden", "d1", "xi", "restitution"},
+            {"a_g", "c_bar", "tie_height"},
         ),
         (
             "rigid_block",

@@ -115,7 +115,7 @@ CASES = {
     "&thickness=0.25&kind=ricker&amplitude=6&frequency=1.5&centre=1.5",
     "a rigid block": "force_law=rigid_linear&damping_model=none&impact=restitution&kind=harmonic"
     "&amplitude=1.2&frequency=0.8&duration=6",
-    "a fall": "height=2&thickness=0.2&pga=8&damping_model=constant_coefficient&damping_source=predicted",
+    "a fall": "height=2&thickness=0.2&pga=8&damping_model=constant_coefficient",
     "a tied parapet": "tie_stiffness=50000&tie_height=3.5&tie_side=both&tie_slack=0.01&pga=4",
     "a wall that transverse walls stop": "rocking=one_sided_negative&damping_model=none&impact=restitution"
     "&restitution_source=analytic&pga=3",

@@ -12,14 +12,14 @@ PARAPET = {"height": 3.0, "thickness": 0.4, "overburden": 8000.0, "overburden_ec
 STRIP = {"mechanism": "vertical_spanning", "height": 2.75, "thickness": 0.12, "hinge_ratio": 0.6,
          "overburden": 6000.0, "overburden_eccentricity": 0.02}  # fmt: skip
 LAWS = {
-    "rocking": {"a1": 0.05, "damping_model": "constant_ratio", "damping_source": "given", "xi": 0.03,
+    "rocking": {"a1": 0.05, "damping_model": "constant_ratio", "xi": 0.03,
                 "u_start": 0.03},
     "trilinear": {"force_law": "trilinear", "d1": 0.7, "a1": 0.05, "damping_model": "stiffness_proportional",
-                  "damping_source": "given", "xi": 0.05, "u_start": 0.03},
-    "impacts": {"a1": 0.03, "damping_model": "none", "impact": "restitution", "restitution_source": "given",
+                  "xi": 0.05, "u_start": 0.03},
+    "impacts": {"a1": 0.03, "damping_model": "none", "impact": "restitution",
                 "restitution": 0.8, "u_start": 0.05},
     "rigid": {"force_law": "rigid_linear", "damping_model": "none", "impact": "restitution",
-              "restitution_source": "given", "restitution": 0.85, "u_start": 0.0},
+              "restitution": 0.85, "u_start": 0.0},
 }  # fmt: skip
 # Motions that make the walls rock, rest and impact without overturning, which would end the contact.
 FACTORS = {"parapet": 1.0, "strip": 0.3, "strip rigid": 1.7}

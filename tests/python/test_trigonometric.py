@@ -209,7 +209,6 @@ force_law = "rigid_linear"
 damping_model = "none"
 [impact]
 impact = "restitution"
-restitution_source = "given"
 {numbers(["restitution"])}
 [start]
 {numbers(["u_start"])}

@@ -61,8 +61,12 @@ def test_runs(record):
 
 
 def test_warnings():
-    with pytest.warns(UserWarning, match="u_start = 0.2 m is beyond u_ins"):
+    with pytest.raises(ValueError, match="u_start = 0.2 m is beyond u_ins"):
         rw.Wall(height=3, thickness=0.25, u_start=0.2).simulate()
+    with pytest.raises(ValueError, match="u_start = 0.2 m is beyond u_ins"):
+        rw.Wall(height=3, thickness=0.25, u_start=0.2).peaks(rw.sine_cycle(1.0, 2.0), [1.0])
+    with pytest.warns(UserWarning, match="d1 is set and has no effect: it counts where force_law = trilinear"):
+        rw.Wall(height=3, thickness=0.25, d1=0.7).simulate(rw.sine_cycle(1.0, 2.0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         rw.Wall(height=3, thickness=0.25).simulate(rw.sine_cycle(1.0, 2.0))

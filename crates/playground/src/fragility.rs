@@ -4,8 +4,8 @@ use figures::number;
 use figures::palette::{AMBER, BLUE, GREY, Mark};
 use figures::plot::{Axis, Look, Plot, Series};
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
-use rocking_wall::variables::{DampingModel, DampingSource, Impact};
-use rocking_wall::wall::Parameters;
+use rocking_wall::variables::{DampingModel, Impact};
+use rocking_wall::wall::{COMPUTED, Parameters};
 use serde_json::{Value, json};
 use study::fragility::{Bootstrap, ObservationKind, Summary, compare, steps};
 use study::ida::{
@@ -127,10 +127,8 @@ impl Fragility {
 
 /// The energy loss of a wall as a study knows it.
 fn damping(parameters: &Parameters) -> Result<Damping, String> {
-    let source = |given: f64| match parameters.damping_source {
-        DampingSource::Given => RatioSource::Given(given),
-        DampingSource::Predicted => RatioSource::Predicted,
-    };
+    let source =
+        |number: f64| if number == COMPUTED { RatioSource::Predicted } else { RatioSource::Given(number) };
     let (ratio, c_bar) = (source(parameters.xi), source(parameters.c_bar));
     match (parameters.damping_model, parameters.impact) {
         (DampingModel::None, Impact::None) => Ok(Damping::None),

@@ -1,10 +1,13 @@
 //! What the page's fields need to know of the model description.
 
+use figures::number;
 use fmu_export::{Kind, VariableId};
-use rocking_wall::scene::{GROUPS, parameter_text};
+use rocking_wall::scene::{GROUPS, Scene, parameter_text};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{COMPUTABLE, Parameters, Wall, equivalence, usage};
 use serde_json::{Value, json};
+
+use crate::request::Fields;
 
 /// Describes every parameter: name, table, meaning, unit, default and the names of its choices.
 pub(crate) fn described() -> Value {
@@ -12,11 +15,30 @@ pub(crate) fn described() -> Value {
     names.map(|(group, name)| described_one(group, name)).collect()
 }
 
+/// Lists the parameters that do not matter beside the others. Texts that are not values stand for defaults.
+pub(crate) fn unused(fields: &Fields) -> Value {
+    let mut scene = Scene::default();
+    for (name, text) in fields {
+        // the run says what is wrong with it
+        let _ = scene.set(name, text);
+    }
+    usage(&scene.parameters).filter(|usage| !usage.matters).map(|usage| usage.name).collect()
+}
+
+/// Returns the numbers that are computed where they are not given.
+pub(crate) fn computed(wall: &Wall) -> Value {
+    let e = wall.restitution();
+    let c_bar = if e > 0.0 { equivalence::free_standing_block(e) } else { 0.0 };
+    let [xi, c_bar, e] = [wall.damping_ratio(), c_bar, e].map(|value| number(value, 3));
+    json!({ "xi": xi, "c_bar": c_bar, "restitution": e })
+}
+
 fn described_one(group: &str, name: &str) -> Value {
     let real = RealVariable::from_name(name).map(VariableId::variable);
     let variable = real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable));
     let Some(variable) = variable else { return Value::Null };
     let default = parameter_text(&Parameters::default(), name).unwrap_or_default();
+    let is_computable = COMPUTABLE.contains(&name);
     let choices: Vec<Value> = match variable.kind {
         Kind::Enumeration { items, .. } => {
             items.iter().map(|item| json!({ "name": item.name, "meaning": item.description })).collect()
@@ -28,8 +50,9 @@ fn described_one(group: &str, name: &str) -> Value {
         "group": group,
         "meaning": variable.description,
         "unit": variable.unit.filter(|unit| *unit != "1"),
-        // a whole number without `.0`, a name without quotes
-        "default": default.trim_matches('"').trim_end_matches(".0"),
+        // a whole number without `.0`, a name without quotes; nothing where a number is computed
+        "default": if is_computable { "" } else { default.trim_matches('"').trim_end_matches(".0") },
+        "computable": is_computable,
         "choices": choices,
     })
 }

@@ -15,6 +15,8 @@ pub(crate) type Faults = BTreeMap<String, String>;
 pub(crate) enum Request {
     /// Describe the parameters.
     Parameters,
+    /// List the parameters that do not matter beside the others.
+    Unused(Fields),
     /// Run a wall under a motion.
     Run(Inputs),
     /// Start the fragility of a wall.

@@ -37,6 +37,7 @@ impl Session {
     pub fn answer(&mut self, request: &str) -> String {
         let answer = match serde_json::from_str(request) {
             Ok(Request::Parameters) => Ok(parameters::described()),
+            Ok(Request::Unused(fields)) => Ok(parameters::unused(&fields)),
             Ok(Request::Run(inputs)) => self.run(&inputs),
             Ok(Request::Frames) => return self.frames(),
             Ok(Request::Fragility(inputs)) => self.start_fragility(&inputs),
@@ -80,6 +81,7 @@ impl Session {
             "verdict": verdict(scene, wall, &response),
             "facts": facts(scene, wall, &response),
             "warnings": warnings,
+            "computed": parameters::computed(wall),
             "notes": scene.motion_notes,
             "charts": Charts::new(wall, &response, inputs.width).inline(),
             "wall": {

@@ -129,7 +129,45 @@ fn every_parameter_is_described() {
     let all = answer["answer"].as_array().unwrap();
     let height = all.iter().find(|one| one["name"] == "height").unwrap();
     assert_eq!((&height["default"], &height["unit"]), (&json!("4"), &json!("m")));
-    assert!(all.iter().all(|one| !one["default"].as_str().unwrap().is_empty()));
+    let is_empty = |one: &&Value| one["default"].as_str().unwrap().is_empty();
+    let without: Vec<_> = all.iter().filter(is_empty).map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(without, ["xi", "c_bar", "restitution"], "they are computed");
+}
+
+/// The page shows the fields that matter, by the conditions of the model description.
+#[test]
+fn the_library_says_which_parameters_do_not_matter() {
+    let mut session = Session::default();
+    let mut unused = |parameters: Value| {
+        let answer = ask(&mut session, &json!({ "unused": parameters }));
+        let names = answer["answer"].as_array().unwrap_or_else(|| panic!("{answer}"));
+        names.iter().map(|name| name.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let plain = unused(json!({}));
+    assert!(
+        ["d1", "tie_height", "c_bar"].iter().all(|name| plain.contains(&(*name).to_owned())),
+        "{plain:?}"
+    );
+    assert!(!plain.contains(&"xi".to_owned()));
+    let changed =
+        unused(json!({ "force_law": "trilinear", "tie_stiffness": "1e5", "damping_model": "none" }));
+    assert!(!changed.iter().any(|name| name == "d1" || name == "tie_height"), "{changed:?}");
+    assert!(changed.contains(&"xi".to_owned()) && changed.contains(&"restitution".to_owned()));
+    // a number that is being typed hides nothing
+    assert_eq!(unused(json!({ "height": "-" })), plain);
+}
+
+/// A number left empty is computed and shown; one that is given counts.
+#[test]
+fn a_given_number_counts() {
+    let motion = json!({ "kind": "none" });
+    let run = |parameters| run(&mut Session::default(), &parameters, &motion)["answer"].clone();
+    let [computed, given] = [run(json!({})), run(json!({ "xi": "0.2" }))];
+    assert_eq!(computed["computed"]["xi"], "0.0179");
+    assert_eq!(given["computed"]["xi"], "0.2");
+    assert!(given["toml"].as_str().unwrap().contains("xi = 0.2"));
+    assert!(!computed["toml"].as_str().unwrap().contains("xi"));
+    assert_ne!(computed["facts"], given["facts"]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, check_thresholds, p
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::record::RecordSolver;
 use rocking_wall::solver::{Method, Motion};
-use rocking_wall::wall::{Wall as Equation, Warning};
+use rocking_wall::wall::Wall as Equation;
 use scene_fmu::General;
 use study::ida::Shaking;
 
@@ -59,12 +59,10 @@ impl Wall {
         &self.scene.title
     }
 
-    /// Returns what is unusual about the wall; a run warns of its start.
+    /// Returns what is unusual about the wall.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        let of_start = |warning: &&Warning| matches!(warning, Warning::StartsOverturned { .. });
-        let warnings = self.equation.warnings().iter().filter(|warning| !of_start(warning));
-        warnings.map(ToString::to_string).collect()
+        self.equation.warnings().iter().map(ToString::to_string).collect()
     }
 
     /// Returns the parameters as texts of a scene file.
@@ -162,6 +160,7 @@ impl Wall {
         let mut parameters = self.scene.parameters.clone();
         parameters.u_start = self.start.unwrap_or(0.0);
         let motion = Motion::of(&parameters, parameters.tolerance).map_err(refused)?;
+        motion.wall().check_start(parameters.u_start).map_err(refused)?;
         // a wall on storeys feels the floors until the tail ends
         let record = match &self.scene.floors {
             None => record,

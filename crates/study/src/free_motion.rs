@@ -1,8 +1,8 @@
 //! Free motion of a wall, with impacts or with viscous damping.
 
 use rocking_wall::solver::{Memo, Motion, Report, Segment, SolverError, State};
-use rocking_wall::variables::{DampingModel, DampingSource, Impact, RestitutionSource};
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::variables::{DampingModel, Impact};
+use rocking_wall::wall::{COMPUTED, Parameters, Support, Wall};
 
 /// By how much rounding may raise the energy, relative to that at the peak.
 const ENERGY_ROUNDING: f64 = 1e-13;
@@ -34,23 +34,14 @@ pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
 
 /// Returns a wall with restitution and no damping.
 pub(crate) fn with_restitution(parameters: &Parameters, restitution: f64) -> Parameters {
-    Parameters {
-        damping_model: DampingModel::None,
-        impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
-        restitution,
-        ..parameters.clone()
-    }
+    let mut rocking = Parameters { impact: Impact::Restitution, restitution, ..parameters.clone() };
+    rocking.set_damping(DampingModel::None, COMPUTED);
+    rocking
 }
 
 /// Returns a wall with a damping ratio, ξ or c̄, and no impacts.
 pub(crate) fn with_damping(parameters: &Parameters, damping_model: DampingModel, ratio: f64) -> Parameters {
-    Parameters {
-        damping_model,
-        damping_source: DampingSource::Given,
-        xi: ratio,
-        c_bar: ratio,
-        impact: Impact::None,
-        ..parameters.clone()
-    }
+    let mut damped = Parameters { impact: Impact::None, restitution: COMPUTED, ..parameters.clone() };
+    damped.set_damping(damping_model, ratio);
+    damped
 }

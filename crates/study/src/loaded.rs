@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use ground_motion::{GroundMotion, GroundMotionError, read};
 use rocking_wall::scene::{Scene, SceneError};
-use rocking_wall::wall::{Wall, Warning};
+use rocking_wall::wall::{COMPUTED, Parameters, Wall, Warning};
 
 use crate::document::{
     RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text,
 };
-use crate::ida::{NamedRecord, NamedWall, Study};
+use crate::ida::{Model, NamedRecord, NamedWall, Study};
 use crate::wall_table;
 
 /// Largest study file that is read.
@@ -60,7 +60,7 @@ impl LoadedStudy {
             walls.extend(wall(entry, folder, &name, &mut inputs, &mut warnings)?);
         }
         for wall in &walls {
-            warn(wall, &mut warnings);
+            warn(wall, &file.models, &mut warnings);
         }
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
@@ -166,14 +166,33 @@ fn wall(
                     "wall {name:?}: the study ignores the motion of its scene and uses its records"
                 ));
             }
+            let Parameters { xi, c_bar, .. } = scene.parameters;
+            if xi != COMPUTED || c_bar != COMPUTED {
+                warnings.push(format!(
+                    "wall {name:?}: the study ignores the damping of its scene and uses its models"
+                ));
+            }
             let floors = entry.floors.or(scene.floors);
             Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
         }
     }
 }
 
-/// Adds what is improbable about a wall.
-fn warn(NamedWall { name, parameters, floors }: &NamedWall, warnings: &mut Vec<String>) {
+/// Returns the parameters of a wall that are set and have no effect with any of the models.
+fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
+    let of_model = |model: &Model| {
+        let wall = Wall::new(&model.applied_to(parameters).ok()?).ok()?;
+        Some(wall.warnings().iter().filter(|w| matches!(w, Warning::NoEffect { .. })).cloned().collect())
+    };
+    let common =
+        |left: Vec<Warning>, right: Vec<Warning>| left.into_iter().filter(|w| right.contains(w)).collect();
+    models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
+}
+
+/// Adds what is improbable about a wall, and what has no effect.
+fn warn(NamedWall { name, parameters, floors }: &NamedWall, models: &[Model], warnings: &mut Vec<String>) {
+    let unused = unused(parameters, models);
+    warnings.extend(unused.iter().map(|warning| format!("wall {name:?}: {warning}")));
     let made = Wall::new(parameters);
     let about_work = made.iter().flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
     warnings.extend(about_work.map(|warning| format!("wall {name:?}: {warning}")));

@@ -4,8 +4,8 @@ use anyhow::{Result, bail};
 use figures::{escaped, number, response as plots};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::{DampingModel, DampingSource, Impact, Mechanism};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::variables::{Impact, Mechanism};
+use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::demands;
 use crate::linearisation::Counterpart;
@@ -226,8 +226,7 @@ fn if_any(name: &str, symbol: &str, value: f64, unit: &str) -> String {
 
 /// What happens at u = 0. Without impacts e matters only where the damping is predicted from it.
 fn impact(parameters: &Parameters, e: f64) -> String {
-    let predicted = parameters.damping_model != DampingModel::None
-        && parameters.damping_source == DampingSource::Predicted;
+    let predicted = usage(parameters).any(|usage| usage.name == "restitution" && usage.matters);
     match parameters.impact {
         Impact::Restitution => format!("restitution, e = {e:.3}"),
         Impact::None if predicted => format!("none; the damping stands for e = {e:.3}"),

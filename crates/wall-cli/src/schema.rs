@@ -59,6 +59,9 @@ fn study() -> Result<Value> {
     for table in ["StoreyTable", "SupportsTable"] {
         schema["$defs"][table] = of_scene["$defs"][table].clone();
     }
+    for (name, number) in parameters(&["xi", "c_bar"]) {
+        schema["$defs"]["Model"]["properties"][name] = number;
+    }
     let properties = &mut schema["$defs"]["Wall"]["properties"];
     for (group, names) in GROUPS.iter().filter(|(group, _)| !["damping", "start"].contains(group)) {
         // the models of the study set the impact
@@ -81,14 +84,19 @@ fn building() -> Result<Value> {
     Ok(schema)
 }
 
-/// Makes the schema of a table of parameters.
-fn table(group: &str, names: &[&str]) -> Value {
+/// Makes the schemas of parameters by their names.
+fn parameters(names: &[&str]) -> Map<String, Value> {
     let find = |name: &str| {
         let real = RealVariable::from_name(name).map(VariableId::variable);
         real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable))
     };
     let member = |name: &&str| Some(((*name).to_owned(), parameter(find(name)?)?));
-    let mut members: Map<String, Value> = names.iter().filter_map(member).collect();
+    names.iter().filter_map(member).collect()
+}
+
+/// Makes the schema of a table of parameters.
+fn table(group: &str, names: &[&str]) -> Value {
+    let mut members = parameters(names);
     if group == "geometry" {
         members.insert(
             KINEMATICS.into(),

@@ -9,7 +9,7 @@ use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use study::parallel;
 use study::spectrum::{Point, PulseForm, Size, Slenderness, over_pulses, over_walls};
 
@@ -243,16 +243,30 @@ fn values(option: &str, given: Option<&str>, default: [f64; 2], count: usize) ->
     Ok((0..count).map(value).collect())
 }
 
+/// A number that is given, or how it is computed.
+fn given_or(number: f64, computed: &str) -> String {
+    if number == COMPUTED { computed.to_owned() } else { number.to_string() }
+}
+
 /// The force law, damping and impact in words.
 fn law(parameters: &Parameters) -> String {
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let damping = match parameters.damping_model {
         DampingModel::None => "no damping".to_owned(),
-        model => format!("{} damping ({})", model.name(), parameters.damping_source.name()),
+        model => {
+            let number = match model {
+                DampingModel::FreeStandingBlock => parameters.c_bar,
+                _ => parameters.xi,
+            };
+            format!("{} damping ({})", model.name(), given_or(number, "computed"))
+        }
     };
     let impact = match parameters.impact {
         Impact::None => "no impact".to_owned(),
-        Impact::Restitution => format!("restitution ({})", parameters.restitution_source.name()),
+        Impact::Restitution => {
+            let source = parameters.restitution_source.name();
+            format!("restitution ({})", given_or(parameters.restitution, source))
+        }
     };
     format!("{law} law, {damping}, {impact}").replace('_', " ")
 }

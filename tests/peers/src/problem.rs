@@ -5,7 +5,7 @@ use std::path::Path;
 use ground_motion::GroundMotion;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Segment, SolverError};
-use rocking_wall::variables::{DampingModel, DampingSource, Solver};
+use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support};
 use serde::Serialize;
 
@@ -94,7 +94,6 @@ impl Problem {
             thickness: parapet.thickness,
             a1: parapet.a1,
             damping_model,
-            damping_source: DampingSource::Predicted,
             u_start: 0.0,
             tolerance: REFERENCE_TOLERANCE,
             ..Parameters::default()

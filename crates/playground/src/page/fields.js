@@ -1,13 +1,9 @@
-// The fields of the page. Names, units, defaults and choices of parameters come from the library; here are
-// their labels, the ranges of their sliders, and when they matter.
-const viscous = v => v.damping_model !== "none";
-const given = v => viscous(v) && v.damping_source === "given";
-const block = v => v.damping_model === "free_standing_block";
-const elastic = v => v.force_law !== "rigid_linear";
+// The fields of the page. Names, units, defaults and choices of parameters come from the library, and so does
+// which of them matter; here are their labels, the ranges of their sliders, and when fields of the motion are
+// shown.
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
 const parapet = v => v.mechanism === "parapet";
-const tied = v => parapet(v) && Number(v.tie_stiffness) !== 0;
 const GROUPS = [
   ["Wall", [
     { name: "mechanism", label: "Kind",
@@ -15,12 +11,10 @@ const GROUPS = [
     { name: "height", label: "Height", range: [0.5, 8, 0.05] },
     { name: "thickness", label: "Thickness", range: [0.08, 1, 0.01] },
     { name: "overburden", label: "Load on top", range: [0, 100000, 500] },
-    { name: "overburden_eccentricity", label: "Eccentricity of the load", range: [-0.3, 0.3, 0.01],
-      when: v => Number(v.overburden) !== 0 },
-    { name: "eccentricity_mode", label: "The load bears", when: v => Number(v.overburden_eccentricity) !== 0,
+    { name: "overburden_eccentricity", label: "Eccentricity of the load", range: [-0.3, 0.3, 0.01] },
+    { name: "eccentricity_mode", label: "The load bears",
       names: { fixed_to_wall: "at a fixed point", follows_pivot: "towards the pivot" } },
-    { name: "hinge_ratio", label: "Hinge height / height", range: [0.3, 0.9, 0.01],
-      when: v => v.mechanism === "vertical_spanning" },
+    { name: "hinge_ratio", label: "Hinge height / height", range: [0.3, 0.9, 0.01] },
     { name: "width", label: "Width", more: true },
     { name: "density", label: "Density", more: true },
     { name: "gravity", label: "Gravity", more: true },
@@ -53,31 +47,28 @@ const GROUPS = [
   ["Force law", [
     { name: "force_law", label: "Law",
       names: { rigid_linear: "rigid", bilinear: "bilinear", trilinear: "trilinear" } },
-    { name: "a1", label: "Elastic up to a1", range: [0.005, 0.2, 0.005], when: elastic },
-    { name: "d1", label: "Plateau d1", range: [0.3, 1, 0.01], when: v => v.force_law === "trilinear" },
-    { name: "a3", label: "Force ends at a3", range: [0.5, 1, 0.01], when: elastic },
-    { name: "softening", label: "Softening", when: v => elastic(v) && Number(v.a3) !== 1 },
+    { name: "a1", label: "Elastic up to a1", range: [0.005, 0.2, 0.005] },
+    { name: "d1", label: "Plateau d1", range: [0.3, 1, 0.01] },
+    { name: "a3", label: "Force ends at a3", range: [0.5, 1, 0.01] },
+    { name: "softening", label: "Softening" },
   ]],
   ["Energy loss", [
     { name: "damping_model", label: "Damping", names: { none: "none", constant_coefficient:
       "constant coefficient", free_standing_block: "free-standing block", constant_ratio: "constant ratio",
       stiffness_proportional: "stiffness proportional" } },
-    { name: "damping_source", label: "Its ratio", when: viscous,
-      names: { given: "given", predicted: "predicted" } },
-    { name: "xi", label: "Damping ratio xi", range: [0, 0.2, 0.005], when: v => given(v) && !block(v) },
-    { name: "c_bar", label: "Damping c_bar", range: [0, 0.5, 0.01], when: v => given(v) && block(v) },
+    { name: "xi", label: "Damping ratio xi", range: [0, 0.2, 0.005] },
+    { name: "c_bar", label: "Damping c_bar", range: [0, 0.5, 0.01] },
     { name: "impact", label: "At impacts", names: { none: "nothing", restitution: "restitution" } },
-    { name: "restitution_source", label: "Restitution", when: v => v.impact === "restitution" },
-    { name: "restitution", label: "Restitution e", range: [0.5, 1, 0.005],
-      when: v => v.impact === "restitution" && v.restitution_source === "given" },
+    { name: "restitution", label: "Restitution e", range: [0.5, 1, 0.005] },
+    { name: "restitution_source", label: "Restitution, if computed" },
   ]],
   ["Ties and transverse walls", [
     { name: "tie_stiffness", label: "Stiffness of a tie", range: [0, 1000000, 5000], when: parapet },
-    { name: "tie_height", label: "Height of the tie", start: "3", range: [0.1, 8, 0.05], when: tied },
-    { name: "tie_side", label: "It resists", when: tied,
+    { name: "tie_height", label: "Height of the tie", start: "3", range: [0.1, 8, 0.05] },
+    { name: "tie_side", label: "It resists",
       names: { positive: "u above 0", negative: "u below 0", both: "both" } },
-    { name: "tie_slack", label: "Slack of the tie", range: [0, 0.1, 0.001], when: tied },
-    { name: "tie_strength", label: "Strength of the tie", range: [0, 20000, 100], when: tied },
+    { name: "tie_slack", label: "Slack of the tie", range: [0, 0.1, 0.001] },
+    { name: "tie_strength", label: "Strength of the tie", range: [0, 20000, 100] },
     { name: "rocking", label: "It rocks",
       names: { two_sided: "to both sides", one_sided_positive: "to u above 0",
         one_sided_negative: "to u below 0" } },

@@ -5,6 +5,7 @@ const make = (tag, properties = {}, ...children) => {
   return element;
 };
 const values = {}, starts = {}, rows = {};
+let computed = {};
 let library, shown = null, timings = [];
 
 // ---- the library
@@ -85,6 +86,7 @@ function row(field, about) {
     const input = make("input", { type: "text", id, inputMode: "decimal", title: meaning });
     input.setAttribute("aria-describedby", fault.id);
     input.addEventListener("input", () => set(field.name, input.value));
+    field.computable = about.computable;
     element.append(input, make("small", { textContent: (field.unit ?? about.unit ?? "").replace("2", "²")
       .replace("m3", "m³") }));
     if (field.range) {
@@ -101,13 +103,22 @@ function row(field, about) {
 }
 // Shows the values in the fields, and the fields that matter.
 function refresh() {
+  const parameters = FIELDS.filter(field => field.parameter && values[field.name] !== "");
+  const fields = Object.fromEntries(parameters.map(({ name }) => [name, values[name]]));
+  const unused = ask({ unused: fields }).answer ?? [];
   for (const field of FIELDS) {
     const element = rows[field.name], value = values[field.name];
-    element.hidden = !(field.when?.(values) ?? true);
+    element.hidden = unused.includes(field.name) || !(field.when?.(values) ?? true);
     for (const input of element.querySelectorAll("input:not([type=file]), select")) {
-      if (input.value !== value && !(input === document.activeElement && input.type === "text")) {
-        input.value = value;
+      const shown = value === "" && input.type === "range" ? computed[field.name] ?? "" : value;
+      if (input.value !== shown && !(input === document.activeElement && input.type === "text")) {
+        input.value = shown;
       }
+    }
+    if (field.computable) {
+      // an empty field shows the number that the library computes
+      element.querySelector("input").placeholder = computed[field.name] ?? "";
+      element.querySelector("small").textContent = value === "" ? "computed" : "";
     }
   }
   for (const details of document.querySelectorAll("form details")) {
@@ -135,6 +146,7 @@ async function load(file) {
 function inputs(width) {
   const parameters = {}, motion = {};
   for (const field of FIELDS.filter(field => !rows[field.name].hidden)) {
+    if (field.computable && values[field.name] === "") { continue; }
     (field.parameter ? parameters : motion)[field.name] = values[field.name];
   }
   return { parameters, motion, width };
@@ -176,6 +188,8 @@ function tell(faults) {
 }
 function show(answer) {
   shown = answer;
+  computed = answer.computed;
+  refresh();
   at("verdict").className = `verdict ${answer.verdict.state}`;
   at("headline").textContent = answer.verdict.headline;
   at("detail").textContent = answer.verdict.detail;

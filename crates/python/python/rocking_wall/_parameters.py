@@ -27,63 +27,62 @@ class Parameters(TypedDict, total=False):
     """Acceleration of gravity [m/s2], at least 0.001, at most 1000; default 9.81."""
 
     hinge_ratio: float
-    """Height of the intermediate hinge as a fraction of height; vertical_spanning only, at least 0.01, at
-    most 0.99; default 0.5."""
+    """Height of the intermediate hinge as a fraction of height; where mechanism = vertical_spanning, at least
+    0.01, at most 0.99; default 0.5."""
 
     overburden: float
     """Vertical force on the top section, without mass, for the whole width [N], at least 0, at most 1e+12;
     default 0.0."""
 
     overburden_eccentricity: float
-    """Distance of the overburden from the centre of the top section, positive towards +u [m], at least -100,
-    at most 100; default 0.0."""
+    """Distance of the overburden from the centre of the top section, positive towards +u; where overburden is
+    not 0 [m], at least -100, at most 100; default 0.0."""
 
     eccentricity_mode: Literal["fixed_to_wall", "follows_pivot"]
-    """Whether the eccentricity changes sides with the wall; used with overburden_eccentricity; default
+    """Whether the eccentricity changes sides with the wall; where overburden_eccentricity is not 0; default
     fixed_to_wall."""
 
     force_law: Literal["rigid_linear", "bilinear", "trilinear", "multilinear"]
     """Shape of the restoring force; default bilinear."""
 
     a1: float
-    """End of the elastic branch as a fraction of u_ins; ignored by rigid_linear, at least 1e-09, at most 1;
-    default 0.03."""
+    """End of the elastic branch as a fraction of u_ins; where force_law = bilinear or trilinear, at least
+    1e-09, at most 1; default 0.03."""
 
     a3: float
     """End of the softening branch as a fraction of u_ins, at least 1e-09, at most 1; default 1.0."""
 
     d1: float
-    """Plateau force as a fraction of F0; trilinear only, at least 1e-09, at most 1; default 0.85."""
+    """Plateau force as a fraction of F0; where force_law = trilinear, at least 1e-09, at most 1; default
+    0.85."""
 
     softening: Literal["parallel", "rotated", "chord"]
-    """What the softening branch keeps to end at a3; no difference where a3 is 1; default parallel."""
+    """What the softening branch keeps to end at a3; where a3 is not 1; default parallel."""
 
     damping_model: Literal[
         "none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"
     ]
     """Continuous damping; default constant_ratio."""
 
-    damping_source: Literal["given", "predicted"]
-    """Where xi or c_bar comes from; ignored by the damping model none; default predicted."""
-
     xi: float
-    """Damping ratio; used only where damping_source is given, ignored by free_standing_block, at least 0, at
-    most 10; default 0.03."""
+    """Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22); where
+    damping_model = constant_coefficient, constant_ratio or stiffness_proportional, at least -1, at most 10;
+    default -1.0."""
 
     c_bar: float
-    """Damping constant of free_standing_block; used only where damping_source is given, at least 0, at most
-    100; default 0.1."""
+    """Damping constant of a free-standing block; -1: computed from restitution (Eq. 23); where damping_model
+    = free_standing_block, at least -1, at most 100; default -1.0."""
 
     impact: Literal["none", "restitution"]
     """What happens when the wall passes through zero displacement; default none."""
 
-    restitution_source: Literal["given", "analytic", "calibrated", "momentum"]
-    """Where the coefficient of restitution comes from, for impacts and for predicted damping; default
+    restitution_source: Literal["analytic", "calibrated", "momentum"]
+    """How the coefficient of restitution is computed from the geometry; where restitution = -1; default
     calibrated."""
 
     restitution: float
-    """Coefficient of restitution; used only where restitution_source is given, at least 0, at most 1; default
-    0.9."""
+    """Coefficient of restitution at impacts and behind damping; -1: as restitution_source says; where impact
+    = restitution, or xi = -1, or c_bar = -1, at least -1, at most 1; default -1.0."""
 
     rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
     """Sides to which the wall can rock; one-sided rocking needs impact = restitution; default two_sided."""
@@ -99,29 +98,32 @@ class Parameters(TypedDict, total=False):
     """Integration method; default automatic."""
 
     tolerance: float
-    """Relative tolerance of the adaptive solver; the tighter of this and the importer's applies, at least
+    """Relative tolerance of the adaptive solver; the tighter of this and the importer's applies; where solver
+    = adaptive, or solver = automatic and damping_model = constant_ratio or stiffness_proportional, at least
     1e-15, at most 0.01; default 1e-08."""
 
     newmark_step: float
-    """Integration step of the newmark solver [s], at least 1e-09, at most 1; default 0.001."""
+    """Integration step of the newmark solver; where solver = newmark [s], at least 1e-09, at most 1; default
+    0.001."""
 
     tie_height: float
-    """Height of the tie above the base, at most height; parapet only [m], at least 0, at most 1000; default
-    0.0."""
+    """Height of the tie above the base, at most height; where tie_stiffness is not 0 [m], at least 0, at most
+    1000; default 0.0."""
 
     tie_stiffness: float
-    """Stiffness of the tie between the wall and its support; 0 for none [N/m], at least 0, at most 1e+15;
+    """Stiffness of the tie between a parapet and its support; 0 for none [N/m], at least 0, at most 1e+15;
     default 0.0."""
 
     tie_slack: float
-    """Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; default 0.0."""
+    """Displacement of the wall at the tie before it pulls; where tie_stiffness is not 0 [m], at least 0, at
+    most 1000; default 0.0."""
 
     tie_strength: float
-    """Force that the tie resists, a limit state of its demand; 0 where none is given [N], at least 0, at most
-    1e+12; default 0.0."""
+    """Force that the tie resists, a limit state of its demand; 0 where none is given; where tie_stiffness is
+    not 0 [N], at least 0, at most 1e+12; default 0.0."""
 
     tie_side: Literal["positive", "negative", "both"]
-    """Side on which the tie holds the wall; default positive."""
+    """Side on which the tie holds the wall; where tie_stiffness is not 0; default positive."""
 
     kinematics: Literal["linear", "trigonometric"]
     """Small rotations, or full ones (rigid-linear walls with restitution)."""

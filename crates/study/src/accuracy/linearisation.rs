@@ -14,9 +14,7 @@
 
 use crate::free_motion::advance;
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
-use rocking_wall::variables::{
-    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Solver,
-};
+use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall, equivalence};
 
 use super::error::AccuracyError;
@@ -91,7 +89,6 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
         height: 4.0,
         thickness: 0.4,
         hinge_ratio: 0.5,
-        restitution_source: RestitutionSource::Given,
         restitution,
         ..Parameters::default()
     }

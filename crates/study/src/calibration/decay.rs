@@ -21,6 +21,7 @@ pub(super) struct Decay {
 impl Decay {
     pub(super) fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let motion = Motion::of(parameters, parameters.tolerance)?;
+        motion.wall().check_start(parameters.u_start)?;
         let state = motion.start_under(parameters.u_start, parameters.u_dot_start, 0.0);
         Ok(Self { motion, state })
     }

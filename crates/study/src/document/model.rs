@@ -3,7 +3,10 @@
 use toml::{Spanned, Value};
 
 use crate::ida::{Damping, Model, RatioSource};
-use rocking_wall::scene::{Place, SceneError, suggestion};
+use fmu_export::VariableId;
+use rocking_wall::scene::{Place, SceneError, check_limits, suggestion};
+use rocking_wall::variables::RealVariable;
+use rocking_wall::wall::{COMPUTED, given};
 
 /// Short names, for messages.
 const MODELS: &str =
@@ -45,20 +48,27 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
             let text = |key: &str| table.get(key).and_then(Value::as_str);
             let short =
                 text("model").ok_or_else(|| refuse(format!("a model needs model = one of {MODELS}")))?;
-            let ratio_key = if short == "block" { "c_bar" } else { "xi" };
-            let ratio = match table.get(ratio_key) {
-                Some(Value::Float(ratio)) => *ratio,
-                #[allow(clippy::cast_precision_loss, reason = "beyond 2⁵³ it is beyond the limit too")]
-                Some(Value::Integer(ratio)) => *ratio as f64,
-                _ => return Err(refuse(format!("a model given as a table needs a number {ratio_key}"))),
+            let (variable, taken, other) = match short {
+                "block" => (RealVariable::CBar, "c_bar", "xi"),
+                _ => (RealVariable::Xi, "xi", "c_bar"),
             };
-            // the limit of xi and c_bar in the model description
-            if !(0.0..=100.0).contains(&ratio) {
-                return Err(refuse(format!("{ratio_key} = {ratio} must be from 0 to 100")));
+            if table.contains_key(other) {
+                return Err(refuse(format!("{short:?} takes no {other}; give {taken}, or leave it out")));
             }
+            let number = match table.get(taken) {
+                None => COMPUTED,
+                Some(Value::Float(number)) => *number,
+                #[allow(clippy::cast_precision_loss, reason = "beyond 2⁵³ it is beyond the limit too")]
+                Some(Value::Integer(number)) => *number as f64,
+                Some(_) => return Err(refuse(format!("{taken} of a model must be a number"))),
+            };
+            check_limits(variable.variable(), number).map_err(refuse)?;
+            let number = given(taken, number).map_err(|error| refuse(error.to_string()))?;
             let damping = match short {
-                "CDC" | "CDR" | "SDR" | "block" => known(short, RatioSource::Given(ratio)),
-                _ => return Err(refuse(format!("{short:?} takes no {ratio_key}; write it as \"{short}\""))),
+                "CDC" | "CDR" | "SDR" | "block" => {
+                    known(short, number.map_or(RatioSource::Predicted, RatioSource::Given))
+                }
+                _ => return Err(refuse(format!("{short:?} takes no {taken}; write it as \"{short}\""))),
             };
             let mut model = damping.map(Model::new).ok_or_else(|| unknown(short))?;
             if let Some(name) = text("name") {

@@ -1,7 +1,7 @@
 //! Damping models of a study.
 
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact};
-use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
+use rocking_wall::wall::{COMPUTED, ParameterError, Parameters, Wall, equivalence};
 
 /// Source of a damping ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,13 +87,9 @@ impl Model {
     /// [`ParameterError`] if the ratio is that of Eq. (14) and the parameters make no wall, or one with e =
     /// 0.
     pub fn applied_to(&self, wall: &Parameters) -> Result<Parameters, ParameterError> {
-        let mut parameters = Parameters {
-            damping_model: DampingModel::None,
-            impact: Impact::None,
-            u_start: 0.0,
-            u_dot_start: 0.0,
-            ..wall.clone()
-        };
+        let mut parameters =
+            Parameters { impact: Impact::None, u_start: 0.0, u_dot_start: 0.0, ..wall.clone() };
+        parameters.set_damping(DampingModel::None, COMPUTED);
         if matches!(self.damping, Damping::Restitution | Damping::RigidRestitution) {
             parameters.impact = Impact::Restitution;
         }
@@ -106,21 +102,17 @@ impl Model {
             return Ok(parameters);
         }
         let ratio = match source {
-            RatioSource::Predicted => None,
-            RatioSource::Given(value) => Some(value),
+            RatioSource::Predicted => COMPUTED,
+            RatioSource::Given(value) => value,
             RatioSource::Equation14 => {
                 let e = Wall::new(&parameters)?.restitution();
                 if e <= 0.0 {
-                    return Err(ParameterError::Prediction { restitution: e });
+                    return Err(ParameterError::Computed { name: "xi", restitution: e });
                 }
-                Some(equivalence::makris_konstantinidis(e))
+                equivalence::makris_konstantinidis(e)
             }
         };
-        parameters.damping_model = model;
-        parameters.damping_source = ratio.map_or(DampingSource::Predicted, |_| DampingSource::Given);
-        if let Some(ratio) = ratio {
-            (parameters.xi, parameters.c_bar) = (ratio, ratio);
-        }
+        parameters.set_damping(model, ratio);
         Ok(parameters)
     }
 }

@@ -3,7 +3,7 @@
 use super::released::{Released, StabilityError};
 use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
-use rocking_wall::variables::{DampingModel, DampingSource, ForceLaw, Impact, Mechanism, RestitutionSource};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 /// Result of one extreme case.
@@ -82,12 +82,7 @@ pub fn extremes() -> Result<Vec<Extreme>, StabilityError> {
 
 /// The default wall, undamped and at rest.
 fn free() -> Parameters {
-    Parameters {
-        damping_model: DampingModel::None,
-        damping_source: DampingSource::Given,
-        u_start: 0.0,
-        ..Parameters::default()
-    }
+    Parameters { damping_model: DampingModel::None, u_start: 0.0, ..Parameters::default() }
 }
 
 /// The default wall with ξ of a constant damping coefficient.
@@ -96,13 +91,7 @@ fn damped(xi: f64) -> Parameters {
 }
 
 fn rigid(restitution: f64) -> Parameters {
-    Parameters {
-        force_law: ForceLaw::RigidLinear,
-        impact: Impact::Restitution,
-        restitution_source: RestitutionSource::Given,
-        restitution,
-        ..free()
-    }
+    Parameters { force_law: ForceLaw::RigidLinear, impact: Impact::Restitution, restitution, ..free() }
 }
 
 fn strip(hinge_ratio: f64, overburden_in_weights: f64) -> Parameters {

@@ -22,7 +22,7 @@ pub use released::StabilityError;
 
 use released::Released;
 use rocking_wall::solver::{Method, Motion};
-use rocking_wall::variables::{DampingModel, DampingSource, Solver};
+use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::Parameters;
 
 /// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
@@ -130,7 +130,6 @@ fn cell(
         thickness: 0.3,
         a1,
         damping_model,
-        damping_source: DampingSource::Given,
         xi,
         solver,
         newmark_step: step,

@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::{Memo, Motion, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, RestitutionSource};
-use rocking_wall::wall::{Parameters, Wall, equivalence};
+use rocking_wall::wall::{COMPUTED, Parameters, Wall, equivalence};
 
 use super::difference::Difference;
 use super::error::ValidationError;
@@ -105,7 +105,7 @@ impl Decay {
         for (name, source) in
             [("calibrated e", RestitutionSource::Calibrated), ("analytic e", RestitutionSource::Analytic)]
         {
-            let wall = Wall::new(&Parameters { restitution_source: source, ..with(1.0) })?;
+            let wall = Wall::new(&Parameters { restitution_source: source, ..with(COMPUTED) })?;
             let e = wall.restitution();
             models.push(model(name, e, None, &with(e), &measured)?);
         }

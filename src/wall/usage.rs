@@ -1,0 +1,48 @@
+//! Which variables matter beside the values of the parameters.
+
+use crate::choices::{
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
+    Solver, TieSide, usages,
+};
+
+use super::parameters::{Kinematics, Parameters};
+
+/// Whether a variable of the model description matters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Usage {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether a parameter has its start value; `true` for other variables.
+    pub is_start: bool,
+    /// Whether it matters beside the other parameters.
+    pub matters: bool,
+    /// The condition for that; empty for a variable that always matters.
+    pub condition: &'static str,
+}
+
+/// The condition of what a multilinear law replaces.
+const NAMED_LAW: &str = "force_law is not multilinear";
+
+/// Returns the usage of every variable of the model description, as its `<Where>` say.
+///
+/// ```
+/// use rocking_wall::wall::{Parameters, usage};
+///
+/// // the default law is bilinear
+/// let of_law = usage(&Parameters::default()).find(|usage| usage.name == "d1").unwrap();
+/// assert!(!of_law.matters && of_law.condition == "force_law = trilinear");
+/// ```
+pub fn usage(parameters: &Parameters) -> impl Iterator<Item = Usage> + use<> {
+    let is_multilinear = parameters.multilinear.is_some();
+    // full rotations have no closed form
+    let is_adaptive =
+        parameters.kinematics == Kinematics::Trigonometric && parameters.solver == Solver::Automatic;
+    usages!(parameters).into_iter().map(move |usage| match usage.name {
+        "force_law" | "a1" | "a3" | "d1" | "softening" if is_multilinear => {
+            Usage { matters: false, condition: NAMED_LAW, ..usage }
+        }
+        "omega1" if is_multilinear => Usage { matters: true, ..usage },
+        "tolerance" if is_adaptive => Usage { matters: true, ..usage },
+        _ => usage,
+    })
+}
