@@ -14,8 +14,8 @@ pub(crate) fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
-/// Whether `variable` may be set in `phase`, which is one that has sets. Where `event_mode` is used, inputs
-/// that are not continuous are set there.
+/// Whether `variable` may be changed in `phase`, which is one that has sets. Where `event_mode` is used,
+/// inputs that are not continuous are changed there.
 pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -> bool {
     match (variable.causality, variable.variability) {
         (_, Variability::Constant) => false,
@@ -44,7 +44,7 @@ pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
         }
         (Causality::Input, _) => {
             return Failure(format!(
-                "{name} is not continuous and cannot be set {now}: set it in Event Mode"
+                "{name} is not continuous and cannot change {now}: set another value in Event Mode"
             ));
         }
         (Causality::CalculatedParameter, _) => "a calculated parameter",

@@ -259,16 +259,18 @@ impl Call {
 
     /// Whether a failure of this call ends the simulation.
     ///
-    /// A state that is refused does not: nothing of the instance took part in it.
-    pub(crate) const fn failure_is_final(self) -> bool {
-        !matches!(
-            self,
-            Self::GetFmuState
-                | Self::SetFmuState
-                | Self::FreeFmuState
-                | Self::SerializedFmuStateSize
-                | Self::SerializeFmuState
-                | Self::DeSerializeFmuState
-        )
+    /// A value that cannot be read or a state that is refused does not: the instance is as it was.
+    pub(crate) fn failure_is_final(self, version: Version) -> bool {
+        // the standard calls fmi2Get… and fmi3Get… what only reads
+        let reads = self.name(version).get(4..).is_some_and(|name| name.starts_with("Get"));
+        !(reads
+            || matches!(
+                self,
+                Self::SetFmuState
+                    | Self::FreeFmuState
+                    | Self::SerializedFmuStateSize
+                    | Self::SerializeFmuState
+                    | Self::DeSerializeFmuState
+            ))
     }
 }

@@ -77,12 +77,14 @@
 //! # What the layer sees to
 //!
 //! - Call order, from one table. A call that returns an error ends the simulation: then only getters,
-//!   reset, saved states and free are served. Only refused states (a freed `fmi2FMUstate`, damaged bytes)
-//!   leave an instance as it was.
+//!   reset, saved states and free are served. Only a getter that fails and a state that is refused (a freed
+//!   `fmi2FMUstate`, damaged bytes) leave an instance as it was.
 //! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets
-//!   nothing.
+//!   nothing. A Boolean that is read as a Real is 0 or 1, with one warning per instance. In step mode with
+//!   Event Mode, a discrete input can be set to the value that it has, and to no other.
 //! - Time: communication points are compared with a tolerance, and the step goes from the model's own time,
-//!   so that rounding is never lost or counted twice. A step too small to reach it changes nothing.
+//!   so that rounding is never lost or counted twice. A step of length 0, or too small to reach the model's
+//!   time, changes nothing: input derivatives then hold for the step after it.
 //! - Saved states, in memory and as bytes with guid and checksum; reset. A state in memory belongs to its
 //!   instance; as bytes it goes to any other of the same guid.
 //! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even

@@ -34,7 +34,7 @@ functions! {
     };
     /// `fmi2DoStep`
     ///
-    /// Never returns `fmi2Discard`: some importers would try again for ever.
+    /// Never returns `fmi2Discard`: some importers would try again for ever. A step of length 0 does nothing.
     do_step<Model>(
         communication_point: Real, step_size: Real, _no_set_fmu_state_prior_to_current_point: Boolean
     ): DoStep, |instance| instance.do_step(communication_point, step_size).map(drop);

@@ -74,7 +74,8 @@ impl<M: ModelExchange> Instance<M> {
         }
     }
 
-    /// The values of Real variables, and of the variables that FMI 3.0 has besides those of the model.
+    /// The values of [`get_real`](Self::get_real), and of the variables that FMI 3.0 has besides those of the
+    /// model.
     pub(crate) fn get_float64(
         &mut self,
         references: &[u32],
@@ -82,8 +83,8 @@ impl<M: ModelExchange> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, slot) in references.iter().zip(values) {
-            slot.write(match M::Real::from_reference(reference) {
-                Some(variable) => limits::finite(variable.variable(), self.now.model.real(variable))?,
+            slot.write(match self.number(reference)? {
+                Some(value) => value,
                 None if reference == TIME_REFERENCE => self.now.time,
                 None => self.event_indicator(reference)?,
             });

@@ -66,6 +66,8 @@ pub(crate) struct Instance<M: Model> {
     /// What the last get of texts returned pointers to.
     texts: Vec<CString>,
     purpose: Purpose<M>,
+    /// The log has the warning of a Boolean that is read as a Real.
+    has_warned_of_boolean: bool,
     /// Asks the importer of FMI 3.0 for the inputs at a time [s].
     pub(crate) intermediate_update: Option<IntermediateUpdate>,
     /// The step under way, and its end [s].
@@ -117,12 +119,14 @@ impl<M: Model> Instance<M> {
             saved: BTreeMap::new(),
             texts: Vec::new(),
             purpose,
+            has_warned_of_boolean: false,
             intermediate_update: None,
             pending: None,
         })
     }
 
-    /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation.
+    /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation where
+    /// [`Call::failure_is_final`].
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
         let Purpose { version, interface, .. } = self.purpose;
         let suits = call.only_for(version).is_none_or(|only| only == interface);
@@ -160,7 +164,7 @@ impl<M: Model> Instance<M> {
 
     #[cold]
     fn failed(&mut self, call: Call, failure: &Failure) -> Status {
-        if call.failure_is_final() && self.now.phase != Phase::Fatal {
+        if call.failure_is_final(self.purpose.version) && self.now.phase != Phase::Fatal {
             self.now.phase = Phase::Error;
         }
         self.logger.log().error(format_args!("{}: {failure}", call.name(self.purpose.version)));

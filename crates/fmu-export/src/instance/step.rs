@@ -65,13 +65,14 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// The step with its end; none if it is too small to reach the own time.
+    /// The step with its end; none if its length is 0, as some importers ask who only want outputs, or if it is
+    /// too small to reach the own time.
     fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
-        if !(size.is_finite() && size > 0.0) {
+        if !(size.is_finite() && size >= 0.0) {
             return Err(Failure(format!(
-                "communicationStepSize = {size:?} s is not finite and above 0 (time {time:?} s)"
+                "communicationStepSize = {size:?} s is not finite and at least 0 (time {time:?} s)"
             )));
         }
         if !point.is_finite() {
@@ -96,7 +97,7 @@ impl<M: Model> Instance<M> {
         // From the own time, so that no step is computed twice or left out.
         let duration = (point - time) + size;
         let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
-        Ok((duration > 0.0).then_some((step, end)))
+        Ok((size > 0.0 && duration > 0.0).then_some((step, end)))
     }
 
     pub(crate) fn enter_step_mode(&mut self) {

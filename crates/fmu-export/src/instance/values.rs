@@ -2,11 +2,11 @@
 
 use super::Instance;
 use crate::access;
-use crate::call::Phase;
+use crate::call::{Call, Phase};
 use crate::failure::Failure;
 use crate::limits;
 use crate::model::Model;
-use crate::variable::{Kind, Variable, VariableId};
+use crate::variable::{Causality, Kind, Variable, VariableId};
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
 
@@ -17,7 +17,36 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Failure> {
-        self.get(references, values, |model, id: M::Real| limits::finite(id.variable(), model.real(id)))
+        self.calculate()?;
+        for (&reference, slot) in references.iter().zip(values) {
+            slot.write(self.number(reference)?.ok_or_else(|| access::unknown(reference))?);
+        }
+        Ok(())
+    }
+
+    /// The value of a Real variable, or of a Boolean as 0 or 1: some importers read all outputs as Reals. None
+    /// if the reference is of neither.
+    pub(super) fn number(&mut self, reference: u32) -> Result<Option<f64>, Failure> {
+        if let Some(id) = M::Real::from_reference(reference) {
+            return limits::finite(id.variable(), self.now.model.real(id)).map(Some);
+        }
+        let Some(id) = M::Boolean::from_reference(reference) else { return Ok(None) };
+        self.warn_of_boolean(id.variable());
+        Ok(Some(f64::from(self.now.model.boolean(id))))
+    }
+
+    /// Warns of the first Boolean that is read as a Real.
+    fn warn_of_boolean(&mut self, variable: &Variable) {
+        let mut log = self.logger.log();
+        if self.has_warned_of_boolean || !log.wants_warnings() {
+            return;
+        }
+        self.has_warned_of_boolean = true;
+        let [real, boolean] = [Call::GetReal, Call::GetBoolean].map(|call| call.name(self.purpose.version));
+        log.warning(format_args!(
+            "{real}: {} is a Boolean, read as 0 or 1; its own getter is {boolean}",
+            variable.name
+        ));
     }
 
     /// Values of those Integer and Enumeration variables that the function `serves`.
@@ -74,7 +103,7 @@ impl<M: Model> Instance<M> {
             let id = access::find::<M::Real>(reference)?;
             let variable = id.variable();
             if phase.is_before_the_start() || !self.purpose.states.contains(&id) {
-                self.check_settable(variable)?;
+                self.check_settable(variable, |model| model.real(id) == value)?;
             }
             limits::check_real(variable, value)?;
         }
@@ -89,9 +118,9 @@ impl<M: Model> Instance<M> {
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
         for (&reference, &value) in references.iter().zip(values) {
-            let variable = find_served::<M::Integer>(reference, serves)?.variable();
-            self.check_settable(variable)?;
-            limits::check_integer(variable, value.into())?;
+            let id = find_served::<M::Integer>(reference, serves)?;
+            self.check_settable(id.variable(), |model| i64::from(model.integer(id)) == value.into())?;
+            limits::check_integer(id.variable(), value.into())?;
         }
         self.set(references, values, |model, variable, &value| {
             if let Ok(value) = i32::try_from(value.into()) {
@@ -106,22 +135,29 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         values: &[T],
     ) -> Result<(), Failure> {
-        for &reference in references {
-            self.check_settable(access::find::<M::Boolean>(reference)?.variable())?;
+        for (&reference, value) in references.iter().zip(values) {
+            let id = access::find::<M::Boolean>(reference)?;
+            self.check_settable(id.variable(), |model| model.boolean(id) == (*value != false.into()))?;
         }
         self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()))
     }
 
     pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
-        for &reference in references {
-            self.check_settable(access::find::<M::Text>(reference)?.variable())?;
+        for (&reference, value) in references.iter().zip(values) {
+            let id = access::find::<M::Text>(reference)?;
+            self.check_settable(id.variable(), |model| model.text(id) == *value)?;
         }
         self.set(references, values, |model, variable, value| model.set_text(variable, value))
     }
 
-    fn check_settable(&self, variable: &Variable) -> Result<(), Failure> {
+    /// Whether `variable` may be set now. An input may always be set to the value that it has, which
+    /// `is_same` tells: some importers set all inputs before each step.
+    fn check_settable(&self, variable: &Variable, is_same: impl Fn(&M) -> bool) -> Result<(), Failure> {
         let phase = self.now.phase;
-        if access::is_settable(variable, phase, self.purpose.event_mode) {
+        let is_input = variable.causality == Causality::Input;
+        if access::is_settable(variable, phase, self.purpose.event_mode)
+            || (is_input && is_same(&self.now.model))
+        {
             return Ok(());
         }
         Err(access::not_settable(variable, &phase.describe(self.purpose.version)))

@@ -131,6 +131,7 @@ const ALIVE: &str = "INSXYTEinvcte";
 const GET: &str = "NSXYTEnvcte";
 const SET: &str = "INSXYinvc";
 const SET_DISCRETE: &str = "INSXYinv";
+/// When an input that is not continuous can get another value.
 const INPUT: &str = "INSXinv";
 const NEVER: &str = "";
 
@@ -165,7 +166,7 @@ const FUNCTIONS: [(&str, &str, Function); 70] = [
     ("fmi3SetUInt8", SET_DISCRETE, |c| unsafe { fmi3SetUInt8(c, null(), 0, null(), 0) }),
     ("fmi3SetInt16", SET_DISCRETE, |c| unsafe { fmi3SetInt16(c, null(), 0, null(), 0) }),
     ("fmi3SetUInt16", SET_DISCRETE, |c| unsafe { fmi3SetUInt16(c, null(), 0, null(), 0) }),
-    ("fmi3SetInt32", INPUT, |c| unsafe { fmi3SetInt32(c, &Integer::Fault.reference(), 1, &0, 1) }),
+    ("fmi3SetInt32", INPUT, |c| unsafe { fmi3SetInt32(c, &Integer::Fault.reference(), 1, &7, 1) }),
     ("fmi3SetUInt32", SET_DISCRETE, |c| unsafe { fmi3SetUInt32(c, null(), 0, null(), 0) }),
     ("fmi3SetInt64", SET_DISCRETE, |c| unsafe { fmi3SetInt64(c, null(), 0, null(), 0) }),
     ("fmi3SetUInt64", SET_DISCRETE, |c| unsafe { fmi3SetUInt64(c, null(), 0, null(), 0) }),

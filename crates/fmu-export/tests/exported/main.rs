@@ -25,6 +25,7 @@ mod resources;
 mod spring;
 mod states;
 mod steps;
+mod tolerated;
 mod values;
 
 #[global_allocator]

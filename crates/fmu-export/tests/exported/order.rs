@@ -174,8 +174,9 @@ pub fn check_order(functions: &[(&str, &str, Function)], phases: &[Phase]) {
 #[test]
 fn an_error_leaves_getters_and_reset() {
     for (name, allowed, function) in FUNCTIONS {
-        // A state that is refused is no error of the simulation; in the phase S none is.
-        if allowed.contains('S') {
+        // A state that is refused and a getter that fails end no simulation; in the phase S there is no such
+        // state.
+        if allowed.contains('S') || name.starts_with("fmi2Get") {
             continue;
         }
         let importer = Importer::swinging();

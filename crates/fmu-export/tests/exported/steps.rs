@@ -62,7 +62,6 @@ fn an_experiment_has_finite_times_in_order_and_a_tolerance_above_0() {
 #[test]
 fn steps_that_make_no_sense_are_refused_and_change_nothing() {
     for (point, size, part) in [
-        (0.0, 0.0, "communicationStepSize = 0.0 s"),
         (0.0, -0.1, "communicationStepSize = -0.1 s"),
         (0.0, f64::NAN, "communicationStepSize = NaN s"),
         (0.0, f64::INFINITY, "communicationStepSize = inf s"),

@@ -10,9 +10,10 @@ use crate::model::{Experiment, Model, ModelExchange, Update};
 
 /// `fmi3DoStep`
 ///
-/// Never returns `fmi3Discard`. A step that ends early does so just after an event. Where the importer gave
-/// an `intermediateUpdate`, that is called once, before the step is computed, and may set continuous inputs
-/// for the end of the step: they run there linearly.
+/// Never returns `fmi3Discard`. A step of length 0 does nothing, and asks for no inputs. A step that ends
+/// early does so just after an event. Where the importer gave an `intermediateUpdate`, that is called once,
+/// before the step is computed, and may set continuous inputs for the end of the step: they run there
+/// linearly.
 ///
 /// # Safety
 /// `component` is NULL or an instance, which `intermediateUpdate` does not free; pointers are NULL or point

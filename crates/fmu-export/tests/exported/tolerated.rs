@@ -1,0 +1,264 @@
+//! What importers do beside the standard, and is served all the same.
+
+#![allow(
+    clippy::undocumented_unsafe_blocks,
+    reason = "each call states what it is given; the instance lives"
+)]
+
+use crate::exchange::Exchange;
+use crate::fmi2::*;
+use crate::fmi3::*;
+use crate::fmi3_order::Fmi3;
+use crate::importer::Importer;
+use crate::spring::{Boolean, Integer, Real, Text};
+use crate::states::bytes;
+use fmu_export::ffi::types::{Component, ERROR, OK, Status, WARNING};
+use std::ptr::{null, null_mut};
+
+/// No variable has it.
+const UNKNOWN: u32 = 999;
+
+/// A swinging spring in step mode of FMI 3.0 with Event Mode.
+fn stepping_with_events() -> Importer {
+    let importer = Fmi3::started(Fmi3::co_simulation(true, false));
+    assert_eq!(unsafe { fmi3EnterStepMode(importer.component) }, OK);
+    importer
+}
+
+fn step3(importer: &Importer, point: f64, size: f64) -> (Status, bool, bool, bool, f64) {
+    let (mut event, mut end, mut early, mut last) = (true, true, true, f64::NAN);
+    let status = unsafe {
+        fmi3DoStep(importer.component, point, size, true, &mut event, &mut end, &mut early, &mut last)
+    };
+    (status, event, end, early, last)
+}
+
+#[test]
+fn a_discrete_input_is_set_in_step_mode_to_the_value_that_it_has_alone() {
+    type Set = fn(Component, bool) -> Status;
+    // each sets the value that the input has, or another
+    let sets: [(&str, Set); 3] = [
+        ("push", |c, other| unsafe {
+            fmi3SetFloat64(c, &Real::Push.reference(), 1, &if other { 2.0 } else { 1.5 }, 1)
+        }),
+        ("fault", |c, other| unsafe {
+            fmi3SetInt32(c, &Integer::Fault.reference(), 1, &i32::from(other), 1)
+        }),
+        ("held", |c, other| unsafe { fmi3SetBoolean(c, &Boolean::Held.reference(), 1, &other, 1) }),
+    ];
+    for (name, set) in sets {
+        let importer = Fmi3::started(Fmi3::co_simulation(true, false));
+        let c = importer.component;
+        unsafe {
+            assert_eq!(fmi3SetFloat64(c, &Real::Push.reference(), 1, &1.5, 1), OK);
+            assert_eq!(fmi3EnterStepMode(c), OK);
+        }
+        let before = bytes(&importer);
+        assert_eq!(set(c, false), OK, "{name}: {:?}", importer.journal.take());
+        assert_eq!(bytes(&importer), before);
+        assert_eq!(step3(&importer, 0.0, 0.25).0, OK);
+        assert!(importer.journal.take().is_empty());
+        assert_eq!(set(c, true), ERROR);
+        importer.expect_error(&[&format!("{name} is not continuous"), "in step mode", "in Event Mode"]);
+    }
+    // one of two references in the same call has another value: neither is set
+    let importer = stepping_with_events();
+    let references = [Real::Force.reference(), Real::Push.reference()];
+    unsafe {
+        let status = fmi3SetFloat64(importer.component, references.as_ptr(), 2, [1.0, 1.0].as_ptr(), 2);
+        assert_eq!(status, ERROR);
+    }
+    assert_eq!(importer.get(Real::Force), 0.0);
+    // a fixed parameter is no input
+    let importer = stepping_with_events();
+    let status = unsafe { fmi3SetFloat64(importer.component, &Real::Stiffness.reference(), 1, &4.0, 1) };
+    assert_eq!(status, ERROR);
+}
+
+#[test]
+fn a_boolean_is_read_as_a_real_with_one_warning() {
+    let references = [Boolean::Moving.reference(), Real::X.reference(), Boolean::Clamped.reference()];
+    for (third, importer) in [
+        (false, Importer::swinging()),
+        (false, Exchange::in_event_mode()),
+        (true, Fmi3::started(Fmi3::co_simulation(false, false))),
+        (true, Fmi3::started(Fmi3::model_exchange())),
+    ] {
+        let c = importer.component;
+        let read = || {
+            let mut found = [f64::NAN; 3];
+            let status = unsafe {
+                if third {
+                    fmi3GetFloat64(c, references.as_ptr(), 3, found.as_mut_ptr(), 3)
+                } else {
+                    fmi2GetReal(c, references.as_ptr(), 3, found.as_mut_ptr())
+                }
+            };
+            (status, found)
+        };
+        // the warning is for who reads warnings
+        assert_eq!(read(), (OK, [0.0, 1.0, 0.0]), "{:?}", importer.journal.take());
+        assert!(importer.journal.take().is_empty());
+        unsafe { assert_eq!(fmi2SetDebugLogging(c, 1, 0, null()), OK) };
+        if !third && importer.step(0.0, 0.25) == OK {
+            assert_eq!(read().1[0], 1.0, "it moves");
+        } else {
+            assert_eq!(read().0, OK);
+        }
+        assert_eq!(read().0, OK);
+        let [getter, own] =
+            if third { ["fmi3GetFloat64", "fmi3GetBoolean"] } else { ["fmi2GetReal", "fmi2GetBoolean"] };
+        let mut messages = importer.journal.take();
+        messages.retain(|message| message.status == WARNING);
+        assert_eq!(messages.len(), 1, "{messages:?}");
+        for part in [getter, "moving is a Boolean", own] {
+            assert!(messages[0].text.contains(part), "{messages:?}");
+        }
+        // a reset instance is the same instance
+        unsafe {
+            assert_eq!(fmi2Reset(c), OK);
+            if third {
+                assert_eq!(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0), OK);
+            } else {
+                assert_eq!(fmi2EnterInitializationMode(c), OK);
+            }
+        }
+        assert_eq!(read(), (OK, [0.0; 3]));
+        importer.journal.take().iter().for_each(|message| assert_ne!(message.status, WARNING));
+    }
+}
+
+#[test]
+fn other_types_are_not_read_as_reals() {
+    for reference in [Integer::Law, Integer::Count].map(Integer::reference).into_iter().chain([40, UNKNOWN]) {
+        let importer = Importer::swinging();
+        assert_eq!(unsafe { fmi2GetReal(importer.component, &reference, 1, &mut 0.0) }, ERROR);
+        importer.expect_error(&["fmi2GetReal", &format!("value reference {reference}")]);
+    }
+}
+
+type Getter = unsafe fn(Component) -> Status;
+
+#[test]
+#[rustfmt::skip]
+fn a_getter_that_fails_leaves_the_instance_usable() {
+    let getters: [(&str, Getter); 8] = [
+        ("fmi2GetReal", |c| unsafe { fmi2GetReal(c, &UNKNOWN, 1, &mut 0.0) }),
+        ("fmi2GetReal", |c| unsafe { fmi2GetReal(c, null(), 1, &mut 0.0) }),
+        ("fmi2GetInteger", |c| unsafe { fmi2GetInteger(c, &UNKNOWN, 1, &mut 0) }),
+        ("fmi2GetBoolean", |c| unsafe { fmi2GetBoolean(c, &UNKNOWN, 1, &mut 0) }),
+        ("fmi2GetString", |c| unsafe { fmi2GetString(c, &UNKNOWN, 1, &mut null()) }),
+        ("fmi2GetDirectionalDerivative", |c| unsafe {
+            fmi2GetDirectionalDerivative(c, &UNKNOWN, 1, &UNKNOWN, 1, &1.0, &mut 0.0)
+        }),
+        ("fmi2GetRealOutputDerivatives", |c| unsafe {
+            fmi2GetRealOutputDerivatives(c, &Real::X.reference(), 1, &2, &mut 0.0)
+        }),
+        // of Model Exchange alone
+        ("fmi2GetDerivatives", |c| unsafe { fmi2GetDerivatives(c, [0.0; 2].as_mut_ptr(), 2) }),
+    ];
+    for (name, getter) in getters {
+        let importer = Importer::swinging();
+        assert_eq!(unsafe { getter(importer.component) }, ERROR, "{name}");
+        importer.expect_error(&[name]);
+        assert_eq!(importer.set(Real::Force, 1.0), OK, "{name}");
+        assert_eq!(importer.step(0.0, 0.25), OK, "{name}");
+    }
+    let getters: [(&str, Getter); 8] = [
+        ("fmi3GetFloat64", |c| unsafe { fmi3GetFloat64(c, &UNKNOWN, 1, &mut 0.0, 1) }),
+        ("fmi3GetFloat32", |c| unsafe { fmi3GetFloat32(c, &Real::X.reference(), 1, &mut 0.0, 1) }),
+        ("fmi3GetInt32", |c| unsafe { fmi3GetInt32(c, &Integer::Law.reference(), 1, &mut 0, 1) }),
+        ("fmi3GetInt64", |c| unsafe { fmi3GetInt64(c, &Integer::Count.reference(), 1, &mut 0, 1) }),
+        ("fmi3GetBoolean", |c| unsafe { fmi3GetBoolean(c, &Real::X.reference(), 1, &mut false, 1) }),
+        ("fmi3GetString", |c| unsafe { fmi3GetString(c, &Text::Label.reference(), 1, null_mut(), 1) }),
+        ("fmi3GetClock", |c| unsafe { fmi3GetClock(c, &1, 1, &mut false) }),
+        ("fmi3GetOutputDerivatives", |c| unsafe {
+            fmi3GetOutputDerivatives(c, &Real::X.reference(), 1, &2, &mut 0.0, 1)
+        }),
+    ];
+    for (name, getter) in getters {
+        let importer = stepping_with_events();
+        assert_eq!(unsafe { getter(importer.component) }, ERROR, "{name}");
+        importer.expect_error(&[name]);
+        assert_eq!(step3(&importer, 0.0, 0.25), (OK, false, false, false, 0.25), "{name}");
+    }
+}
+
+#[test]
+fn a_getter_out_of_turn_leaves_the_instance_where_it_is() {
+    let (reference, mut value) = (Real::X.reference(), 0.0);
+    unsafe {
+        let importer = Importer::new();
+        assert_eq!(fmi2GetReal(importer.component, &reference, 1, &mut value), ERROR);
+        assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
+        let importer = Fmi3::model_exchange();
+        assert_eq!(fmi3GetFloat64(importer.component, &reference, 1, &mut value, 1), ERROR);
+        assert_eq!(fmi3EnterInitializationMode(importer.component, false, 0.0, 0.0, false, 0.0), OK);
+        let importer = Exchange::in_continuous_time_mode();
+        assert_eq!(fmi2GetReal(importer.component, &UNKNOWN, 1, &mut value), ERROR);
+        assert_eq!(fmi2GetContinuousStates(importer.component, &mut value, 1), ERROR);
+        assert_eq!(fmi2SetTime(importer.component, 0.5), OK);
+        // parameters that contradict each other can still be mended
+        let importer = Importer::in_initialization_mode();
+        assert_eq!(importer.set(Real::XStart, 1.0), OK);
+        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Clamped.reference(), 1, &1), OK);
+        assert_eq!(fmi2GetReal(importer.component, &reference, 1, &mut value), ERROR);
+        importer.expect_error(&["fmi2GetReal: x_start = 1 m of a clamped spring"]);
+        assert_eq!(importer.set(Real::XStart, 0.0), OK);
+        assert_eq!(fmi2ExitInitializationMode(importer.component), OK);
+    }
+}
+
+#[test]
+fn a_step_of_length_0_does_nothing() {
+    let importer = Importer::swinging();
+    assert_eq!(importer.step(0.0, 0.5), OK);
+    let (force, rate) = (Real::Force.reference(), 2.0);
+    unsafe { assert_eq!(fmi2SetRealInputDerivatives(importer.component, &force, 1, &1, &rate), OK) };
+    let before = bytes(&importer);
+    for (point, size) in [(0.5, 0.0), (0.5, -0.0), (0.5 + 1e-10, 0.0), (0.5 - 1e-10, 0.0)] {
+        assert_eq!(importer.step(point, size), OK, "{:?}", importer.journal.take());
+        assert_eq!(bytes(&importer), before, "{point:?} {size:?}");
+    }
+    // outputs can be read, and the derivative of the input holds for the step after it
+    assert_eq!(importer.get_integer(Integer::Count), 1);
+    assert_eq!(importer.step(0.5, 0.5), OK);
+    assert_eq!(importer.get(Real::Force), 1.0);
+    assert!(importer.journal.take().is_empty());
+    // the point must still be the own time
+    assert_eq!(importer.step(0.5, 0.0), ERROR);
+    importer.expect_error(&["currentCommunicationPoint = 0.5 s, but the last step ended at 1.0 s"]);
+    let importer = Importer::swinging();
+    assert_eq!(importer.step(0.0, -1e-300), ERROR);
+    importer.expect_error(&["communicationStepSize = -1e-300 s is not finite and at least 0"]);
+}
+
+#[test]
+fn a_step_of_length_0_answers_in_fmi_3() {
+    for importer in [stepping_with_events(), Fmi3::started(Fmi3::updated(false, true, Some(never)))] {
+        let before = bytes(&importer);
+        assert_eq!(step3(&importer, 0.0, 0.0), (OK, false, false, false, 0.0));
+        assert_eq!(bytes(&importer), before);
+    }
+    let importer = stepping_with_events();
+    assert_eq!(step3(&importer, 0.0, 0.5).0, OK);
+    assert_eq!(step3(&importer, 0.5, 0.0), (OK, false, false, false, 0.5));
+    for size in [-0.1, f64::NAN, f64::INFINITY] {
+        let importer = stepping_with_events();
+        assert_eq!(step3(&importer, 0.0, size).0, ERROR);
+        importer.expect_error(&["fmi3DoStep", "communicationStepSize"]);
+    }
+}
+
+unsafe extern "C" fn never(
+    _: Component,
+    _: f64,
+    _: bool,
+    _: bool,
+    _: bool,
+    _: bool,
+    _: *mut bool,
+    _: *mut f64,
+) {
+    panic!("a step of length 0 has no inputs at its end to ask for");
+}
