@@ -34,6 +34,17 @@ def test_fmpy_finds_nothing(units):
     assert validate_fmu(str(units[1])) == []
 
 
+def test_every_number_has_its_unit_and_nominal_value_in_its_type(units):
+    """fmi-schema 0.8 refuses them on variables."""
+    old, new = ({v.name: v for v in read_model_description(str(path)).modelVariables} for path in units)
+    for name, variable in old.items():
+        if variable.type == "Real":
+            kind = new[name].declaredType
+            assert new[name].unit is new[name].nominal is None
+            assert (kind.unit, kind.nominal) == (variable.unit, variable.nominal), name
+            assert kind.displayUnit == variable.declaredType.displayUnit, name
+
+
 def test_terminals_are_valid_and_join_variables_that_fit(fmu, floor_fmu):
     schema = etree.XMLSchema(etree.parse(str(SCHEMA)))
     found = {}
@@ -55,7 +66,7 @@ def test_terminals_are_valid_and_join_variables_that_fit(fmu, floor_fmu):
             assert set(plug) == set(socket) == {"acceleration", "reaction", "impulse"}
             for name, variable in plug.items():
                 assert {variable.causality, socket[name].causality} == {"input", "output"}
-                assert variable.unit == socket[name].unit
+                assert variable.declaredType.unit == socket[name].declaredType.unit
 
 
 def test_the_archive_is_complete(units):

@@ -183,7 +183,7 @@ fn masters() -> Result<()> {
 }
 
 fn conformance() -> Result<()> {
-    let unit = packed(fmu::WALL)?;
+    let (unit, floor) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?);
     let clang = Environment::of(CLANG.0, CLANG.1)?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
@@ -191,7 +191,8 @@ fn conformance() -> Result<()> {
     test.args(["test", "--locked", "--package", "conformance"]);
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
-        .env("ROCKING_WALL_FMU", absolute(&unit));
+        .env("ROCKING_WALL_FMU", absolute(&unit))
+        .env("ROCKING_FLOOR_FMU", absolute(&floor));
     run_tests(&mut test)
 }
 

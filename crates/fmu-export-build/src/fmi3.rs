@@ -23,6 +23,7 @@
 use crate::description::Description;
 use crate::element::Element;
 use crate::error::{Fault, Problem};
+use crate::types3::{Types, is_of_type, type_name};
 use crate::variable::{Causality, Variable};
 use fmu_export::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE};
 
@@ -79,7 +80,8 @@ impl Description {
     /// The FMI 3.0 description, with `token` as its instantiation token, and `terminalsAndIcons.xml` if there
     /// are terminals.
     ///
-    /// Variables keep their value references. The independent variable `time` is added if there is none, and
+    /// Variables keep their value references. Units and nominal values of Reals stand in their types, which get
+    /// variants where they differ. The independent variable `time` is added if there is none, and
     /// one variable for each event indicator, as `fmu-export` serves them. Capabilities that FMI 2.0 does not
     /// know are those of `fmu-export`, and those of `additions`.
     ///
@@ -96,16 +98,18 @@ impl Description {
                 _ => root.set_attribute(name, value.clone()),
             }
         }
+        let taken = self.variable_names().map(str::to_owned).collect();
+        let mut types = Types::new(self.root.children_of("TypeDefinitions"), taken);
         for child in &self.root.children {
             match child.name.as_str() {
                 "ModelExchange" | "CoSimulation" => root.children.push(interface(child, &additions.root)),
-                "TypeDefinitions" => root.children.push(type_definitions(child)),
-                "ModelVariables" => root.children.push(self.variables3(child)),
+                "ModelVariables" => root.children.push(self.variables3(child, &mut types)),
                 "ModelStructure" => root.children.push(self.structure3(child)),
-                "VendorAnnotations" => {}
+                "TypeDefinitions" | "VendorAnnotations" => {}
                 _ => root.children.push(child.clone()),
             }
         }
+        insert_types(&mut root, types);
         let is_there = |name: &str| self.variable_names().any(|variable| variable == name);
         Ok((root.to_xml(), additions.terminals(is_there)))
     }
@@ -142,12 +146,12 @@ impl Description {
         }
     }
 
-    fn variables3(&self, variables: &Element) -> Element {
+    fn variables3(&self, variables: &Element, types: &mut Types) -> Element {
         let mut list = element("ModelVariables", &[]);
+        list.children.extend(variables.children.iter().map(|variable| self.variable3(variable, types)));
         if !self.has_time() {
-            list.children.push(self.time());
+            list.children.insert(0, self.time(types));
         }
-        list.children.extend(variables.children.iter().map(|variable| self.variable3(variable)));
         for number in self.indicators() {
             let reference = (FIRST_INDICATOR_REFERENCE + number - 1).to_string();
             list.children.push(element(
@@ -165,7 +169,7 @@ impl Description {
         list
     }
 
-    fn time(&self) -> Element {
+    fn time(&self, types: &mut Types) -> Element {
         let mut time = element(
             "Float64",
             &[
@@ -178,13 +182,13 @@ impl Description {
         );
         let units = self.root.children_of("UnitDefinitions");
         if units.iter().any(|unit| unit.attribute("name") == Some("s")) {
-            time.set_attribute("unit", "s".to_owned());
+            time.set_attribute("declaredType", types.of_time());
         }
         time
     }
 
     /// `<ScalarVariable>` and the element of its type become one element.
-    fn variable3(&self, variable: &Element) -> Element {
+    fn variable3(&self, variable: &Element, types: &mut Types) -> Element {
         let Some(typed) = variable.children.iter().find(|child| child.name != "Annotations") else {
             return variable.clone();
         };
@@ -195,8 +199,13 @@ impl Description {
         if input && continuous && self.interpolates() {
             written.set_attribute("intermediateUpdate", "true".to_owned());
         }
+        let is_real = typed.name == "Real";
+        if let Some(name) = is_real.then(|| types.of_real(typed)).flatten() {
+            written.set_attribute("declaredType", name);
+        }
         for (name, value) in &typed.attributes {
             match name.as_str() {
+                own if is_real && is_of_type(own) => {}
                 "derivative" => written.set_attribute(name, self.references(value)),
                 "start" if typed.name == "String" => {
                     written.children.push(element("Start", &[("value", value)]));
@@ -282,26 +291,17 @@ fn interface(old: &Element, additions: &Element) -> Element {
     new
 }
 
-/// `<SimpleType>` and the element inside become one element.
-fn type_definitions(old: &Element) -> Element {
-    let mut new = element("TypeDefinitions", &[]);
-    for simple in &old.children {
-        let Some(inner) = simple.children.first() else { continue };
-        let mut written = Element { name: format!("{}Type", type_name(&inner.name)), ..simple.clone() };
-        written.attributes.extend(inner.attributes.iter().cloned());
-        written.children.clone_from(&inner.children);
-        new.children.push(written);
+/// Puts the types where the schema has them: before what follows the units.
+fn insert_types(root: &mut Element, types: Types) {
+    let children = types.into_elements();
+    if children.is_empty() {
+        return;
     }
-    new
-}
-
-/// FMI 3.0's name of a type of FMI 2.0.
-fn type_name(name: &str) -> &str {
-    match name {
-        "Real" => "Float64",
-        "Integer" => "Int32",
-        other => other,
-    }
+    let follows = |child: &Element| {
+        ["LogCategories", "DefaultExperiment", "ModelVariables"].contains(&child.name.as_str())
+    };
+    let at = root.children.iter().position(follows).unwrap_or(root.children.len());
+    root.children.insert(at, Element { children, ..element("TypeDefinitions", &[]) });
 }
 
 fn element(name: &str, attributes: &[(&str, &str)]) -> Element {

@@ -62,6 +62,7 @@ mod reduced;
 #[cfg(feature = "archive")]
 pub mod sources;
 mod structure;
+mod types3;
 mod usage;
 mod variable;
 

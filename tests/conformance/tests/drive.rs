@@ -4,20 +4,28 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test")]
 
 use std::ffi::{CStr, CString, c_void};
-use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use fmi::fmi2::import::Fmi2Import;
 use fmi::fmi2::instance::{CoSimulation, Common};
 use fmi::fmi3::import::Fmi3Import;
 use fmi::fmi3::{CoSimulation as _, Common as _, Fmi3Model as _, GetSet as _};
+use fmi::schema::fmi3::{TypeDefinition, Variable};
+use fmi::traits::FmiImport as _;
 use fmi_sys::fmi2 as standard;
 use libloading::Library;
+use rocking_wall::scene::Scene;
+use scene_fmu::General;
 
 fn archive() -> PathBuf {
     let path = std::env::var_os("ROCKING_WALL_FMU")
         .expect("ROCKING_WALL_FMU names the FMU; `cargo xtask test` sets it");
     PathBuf::from(path)
+}
+
+/// The FMI 3.0 unit that is made beside an FMI 2.0 one.
+fn of_fmi3(path: &Path) -> PathBuf {
+    path.with_file_name("fmi3").join(path.file_name().unwrap())
 }
 
 /// A file of the archive.
@@ -65,41 +73,9 @@ fn by_fmi() -> Vec<f64> {
     history
 }
 
-/// Copies the FMU of FMI 3.0 without the units and nominal values of its variables, which the crate fmi 0.8
-/// does not know.
-fn readable_by_fmi3(copy: &Path) {
-    let path = archive().with_file_name("fmi3").join("wall.fmu");
-    let mut from = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
-    let mut to = zip::ZipWriter::new(std::fs::File::create(copy).unwrap());
-    for index in 0..from.len() {
-        let mut file = from.by_index(index).unwrap();
-        if file.name().unwrap() != "modelDescription.xml" {
-            to.raw_copy_file(file).unwrap();
-            continue;
-        }
-        let mut text = String::new();
-        file.read_to_string(&mut text).unwrap();
-        to.start_file("modelDescription.xml", zip::write::SimpleFileOptions::default()).unwrap();
-        for line in text.split_inclusive('\n') {
-            let is_variable = line.trim_start().starts_with("<Float64 ");
-            let unknown = |word: &str| word.starts_with("unit=") || word.starts_with("nominal=");
-            let kept = |word| match is_variable && unknown(word) {
-                true => word.find("/>").map(|end| &word[end..]),
-                false => Some(word),
-            };
-            let words: Vec<_> = line.split(' ').filter_map(kept).collect();
-            to.write_all(words.join(" ").as_bytes()).unwrap();
-        }
-    }
-    to.finish().unwrap();
-}
-
 /// u after each step of the default wall in FMI 3.0, by the crate fmi.
 fn by_fmi3() -> Vec<f64> {
-    let copy = std::env::temp_dir().join(format!("rocking-wall-fmi3-{}.fmu", std::process::id()));
-    readable_by_fmi3(&copy);
-    let import: Fmi3Import = fmi::import::from_path(&copy).unwrap();
-    std::fs::remove_file(&copy).unwrap();
+    let import: Fmi3Import = fmi::import::from_path(of_fmi3(&archive())).unwrap();
     let mut wall = import.instantiate_cs("wall", false, false, false, false, &[]).unwrap();
     assert_eq!(wall.get_version(), "3.0");
     wall.enter_initialization_mode(Some(1e-8), 0.0, None).unwrap();
@@ -121,6 +97,41 @@ fn by_fmi3() -> Vec<f64> {
 fn both_versions_agree_bit_for_bit() {
     let bits = |history: Vec<f64>| history.into_iter().map(f64::to_bits).collect::<Vec<_>>();
     assert_eq!(bits(by_fmi()), bits(by_fmi3()));
+}
+
+/// The floor's FMU and that of a scene are read as they are too.
+#[test]
+fn every_fmi_3_unit_can_be_read() {
+    let floor = std::env::var_os("ROCKING_FLOOR_FMU").expect("`cargo xtask test` sets ROCKING_FLOOR_FMU");
+    let floor: Fmi3Import = fmi::import::from_path(of_fmi3(Path::new(&floor))).unwrap();
+    let scene = Scene::read("../../scenes/strip_between_floors.toml".as_ref()).unwrap();
+    let path = std::env::temp_dir().join(format!("rocking-wall-scene-{}.fmu", std::process::id()));
+    let unit = scene_fmu::of_scene(&scene, General::open(&of_fmi3(&archive())).unwrap()).unwrap();
+    unit.archive.write(&path).unwrap();
+    let strip: Fmi3Import = fmi::import::from_path(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    for (import, variable, unit, nominal) in [
+        (&floor, "displacement", "m", 0.01),
+        (&floor, "stiffness", "N/m", 1e7),
+        (&strip, "u", "m", 0.1),
+        (&strip, "drift", "m", 0.01),
+        (&strip, "time", "s", 1.0),
+    ] {
+        let description = import.model_description();
+        let variables = &description.model_variables.variables;
+        let float = variables.iter().find_map(|found| match found {
+            Variable::Float64(float) if float.name == variable => Some(float),
+            _ => None,
+        });
+        let declared = float.unwrap().declared_type.as_deref();
+        let types = &description.type_definitions.as_ref().unwrap().type_definitions;
+        let of_type = types.iter().find_map(|found| match found {
+            TypeDefinition::Float64(float) if Some(&*float.name) == declared => Some(float),
+            _ => None,
+        });
+        let found = of_type.map(|float| (float.unit.as_deref(), float.nominal)).unwrap();
+        assert_eq!(found, (Some(unit), Some(nominal)), "{variable}");
+    }
 }
 
 /// The library of the archive, loaded from a folder of its own.

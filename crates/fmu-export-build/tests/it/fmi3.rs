@@ -53,7 +53,7 @@ fn everything_is_written_with_the_names_of_fmi_3() {
         ),
         concat!(
             r#"<Float64 name="force" valueReference="10" causality="input" description="Push" "#,
-            r#"intermediateUpdate="true" unit="N" start="0"/>"#
+            r#"intermediateUpdate="true" declaredType="Number" start="0"/>"#
         ),
         r#"<Boolean name="moving" valueReference="40" causality="output" variability="discrete"/>"#,
         concat!(
@@ -77,10 +77,49 @@ fn everything_is_written_with_the_names_of_fmi_3() {
         assert!(lines.contains(&line), "{line} is missing in\n{xml}");
     }
     // the derivative is told by value reference
-    assert!(xml.contains(r#"unit="m/s" derivative="20"/>"#));
+    assert!(xml.contains(r#"declaredType="Number_2" derivative="20"/>"#));
     for gone in ["guid", "ScalarVariable", "Real", "canInterpolateInputs", "numberOfEventIndicators"] {
         assert!(!xml.contains(gone), "{gone} in\n{xml}");
     }
+}
+
+/// Units and nominal values stand in types alone: fmi-schema 0.8 refuses them on variables.
+#[test]
+fn types_tell_the_units_of_their_variables() {
+    let text = BLOCK
+        .replace("<Real declaredType=\"Length\"/>", "<Real declaredType=\"Length\" nominal=\"0.5\"/>")
+        .replace("<Real unit=\"N\"/>", "<Real unit=\"N\" nominal=\"1e3\"/>")
+        .replace("name=\"layers\"", "name=\"Length_2\"")
+        .replace("<Unit name=\"N\">", "<Unit name=\"s\"><BaseUnit s=\"1\"/></Unit>\n<Unit name=\"N\">");
+    let (xml, _) = written(&text);
+    let types: Vec<_> = xml.lines().map(str::trim).filter(|line| line.starts_with("<Float64Type")).collect();
+    assert_eq!(
+        types,
+        [
+            // the first variable of a type completes it, and one that says less has a variant
+            r#"<Float64Type name="Length" unit="m" displayUnit="mm" max="50" nominal="0.5"/>"#,
+            r#"<Float64Type name="Length_3" unit="m" displayUnit="mm" max="50"/>"#,
+            r#"<Float64Type name="Number" unit="N"/>"#,
+            r#"<Float64Type name="Number_2" unit="m/s"/>"#,
+            r#"<Float64Type name="Number_3" unit="N" nominal="1e3"/>"#,
+            r#"<Float64Type name="Time" unit="s"/>"#,
+        ]
+    );
+    let of = |name: &str| {
+        let line = xml.lines().find(|line| line.contains(&format!("<Float64 name=\"{name}\""))).unwrap();
+        assert!(!line.contains(" unit=") && !line.contains("nominal="), "{line}");
+        line.split_once("declaredType=\"").unwrap().1.split('"').next().unwrap().to_owned()
+    };
+    let found = ["time", "force", "x", "x_dot", "x_start", "weight"].map(of);
+    assert_eq!(found, ["Time", "Number", "Length", "Number_2", "Length_3", "Number_3"]);
+    // a description without types has those that its variables need, in their place
+    let before = text.split_once("<TypeDefinitions>").unwrap().0;
+    let after = text.split_once("</TypeDefinitions>").unwrap().1;
+    let bare = format!("{before}{after}").replace(" declaredType=\"Length\"", " unit=\"m\"");
+    let (xml, _) = written(&bare.replace("<Enumeration declaredType=\"Surface\"", "<Integer"));
+    let [units, types, experiment] =
+        ["</UnitDefinitions>", "<TypeDefinitions>", "<DefaultExperiment"].map(|part| xml.find(part).unwrap());
+    assert!(units < types && types < experiment);
 }
 
 #[test]
