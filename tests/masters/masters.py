@@ -40,8 +40,8 @@ class Building:
         ]
 
 
-def own(building, step, steps, watched):
-    """Runs the master of examples/coupling, on FMPy's instances."""
+def own(building, step, steps, watched, loop=False):
+    """Runs the master of examples/coupling, on FMPy's instances; `loop` closes the loop before each step."""
     archives = {path: Archive(path) for path in set(building.fmus.values())}
     with contextlib.ExitStack() as stack:
         for archive in archives.values():
@@ -49,10 +49,10 @@ def own(building, step, steps, watched):
         units = [Unit(archives[path], name) for name, path in building.fmus.items()]
         ends = [(f"{a}.{b}", f"{c}.{d}") for a, b, c, d in building.connections]
         system = System(units, ends)
-        system.initialize(loop=False)
+        system.initialize(loop=loop)
         history = []
         for _ in range(steps):
-            system.jacobi(step)
+            system.jacobi(step, loop=loop)
             history.append([system.get(name) for name in watched])
     return np.array(history)
 

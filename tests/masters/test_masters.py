@@ -1,5 +1,6 @@
 """Tests a wall on a floor and a building in other masters; `wall building` makes both."""
 
+import json
 import os
 import re
 import shutil
@@ -24,6 +25,7 @@ WATCHED = {
 }
 WALL_ON_FLOOR = """
 stop_time = 2.0
+step = 0.001
 [[floor]]
 name = "storey"
 mass = 2000.0
@@ -61,7 +63,7 @@ def buildings(tmp_path_factory):
     """Makes both systems, with a start without forces: floors move without damping, and walls move with them.
 
     All inputs are then 0 at the start, whatever a master does with the loop of accelerations and reactions
-    before its first step.
+    before its first step. libcosim takes the step that the file states.
     """
     made = {}
     for name in WATCHED:
@@ -69,6 +71,7 @@ def buildings(tmp_path_factory):
         for scene in SCENES.glob("*.toml"):
             shutil.copy(scene, folder)
         text = re.sub("damping_ratio = .*", "damping_ratio = 0.0", (SCENES / "building.toml").read_text())
+        text = text.replace("stop_time = 5.0", f"stop_time = 5.0\nstep = {STEP}")
         text = text if name == "building" else WALL_ON_FLOOR
         (folder / "quiet.toml").write_text(text)
         made[name] = make(folder / "quiet.toml", folder / "quiet.ssp")
@@ -133,7 +136,7 @@ def test_the_step_that_a_building_needs_is_printed(tmp_path):
     The error at a step h is found from a run at a shorter step: of order 1, that has its part of the error.
     """
     for scene in SCENES.glob("*.toml"):
-        text = scene.read_text().replace("stop_time = 5.0", "stop_time = 0.6")
+        text = scene.read_text().replace("stop_time = 5.0", "stop_time = 0.6\nstep = 0.001")
         (tmp_path / scene.name).write_text(text)
     path = tmp_path / "b.ssp"
     command = [program(), "building", tmp_path / "building.toml", "-o", path, *fmus()]
@@ -141,7 +144,7 @@ def test_the_step_that_a_building_needs_is_printed(tmp_path):
     held, linear = (
         float(re.search(f"{kind} inputs +([0-9.]+) ms", printed)[1]) for kind in ("held", "linear")
     )
-    assert held < linear and "the file states 1 ms, which is too long for held inputs" in printed
+    assert held < linear and "the SSP states 1 ms, which is too long for held inputs" in printed
     # the steps tried are 10, 5, 2, 1, 0.5 ms and so on
     longer = held * (2.5 if f"{held:e}".startswith("2") else 2.0)
     watched = [*WATCHED["building"], "floor_1.acceleration_absolute", "floor_2.acceleration_absolute"]
@@ -156,6 +159,50 @@ def test_the_step_that_a_building_needs_is_printed(tmp_path):
     peaks = np.abs(fine).max(axis=0)
     errors = [np.max(np.abs(run(step) - fine) / peaks) / (1 - shorter / step) for step in (held, longer)]
     assert errors[0] <= 0.01 < errors[1]
+
+
+def stated(path):
+    """Stop times and steps that an SSP states: of the system, for each tool, and of each unit."""
+    with zipfile.ZipFile(path) as archive:
+        system = etree.fromstring(archive.read("SystemStructure.ssd"))
+        units = [name for name in archive.namelist() if name.endswith(".fmu")]
+        experiments = []
+        for name in units:
+            with archive.open(name) as file, zipfile.ZipFile(file) as unit:
+                description = etree.fromstring(unit.read("modelDescription.xml"))
+                experiments.append(description.find("DefaultExperiment"))
+    found = {etree.QName(element).localname: element for element in system.iter(etree.Element)}
+    stops = [experiment.get("stopTime") for experiment in [found["DefaultExperiment"], *experiments]]
+    steps = [found["FixedStepMaster"].get("stepSize"), found["FixedStepAlgorithm"].get("baseStepSize")]
+    steps += [experiment.get("stepSize") for experiment in experiments]
+    return {float(stop) for stop in stops}, {float(step) for step in steps}
+
+
+def test_held_inputs_at_the_stated_step_hold_the_peaks(tmp_path):
+    """To 1 % of the run in process, whether a master closes the loop at communication points or not."""
+    path = make(SCENES / "building.toml", tmp_path / "b.ssp")
+    (stop,), (step,) = stated(path)
+    assert stop == 5.0
+    # every peak is within the first second
+    end = 1.0
+    rows = "".join(f"{0.01 * index:.2f},0.0\n" for index in range(round(end / 0.01) + 1))
+    (tmp_path / "rest.csv").write_text(f"time [s],a_g [m/s2]\n{rows}")
+    command = [program(), "building", SCENES / "building.toml", "--record", tmp_path / "rest.csv"]
+    command += ["--unit", "m/s2", "--tail", "4", "--tolerance", "1e-4", "--json"]
+    run = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    expected = {}
+    for floor in run["floors"]:
+        assert floor["drift"]["time"] < end and floor["acceleration"]["time"] < end
+        expected[f"{floor['name']}.displacement"] = abs(floor["drift"]["value"])
+        expected[f"{floor['name']}.acceleration_absolute"] = abs(floor["acceleration"]["value"])
+    for wall in run["walls"]:
+        assert wall["u_ratio"]["time"] < end
+        expected[f"{wall['name']}.u"] = wall["u_max"]
+    building = Building(path, tmp_path / "unpacked")
+    for loop in (False, True):
+        history = MASTERS["own"](building, step, round(end / step), list(expected), loop=loop)
+        peaks = dict(zip(expected, np.abs(history).max(axis=0), strict=True))
+        assert peaks == pytest.approx(expected, rel=0.01), loop
 
 
 def test_the_system_is_complete_and_its_bytes_repeat(tmp_path):
@@ -195,14 +242,16 @@ def test_a_system_may_have_the_grounds_motion_as_its_input(tmp_path):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (("mass = 2.0e4", "mass = -1"), ["line 11", "mass", "-1"]),
+        (("mass = 2.0e4", "mass = -1"), ["line 10", "mass", "-1"]),
         (('on = "floor_1"', 'on = "floor_3"'), ["floor_3", "ground, floor_1"]),
         (('name = "parapet"', 'name = "strip"'), ["strip", "choose another"]),
         (('name = "parapet"', 'name = "a wall"'), ["a wall", "letters"]),
         (('scene = "parapet.toml"', 'scene = "none.toml"'), ["none.toml"]),
         (('scene = "parapet.toml"', 'scene = "strip.toml"'), ["parapet", "top"]),
         (("velocity_start", "speed"), ["speed", "velocity_start"]),
-        (("step = 0.001", "step = 0"), ["step = 0"]),
+        (("stop_time = 5.0", "stop_time = 0"), ["stop_time = 0"]),
+        (("stop_time = 5.0", "stop_time = 5.0\nstep = 0"), ["step = 0", "leave it out"]),
+        (("stop_time = 5.0", "stop_time = 5.0\nstep = 6"), ["step = 6", "stop_time = 5"]),
     ],
 )
 def test_bad_buildings_are_named(tmp_path, change, words):

@@ -1,4 +1,4 @@
-"""Tests what importers do beside the standard, with the units in both versions of FMI: it must not stop them."""
+"""Tests what importers do beside the standard, in both versions of FMI: it must not stop them."""
 
 import subprocess
 

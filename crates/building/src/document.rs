@@ -71,8 +71,9 @@ pub struct Building {
     pub title: String,
     /// End of the default experiment \[s\].
     pub stop_time: f64,
-    /// Its communication step \[s\].
-    pub step: f64,
+    /// Its communication step \[s\]; none if the file leaves it to
+    /// [`Trial::step`](crate::trial::Trial::step).
+    pub step: Option<f64>,
     /// The ground's acceleration is an input of the system.
     pub expose_ground: bool,
     /// Storeys.
@@ -87,8 +88,7 @@ struct Document {
     title: Option<String>,
     #[serde(default = "default_stop_time")]
     stop_time: f64,
-    #[serde(default = "default_step")]
-    step: f64,
+    step: Option<f64>,
     /// By default off: not every tool knows inputs of a system.
     #[serde(default)]
     expose_ground: bool,
@@ -111,10 +111,6 @@ struct WallTable {
 
 fn default_stop_time() -> f64 {
     10.0
-}
-
-fn default_step() -> f64 {
-    0.001
 }
 
 type Result<T> = std::result::Result<T, BuildingError>;
@@ -168,10 +164,14 @@ impl Building {
 
     fn from_document(document: Document, source: &Source<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
-        if !(stop_time > 0.0 && stop_time <= LONGEST_RUN && step > 0.0 && step <= stop_time) {
+        if !(stop_time > 0.0 && stop_time <= LONGEST_RUN) {
+            return Err(
+                source.whole(format!("stop_time = {stop_time} s; expected 0 < stop_time <= {LONGEST_RUN} s"))
+            );
+        }
+        if let Some(step) = step.filter(|&step| !(step > 0.0 && step <= stop_time)) {
             return Err(source.whole(format!(
-                "stop_time = {stop_time} s and step = {step} s; expected 0 < step <= stop_time <= \
-                 {LONGEST_RUN} s"
+                "step = {step} s; expected 0 < step <= stop_time = {stop_time} s, or leave it out"
             )));
         }
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {

@@ -4,12 +4,12 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use fmu_export::VariableId;
+use fmu_export_build::Reduction;
 use fmu_export_build::archive::Archive;
-use fmu_export_build::{DefaultExperiment, Reduction};
 use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::variables::{Mechanism, RealVariable};
-use rocking_wall::wall::{Parameters, Wall};
-use scene_fmu::{General, of_scene};
+use rocking_wall::wall::Wall;
+use scene_fmu::{General, experiment, of_scene_in};
 
 use crate::document::{Building, Floor, Member, Parameter, fmu_path};
 use crate::error::BuildingError;
@@ -39,7 +39,7 @@ impl Parts {
     pub fn read(building: &Building) -> Result<Self, BuildingError> {
         let (mut scenes, mut walls, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
         for member in &building.walls {
-            let (scene, wall) = scene(member, &mut warnings)
+            let (scene, wall) = scene(building, member, &mut warnings)
                 .map_err(|reason| BuildingError::Wall { wall: member.name.clone(), reason })?;
             scenes.push(scene);
             walls.push(wall);
@@ -56,29 +56,32 @@ impl Parts {
         (self.system.components.len(), self.system.connections.len())
     }
 
-    /// Makes the SSP of the building from the general FMUs of walls and floors.
+    /// Makes the SSP of the building from the general FMUs of walls and floors. The system and each unit
+    /// state the building's stop time and the communication step `step` \[s\].
     ///
     /// # Errors
     /// [`BuildingError::General`] where an FMU cannot be used.
     pub fn archive(
         &self,
         building: &Building,
+        step: f64,
         wall_fmu: &Path,
         floor_fmu: &Path,
     ) -> Result<Archive, BuildingError> {
         let mut archive = Archive::default();
         for (scene, member) in self.scenes.iter().zip(&building.walls) {
             let general = general(wall_fmu, "--wall-fmu")?;
-            let unit = of_scene(scene, general).map_err(|error| wall_failed(member, &error))?;
+            let unit = of_scene_in(scene, general, experiment(building.stop_time, step))
+                .map_err(|error| wall_failed(member, &error))?;
             let bytes = unit.archive.to_bytes().map_err(|error| wall_failed(member, &error))?;
             archive.insert(fmu_path(&member.name), bytes);
         }
         for (floor, payload) in building.floors.iter().zip(&self.plan.payloads) {
-            let unit = storey(building, floor, payload, floor_fmu)?;
+            let unit = storey(building, step, floor, payload, floor_fmu)?;
             let bytes = unit.to_bytes().map_err(|error| floor_failed(floor, &error))?;
             archive.insert(fmu_path(&floor.name), bytes);
         }
-        archive.insert("SystemStructure.ssd", ssd::text(&self.system));
+        archive.insert("SystemStructure.ssd", ssd::text(&self.system, step));
         Ok(archive)
     }
 }
@@ -91,8 +94,8 @@ fn floor_failed(floor: &Floor, error: &dyn std::fmt::Display) -> BuildingError {
     BuildingError::Floor { floor: floor.name.clone(), reason: error.to_string() }
 }
 
-/// The scene of a wall, with the inputs that its place in the building moves.
-fn scene(wall: &Member, warnings: &mut Vec<String>) -> Result<(Scene, Wall), String> {
+/// The scene of a wall, with the building's stop time and the inputs that its place in the building moves.
+fn scene(building: &Building, wall: &Member, warnings: &mut Vec<String>) -> Result<(Scene, Wall), String> {
     let path = wall.scene.display();
     let mut scene = Scene::read(&wall.scene).map_err(|error| error.to_string())?;
     let made = Wall::new(&scene.parameters).map_err(|error| format!("{path}: {error}"))?;
@@ -115,6 +118,7 @@ fn scene(wall: &Member, warnings: &mut Vec<String>) -> Result<(Scene, Wall), Str
         }
         _ => {}
     }
+    scene.stop_time = building.stop_time;
     scene.inputs = vec![RealVariable::ABottom];
     if wall.top.is_some() {
         scene.inputs.push(RealVariable::ATop);
@@ -147,7 +151,13 @@ fn payload(floor: &Floor) -> String {
 }
 
 /// The FMU of a storey, made from the general one.
-fn storey(building: &Building, floor: &Floor, payload: &str, path: &Path) -> Result<Archive, BuildingError> {
+fn storey(
+    building: &Building,
+    step: f64,
+    floor: &Floor,
+    payload: &str,
+    path: &Path,
+) -> Result<Archive, BuildingError> {
     let mut general = general(path, "--floor-fmu")?;
     if general.description.model_identifier() != "floor" {
         let found = general.description.model_identifier();
@@ -167,12 +177,7 @@ fn storey(building: &Building, floor: &Floor, payload: &str, path: &Path) -> Res
             guid: &general.guid_with(payload),
             keep: &|_| true,
             starts: &starts,
-            experiment: DefaultExperiment {
-                start: 0.0,
-                stop: building.stop_time,
-                step: building.step,
-                tolerance: Parameters::default().tolerance,
-            },
+            experiment: experiment(building.stop_time, step),
         })
         .map_err(|error| floor_failed(floor, &error))?;
     general.describe(&reduced).map_err(|error| floor_failed(floor, &error))?;

@@ -30,15 +30,15 @@ const UNITS: [(&str, &str); 9] = [
     ("N.s/m", r#" kg="1" s="-1""#),
 ];
 
-/// The text of `SystemStructure.ssd`.
-pub(crate) fn text(system: &System) -> String {
+/// The text of `SystemStructure.ssd`, with the communication step `step` \[s\].
+pub(crate) fn text(system: &System, step: f64) -> String {
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     // writing to a String cannot fail
-    let _ = write(&mut xml, system);
+    let _ = write(&mut xml, system, step);
     xml
 }
 
-fn write(xml: &mut String, system: &System) -> std::fmt::Result {
+fn write(xml: &mut String, system: &System, step: f64) -> std::fmt::Result {
     let title = escaped(&system.title);
     write!(xml, "<ssd:SystemStructureDescription version=\"1.0\" name=\"{NAME}\"")?;
     writeln!(xml, " generationTool=\"rocking-wall {}\"", env!("CARGO_PKG_VERSION"))?;
@@ -74,14 +74,14 @@ fn write(xml: &mut String, system: &System) -> std::fmt::Result {
     writeln!(xml, "      <ssc:Annotation type=\"org.openmodelica\">\n        <oms:Annotations>")?;
     writeln!(xml, "          <oms:SimulationInformation>")?;
     write!(xml, "            <oms:FixedStepMaster description=\"oms-ma\"")?;
-    writeln!(xml, " stepSize=\"{:?}\" relativeTolerance=\"1e-08\"/>", system.step)?;
+    writeln!(xml, " stepSize=\"{step:?}\" relativeTolerance=\"1e-08\"/>")?;
     writeln!(xml, "          </oms:SimulationInformation>\n        </oms:Annotations>")?;
     writeln!(xml, "      </ssc:Annotation>\n    </ssd:Annotations>\n  </ssd:System>")?;
     write_units(xml, system)?;
     writeln!(xml, "  <ssd:DefaultExperiment startTime=\"0\" stopTime=\"{:?}\">", system.stop_time)?;
     writeln!(xml, "    <ssd:Annotations>\n      <ssc:Annotation type=\"com.opensimulationplatform\">")?;
     writeln!(xml, "        <osp:Algorithm>")?;
-    writeln!(xml, "          <osp:FixedStepAlgorithm baseStepSize=\"{:?}\"/>", system.step)?;
+    writeln!(xml, "          <osp:FixedStepAlgorithm baseStepSize=\"{step:?}\"/>")?;
     writeln!(xml, "        </osp:Algorithm>\n      </ssc:Annotation>\n    </ssd:Annotations>")?;
     writeln!(xml, "  </ssd:DefaultExperiment>\n</ssd:SystemStructureDescription>")
 }
@@ -171,9 +171,8 @@ mod tests {
     #[test]
     fn names_are_identifiers_and_the_system_states_its_step() {
         let (title, components, connections) = ("A \"tall\" house".to_owned(), Vec::new(), Vec::new());
-        let system =
-            System { title, components, connections, expose_ground: false, stop_time: 2.0, step: 0.0025 };
-        let xml = text(&system);
+        let system = System { title, components, connections, expose_ground: false, stop_time: 2.0 };
+        let xml = text(&system, 0.0025);
         let names: Vec<_> = xml.split(" name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
         assert_eq!(names, ["building", "building", "m/s2"]);
         assert!(xml.contains("description=\"A &quot;tall&quot; house\""));

@@ -39,6 +39,16 @@ pub struct Trial {
     pub is_shaken: bool,
 }
 
+impl Trial {
+    /// Returns the communication step that the building's SSP states \[s\].
+    ///
+    /// It is the file's own, or else the one that masters need that hold their inputs, as most do. If none
+    /// that was tried suffices, it is the smallest.
+    pub fn step(&self, building: &Building) -> f64 {
+        building.step.unwrap_or_else(|| self.held.unwrap_or(self.least).min(building.stop_time))
+    }
+}
+
 /// A building and what is watched of it.
 struct Trials<'a> {
     plan: &'a Plan,

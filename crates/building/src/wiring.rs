@@ -24,7 +24,6 @@ const SHOWN_OF_A_WALL: [&str; 4] = ["u", "u_dot", "u_ratio", "overturn_time"];
 pub(crate) struct System {
     pub(crate) title: String,
     pub(crate) stop_time: f64,
-    pub(crate) step: f64,
     /// The ground's acceleration is an input of the system, connected with all that stands on the ground.
     pub(crate) expose_ground: bool,
     pub(crate) components: Vec<Component>,
@@ -79,7 +78,6 @@ pub(crate) fn system(building: &Building, scenes: &[Scene]) -> Result<System> {
     let mut system = System {
         title: building.title.clone(),
         stop_time: building.stop_time,
-        step: building.step,
         expose_ground: building.expose_ground,
         components: names.map(component).collect(),
         connections: Vec::new(),

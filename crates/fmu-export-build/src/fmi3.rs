@@ -80,8 +80,8 @@ impl Description {
     /// The FMI 3.0 description, with `token` as its instantiation token, and `terminalsAndIcons.xml` if there
     /// are terminals.
     ///
-    /// Variables keep their value references. Units and nominal values of Reals stand in their types, which get
-    /// variants where they differ. The independent variable `time` is added if there is none, and
+    /// Variables keep their value references. Units and nominal values of Reals stand in their types, which
+    /// get variants where they differ. The independent variable `time` is added if there is none, and
     /// one variable for each event indicator, as `fmu-export` serves them. Capabilities that FMI 2.0 does not
     /// know are those of `fmu-export`, and those of `additions`.
     ///

@@ -54,20 +54,15 @@ impl Types {
         Some(self.variant(origin, kind))
     }
 
-    /// The name of the type of the time \[s\].
+    /// The name of the type of the time \[s\], after those of all variables.
     pub(crate) fn of_time(&mut self) -> String {
-        let in_seconds = |kind: &Element| kind.attribute("unit") == Some("s");
-        match self.written.iter_mut().find(|written| written.origin == TIME && in_seconds(&written.kind)) {
-            Some(written) => {
-                written.is_used = true;
-                name(&written.kind).to_owned()
-            }
-            None => {
-                let mut kind = float_type(TIME);
-                kind.set_attribute("unit", "s".to_owned());
-                self.variant(TIME, kind)
-            }
+        let in_seconds = |kind: &Element| name(kind) == TIME && kind.attribute("unit") == Some("s");
+        if self.written.iter().any(|written| in_seconds(&written.kind)) {
+            return TIME.to_owned();
         }
+        let mut kind = float_type(TIME);
+        kind.set_attribute("unit", "s".to_owned());
+        self.variant(TIME, kind)
     }
 
     /// The types, in the order of the FMI 2.0 description, each with its variants.

@@ -48,7 +48,25 @@ pub struct SceneFmu {
 ///
 /// # Errors
 /// [`SceneFmuError`] of a scene in full rotations, or where the description cannot be reduced.
-pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFmuError> {
+pub fn of_scene(scene: &Scene, general: General) -> Result<SceneFmu, SceneFmuError> {
+    let stop = scene.stop_time;
+    of_scene_in(scene, general, experiment(stop, stop / STEPS))
+}
+
+/// Returns the default experiment of a unit that runs from 0 to `stop` in steps of `step` \[s\].
+pub fn experiment(stop: f64, step: f64) -> DefaultExperiment {
+    DefaultExperiment { start: 0.0, stop, step, tolerance: Parameters::default().tolerance }
+}
+
+/// Makes the FMU of a scene from the general one, with a default experiment that is not the scene's own.
+///
+/// # Errors
+/// As [`of_scene`].
+pub fn of_scene_in(
+    scene: &Scene,
+    mut general: General,
+    experiment: DefaultExperiment,
+) -> Result<SceneFmu, SceneFmuError> {
     check(scene)?;
     let mut motion = String::new();
     if let Some(excitation) = &scene.excitation {
@@ -62,7 +80,7 @@ pub fn of_scene(scene: &Scene, mut general: General) -> Result<SceneFmu, SceneFm
         }
     }
     let text = scene::to_toml(scene, &motion);
-    let reduced = reduce(&general.description, scene, &general.guid_with(&text))?;
+    let reduced = reduce(&general.description, scene, &general.guid_with(&text), experiment)?;
     general.describe(&reduced)?;
     let General { mut archive, description, .. } = general;
     archive.insert("resources/scene.toml", text.as_str());
@@ -101,7 +119,12 @@ fn motion_table(archive: &mut Archive, name: &str, motion: &GroundMotion) -> Str
     table
 }
 
-fn reduce(base: &Description, scene: &Scene, guid: &str) -> Result<Description, SceneFmuError> {
+fn reduce(
+    base: &Description,
+    scene: &Scene,
+    guid: &str,
+    experiment: DefaultExperiment,
+) -> Result<Description, SceneFmuError> {
     let numbers = GROUPS.iter().flat_map(|(_, names)| names.iter()).filter(|name| scene.uses(name));
     let starts: Vec<_> = numbers
         .filter_map(|name| Some(((*name).to_owned(), scene::parameter_text(&scene.parameters, name)?)))
@@ -114,11 +137,6 @@ fn reduce(base: &Description, scene: &Scene, guid: &str) -> Result<Description, 
         guid,
         keep: &keep,
         starts: &starts,
-        experiment: DefaultExperiment {
-            start: 0.0,
-            stop: scene.stop_time,
-            step: scene.stop_time / STEPS,
-            tolerance: Parameters::default().tolerance,
-        },
+        experiment,
     })?)
 }

@@ -58,9 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));
     let mut text = String::new();
     if let Some(path) = &output {
-        // before the trial, which may take long
-        let archive = parts.archive(&building, &arguments.wall_fmu, &arguments.floor_fmu)?;
         let trial = trial(&building, &parts)?;
+        let step = trial.step(&building);
+        let archive = parts.archive(&building, step, &arguments.wall_fmu, &arguments.floor_fmu)?;
         output::to_file(path, &archive.to_bytes()?)?;
         let (units, connections) = parts.counts();
         let _ = writeln!(
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             path.display(),
             building.title
         );
-        text.push_str(&advice(&trial, building.step));
+        text.push_str(&advice(&trial, step));
     }
     if let Some((motion, note)) = motion {
         text.push_str(&run::run(&building, &parts, &motion, &note, &arguments.run)?);
@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::to_stdout(&text)
 }
 
-/// Says which steps the building needs.
+/// Says which steps the building needs, and which one the SSP states.
 fn advice(trial: &Trial, stated: f64) -> String {
     let milliseconds = |step: f64| format!("{} ms", (1e9 * step).round() / 1e6);
     let found = |step: Option<f64>| {
@@ -92,9 +92,9 @@ fn advice(trial: &Trial, stated: f64) -> String {
         found(trial.held),
         found(trial.linear)
     );
-    if trial.held.is_none_or(|held| stated > held) {
-        // writing to a String cannot fail
-        let _ = writeln!(text, "the file states {}, which is too long for held inputs", milliseconds(stated));
-    }
+    let is_long = trial.held.is_none_or(|held| stated > held);
+    let remark = if is_long { ", which is too long for held inputs" } else { "" };
+    // writing to a String cannot fail
+    let _ = writeln!(text, "the SSP states {}{remark}", milliseconds(stated));
     text
 }

@@ -92,7 +92,8 @@ fn types_tell_the_units_of_their_variables() {
         .replace("name=\"layers\"", "name=\"Length_2\"")
         .replace("<Unit name=\"N\">", "<Unit name=\"s\"><BaseUnit s=\"1\"/></Unit>\n<Unit name=\"N\">");
     let (xml, _) = written(&text);
-    let types: Vec<_> = xml.lines().map(str::trim).filter(|line| line.starts_with("<Float64Type")).collect();
+    let lines = xml.lines().map(str::trim);
+    let types: Vec<_> = lines.filter(|line| line.starts_with("<Float64Type")).collect();
     assert_eq!(
         types,
         [

@@ -65,8 +65,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// The step with its end; none if its length is 0, as some importers ask who only want outputs, or if it is
-    /// too small to reach the own time.
+    /// The step with its end. None if it is too small to reach the own time, or of length 0, which some
+    /// importers take to evaluate outputs.
     fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;

@@ -24,8 +24,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// The value of a Real variable, or of a Boolean as 0 or 1: some importers read all outputs as Reals. None
-    /// if the reference is of neither.
+    /// The value of a Real variable, or of a Boolean as 0 or 1: some importers read all outputs as Reals.
+    /// None if the reference is of neither.
     pub(super) fn number(&mut self, reference: u32) -> Result<Option<f64>, Failure> {
         if let Some(id) = M::Real::from_reference(reference) {
             return limits::finite(id.variable(), self.now.model.real(id)).map(Some);
