@@ -265,10 +265,10 @@ thread_local! {
     static INSTANCE: Cell<Component> = const { Cell::new(null_mut()) };
     /// What the importer sets `force` to at the end of a step, and the time it was asked for.
     static FORCE: Cell<f64> = const { Cell::new(0.0) };
-    static ASKED: Cell<f64> = const { Cell::new(f64::NAN) };
+    pub static ASKED: Cell<f64> = const { Cell::new(f64::NAN) };
 }
 
-unsafe extern "C" fn set_force(
+pub unsafe extern "C" fn set_force(
     _: Component,
     time: f64,
     set_requested: bool,
