@@ -137,7 +137,9 @@ impl Scene {
             parameter::apply_group(&mut parameters, group, entries, place)?;
         }
         let motion = document.motion.as_ref();
-        let loaded = motion.map(|table| motion::load(table, place, folder)).transpose()?;
+        let loaded = motion
+            .map(|table| motion::load(table, place, folder, !document.storeys.is_empty()))
+            .transpose()?;
         let inputs = document.inputs(place)?;
         let floors = read_floors(&document.storeys, document.supports.as_ref(), place)?;
         if motion.is_some() || !inputs.is_empty() {

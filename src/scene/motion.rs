@@ -8,7 +8,8 @@ use toml::Spanned;
 
 use crate::simulation::Excitation;
 use ground_motion::{
-    Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion, Unit, read,
+    Acceleration, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape, SyntheticMotion,
+    Unit, read,
 };
 
 use super::error::{Place, SceneError};
@@ -44,8 +45,8 @@ pub struct MotionTable {
     pub synthetic: Option<SyntheticTable>,
     /// Factor on the motion (-).
     pub scale: Option<f64>,
-    /// Peak acceleration to scale to (m/s²).
-    pub pga: Option<f64>,
+    /// Peak acceleration to scale to, in m/s² or as a text with its unit, such as "0.3g".
+    pub pga: Option<Acceleration>,
     /// Start of the part to use (s).
     pub from: Option<f64>,
     /// End of the part to use (s).
@@ -71,7 +72,7 @@ pub struct TopTable {
     pub channel: Option<String>,
     pub format: Option<Format>,
     pub scale: Option<f64>,
-    pub pga: Option<f64>,
+    pub pga: Option<Acceleration>,
     pub fingerprint: Option<String>,
 }
 
@@ -144,8 +145,9 @@ pub(super) fn load(
     table: &Spanned<MotionTable>,
     place: &Place<'_>,
     folder: &Path,
+    has_floors: bool,
 ) -> Result<Loaded, SceneError> {
-    loaded(table.get_ref(), folder).map_err(|problem| match problem {
+    loaded(table.get_ref(), folder, has_floors).map_err(|problem| match problem {
         Problem::Table(message) => place.error(table.span(), message),
         Problem::Motion(source) => SceneError::Motion {
             file: place.name().to_owned(),
@@ -167,7 +169,7 @@ impl From<GroundMotionError> for Problem {
     }
 }
 
-fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
+fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded, Problem> {
     let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
     if !(0.0..=1e6).contains(&tail) {
         return Err(Problem::Table(format!("tail = {tail} s must be between 0 and 1e6 s")));
@@ -186,6 +188,7 @@ fn loaded(spec: &MotionTable, folder: &Path) -> Result<Loaded, Problem> {
         Some(top) => {
             format!("peak accelerations {:.4} m/s² (bottom), {:.4} m/s² (top)", bottom.peak(), top.peak())
         }
+        None if has_floors => format!("peak ground acceleration {:.4} m/s²", bottom.peak()),
         None => format!("peak acceleration {:.4} m/s²", bottom.peak()),
     };
     let excitation = Excitation::new(bottom, top);
@@ -287,11 +290,15 @@ fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, Ground
     motion.trimmed(spec.from.unwrap_or(0.0), to)
 }
 
-fn scale(motion: GroundMotion, factor: Option<f64>, pga: Option<f64>) -> Result<GroundMotion, Problem> {
+fn scale(
+    motion: GroundMotion,
+    factor: Option<f64>,
+    pga: Option<Acceleration>,
+) -> Result<GroundMotion, Problem> {
     match (factor, pga) {
         (None, None) => Ok(motion),
         (Some(factor), None) => Ok(motion.checked_scaled(factor)?),
-        (None, Some(pga)) => Ok(motion.scaled_to_peak(pga)?),
+        (None, Some(pga)) => Ok(motion.scaled_to_peak(pga.0)?),
         (Some(_), Some(_)) => {
             Err(Problem::Table("scale and pga exclude each other; give one of them".into()))
         }

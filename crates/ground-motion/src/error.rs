@@ -48,6 +48,9 @@ pub enum GroundMotionError {
     /// A unit of acceleration that is not known.
     #[error("unknown unit of acceleration `{found}`; use one of m/s2, cm/s2 (or gal), mm/s2, g")]
     Unit { found: String },
+    /// A text that is no acceleration.
+    #[error("{found:?} is not an acceleration; expected a number in m/s2, or one with a unit, such as 0.3g")]
+    Acceleration { found: String },
     /// A record format that is not known.
     #[error("unknown record format `{found}`; use one of at2, esm, knet, cosmos, csmip, smc, csv")]
     Format { found: String },

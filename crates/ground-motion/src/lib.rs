@@ -61,4 +61,4 @@ pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_chann
 pub use spectrum::{Maxima, Spectrum};
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
-pub use unit::{STANDARD_GRAVITY, Unit};
+pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};

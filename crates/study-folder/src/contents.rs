@@ -5,7 +5,7 @@ use std::ops::Range;
 use rocking_wall::scene::fingerprint;
 use serde::{Deserialize, Serialize};
 use study::document::{ReportOptions, wall_text};
-use study::ida::{Case, Study};
+use study::ida::{Case, Model, Study};
 
 /// What the runs of a study depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -123,15 +123,15 @@ impl Contents {
             program: format!("rocking-wall {}", env!("CARGO_PKG_VERSION")),
             sources: study::SOURCES.to_owned(),
             measure: study.measure().name(),
-            measure_details: format!("{:?}", study.measure()),
-            levels: format!("{:?}", study.levels()),
+            measure_details: study.measure().description(),
+            levels: study.levels().description(),
             grid: study.levels().shared(),
             tail_s: study.tail(),
             part_size: study.part_size(),
             walls: walls.collect(),
             models: models
                 .iter()
-                .map(|model| ModelNote { name: model.name.clone(), damping: format!("{:?}", model.damping) })
+                .map(|model| ModelNote { name: model.name.clone(), damping: Model::new(model.damping).name })
                 .collect(),
             records: records.collect(),
         }
@@ -175,13 +175,28 @@ impl Contents {
     /// Describes the first line in which two contents differ.
     pub(crate) fn difference(&self, other: &Self) -> String {
         let lines = |contents: &Self| {
+            let Self { program, sources, measure_details, levels, tail_s, part_size, .. } = contents;
+            let head = format!(
+                "program {program}\nsources {sources}\nintensity {measure_details}\nlevels: {levels}\n\
+                 tail of {tail_s} s\nparts of {part_size}"
+            );
+            let models =
+                contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));
+            let records = contents.records.iter().map(|record| {
+                let RecordNote { name, fingerprint, points, step_s, intensity } = record;
+                format!(
+                    "record {name}, {points} points of {step_s} s, intensity {intensity} m/s², fingerprint \
+                     {fingerprint}"
+                )
+            });
             let walls = contents.walls.iter().flat_map(|wall| {
                 let WallNote { name, parameters, restitution, xi } = wall;
-                let text = format!("name = {name}\n{parameters}e = {restitution}\nxi = {xi:?}");
+                let xi: Vec<_> = xi.iter().map(f64::to_string).collect();
+                let text = format!("wall {name}\n{parameters}e = {restitution}\nxi = {}", xi.join(", "));
                 text.lines().map(str::to_owned).collect::<Vec<_>>()
             });
-            let head = contents.head();
-            head.split([',', '\n']).map(str::to_owned).chain(walls).collect::<Vec<_>>()
+            let head: Vec<_> = head.lines().map(str::to_owned).collect();
+            head.into_iter().chain(models).chain(records).chain(walls).collect::<Vec<_>>()
         };
         let pair = lines(self).into_iter().zip(lines(other)).find(|(mine, theirs)| mine != theirs);
         pair.map_or_else(

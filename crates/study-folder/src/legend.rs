@@ -27,6 +27,29 @@ pub(crate) fn file(
     sheet(title, &legend, drawings, size)
 }
 
+/// What the short names of damping models stand for.
+const NAMES: [(&str, &str); 6] = [
+    ("CR", "coefficient of restitution, applied at each impact"),
+    ("CR rigid", "the same on the rigid-linear force law"),
+    ("CDC", "constant damping coefficient"),
+    ("CDR", "constant damping ratio"),
+    ("SDR", "stiffness-proportional damping ratio"),
+    ("block", "damping of a free-standing block, Eq. (7)"),
+];
+
+/// Spells out the damping models of a study, each once.
+pub(crate) fn spelled_out(manifest: &Manifest) -> String {
+    let models = &manifest.contents.models;
+    let is = |damping: &str, short: &str| {
+        let rest = damping.strip_prefix(short);
+        // a ratio or an equation may follow the name
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with([' ']) && rest != " rigid")
+    };
+    let used = NAMES.iter().filter(|(short, _)| models.iter().any(|model| is(&model.damping, short)));
+    let words: Vec<_> = used.map(|(short, meaning)| format!("{short}: {meaning}")).collect();
+    words.join("; ")
+}
+
 /// Lists the models for the top of the page.
 pub(crate) fn key(manifest: &Manifest) -> String {
     let mut key = String::new();

@@ -11,7 +11,7 @@ use study::ida::Exceedance;
 use study::results::WallResults;
 
 use crate::contents::{Contents, Manifest};
-use crate::legend::{key, looks};
+use crate::legend::{key, looks, spelled_out};
 use crate::plots::{Shown, curves, fragility, top};
 use crate::tables::in_g;
 
@@ -41,6 +41,7 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
             ("facts", &facts),
             ("reading", &reading(manifest)),
             ("key", &key(manifest)),
+            ("models", &spelled_out(manifest)),
             ("program", &escaped(&contents.program)),
             ("sections", sections),
         ],
@@ -50,14 +51,10 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
 /// The intensity measure in words, with its periods.
 fn measure_words(manifest: &Manifest) -> String {
     let contents = &manifest.contents;
-    let periods =
-        contents.measure_details.split_once("periods: ").map(|(_, rest)| rest.trim_end_matches([' ', '}']));
-    match periods {
-        Some(periods) => format!(
-            "{}, the geometric mean of 5&nbsp;%-damped Sa at {} s",
-            escaped(&contents.measure),
-            escaped(periods.trim_matches(['[', ']']))
-        ),
+    match contents.measure_details.split_once(" over ") {
+        Some((measure, periods)) => {
+            format!("{}, the geometric mean of 5&nbsp;%-damped Sa at {}", escaped(measure), escaped(periods))
+        }
         None => escaped(&contents.measure),
     }
 }

@@ -133,8 +133,8 @@ fn table(study: &WorkPrecision) -> String {
     text
 }
 
-/// Columns of the CSV; errors over `u_ins`, times in s.
-const COLUMNS: &str = "scene,solver,setting,seconds,error_max,error_rms,error_peak,error_overturn_time,\
+/// Columns of the CSV; errors without a unit are over `u_ins`, that of the peak over the peak.
+const COLUMNS: &str = "scene,solver,setting,run_time_s,error_max,error_rms,error_peak,error_overturn_time_s,\
                        pieces,corners,impacts,amplification";
 
 fn csv(studies: &[WorkPrecision]) -> String {

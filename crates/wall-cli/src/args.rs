@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion, Unit, read};
+use ground_motion::{Acceleration, GroundMotion, RecordOptions, SyntheticMotion, read};
 use rocking_wall::scene::Scene;
 
 use crate::output;
@@ -34,8 +34,8 @@ pub(crate) struct RecordArguments {
     #[arg(long, conflicts_with = "pga", value_name = "FACTOR")]
     pub(crate) scale: Option<f64>,
     /// Peak acceleration to scale the motion given here to, in m/s2 or with its unit, such as 0.3g
-    #[arg(long, value_name = "M_PER_S2", value_parser = acceleration)]
-    pub(crate) pga: Option<f64>,
+    #[arg(long, value_name = "M_PER_S2")]
+    pub(crate) pga: Option<Acceleration>,
 }
 
 /// How to read records; each of these needs an argument of the group `recorded`.
@@ -56,25 +56,6 @@ pub(crate) struct RecordOptionsArguments {
     /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
     #[arg(long, requires = "recorded")]
     format: Option<String>,
-}
-
-/// Reads an acceleration in m/s², or with its unit after it.
-fn acceleration(text: &str) -> Result<f64, String> {
-    let expected = || {
-        format!(
-            "{text:?} is not an acceleration; expected a number in m/s2, or one with a unit, such as 0.3g"
-        )
-    };
-    // the exponent of a number is no unit
-    let is_unit = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
-    let (number, unit) = match text.find(is_unit) {
-        Some(at) if text.parse::<f64>().is_err() => text.split_at(at),
-        _ => (text, ""),
-    };
-    let number: f64 = number.trim().parse().map_err(|_| expected())?;
-    let unit =
-        if unit.is_empty() { Unit::MetrePerSecondSquared } else { unit.parse().map_err(|_| expected())? };
-    Ok(unit.to_si(number))
 }
 
 impl RecordOptionsArguments {
@@ -150,7 +131,7 @@ impl RecordArguments {
     pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
         Ok(match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
-            (None, Some(pga)) => motion.scaled_to_peak(pga)?,
+            (None, Some(pga)) => motion.scaled_to_peak(pga.0)?,
             (None, None) => motion,
         })
     }

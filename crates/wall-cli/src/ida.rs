@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use study::ida::Study;
 use study::loaded::LoadedStudy;
@@ -95,6 +95,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if found > 0 {
         output::report(&format!("{found} of {} combinations are done already", cases(&mine)));
     }
+    tell_of_resuming()?;
     let words = work(&loaded.study, &folder, &missing, cases(&missing), threads)?;
     drop(loaded);
     // results are worth more than words
@@ -134,6 +135,21 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
         return Err(target.incomplete(&missing).into());
     }
     finish(&target, parallel::threads(None).get())
+}
+
+/// Exit code of a program that Ctrl-C has ended, 128 and the number of the signal.
+const INTERRUPTED: i32 = 130;
+
+/// Lets Ctrl-C say that the same command resumes. Finished parts are files, and a part is there completely or
+/// not at all, so that nothing else is to be saved.
+fn tell_of_resuming() -> Result<()> {
+    ctrlc::set_handler(|| {
+        // the line of progress has no end yet
+        output::to_stderr("\n");
+        output::report("interrupted; finished parts are kept, and the same command resumes");
+        std::process::exit(INTERRUPTED);
+    })
+    .context("Ctrl-C")
 }
 
 /// Warns of parts that are there although they count as missing.

@@ -85,7 +85,8 @@ impl Linearisation {
 
     pub(crate) fn csv(&self) -> String {
         let mut text = String::from(
-            "mechanism,alpha,start,period_linear,period_trigonometric,period_eq5,ratio,ratio_eq5\n",
+            "mechanism,alpha_rad,start_over_u_ins,period_linear_s,period_trigonometric_s,period_eq5_s,ratio,\
+             ratio_eq5\n",
         );
         for measured in &self.0 {
             for period in measured.periods.iter().flatten() {

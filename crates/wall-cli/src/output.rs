@@ -11,14 +11,31 @@ use figures::plot::Picture;
 pub(crate) use distinct::check_distinct;
 pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
 
-/// Writes a file completely or not at all, see [`study_folder::file::to_file`].
+/// Writes a file completely or not at all, see [`study_folder::file::to_file`]; `-` is standard output.
 pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
+    if path.as_os_str() == distinct::STDOUT {
+        return terminal::bytes_to_stdout(content);
+    }
     Ok(study_folder::file::to_file(path, content)?)
 }
 
 /// Writes a text to the file that an option names, if it is given.
 pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
     path.map_or(Ok(()), |path| to_file(path, text().as_bytes()))
+}
+
+/// Refuses another ending than .svg for a picture that is written as SVG only; names without an ending, such
+/// as those of devices, are the user's own.
+pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
+    match path.and_then(|path| Some((path, path.extension()?))) {
+        Some((path, ending)) if !ending.eq_ignore_ascii_case("svg") => {
+            bail!(
+                "{}: --svg writes SVG, which moves or scales; give a file that ends in .svg",
+                path.display()
+            )
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes a picture, as SVG or PNG by the file's ending; draws it only if the ending is one of them.

@@ -89,21 +89,49 @@ fn summary(reproduction: &Reproduction) -> String {
     let mut text = String::new();
     for table in &reproduction.tables {
         let [agree, all] = counts(table);
-        let relative = |value: &Value| match value.printed {
-            0.0 => 0.0,
-            printed => (value.computed / printed - 1.0).abs(),
-        };
-        let worst = table.values().map(relative).fold(0.0, f64::max);
-        let _ = writeln!(
-            text,
-            "{:<24}{agree:>4} of {all:>3} numbers round to print; largest deviation {:.1} %",
-            table.name,
-            100.0 * worst
-        );
+        let _ = write!(text, "{:<24}{agree:>4} of {all:>3} numbers round to print", table.name);
+        if let Some((deviation, place)) = worst(table) {
+            let _ = write!(text, "; largest deviation {:.1} %, {place}", 100.0 * deviation);
+        }
+        text.push('\n');
+        for note in &table.notes {
+            text.push_str(&indented(note));
+        }
     }
     let numbers: Vec<String> = reproduction.figures.iter().map(|figure| figure.number.to_string()).collect();
     let _ = writeln!(text, "Figures {}", numbers.join(", "));
     text
+}
+
+/// The largest relative deviation of a table, and where it is.
+fn worst(table: &Table) -> Option<(f64, String)> {
+    let cells = table.rows.iter().flat_map(|row| row.iter().zip(&table.columns).map(move |cell| (row, cell)));
+    let deviations = cells.filter_map(|(row, (cell, column))| match cell {
+        Cell::Value(value) if value.printed != 0.0 => {
+            Some(((value.computed / value.printed - 1.0).abs(), row, column, value))
+        }
+        Cell::Value(_) | Cell::Text(_) => None,
+    });
+    let (deviation, row, column, value) = deviations.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let Value { computed, printed, decimals } = *value;
+    let (name, finer) = (row.first().map_or_else(String::new, words), decimals + 1);
+    Some((deviation, format!("{name}, {column}: printed {printed:.decimals$}, computed {computed:.finer$}")))
+}
+
+/// A note as indented lines.
+fn indented(note: &str) -> String {
+    const WIDTH: usize = 100;
+    let (mut text, mut column) = (String::new(), WIDTH);
+    for word in note.split_whitespace() {
+        let length = word.chars().count() + 1;
+        if column + length > WIDTH {
+            text.push_str(if text.is_empty() { "   " } else { "\n   " });
+            column = 3;
+        }
+        let _ = write!(text, " {word}");
+        column += length;
+    }
+    text + "\n"
 }
 
 /// A table without print beside it, as text.

@@ -76,6 +76,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
     output::check_distinct(inputs, outputs.into_iter().flatten())?;
+    output::expect_svg(arguments.svg.as_ref())?;
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {

@@ -66,6 +66,14 @@ fn table(extremes: &[Extreme]) -> String {
 /// Columns of the CSV; the error is over `u_ins`, the growth over the energy at the start.
 const COLUMNS: &str = "solver,damping_model,axis,a1,value,stable,error,growth";
 
+/// The quantity of a row of a map, with its unit.
+fn axis(quantity: RowQuantity) -> &'static str {
+    match quantity {
+        RowQuantity::Step => "step_s",
+        RowQuantity::DampingRatio => "xi",
+    }
+}
+
 fn csv(maps: &[Map]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for map in maps {
@@ -76,7 +84,7 @@ fn csv(maps: &[Map]) -> String {
                     "{},{},{},{a1:e},{row:e},{},{:e},{:e}",
                     map.solver.name(),
                     map.damping.name(),
-                    axis_words(map.quantity),
+                    axis(map.quantity),
                     cell.stable,
                     cell.error,
                     cell.growth

@@ -83,6 +83,21 @@ impl Levels {
         }
     }
 
+    /// Describes the levels in words, to all digits.
+    pub fn description(&self) -> String {
+        match self {
+            Self::Grid(levels) => {
+                let levels: Vec<_> = levels.iter().map(f64::to_string).collect();
+                format!("grid of {} m/s²", levels.join(", "))
+            }
+            Self::ToOverturning { step, top } => format!("steps of {step} up to {top} m/s²"),
+            Self::HuntAndFill { first, increase, top, resolution, gap } => format!(
+                "hunt from {first} with {increase} more at each step up to {top} m/s², resolution \
+                 {resolution}, gap {gap}"
+            ),
+        }
+    }
+
     /// Estimates the runs of one curve; it is a guess where the collapse decides.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {

@@ -40,6 +40,17 @@ impl IntensityMeasure {
         }
     }
 
+    /// Describes the measure to all digits: `AvgSA over 0.2, 0.4 s`.
+    pub fn description(&self) -> String {
+        match self {
+            Self::Pga | Self::Sa { .. } => self.name(),
+            Self::AvgSa { periods } => {
+                let periods: Vec<_> = periods.iter().map(f64::to_string).collect();
+                format!("{} over {} s", self.name(), periods.join(", "))
+            }
+        }
+    }
+
     /// Returns the name for axes and tables: `PGA`, `Sa(0.5 s)`, `AvgSA`.
     pub fn name(&self) -> String {
         match self {

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use study_folder::file::{behind_links, folder};
 
+use super::terminal::give_stdout_to_a_file;
+
 /// What makes two paths one file: its device and number, or else its canonical path; of a file that does not
 /// exist yet, those of its folder and its name.
 type Identity = (FileKey, Option<OsString>);
@@ -35,7 +37,11 @@ fn identity(path: &Path) -> Option<Identity> {
     Some((key(folder(&path))?, path.file_name().map(OsString::from)))
 }
 
-/// Refuses outputs that would overwrite an input, another output or the file that takes stdout.
+/// Name of the output that goes to standard output.
+pub(super) const STDOUT: &str = "-";
+
+/// Refuses outputs that would overwrite an input, another output or the file that takes stdout. If
+/// one of them is `-`, all that is told from here on goes to stderr.
 pub(crate) fn check_distinct<'a>(
     inputs: impl IntoIterator<Item = &'a PathBuf>,
     outputs: impl IntoIterator<Item = &'a PathBuf>,
@@ -45,7 +51,16 @@ pub(crate) fn check_distinct<'a>(
     for path in inputs {
         taken.extend(identity(path).map(|identity| (identity, format!("the input {}", path.display()))));
     }
+    let mut file = None;
     for path in outputs {
+        if path.as_os_str() == STDOUT {
+            if file.is_some() {
+                bail!("two outputs are -, standard output; give one of them a file");
+            }
+            file = Some(path);
+            give_stdout_to_a_file();
+            continue;
+        }
         let Some(own) = identity(path) else { continue };
         if let Some((_, other)) = taken.iter().find(|(identity, _)| *identity == own) {
             bail!("{}: is the same file as {other}; give another for the output", path.display());

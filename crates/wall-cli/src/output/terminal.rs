@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, Write as _};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
 use figures::number;
@@ -11,10 +12,28 @@ const MOST_LINES: usize = 9;
 const MOST_CHARACTERS: usize = 2000;
 const MOST_MESSAGES: usize = 7;
 
-/// Prints to stdout. A closed pipe or a lost terminal is no error: nobody reads what is missing.
+/// Whether stdout takes a file, `--csv -`: what is told then goes to stderr.
+static STDOUT_TAKES_A_FILE: AtomicBool = AtomicBool::new(false);
+
+/// Sends what is told to stderr from here on.
+pub(super) fn give_stdout_to_a_file() {
+    STDOUT_TAKES_A_FILE.store(true, Ordering::Relaxed);
+}
+
+/// Tells the user results: on stdout, unless that takes a file.
 pub(crate) fn to_stdout(text: &str) -> Result<()> {
+    let text = printable(text);
+    if STDOUT_TAKES_A_FILE.load(Ordering::Relaxed) {
+        to_stderr(&text);
+        return Ok(());
+    }
+    bytes_to_stdout(text.as_bytes())
+}
+
+/// Writes to stdout. A closed pipe or a lost terminal is no error: nobody reads what is missing.
+pub(super) fn bytes_to_stdout(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(printable(text).as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe && !is_lost_terminal(&error) => {
             Err(error).context("stdout")
         }
