@@ -33,13 +33,60 @@ pub struct Response {
     pub warnings: Vec<Warning>,
 }
 
+/// What becomes of a wall in a run (docs/model.md, Overturning); times in s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fate {
+    /// |u| stays within `u_ins`.
+    Stands,
+    /// |u| exceeds `u_ins` and is below it at the end of the run.
+    ComesBack {
+        /// When |u| first exceeds `u_ins`.
+        exceeds: f64,
+    },
+    /// |u| exceeds `u_ins` and is not below it at the end of the run.
+    Falls {
+        /// When |u| first exceeds `u_ins`.
+        exceeds: f64,
+        /// When it does so for the last time.
+        falls: f64,
+    },
+}
+
+impl Fate {
+    /// Returns the fate of a wall from the time of its overturning and its history of u/`u_ins`. The time of
+    /// a fall after a return is interpolated in the history.
+    pub fn of(overturning: Option<f64>, history: impl DoubleEndedIterator<Item = (f64, f64)>) -> Self {
+        let Some(exceeds) = overturning else { return Self::Stands };
+        let mut history = history.rev().peekable();
+        if history.peek().is_none_or(|(_, ratio)| ratio.abs() < 1.0) {
+            return Self::ComesBack { exceeds };
+        }
+        let mut beyond = [0.0; 2];
+        for (time, ratio) in history.take_while(|(time, _)| *time > exceeds) {
+            if ratio.abs() < 1.0 {
+                let part = (1.0 - ratio.abs()) / (beyond[1] - ratio.abs());
+                return Self::Falls { exceeds, falls: time + part * (beyond[0] - time) };
+            }
+            beyond = [time, ratio.abs()];
+        }
+        Self::Falls { exceeds, falls: exceeds }
+    }
+
+    /// Whether the wall falls.
+    pub fn falls(&self) -> bool {
+        matches!(self, Self::Falls { .. })
+    }
+}
+
 /// Peaks and events of a run; peaks of u include turning points between the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// Largest |u| \[m\].
+    /// Largest |u|; `u_ins` of its side for a wall that falls \[m\].
     pub u_max: f64,
-    /// Largest |u|/`u_ins` of its side \[-\].
+    /// Largest |u|/`u_ins` of its side; 1 for a wall that falls \[-\].
     pub u_ratio_max: f64,
+    /// What becomes of the wall.
+    pub fate: Fate,
     /// Whether |u| exceeded `u_ins`.
     pub overturned: bool,
     /// When it did \[s\].
@@ -81,10 +128,16 @@ impl Response {
             samples.push(sample(&simulation, support_at(time)));
         }
         let progress = simulation.progress();
-        let (peaks, u_ins) = (progress.state.peaks, simulation.wall().body().instability);
+        let u_ins = simulation.wall().body().instability;
+        let fate = Fate::of(
+            progress.overturn_time,
+            samples.iter().map(|sample| (sample.time, sample.outputs.ratio)),
+        );
+        let [u_max, u_ratio_max] = progress.state.reported_peak(u_ins, fate.falls());
         let summary = Summary {
-            u_max: peaks.largest(),
-            u_ratio_max: peaks.ratio(u_ins),
+            u_max,
+            u_ratio_max,
+            fate,
             overturned: progress.state.overturned,
             overturn_time: progress.overturn_time,
             end_time: progress.time,
@@ -95,10 +148,10 @@ impl Response {
         Ok(Self { samples, summary, demands, residual, warnings: simulation.wall().warnings().to_vec() })
     }
 
-    /// Writes the history as CSV, numbers to their last digit; the header names the columns, in SI units.
+    /// Writes the history as CSV, numbers to their last digit; the header names the columns with their units.
     pub fn csv(&self) -> String {
         let tied = self.demands.tie.is_some();
-        let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force" } else { "" });
+        let mut csv = format!("{COLUMNS}{}\n", if tied { ",tie_force_n" } else { "" });
         for Sample { time, support, outputs } in &self.samples {
             // writing to a String cannot fail
             let _ = write!(csv, "{time:.9}");
@@ -126,5 +179,5 @@ impl Response {
 }
 
 /// The columns of [`Response::csv`]; the force of a tie follows them where there is one.
-const COLUMNS: &str = "time,u,u_dot,u_ddot,u_ratio,restoring_force,damping_force,reaction_bottom,\
-                       reaction_top,a_bottom,a_top";
+const COLUMNS: &str = "time_s,u_m,u_dot_m_s,u_ddot_m_s2,u_ratio,restoring_force_n,damping_force_n,\
+                       reaction_bottom_n,reaction_top_n,a_bottom_m_s2,a_top_m_s2";

@@ -26,6 +26,20 @@ impl Excitation {
         Self { drift: Some(drift), ..self }
     }
 
+    /// Returns the motion with the other sign, of accelerations and drift.
+    ///
+    /// # Errors
+    /// None but for a sample that is not finite.
+    pub fn reversed(&self) -> Result<Self, GroundMotionError> {
+        let reversed = |motion: &GroundMotion| motion.checked_scaled(-1.0);
+        Ok(Self {
+            bottom: reversed(&self.bottom)?,
+            top: self.top.as_ref().map(reversed).transpose()?,
+            drift: self.drift.as_ref().map(reversed).transpose()?,
+            held: self.held,
+        })
+    }
+
     /// Holds each sample until the next, as most importers do with an input, instead of going linearly
     /// between.
     pub fn held(self) -> Self {

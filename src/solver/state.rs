@@ -86,6 +86,18 @@ pub struct State {
     pub peaks: Peaks,
 }
 
+impl State {
+    /// Returns the largest |u| and |u|/`u_ins` as results report them \[m, -\]: a wall that falls counts up
+    /// to `u_ins`, since how far it goes beyond says nothing of the motion (docs/model.md, Overturning).
+    pub fn reported_peak(&self, u_ins: Sides, falls: bool) -> [f64; 2] {
+        if falls {
+            [u_ins.of(self.displacement), 1.0]
+        } else {
+            [self.peaks.largest(), self.peaks.ratio(u_ins)]
+        }
+    }
+}
+
 /// What a segment did besides changing the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {

@@ -128,6 +128,12 @@ impl Wall {
         [1.0, -1.0].into_iter().filter(move |sign| free.is_none_or(|free| free == *sign))
     }
 
+    /// Whether both sides are alike, so that a motion and its reverse ask the same of the wall.
+    pub fn has_equal_sides(&self) -> bool {
+        let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
+        self.body.strength.positive == self.body.strength.negative && self.sides().count() == 2 && !one_tied
+    }
+
     /// The wall in full rotations; `None` where they are taken as small.
     pub fn rotations(&self) -> Option<&FullRotations> {
         self.rotations.as_ref()

@@ -98,7 +98,7 @@ fn ties_of_several_stiffnesses() {
         serde_json::from_str(&printed(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat()))
             .unwrap();
     let column = |name: &str| -> Vec<f64> {
-        value.as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
+        value["rows"].as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
     };
     assert_eq!(column("stiffness_n_m"), [0.0, 1e5, 1e7]);
     let (force, u) = (column("force_max_n"), column("u_ratio_max"));

@@ -234,7 +234,10 @@ fn a_doubtful_record_is_noted() {
     assert_eq!(output.status.code(), Some(0));
     let (summary, message) = (text(&output.stdout), text(&output.stderr));
     assert!(message.contains("record.csv: unit: a peak of") && message.contains("cm/s2"), "{message}");
-    assert!(summary.contains("u_ins, in the fall\n") && summary.contains("mm, fallen\n"), "{summary}");
+    assert!(
+        summary.contains("1.0000 u_ins, where the wall falls\n") && summary.contains("mm, fallen\n"),
+        "{summary}"
+    );
 }
 
 /// Every example scene runs and stands or overturns as expected; summary and history agree.

@@ -65,20 +65,20 @@ def test_the_run_is_that_of_the_system_integrated_as_one(document, record, histo
         bottom, top = (names.index(wall[end]) if end in wall else None for end in ("bottom", "top"))
         walls.append(Wall(parameters(wall["scene"]), bottom, top, drift=top is not None))
     model = Monolith(document["floor"], walls, record[1])
-    times = history["time"][1:]
+    times = history["time_s"][1:]
     states = model.solve(times)
     size = model.n + len(walls)
     rocking = [np.abs(states[:, model.n + j]).max() / wall.u_ins for j, wall in enumerate(walls)]
     assert max(rocking) > 0.2, rocking
     for j, wall in enumerate(document["wall"]):
-        own, truth = history[f"{wall['name']}.u"][1:], states[:, model.n + j]
+        own, truth = history[f"{wall['name']}.u_m"][1:], states[:, model.n + j]
         assert np.abs(own - truth).max() < 5e-3 * np.abs(truth).max(), wall["name"]
     found = np.array([
         model.accelerations(t, state, [branch(w, u) for w, u in zip(walls, state[model.n : size])])
         for t, state in zip(times, states)
     ])  # fmt: skip
     for i, name in enumerate(names):
-        own, truth = history[f"{name}.acceleration"][1:], found[:, i]
+        own, truth = history[f"{name}.acceleration_m_s2"][1:], found[:, i]
         assert np.abs(own - truth).max() < 1e-3 * np.abs(truth).max(), name
 
 
@@ -100,9 +100,9 @@ def test_the_run_is_that_of_fmpy(wall, fmu, floor_fmu, record, history, document
     ground = {"a_g": lambda t: record[1](t + 0.5 * step)}
     result = simulate_ssp(str(tmp_path / "b.ssp"), stop_time=END, step_size=step, input=ground)
     for floor in document["floor"]:
-        own = np.abs(history[f"{floor['name']}.acceleration"]).max()
+        own = np.abs(history[f"{floor['name']}.acceleration_m_s2"]).max()
         other = np.abs(result[f"{floor['name']}.acceleration_absolute"]).max()
         assert abs(own - other) < 0.01 * other, floor["name"]
     for part in document["wall"]:
-        own, other = np.abs(history[f"{part['name']}.u"]).max(), np.abs(result[f"{part['name']}.u"]).max()
+        own, other = np.abs(history[f"{part['name']}.u_m"]).max(), np.abs(result[f"{part['name']}.u"]).max()
         assert abs(own - other) < 0.01 * other, part["name"]

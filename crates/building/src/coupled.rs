@@ -7,6 +7,7 @@
 use fmu_export::Step;
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
+use rocking_wall::response::Fate;
 
 use crate::document::Building;
 use crate::error::BuildingError;
@@ -109,6 +110,13 @@ pub struct Coupled {
     pub walls: Vec<WallHistory>,
 }
 
+impl WallHistory {
+    /// Returns what becomes of the wall, from its history at the times of the run \[s\].
+    pub fn fate(&self, times: &[f64]) -> Fate {
+        Fate::of(self.overturn_time, times.iter().copied().zip(self.ratio.values.iter().copied()))
+    }
+}
+
 impl Coupled {
     /// Runs a building under a motion of the ground, with the step halved until that changes every peak by
     /// less than the tolerance.
@@ -155,7 +163,8 @@ impl Coupled {
         })
     }
 
-    /// Peaks of floors and walls; a wall that overturns has reached its end.
+    /// Peaks of floors and walls; that of a wall that overturns counts as 1, since beyond it any difference
+    /// grows.
     fn peaks(&self) -> impl Iterator<Item = f64> {
         let floors = self.floors.iter().flat_map(|floor| [&floor.acceleration, &floor.drift]);
         let floors = floors.map(|history| history.peak.value.abs());

@@ -18,16 +18,22 @@ const EDGE: f64 = 1.25;
 /// Looks of the curves of [`period_ratios`], the first for the smallest start.
 const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
 
-/// Ends a history of u/`u_ins` where it leaves the plot: drawn on, a fallen wall would look like one at rest.
+/// Ends a history of u/`u_ins` where it leaves the plot for good: drawn on, a fallen wall would look like one
+/// at rest.
 ///
 /// ```
-/// let fallen = figures::response::cut(vec![(0.0, 0.5), (0.1, 1.2), (0.2, 1.9), (0.3, 10.0)]);
+/// use figures::response::cut;
+///
+/// let fallen = cut(vec![(0.0, 0.5), (0.1, 1.2), (0.2, 1.9), (0.3, 10.0)]);
 /// assert_eq!(fallen, [(0.0, 0.5), (0.1, 1.2), (0.2, 1.25)]);
+/// let held_by_a_tie = [(0.0, 0.5), (0.1, 1.4), (0.2, 0.3)];
+/// assert_eq!(cut(held_by_a_tie.to_vec()), held_by_a_tie);
 /// ```
 pub fn cut(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    if let Some(last) = points.iter().position(|point| point.1.abs() > EDGE) {
-        points.truncate(last + 1);
-        points[last].1 = points[last].1.clamp(-EDGE, EDGE);
+    let leaving = points.iter().rposition(|point| point.1.abs() <= EDGE).map_or(0, |within| within + 1);
+    points.truncate(leaving + 1);
+    if let Some(point) = points.get_mut(leaving) {
+        point.1 = point.1.clamp(-EDGE, EDGE);
     }
     points
 }
@@ -44,7 +50,7 @@ pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
 pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Plot {
     let top = top.map(|points| (points, AMBER));
     let lines: Vec<_> = [(bottom, DARK_GREY)].into_iter().chain(top).collect();
-    histories(&lines, [0.0, end], "a_g (m/s²)", &[])
+    histories(&lines, [0.0, end], "acceleration (m/s²)", &[])
 }
 
 /// Draws lines in their colours over the times \[s\]. The values `shown` lie within the vertical axis, which

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, check_thresholds, parameter_text};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::record::RecordSolver;
+use rocking_wall::solver::record::{Outcome, RecordSolver};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::Wall as Equation;
 use scene_fmu::General;
@@ -180,8 +180,9 @@ impl Wall {
             py.check_signals()?;
         }
         let instability = self.equation.body().instability;
-        let largest = outcomes.iter().map(|outcome| outcome.state.peaks.largest());
-        let ratio = outcomes.iter().map(|outcome| outcome.state.peaks.ratio(instability));
+        let peak =
+            |outcome: &Outcome| outcome.state.reported_peak(instability, outcome.overturning.is_some());
+        let [largest, ratio] = [0, 1].map(|part| outcomes.iter().map(move |outcome| peak(outcome)[part]));
         let time = outcomes.iter().map(|outcome| outcome.overturning.unwrap_or(f64::NAN));
         Ok([PyArray1::from_iter(py, largest), PyArray1::from_iter(py, ratio), PyArray1::from_iter(py, time)])
     }

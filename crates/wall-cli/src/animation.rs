@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use figures::escaped;
 use figures::palette::{DARK_GREY, RED};
+use figures::response::cut;
 
 /// Width and height of a picture \[px\].
 pub(crate) const SIZE: [f64; 2] = [640.0, 300.0];
@@ -125,10 +126,9 @@ pub(crate) fn history(lines: &[Line<'_>], span: [f64; 2], period: &str) -> Strin
         span[1]
     );
     for (points, colour, _) in lines {
-        // a line along the edge would look like a wall at rest
-        let end = points.iter().position(|point| point.1.abs() > EDGE).map_or(points.len(), |at| at + 1);
-        let shown = points[..end].iter();
-        let shown: Vec<_> = shown
+        let points = cut(points.clone());
+        let shown: Vec<_> = points
+            .iter()
             .map(|(time, ratio)| format!("{:.1},{:.1}", x(*time), y(ratio.clamp(-EDGE, EDGE))))
             .collect();
         let _ = writeln!(

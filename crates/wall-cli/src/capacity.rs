@@ -30,9 +30,7 @@ impl Capacity {
             limits: fractions.iter().map(|&fraction| wall.capacity_at(sign, fraction)).collect(),
         };
         let named = |sign: f64| side(if sign > 0.0 { "u > 0" } else { "u < 0" }, sign);
-        let one_tied = wall.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
-        let alike = wall.body().strength.positive == wall.body().strength.negative && !one_tied;
-        Self { sides: wall.sides().take(if alike { 1 } else { 2 }).map(named).collect() }
+        Self { sides: wall.sides().take(if wall.has_equal_sides() { 1 } else { 2 }).map(named).collect() }
     }
 
     pub(crate) fn table(&self) -> String {

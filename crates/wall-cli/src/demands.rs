@@ -1,8 +1,27 @@
 //! Demands of a run as text, for the summary and the page, and as JSON.
 
-use rocking_wall::response::Response;
+use rocking_wall::response::{Fate, Response, Summary};
 use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
 use serde_json::{Value, json};
+
+/// The largest |u| of a run in m or mm.
+pub(crate) fn largest(summary: &Summary, unit: &str, digits: usize) -> String {
+    let scale = if unit == "mm" { 1000.0 } else { 1.0 };
+    let falls = if summary.fate.falls() { ", where the wall falls" } else { "" };
+    format!("{:.digits$} {unit}, {:.4} u_ins{falls}", scale * summary.u_max, summary.u_ratio_max)
+}
+
+/// When the wall overturned, and whether it fell then.
+pub(crate) fn overturned(fate: Fate, digits: usize) -> String {
+    match fate {
+        Fate::Stands => "no".to_owned(),
+        Fate::ComesBack { exceeds } => format!("at {exceeds:.digits$} s, and came back"),
+        Fate::Falls { exceeds, falls } if falls > exceeds => {
+            format!("at {exceeds:.digits$} s, came back and fell at {falls:.2} s")
+        }
+        Fate::Falls { exceeds, .. } => format!("at {exceeds:.digits$} s"),
+    }
+}
 
 /// Names and values; a parapet has no top support.
 pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
@@ -34,7 +53,7 @@ pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)>
         lines.push(("first reached".to_owned(), crossings.join(", ")));
     }
     lines.push(("half cycles".to_owned(), demands.half_cycles.to_string()));
-    let fallen = if response.summary.overturned { ", fallen" } else { "" };
+    let fallen = if response.summary.fate.falls() { ", fallen" } else { "" };
     lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
     lines
 }

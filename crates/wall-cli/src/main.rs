@@ -16,6 +16,7 @@ mod moving;
 mod output;
 mod package;
 mod page;
+mod polarity;
 mod progress;
 mod record;
 mod reproduce;

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use figures::plot::Plot;
+use rocking_wall::response::Fate;
 
 /// Style of the pages.
 pub(crate) const STYLE: &str = include_str!("moving.css");
@@ -34,12 +35,15 @@ pub(crate) fn verdict(text: &str, falls: bool) -> String {
     format!("<p class=\"{class}\">{}</p>", figures::escaped(text))
 }
 
-/// What a wall does that exceeds `u_ins` at a time \[s\] and ends at u/`u_ins`; shaking may bring it back.
-pub(crate) fn fall(time: f64, end: f64) -> String {
-    if end.abs() > 1.0 {
-        format!("falls at {time:.1} s")
-    } else {
-        format!("exceeds u_ins at {time:.1} s and comes back")
+/// Says when a wall exceeds `u_ins` and what becomes of it then; `None` for a wall that stands.
+pub(crate) fn fate(fate: Fate) -> Option<String> {
+    match fate {
+        Fate::Stands => None,
+        Fate::ComesBack { exceeds } => Some(format!("exceeds u_ins at {exceeds:.1} s and comes back")),
+        Fate::Falls { exceeds, falls } if falls > exceeds => {
+            Some(format!("exceeds u_ins at {exceeds:.1} s, comes back and falls at {falls:.1} s"))
+        }
+        Fate::Falls { falls, .. } => Some(format!("falls at {falls:.1} s")),
     }
 }
 

@@ -2,14 +2,14 @@
 
 use anyhow::{Result, bail};
 use figures::{escaped, number, response as plots};
-use rocking_wall::response::{Response, Sample};
+use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::demands;
 use crate::linearisation::Counterpart;
-use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
+use crate::moving::{SCRIPT, STYLE, fate, frames, plot, rounded, verdict};
 use figures::template;
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -56,15 +56,20 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         None => ["u, mid-height (mm)", "top (mm)"],
         Some(_) => ["u, hinge (mm)", "rotation (%)"],
     };
-    let end = overturned.map_or(end, |time| end.min(time + AFTER_FALL));
+    let end = match response.summary.fate {
+        Fate::Falls { falls, .. } => end.min(falls + AFTER_FALL),
+        Fate::ComesBack { .. } | Fate::Stands => end,
+    };
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
-    let figures = figures(wall, response, end) + &rotations(scene, response) + &demands(wall, response);
+    let figures =
+        figures(scene, wall, response, end) + &rotations(scene, response) + &demands(wall, response);
     let page = [
         ("title", &*escaped(&scene.title)),
         ("style", STYLE),
         ("script", SCRIPT),
         ("verdict", &said(response)),
+        ("support", if hinge.is_some() { "a, bottom" } else { "a, base" }),
         ("first_name", names[0]),
         ("second_name", names[1]),
         ("subtitle", &escaped(&subtitle)),
@@ -90,11 +95,8 @@ fn telling(frames: &[&Sample], overturned: Option<f64>) -> usize {
 /// Says what becomes of the wall.
 fn said(response: &Response) -> String {
     let ratio = 100.0 * response.summary.u_ratio_max;
-    match response.summary.overturn_time {
-        Some(time) => {
-            let end = response.samples.last().map_or(0.0, |sample| sample.outputs.ratio);
-            verdict(&format!("The wall {}.", fall(time, end)), true)
-        }
+    match fate(response.summary.fate) {
+        Some(words) => verdict(&format!("The wall {words}."), true),
         None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
         None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),
     }
@@ -183,20 +185,12 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let body = wall.body();
     let summary = &response.summary;
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
-    let overturned = match summary.overturn_time {
-        Some(time) => format!("at t = {time:.3} s"),
-        None => "no".to_owned(),
-    };
-    let fallen = if summary.overturned { ", in the fall" } else { "" };
     let tie = wall.tie().map_or("none".to_owned(), |tie| {
         format!("{} kN/mm at {} m", number(1e-6 * tie.stiffness, 4), parameters.tie_height)
     });
     let rows = [
-        (
-            "largest |u|",
-            format!("{:.1} mm, {:.3} u_ins{fallen}", 1000.0 * summary.u_max, summary.u_ratio_max),
-        ),
-        ("overturned", overturned),
+        ("largest |u|", demands::largest(summary, "mm", 1)),
+        ("overturned", demands::overturned(summary.fate, 3)),
         (
             "wall",
             format!(
@@ -245,18 +239,19 @@ fn demands(wall: &Wall, response: &Response) -> String {
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
 }
 
-fn figures(wall: &Wall, response: &Response, end: f64) -> String {
+fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String {
     let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
         response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
     };
-    let overturned = response.summary.overturn_time;
-    let ratio = standing(&response.samples, overturned);
+    let ratio = plots::cut(column(&|sample| sample.outputs.ratio));
     let motion = column(&|sample| sample.support.bottom);
     let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
     let top_motion = has_top.then(|| column(&|sample| sample.support.top));
+    let on_floors = scene.floors.is_some();
     let supports = match top_motion {
         Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
         None if wall.body().mechanism == Mechanism::VerticalSpanning => "Acceleration of both supports",
+        None if on_floors => "Acceleration of the floor",
         None => "Acceleration of the support",
     };
     let ratios = || response.samples.iter().map(|sample| sample.outputs.ratio);
@@ -269,7 +264,7 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
             "history",
             "Displacement; dashed: static instability u_ins",
             &plots::history(&ratio, end),
-            &overturned.map(|time| (time, "overturned")).into_iter().collect::<Vec<_>>(),
+            &marks(response.summary.fate),
             true,
         ),
         plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
@@ -284,15 +279,14 @@ fn figures(wall: &Wall, response: &Response, end: f64) -> String {
     .concat()
 }
 
-/// u/`u_ins` over time \[s\]. That of an overturned wall ends a little beyond 1, where the line leaves the
-/// plot: drawn further it would look like a wall at rest.
-fn standing(samples: &[Sample], overturned: Option<f64>) -> Vec<(f64, f64)> {
-    const EDGE: f64 = 1.25;
-    let fallen = |sample: &Sample| {
-        overturned.is_some_and(|time| sample.time > time) && sample.outputs.ratio.abs() > EDGE
-    };
-    let end = samples.iter().position(fallen).map_or(samples.len(), |first| first + 1);
-    samples[..end].iter().map(|sample| (sample.time, sample.outputs.ratio.clamp(-EDGE, EDGE))).collect()
+/// Marks where the wall exceeds `u_ins`, and where it falls after a return.
+fn marks(fate: Fate) -> Vec<(f64, &'static str)> {
+    match fate {
+        Fate::Stands => Vec::new(),
+        Fate::Falls { exceeds, falls } if falls == exceeds => vec![(falls, "falls")],
+        Fate::Falls { exceeds, falls } => vec![(exceeds, "exceeds u_ins"), (falls, "falls")],
+        Fate::ComesBack { exceeds } => vec![(exceeds, "exceeds u_ins")],
+    }
 }
 
 /// Compares a rigid wall with itself under the other kinematics; empty for walls that do not allow them.

@@ -17,13 +17,14 @@ use crate::{demands, output, page};
 pub(crate) use arguments::Arguments;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    if !arguments.records.is_empty() {
+    if !arguments.table().is_empty() {
         return records::run(arguments);
     }
     let scene = arguments.scene()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html).chain(&arguments.svg))?;
     // before the run, which may take long
+    output::expect_svg(arguments.svg.as_ref())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
@@ -63,6 +64,7 @@ fn json(scene: &Scene, response: &Response) -> Result<String> {
         "u_ratio_max": summary.u_ratio_max,
         "overturned": summary.overturned,
         "overturn_time": summary.overturn_time,
+        "falls": summary.fate.falls(),
         "end_time": summary.end_time,
         "pieces": summary.work.pieces,
         "corners": summary.work.corners,
@@ -81,12 +83,8 @@ fn table(scene: &Scene, response: &Response) -> String {
     if !scene.motion_notes.is_empty() {
         line("motion", scene.motion_notes.join(", "));
     }
-    let fallen = if summary.overturned { ", in the fall" } else { "" };
-    line("largest |u|", format!("{:.6} m, {:.4} u_ins{fallen}", summary.u_max, summary.u_ratio_max));
-    line(
-        "overturned",
-        summary.overturn_time.map_or_else(|| "no".to_owned(), |time| format!("at t = {time:.4} s")),
-    );
+    line("largest |u|", demands::largest(summary, "m", 6));
+    line("overturned", demands::overturned(summary.fate, 4));
     line("run", format!("{} s", figures::number(summary.end_time, 6)));
     line(
         "work",

@@ -9,17 +9,19 @@ use clap::Args;
 use figures::palette::{BLUE, Mark, RED};
 use figures::plot::{Axis, Look, Picture, Plot, Scale, Series};
 use ground_motion::{RecordOptions, Unit, read};
-use rocking_wall::response::Response;
+use rocking_wall::response::{Fate, Response};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::TieDemands;
-use rocking_wall::wall::Wall;
+use rocking_wall::variables::TieSide;
+use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 use study::parallel;
 
 use crate::args::SceneArguments;
 use crate::capacity::significant;
 use crate::output;
+use crate::polarity::Polarities;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -31,6 +33,9 @@ pub(crate) struct Arguments {
     /// Unit of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
     #[arg(long, requires = "records")]
     unit: Option<String>,
+    /// Run each motion with both signs
+    #[arg(long)]
+    both_polarities: bool,
     /// Factor on the records
     #[arg(long, requires = "records", value_name = "FACTOR", default_value_t = 1.0)]
     scale: f64,
@@ -56,9 +61,12 @@ pub(crate) struct Arguments {
 struct Outcome {
     /// \[N\]
     force: f64,
-    /// Largest |u|/`u_ins`; 1 where the wall overturned.
+    /// Largest |u|/`u_ins`; 1 where the wall falls.
     u_ratio: f64,
-    overturned: bool,
+    fate: Fate,
+    /// The wall falls to the side on which no tie holds it.
+    away: bool,
+    /// The force reached the tie's strength.
     reached: bool,
 }
 
@@ -73,8 +81,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
-    let stiffnesses = stiffnesses(arguments, &scene)?;
-    let scenes = scenes(arguments, scene)?;
+    if scene.parameters.tie_height <= 0.0 {
+        bail!("the scene has no tie_height; set it in [tie] or with --set tie_height=3");
+    }
+    let tied = Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() };
+    let tied = arguments.scene.named(Wall::new(&tied))?;
+    let stiffnesses = stiffnesses(arguments, &tied)?;
+    let (scenes, polarities) = scenes(arguments, scene, &tied)?;
     let threads = parallel::threads(arguments.threads).get();
     let outcomes = parallel::map(stiffnesses.len() * scenes.len(), threads, |index| {
         let stiffness = stiffnesses[index / scenes.len()];
@@ -88,9 +101,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     output::save(arguments.csv.as_ref(), || csv(&rows))?;
     let text = if arguments.json {
-        serde_json::to_string_pretty(&json(&rows))? + "\n"
+        serde_json::to_string_pretty(&json(&scenes[0], polarities, &rows))? + "\n"
     } else {
-        let mut text = table(&scenes[0], &rows);
+        let mut text = table(&scenes[0], &rows) + polarities.note();
         for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
             let _ = writeln!(text, "\nwritten {}", path.display());
         }
@@ -99,19 +112,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::to_stdout(&text)
 }
 
-/// The stiffnesses asked for, in order.
-fn stiffnesses(arguments: &Arguments, scene: &Scene) -> Result<Vec<f64>> {
-    if scene.parameters.tie_height <= 0.0 {
-        bail!("the scene has no tie_height; set it in [tie] or with --set tie_height=3");
-    }
+/// The stiffnesses asked for, in order; `wall` has the tie.
+fn stiffnesses(arguments: &Arguments, wall: &Wall) -> Result<Vec<f64>> {
     let mut stiffnesses = arguments.stiffness.clone();
     if let Some(wrong) = stiffnesses.iter().find(|stiffness| !(stiffness.is_finite() && **stiffness >= 0.0)) {
         bail!("--stiffness {wrong}: must be 0 or above, in N/m");
     }
     if stiffnesses.is_empty() {
-        let mut probe = scene.parameters.clone();
-        probe.tie_stiffness = 1.0;
-        let wall = arguments.scene.named(Wall::new(&probe))?;
         let lever = wall.tie().map_or(1.0, |tie| tie.lever);
         let unit = wall.body().geometric_stiffness / (lever * lever);
         stiffnesses.push(0.0);
@@ -122,8 +129,8 @@ fn stiffnesses(arguments: &Arguments, scene: &Scene) -> Result<Vec<f64>> {
     Ok(stiffnesses)
 }
 
-/// The scene under each motion, with as few samples as possible.
-fn scenes(arguments: &Arguments, scene: Scene) -> Result<Vec<Scene>> {
+/// The scene under each motion and its signs, with as few samples as possible; `wall` has the tie.
+fn scenes(arguments: &Arguments, scene: Scene, wall: &Wall) -> Result<(Vec<Scene>, Polarities)> {
     let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
     let options = RecordOptions { unit, ..RecordOptions::default() };
     let mut scenes = Vec::new();
@@ -143,21 +150,35 @@ fn scenes(arguments: &Arguments, scene: Scene) -> Result<Vec<Scene>> {
         }
         scenes.push(scene);
     }
+    let polarities = Polarities::of(arguments.both_polarities, &scenes[0].parameters, wall);
+    if polarities == Polarities::Both {
+        for index in 0..scenes.len() {
+            let mut other = scenes[index].clone();
+            other.excitation = other.excitation.map(|motion| motion.reversed()).transpose()?;
+            scenes.push(other);
+        }
+    }
     for scene in &mut scenes {
         scene.output_step = scene.stop_time;
     }
-    Ok(scenes)
+    Ok((scenes, polarities))
 }
 
 fn outcome(scene: &Scene, stiffness: f64) -> Result<Outcome> {
     let mut scene = scene.clone();
     scene.parameters.tie_stiffness = stiffness;
-    let Response { summary, demands, .. } = Response::of(&scene)?;
+    let free = match scene.parameters.tie_side {
+        TieSide::Positive => -1.0,
+        TieSide::Negative => 1.0,
+        TieSide::Both => 0.0,
+    };
+    let Response { summary, demands, residual, .. } = Response::of(&scene)?;
     let tie = demands.tie;
     Ok(Outcome {
         force: tie.map_or(0.0, |TieDemands { force, .. }| force.value),
-        u_ratio: if summary.overturned { 1.0 } else { summary.u_ratio_max },
-        overturned: summary.overturned,
+        u_ratio: summary.u_ratio_max,
+        fate: summary.fate,
+        away: summary.fate.falls() && residual * free > 0.0,
         reached: tie.is_some_and(|tie| tie.strength.is_some()),
     })
 }
@@ -176,36 +197,66 @@ impl Row {
         self.outcomes.iter().filter(|outcome| pick(outcome)).count()
     }
 
-    /// Median and largest force \[N\] and u/`u_ins`, walls overturned, strengths reached.
-    fn values(&self) -> ([f64; 4], [usize; 2]) {
+    /// Median and largest force \[N\] and u/`u_ins`; walls that fall, those of them that fall away from the
+    /// tie, walls beyond `u_ins` and back, strengths reached.
+    fn values(&self) -> ([f64; 4], [usize; 4]) {
         let ([force, most], [ratio, largest]) = (self.of(|o| o.force), self.of(|o| o.u_ratio));
-        ([force, most, ratio, largest], [self.count(|o| o.overturned), self.count(|o| o.reached)])
+        let counts: [fn(&Outcome) -> bool; 4] = [
+            |outcome| outcome.fate.falls(),
+            |outcome| outcome.away,
+            |outcome| matches!(outcome.fate, Fate::ComesBack { .. }),
+            |outcome| outcome.reached,
+        ];
+        ([force, most, ratio, largest], counts.map(|pick| self.count(pick)))
     }
 }
 
-const COLUMNS: [&str; 7] = [
+const COLUMNS: [&str; 9] = [
     "stiffness_n_m",
     "force_median_n",
     "force_max_n",
     "u_ratio_median",
     "u_ratio_max",
-    "overturned",
+    "falls",
+    "falls_away_from_tie",
+    "beyond_u_ins_and_back",
     "strength_reached",
 ];
 
 fn table(scene: &Scene, rows: &[Row]) -> String {
-    let mut text = format!("{}, tie at {} m", scene.title, scene.parameters.tie_height);
+    let Parameters { tie_height, tie_side, .. } = scene.parameters;
+    let side = match tie_side {
+        TieSide::Positive => "u > 0",
+        TieSide::Negative => "u < 0",
+        TieSide::Both => "both sides",
+    };
     let count = rows[0].outcomes.len();
-    let _ = writeln!(text, ", {count} motion{}\n", if count == 1 { "" } else { "s" });
+    let motions = if count == 1 { "motion" } else { "motions" };
+    let mut text = format!("{}, tie at {tie_height} m against {side}, {count} {motions}\n\n", scene.title);
     let _ = writeln!(
         text,
-        "{:>13} {:>13} {:>13} {:>13} {:>13} {:>10} {:>8}",
-        "K [N/m]", "N median [N]", "N max [N]", "u/u_ins med.", "u/u_ins max", "overturned", "strength"
+        "{:>13} {:>14} {:>13} {:>14} {:>13} {:>6} {:>14} {:>22} {:>17}",
+        "K [N/m]",
+        "N median [kN]",
+        "N max [kN]",
+        "u/u_ins median",
+        "u/u_ins max",
+        "falls",
+        "away from tie",
+        "beyond u_ins and back",
+        "strength reached"
     );
     for row in rows {
-        let (numbers, [overturned, reached]) = row.values();
-        let numbers = numbers.map(significant).join(" ");
-        let _ = writeln!(text, "{} {numbers} {overturned:>10} {reached:>8}", significant(row.stiffness));
+        let ([force, most, ratio, largest], [falls, away, back, reached]) = row.values();
+        let _ = writeln!(
+            text,
+            "{} {:>14} {} {:>14} {} {falls:>6} {away:>14} {back:>22} {reached:>17}",
+            significant(row.stiffness),
+            significant(1e-3 * force),
+            significant(1e-3 * most),
+            significant(ratio),
+            significant(largest)
+        );
     }
     text
 }
@@ -213,28 +264,28 @@ fn table(scene: &Scene, rows: &[Row]) -> String {
 fn csv(rows: &[Row]) -> String {
     let mut text = COLUMNS.join(",") + "\n";
     for row in rows {
-        let (numbers, [overturned, reached]) = row.values();
-        let numbers = numbers.map(|number| format!("{number:?}")).join(",");
-        let _ = writeln!(text, "{:?},{numbers},{overturned},{reached}", row.stiffness);
+        let (numbers, counts) = row.values();
+        let (numbers, counts) = (numbers.map(|number| format!("{number:?}")), counts.map(|n| n.to_string()));
+        let _ = writeln!(text, "{:?},{},{}", row.stiffness, numbers.join(","), counts.join(","));
     }
     text
 }
 
-fn json(rows: &[Row]) -> Value {
+fn json(scene: &Scene, polarities: Polarities, rows: &[Row]) -> Value {
     let object = |row: &Row| {
-        let ([force, most, ratio, largest], [overturned, reached]) = row.values();
-        let values = [
-            json!(row.stiffness),
-            json!(force),
-            json!(most),
-            json!(ratio),
-            json!(largest),
-            json!(overturned),
-            json!(reached),
-        ];
+        let (numbers, counts) = row.values();
+        let values = [json!(row.stiffness)].into_iter().chain(numbers.map(|number| json!(number)));
+        let values = values.chain(counts.map(|count| json!(count)));
         COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect::<serde_json::Map<_, _>>()
     };
-    rows.iter().map(|row| Value::Object(object(row))).collect()
+    json!({
+        "title": scene.title,
+        "tie_height": scene.parameters.tie_height,
+        "tie_side": scene.parameters.tie_side.name(),
+        "motions": rows[0].outcomes.len(),
+        "alike_on_both_sides": polarities == Polarities::Alike,
+        "rows": rows.iter().map(|row| Value::Object(object(row))).collect::<Vec<_>>(),
+    })
 }
 
 /// Medians (lines) and largest values (marks) of force and displacement over the stiffness.

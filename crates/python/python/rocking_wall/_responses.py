@@ -91,9 +91,9 @@ class Response:
     a_top: Array
     """Acceleration of the top support [m/s²]."""
     u_max: float
-    """Largest |u| [m]."""
+    """Largest |u| [m]; u_ins of its side for a wall that falls."""
     u_ratio_max: float
-    """Largest |u|/u_ins [-]."""
+    """Largest |u|/u_ins [-]; 1 for a wall that falls, above 1 for one that comes back from beyond u_ins."""
     overturned: bool
     """Whether |u| exceeded u_ins."""
     overturn_time: float | None
@@ -118,7 +118,7 @@ class Response:
 
     @property
     def history(self) -> Table:
-        """The history as a table, with the columns of `wall simulate --csv`."""
+        """The history as a table; `wall simulate --csv` writes its columns with units in their names."""
         names = COLUMNS if self.tie_force is None else (*COLUMNS, "tie_force")
         return Table({name: getattr(self, name) for name in names})
 
@@ -164,9 +164,9 @@ class Peaks:
     factor: Array
     """The factors."""
     u_max: Array
-    """Largest |u| [m]; of a wall that overturned, that at which its run stopped."""
+    """Largest |u| [m]; u_ins of its side for a wall that overturned, where its run stops."""
     u_ratio_max: Array
-    """Largest |u|/u_ins [-]; likewise."""
+    """Largest |u|/u_ins [-]; 1 for a wall that overturned."""
     overturn_time: Array
     """Time of overturning [s]; NaN for none."""
 

@@ -5,7 +5,7 @@
 pub struct Run {
     /// Level: the intensity to which the record was scaled \[m/s²\].
     pub intensity: f64,
-    /// Demand: largest |u|/`u_ins` \[-\]; of a wall that overturned, that at which its run stopped.
+    /// Demand: largest |u|/`u_ins` \[-\]; 1 of a wall that overturned, where its run stops.
     pub demand: f64,
     /// Time of overturning from the start of the record \[s\].
     pub overturning: Option<f64>,

@@ -265,7 +265,7 @@ impl Study {
         let instability = motion.wall().body().instability;
         let run = |(&intensity, outcome): (&f64, Outcome)| Run {
             intensity,
-            demand: outcome.state.peaks.ratio(instability),
+            demand: outcome.state.reported_peak(instability, outcome.overturning.is_some())[1],
             overturning: outcome.overturning,
         };
         Ok(levels.iter().zip(shaking.runs([0.0, 0.0], &factors)?).map(run).collect())

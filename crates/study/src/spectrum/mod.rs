@@ -260,7 +260,7 @@ impl Prepared {
         } else {
             state.peaks.positive > elastic.upper || state.peaks.negative > -elastic.lower
         };
-        let ratio = if overturning.is_some() { 1.0 } else { state.peaks.ratio(wall.body().instability) };
+        let [_, ratio] = state.reported_peak(wall.body().instability, overturning.is_some());
         Ok(Point { ratio, rocked, overturning })
     }
 }

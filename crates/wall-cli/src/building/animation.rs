@@ -7,7 +7,7 @@ use building::{Building, Coupled, Parts};
 use figures::palette::{BLUE, RED, SERIES};
 use rocking_wall::variables::Mechanism;
 
-use super::page::{end, falls, heights, said, sway};
+use super::page::{end, heights, overturned, said, sway};
 use crate::animation::{GROUND, MOST_FRAMES, Shape, animated, history, picture};
 
 /// Room of the building, and thickness of a slab \[px\].
@@ -56,7 +56,7 @@ pub(super) fn render(building: &Building, parts: &Parts, run: &Coupled) -> Strin
     });
     let lines: Vec<_> = lines.collect();
     text += &history(&lines, [0.0, end], &stage.period);
-    let colour = if falls(building, run).is_empty() { BLUE } else { RED };
+    let colour = if overturned(building, run).is_empty() { BLUE } else { RED };
     let said = format!("{} Sway × {factor}.", said(building, run));
     picture(&building.title, (&said, colour), &text)
 }

@@ -6,10 +6,11 @@ use figures::escaped;
 use figures::palette::{DARK_GREY, RED, SERIES};
 use figures::plot::Plot;
 use figures::response::{cut, histories};
+use rocking_wall::response::Fate;
 use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
-use crate::moving::{SCRIPT, STYLE, fall, frames, plot, rounded, verdict};
+use crate::moving::{SCRIPT, STYLE, fate, frames, plot, rounded, verdict};
 use figures::template;
 
 const TEMPLATE: &str = include_str!("../building.html");
@@ -45,7 +46,7 @@ pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str
         ("style", STYLE),
         ("script", SCRIPT),
         ("subtitle", &format!("{}, {:.2} m/s²", escaped(note), run.ground.peak.value.abs())),
-        ("verdict", &verdict(&said(building, run), !falls(building, run).is_empty())),
+        ("verdict", &verdict(&said(building, run), !overturned(building, run).is_empty())),
         ("last_frame", &(frames.len() - 1).to_string()),
         ("factors", &factors(sway(building, run))),
         ("peaks", &peaks(building, run)),
@@ -97,7 +98,7 @@ pub(super) fn heights(building: &Building, parts: &Parts) -> Vec<f64> {
 
 fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) -> Vec<serde_json::Value> {
     let index = |support: Support| if let Support::Floor(floor) = support { Some(floor) } else { None };
-    let own = parts.walls.iter().zip(&parts.scenes);
+    let (own, times) = (parts.walls.iter().zip(&parts.scenes), &run.times);
     let shown = building.walls.iter().zip(&run.walls).zip(own).map(|((wall, history), (own, scene))| {
         let body = own.body();
         let beside = building.walls.iter().filter(|other| other.bottom == wall.bottom);
@@ -112,7 +113,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
             "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
             "u_ins": [body.instability.positive, body.instability.negative],
             "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
-            "fallen": history.overturn_time,
+            "fallen": falling(history.fate(times)),
         })
     });
     shown.collect()
@@ -135,15 +136,24 @@ fn factors(chosen: f64) -> String {
     FACTORS.map(option).concat()
 }
 
-/// The walls that overturn, in order of time: when, who, and u/`u_ins` at the end.
-pub(super) fn falls<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str, f64)> {
-    let fallen = building.walls.iter().zip(&run.walls).filter_map(|(wall, history)| {
-        let end = history.ratio.values.last().copied().unwrap_or_default();
-        Some((history.overturn_time?, wall.name.as_str(), end))
-    });
-    let mut fallen: Vec<_> = fallen.collect();
-    fallen.sort_by(|a, b| a.0.total_cmp(&b.0));
-    fallen
+/// The walls that overturn, in order of time: when, who, and what becomes of them.
+pub(super) fn overturned<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64, &'a str, Fate)> {
+    let walls = building.walls.iter().zip(&run.walls);
+    let mut overturned: Vec<_> = walls
+        .filter_map(|(wall, history)| {
+            Some((history.overturn_time?, wall.name.as_str(), history.fate(&run.times)))
+        })
+        .collect();
+    overturned.sort_by(|a, b| a.0.total_cmp(&b.0));
+    overturned
+}
+
+/// When a wall falls \[s\].
+fn falling(fate: Fate) -> Option<f64> {
+    match fate {
+        Fate::Falls { falls, .. } => Some(falls),
+        Fate::Stands | Fate::ComesBack { .. } => None,
+    }
 }
 
 /// The frame that tells most: just after the first fall, or that of the largest u/`u_ins`.
@@ -160,22 +170,22 @@ fn telling(run: &Coupled, frames: &[usize]) -> usize {
 
 /// Says what becomes of the building.
 pub(super) fn said(building: &Building, run: &Coupled) -> String {
-    let falls = falls(building, run);
+    let overturned = overturned(building, run);
     let worst = building.walls.iter().zip(&run.walls).max_by(|a, b| {
         let ratio = |wall: &building::coupled::WallHistory| wall.ratio.peak.value.abs();
         ratio(a.1).total_cmp(&ratio(b.1))
     });
     let name = |name: &str| name.replace('_', " ");
-    match (&falls[..], worst) {
+    match (&overturned[..], worst) {
         ([], None) => "No wall stands on this building.".to_owned(),
         ([], Some((wall, history))) => {
             let ratio = 100.0 * history.ratio.peak.value.abs();
             format!("All walls stand; the {} reaches {ratio:.0} % of u_ins.", name(&wall.name))
         }
-        (falls, _) => {
+        (overturned, _) => {
             let part =
-                |&(time, wall, end): &(f64, &str, f64)| format!("the {} {}", name(wall), fall(time, end));
-            let text = falls.iter().map(part).collect::<Vec<_>>().join(", ");
+                |&(_, wall, own): &(f64, &str, Fate)| Some(format!("the {} {}", name(wall), fate(own)?));
+            let text = overturned.iter().filter_map(part).collect::<Vec<_>>().join("; ");
             format!("{}{}.", text[..1].to_uppercase(), &text[1..])
         }
     }
@@ -184,7 +194,7 @@ pub(super) fn said(building: &Building, run: &Coupled) -> String {
 /// The end of the time axes: soon after the last fall and the last of the peaks.
 pub(super) fn end(run: &Coupled) -> f64 {
     let floors = run.floors.iter().flat_map(|floor| [floor.acceleration.peak.time, floor.drift.peak.time]);
-    let walls = run.walls.iter().map(|wall| wall.overturn_time.unwrap_or(wall.ratio.peak.time));
+    let walls = run.walls.iter().map(|wall| falling(wall.fate(&run.times)).unwrap_or(wall.ratio.peak.time));
     let last = floors.chain(walls).fold(0.0, f64::max);
     (last + AFTER_ALL).min(run.times.last().copied().unwrap_or(AFTER_ALL))
 }
@@ -209,10 +219,13 @@ fn peaks(building: &Building, run: &Coupled) -> String {
         table += &head(["wall", "largest u/u_ins", "force at its foot"]);
     }
     for (wall, history) in building.walls.iter().zip(&run.walls) {
-        let ratio = history.overturn_time.map_or_else(
-            || format!("{:.2}", history.ratio.peak.value.abs()),
-            |time| format!("above 1 at {time:.2} s"),
-        );
+        let ratio = match history.fate(&run.times) {
+            Fate::Stands => format!("{:.2}", history.ratio.peak.value.abs()),
+            Fate::ComesBack { exceeds } => {
+                format!("{:.2}, above 1 from {exceeds:.2} s", history.ratio.peak.value.abs())
+            }
+            Fate::Falls { falls, .. } => format!("1, falls at {falls:.2} s"),
+        };
         let force = format!("{:.2} kN", history.reaction_bottom.peak.value.abs() / 1000.0);
         table += &row([wall.name.clone(), ratio, force]);
     }
@@ -229,8 +242,10 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
         pairs.take_while(|(time, _)| *time <= until.unwrap_or(end).min(end)).collect()
     };
     let color = |index: usize| SERIES[index % SERIES.len()].0;
-    let falls = falls(building, run);
-    let marks: Vec<_> = falls.iter().map(|(time, name, _)| (*time, name.replace('_', " "))).collect();
+    let marks: Vec<_> = overturned(building, run)
+        .into_iter()
+        .map(|(time, name, fate)| (falling(fate).unwrap_or(time), name.replace('_', " ")))
+        .collect();
     let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
     let drawn = |lines: Vec<Line>, label: &str, shown: &[f64]| {
         let keys: Vec<_> = lines

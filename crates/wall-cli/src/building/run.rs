@@ -4,17 +4,19 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use building::coupled::{Coupled, History, Peak, Settings};
+use building::coupled::{Coupled, History, Peak, Settings, WallHistory};
 use building::document::Floor;
 use building::{Building, Parts};
 use clap::Args;
 use ground_motion::GroundMotion;
+use rocking_wall::response::Fate;
 use rocking_wall::scene::DEFAULT_TAIL;
+use rocking_wall::wall::Wall;
 use serde_json::json;
 
 use super::animation;
 use super::page::page;
-use crate::output;
+use crate::{demands, output};
 
 #[derive(Debug, Args)]
 pub(crate) struct Options {
@@ -57,6 +59,7 @@ pub(super) fn run(
     if !(0.0..=1e6).contains(&tail) || !(1e-6..=1.0).contains(&tolerance) {
         bail!("--tail must be between 0 and 1e6 s, --tolerance between 1e-6 and 1");
     }
+    output::expect_svg(options.svg.as_ref())?;
     let moving = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
     for floor in building.floors.iter().filter(moving) {
         output::warn(&format!("floor {:?} does not start at rest, as its file says", floor.name));
@@ -67,7 +70,7 @@ pub(super) fn run(
     output::save(options.html.as_ref(), || page(building, parts, &run, note))?;
     output::save(options.svg.as_ref(), || animation::render(building, parts, &run))?;
     if options.json {
-        return Ok(serde_json::to_string_pretty(&json(building, &run))? + "\n");
+        return Ok(serde_json::to_string_pretty(&json(building, parts, &run))? + "\n");
     }
     let mut text = table(building, parts, &run, note);
     for path in options.outputs() {
@@ -105,40 +108,49 @@ fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> Strin
         "wall", "u [mm]", "u/u_ins", "bottom force [kN]", "top force [kN]"
     );
     for ((wall, history), own) in building.walls.iter().zip(&run.walls).zip(&parts.walls) {
-        let u_ins = own.body().instability;
-        let fallen = history.overturn_time;
-        let u = fallen.map_or_else(|| at(history.displacement.peak, 1000.0, 1), |_| "-".to_owned());
-        let ratio = history.largest / u_ins.of(history.displacement.peak.value);
-        let ratio = if fallen.is_some() { "1".to_owned() } else { format!("{ratio:.3}") };
+        let (peak, [_, ratio]) = reported(own, history, &run.times);
+        let u = at(peak, 1000.0, 1);
         let top = if wall.top.is_some() { at(history.reaction_top.peak, 1e-3, 2) } else { "-".to_owned() };
         let _ = writeln!(
             text,
-            "{:width$}  {u:>19}  {ratio:>7}  {:>19}  {top:>19}  {}",
+            "{:width$}  {u:>19}  {ratio:>7.3}  {:>19}  {top:>19}  {}",
             wall.name,
             at(history.reaction_bottom.peak, 1e-3, 2),
-            fallen.map_or_else(|| "no".to_owned(), |time| format!("at {time:.3} s"))
+            demands::overturned(history.fate(&run.times), 3)
         );
     }
     text
 }
 
-/// One row for each sample of the record, and on at its step, in SI units.
+/// The peak of u \[m\], and the largest |u| \[m\] and |u|/`u_ins`, of a wall that falls up to `u_ins`.
+fn reported(wall: &Wall, history: &WallHistory, times: &[f64]) -> (Peak, [f64; 2]) {
+    let u_ins = wall.body().instability;
+    if let Fate::Falls { falls, .. } = history.fate(times) {
+        let end = history.displacement.values.last().copied().unwrap_or_default();
+        let largest = u_ins.of(end);
+        return (Peak { value: largest.copysign(end), time: falls }, [largest, 1.0]);
+    }
+    let peak = history.displacement.peak;
+    (peak, [history.largest, history.largest / u_ins.of(peak.value)])
+}
+
+/// One row for each sample of the record, and on at its step; the header names the columns with their units.
 fn csv(building: &Building, run: &Coupled) -> String {
-    let mut columns: Vec<(String, &History)> = vec![("ground.acceleration".into(), &run.ground)];
+    let mut columns: Vec<(String, &History)> = vec![("ground.acceleration_m_s2".into(), &run.ground)];
     for (floor, history) in building.floors.iter().zip(&run.floors) {
-        columns.push((format!("{}.acceleration", floor.name), &history.acceleration));
-        columns.push((format!("{}.drift", floor.name), &history.drift));
+        columns.push((format!("{}.acceleration_m_s2", floor.name), &history.acceleration));
+        columns.push((format!("{}.drift_m", floor.name), &history.drift));
     }
     for (wall, history) in building.walls.iter().zip(&run.walls) {
         let name = &wall.name;
-        columns.push((format!("{name}.u"), &history.displacement));
+        columns.push((format!("{name}.u_m"), &history.displacement));
         columns.push((format!("{name}.u_ratio"), &history.ratio));
-        columns.push((format!("{name}.reaction_bottom"), &history.reaction_bottom));
+        columns.push((format!("{name}.reaction_bottom_n"), &history.reaction_bottom));
         if wall.top.is_some() {
-            columns.push((format!("{name}.reaction_top"), &history.reaction_top));
+            columns.push((format!("{name}.reaction_top_n"), &history.reaction_top));
         }
     }
-    let mut text = String::from("time");
+    let mut text = String::from("time_s");
     for (name, _) in &columns {
         let _ = write!(text, ",{name}");
     }
@@ -153,20 +165,22 @@ fn csv(building: &Building, run: &Coupled) -> String {
     text
 }
 
-fn json(building: &Building, run: &Coupled) -> serde_json::Value {
+fn json(building: &Building, parts: &Parts, run: &Coupled) -> serde_json::Value {
     let peak = |history: &History| json!({ "value": history.peak.value, "time": history.peak.time });
     let floors = building.floors.iter().zip(&run.floors).map(|(floor, history)| {
         let (acceleration, drift) = (peak(&history.acceleration), peak(&history.drift));
         json!({ "name": floor.name, "acceleration": acceleration, "drift": drift })
     });
-    let walls = building.walls.iter().zip(&run.walls).map(|(wall, history)| {
+    let walls = building.walls.iter().zip(&run.walls).zip(&parts.walls).map(|((wall, history), own)| {
+        let (at, [u_max, ratio]) = reported(own, history, &run.times);
         json!({
             "name": wall.name,
-            "u_max": history.largest,
-            "u_ratio": peak(&history.ratio),
+            "u_max": u_max,
+            "u_ratio": { "value": ratio.copysign(at.value), "time": at.time },
             "reaction_bottom": peak(&history.reaction_bottom),
             "reaction_top": peak(&history.reaction_top),
             "overturn_time": history.overturn_time,
+            "falls": history.fate(&run.times).falls(),
         })
     });
     json!({

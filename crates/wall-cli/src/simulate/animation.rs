@@ -2,13 +2,13 @@
 
 use anyhow::{Result, bail};
 use figures::palette::{BLUE, RED};
-use rocking_wall::response::{Response, Sample};
+use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::animation::{GROUND, MOST_FRAMES, Shape, history, picture};
-use crate::moving::fall;
+use crate::moving::fate;
 
 /// Room of the wall: width, and height above the ground \[px\].
 const ROOM: [f64; 2] = [220.0, 196.0];
@@ -27,12 +27,14 @@ const FACTORS: [f64; 4] = [5.0, 3.0, 2.0, 1.0];
 /// If the wall does not move.
 pub(super) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String> {
     let moving = |sample: &&Sample| sample.outputs.ratio.abs() > MOVING;
-    let overturned = response.summary.overturn_time;
     let mut samples = response.samples.iter();
     let (Some(first), Some(last)) = (samples.clone().find(moving), samples.rfind(moving)) else {
         bail!("--svg: the wall hardly moves, by less than {MOVING} u_ins: there is nothing to draw");
     };
-    let end = overturned.unwrap_or(last.time).min(last.time) + AFTER;
+    let end = match response.summary.fate {
+        Fate::Falls { falls, .. } => falls,
+        Fate::ComesBack { .. } | Fate::Stands => last.time,
+    } + AFTER;
     let span = [(first.time - BEFORE).max(0.0), end.min(response.summary.end_time)];
     let shown = response.samples.iter().filter(|sample| (span[0]..=span[1]).contains(&sample.time));
     let every = shown.clone().count().div_ceil(MOST_FRAMES).max(1);
@@ -51,11 +53,8 @@ pub(super) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         history(&[(line, BLUE, String::new())], span, &period)
     );
     let scale = if factor == 1.0 { String::new() } else { format!(", rotation × {factor}") };
-    let (said, colour) = match overturned {
-        Some(time) => {
-            let end = response.samples.last().map_or(0.0, |sample| sample.outputs.ratio);
-            (fall(time, end), RED)
-        }
+    let (said, colour) = match fate(response.summary.fate) {
+        Some(words) => (words, RED),
         None => (format!("stands: {:.0} % of u_ins{scale}", 100.0 * response.summary.u_ratio_max), BLUE),
     };
     Ok(picture(&scene.title, (&said, colour), &parts))

@@ -19,8 +19,8 @@ pub(crate) struct Arguments {
     /// Several accelerograms, run one after the other: a table instead of a history
     #[arg(long, value_name = "FILES", num_args = 1.., group = "recorded")]
     pub(super) records: Vec<PathBuf>,
-    /// Run each of them with both signs
-    #[arg(long, requires = "records")]
+    /// Run each record with both signs, as a table
+    #[arg(long, requires = "recorded")]
     pub(super) both_polarities: bool,
     /// Floor that the wall stands on, by period, damping ratio and mass, such as T=0.3,xi=0.05 or
     /// T=0.3,xi=0.05,mass=2e4; a strip wall leans on it. The motion shakes the ground
@@ -57,6 +57,14 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
+    /// The records to run as a table; none for a single run.
+    pub(super) fn table(&self) -> &[PathBuf] {
+        match &self.record.record {
+            Some(record) if self.both_polarities => std::slice::from_ref(record),
+            _ => &self.records,
+        }
+    }
+
     /// The scene to run.
     pub(super) fn scene(&self) -> Result<Scene> {
         self.shaken(self.scene.load()?, self.record.load()?)
@@ -68,7 +76,8 @@ impl Arguments {
             scene.floors = Some(floor.clone());
         }
         if let Some((motion, note)) = motion {
-            let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
+            let of = if scene.floors.is_some() { "ground " } else { "" };
+            let peak = format!("peak {of}acceleration {:.4} m/s²", motion.peak());
             let tail = self.tail.unwrap_or(DEFAULT_TAIL);
             if !(0.0..=1e6).contains(&tail) {
                 bail!("--tail {tail}: must be between 0 and 1e6 s");
