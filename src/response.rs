@@ -72,9 +72,17 @@ impl Fate {
         Self::Falls { exceeds, falls: exceeds }
     }
 
+    /// Returns when the wall falls \[s\]; `None` for a wall that does not.
+    pub fn falling(&self) -> Option<f64> {
+        match *self {
+            Self::Falls { falls, .. } => Some(falls),
+            Self::Stands | Self::ComesBack { .. } => None,
+        }
+    }
+
     /// Whether the wall falls.
     pub fn falls(&self) -> bool {
-        matches!(self, Self::Falls { .. })
+        self.falling().is_some()
     }
 }
 

@@ -151,8 +151,8 @@ fn a_tie_that_holds_a_wall_beyond_u_ins() {
     for (name, scale) in names.iter().zip(scales) {
         let scaled: GroundMotion = motion.checked_scaled(scale).unwrap();
         let rows = scaled.samples().iter().enumerate();
-        let rows: String = rows.map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * motion.step())).collect();
-        fs::write(folder.join(name), format!("{}\n{rows}", ground_motion::CSV_HEADER)).unwrap();
+        let rows: Vec<_> = rows.map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * motion.step())).collect();
+        fs::write(folder.join(name), format!("{}\n{}", ground_motion::CSV_HEADER, rows.concat())).unwrap();
     }
     let names: Vec<_> = names.iter().map(String::as_str).collect();
     let arguments = ["tie", "--set", "tie_height=3", "--set", "tie_side=both", "--stiffness", "0,1e4,1e7"];

@@ -33,7 +33,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     let frames: Vec<_> = frames(response.samples.len()).into_iter().map(|i| &response.samples[i]).collect();
     let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
     let u_ins = wall.body().instability;
-    let overturned = response.summary.overturn_time;
+    let (overturned, falls) = (response.summary.overturn_time, response.summary.fate.falling());
     let hinge = hinge(wall);
     // the top of a parapet, or the rotation of a strip's lower body in %
     let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
@@ -50,16 +50,13 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         "hinge": hinge,
         "full": wall.rotations().is_some(),
         "overturned": overturned,
-        "open": telling(&frames, overturned),
+        "open": telling(&frames, falls),
     });
     let names = match hinge {
         None => ["u, mid-height (mm)", "top (mm)"],
         Some(_) => ["u, hinge (mm)", "rotation (%)"],
     };
-    let end = match response.summary.fate {
-        Fate::Falls { falls, .. } => end.min(falls + AFTER_FALL),
-        Fate::ComesBack { .. } | Fate::Stands => end,
-    };
+    let end = falls.map_or(end, |time| end.min(time + AFTER_FALL));
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
     let figures =
@@ -84,9 +81,9 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     Ok(template::page(TEMPLATE, &page))
 }
 
-/// The frame that tells most: that of the largest |u|, or the last one before the wall overturns.
-fn telling(frames: &[&Sample], overturned: Option<f64>) -> usize {
-    let standing = frames.iter().take_while(|sample| overturned.is_none_or(|time| sample.time < time));
+/// The frame that tells most: that of the largest |u|, or the last one before the wall falls.
+fn telling(frames: &[&Sample], falls: Option<f64>) -> usize {
+    let standing = frames.iter().take_while(|sample| falls.is_none_or(|time| sample.time < time));
     let ratio = |sample: &Sample| sample.outputs.ratio.abs();
     let peak = standing.enumerate().max_by(|a, b| ratio(a.1).total_cmp(&ratio(b.1)));
     peak.map_or(0, |(frame, _)| frame)

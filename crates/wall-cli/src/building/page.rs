@@ -113,7 +113,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
             "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
             "u_ins": [body.instability.positive, body.instability.negative],
             "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
-            "fallen": falling(history.fate(times)),
+            "fallen": history.fate(times).falling(),
         })
     });
     shown.collect()
@@ -146,14 +146,6 @@ pub(super) fn overturned<'a>(building: &'a Building, run: &Coupled) -> Vec<(f64,
         .collect();
     overturned.sort_by(|a, b| a.0.total_cmp(&b.0));
     overturned
-}
-
-/// When a wall falls \[s\].
-fn falling(fate: Fate) -> Option<f64> {
-    match fate {
-        Fate::Falls { falls, .. } => Some(falls),
-        Fate::Stands | Fate::ComesBack { .. } => None,
-    }
 }
 
 /// The frame that tells most: just after the first fall, or that of the largest u/`u_ins`.
@@ -194,7 +186,7 @@ pub(super) fn said(building: &Building, run: &Coupled) -> String {
 /// The end of the time axes: soon after the last fall and the last of the peaks.
 pub(super) fn end(run: &Coupled) -> f64 {
     let floors = run.floors.iter().flat_map(|floor| [floor.acceleration.peak.time, floor.drift.peak.time]);
-    let walls = run.walls.iter().map(|wall| falling(wall.fate(&run.times)).unwrap_or(wall.ratio.peak.time));
+    let walls = run.walls.iter().map(|wall| wall.fate(&run.times).falling().unwrap_or(wall.ratio.peak.time));
     let last = floors.chain(walls).fold(0.0, f64::max);
     (last + AFTER_ALL).min(run.times.last().copied().unwrap_or(AFTER_ALL))
 }
@@ -244,7 +236,7 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
     let color = |index: usize| SERIES[index % SERIES.len()].0;
     let marks: Vec<_> = overturned(building, run)
         .into_iter()
-        .map(|(time, name, fate)| (falling(fate).unwrap_or(time), name.replace('_', " ")))
+        .map(|(time, name, fate)| (fate.falling().unwrap_or(time), name.replace('_', " ")))
         .collect();
     let marks: Vec<_> = marks.iter().map(|(time, name)| (*time, name.as_str())).collect();
     let drawn = |lines: Vec<Line>, label: &str, shown: &[f64]| {

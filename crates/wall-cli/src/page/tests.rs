@@ -5,7 +5,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::wall::Wall;
 
 use super::render;
-use figures::response::{WIDTH, history};
+use figures::response::{WIDTH, cut, history};
 
 fn page(change: impl Fn(&mut Scene)) -> String {
     let mut scene = Scene::default();
@@ -45,9 +45,28 @@ fn the_line_of_a_fallen_wall_ends() {
     scene.set("u_start", "0.199").unwrap();
     scene.set("u_dot_start", "0.1").unwrap();
     let response = Response::of(&scene).unwrap();
-    let line = super::standing(&response.samples, response.summary.overturn_time);
+    let line = cut(response.samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
     let (before, last) = (line[line.len() - 2], line[line.len() - 1]);
     assert!(before.1 <= 1.25 && last.1 == 1.25 && last.0 < 10.0, "{before:?}, {last:?}");
+}
+
+/// A wall that its tie brings back is drawn to its end, at its peak.
+#[test]
+fn the_line_of_a_wall_that_comes_back_goes_on() {
+    let tied = |scene: &mut Scene| {
+        let parameters = [("u_start", "0.19"), ("u_dot_start", "0.5"), ("tie_height", "3")];
+        for (name, value) in parameters.into_iter().chain([("tie_stiffness", "2e4")]) {
+            scene.set(name, value).unwrap();
+        }
+    };
+    let html = page(tied);
+    assert!(html.contains("and comes back.") && html.contains(">exceeds u_ins</span>"));
+    let peak = html.split("\"open\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
+    let mut scene = Scene::default();
+    tied(&mut scene);
+    let response = Response::of(&scene).unwrap();
+    let time = response.samples[peak.parse::<usize>().unwrap()].time;
+    assert!(time > response.summary.overturn_time.unwrap(), "{time}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail};
 use figures::palette::{BLUE, RED};
-use rocking_wall::response::{Fate, Response, Sample};
+use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
@@ -31,10 +31,7 @@ pub(super) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     let (Some(first), Some(last)) = (samples.clone().find(moving), samples.rfind(moving)) else {
         bail!("--svg: the wall hardly moves, by less than {MOVING} u_ins: there is nothing to draw");
     };
-    let end = match response.summary.fate {
-        Fate::Falls { falls, .. } => falls,
-        Fate::ComesBack { .. } | Fate::Stands => last.time,
-    } + AFTER;
+    let end = response.summary.fate.falling().unwrap_or(last.time).min(last.time) + AFTER;
     let span = [(first.time - BEFORE).max(0.0), end.min(response.summary.end_time)];
     let shown = response.samples.iter().filter(|sample| (span[0]..=span[1]).contains(&sample.time));
     let every = shown.clone().count().div_ceil(MOST_FRAMES).max(1);
