@@ -55,7 +55,7 @@ fn the_line_of_a_fallen_wall_ends() {
 fn the_line_of_a_wall_that_comes_back_goes_on() {
     let tied = |scene: &mut Scene| {
         let parameters = [("u_start", "0.19"), ("u_dot_start", "0.5"), ("tie_height", "3")];
-        for (name, value) in parameters.into_iter().chain([("tie_stiffness", "2e4")]) {
+        for (name, value) in parameters.into_iter().chain([("tie_stiffness", "2e4"), ("tie_side", "both")]) {
             scene.set(name, value).unwrap();
         }
     };
