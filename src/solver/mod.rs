@@ -25,6 +25,6 @@ pub use demand::{Crossing, Demands, Extremes, Instant, TieDemands};
 pub use exact::Memo;
 pub use indicators::INDICATORS;
 pub use motion::{Method, Motion};
-pub use state::{Peaks, Phase, Report, Segment, SolverError, State, Work};
+pub use state::{Peaks, Phase, Report, Segment, SolverError, State, Work, reported_peak};
 pub use transition::Event;
 pub use watch::ACCURACY;

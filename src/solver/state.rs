@@ -87,15 +87,18 @@ pub struct State {
 }
 
 impl State {
-    /// Returns the largest |u| and |u|/`u_ins` as results report them \[m, -\]: a wall that falls counts up
-    /// to `u_ins`, since how far it goes beyond says nothing of the motion (docs/model.md, Overturning).
+    /// Returns the largest |u| and |u|/`u_ins` as results report them, see [`reported_peak`] \[m, -\].
     pub fn reported_peak(&self, u_ins: Sides, falls: bool) -> [f64; 2] {
-        if falls {
-            [u_ins.of(self.displacement), 1.0]
-        } else {
-            [self.peaks.largest(), self.peaks.ratio(u_ins)]
-        }
+        let peak = [self.peaks.largest(), self.peaks.ratio(u_ins)];
+        reported_peak(peak, u_ins.of(self.displacement), falls)
     }
+}
+
+/// Returns the largest |u| and |u|/`u_ins` as results report them \[m, -\], from those of the motion: a wall
+/// that falls counts up to `u_ins` of its side, since how far it goes beyond says nothing of the motion
+/// (docs/model.md, Overturning).
+pub fn reported_peak(peak: [f64; 2], u_ins: f64, falls: bool) -> [f64; 2] {
+    if falls { [u_ins, 1.0] } else { peak }
 }
 
 /// What a segment did besides changing the state.

@@ -14,7 +14,7 @@ pub(crate) const GROUND: f64 = 262.0;
 const PLOT: [f64; 4] = [258.0, 626.0, 62.0, 262.0];
 /// Most frames of an animation.
 pub(crate) const MOST_FRAMES: usize = 400;
-/// Largest u/`u_ins` of the history.
+/// Least end of the axis of u/`u_ins`; a tie may hold a wall far beyond 1.
 const EDGE: f64 = 1.25;
 
 /// Part of a wall: from a height, of a length \[m\].
@@ -98,7 +98,11 @@ pub(crate) type Line<'a> = (Vec<(f64, f64)>, &'a str, String);
 pub(crate) fn history(lines: &[Line<'_>], span: [f64; 2], period: &str) -> String {
     let [left, right, top, bottom] = PLOT;
     let x = |time: f64| left + (right - left) * (time - span[0]) / (span[1] - span[0]);
-    let y = |ratio: f64| 0.5 * (top + bottom) - 0.5 * (bottom - top) * ratio / EDGE;
+    let lines: Vec<_> =
+        lines.iter().map(|(points, colour, name)| (cut(points.clone()), colour, name)).collect();
+    let ratios = lines.iter().flat_map(|(points, ..)| points.iter().map(|point| point.1.abs()));
+    let edge = ratios.fold(EDGE, f64::max);
+    let y = |ratio: f64| 0.5 * (top + bottom) - 0.5 * (bottom - top) * ratio / edge;
     let mut svg = format!(
         "<g font-size=\"11\" fill=\"{DARK_GREY}\"><path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" \
          stroke=\"{DARK_GREY}\"/>"
@@ -125,12 +129,9 @@ pub(crate) fn history(lines: &[Line<'_>], span: [f64; 2], period: &str) -> Strin
         span[0],
         span[1]
     );
-    for (points, colour, _) in lines {
-        let points = cut(points.clone());
-        let shown: Vec<_> = points
-            .iter()
-            .map(|(time, ratio)| format!("{:.1},{:.1}", x(*time), y(ratio.clamp(-EDGE, EDGE))))
-            .collect();
+    for (points, colour, _) in &lines {
+        let shown: Vec<_> =
+            points.iter().map(|(time, ratio)| format!("{:.1},{:.1}", x(*time), y(*ratio))).collect();
         let _ = writeln!(
             svg,
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\"/>",

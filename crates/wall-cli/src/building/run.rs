@@ -9,8 +9,8 @@ use building::document::Floor;
 use building::{Building, Parts};
 use clap::Args;
 use ground_motion::GroundMotion;
-use rocking_wall::response::Fate;
 use rocking_wall::scene::DEFAULT_TAIL;
+use rocking_wall::solver::reported_peak;
 use rocking_wall::wall::Wall;
 use serde_json::json;
 
@@ -125,13 +125,11 @@ fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> Strin
 /// The peak of u \[m\], and the largest |u| \[m\] and |u|/`u_ins`, of a wall that falls up to `u_ins`.
 fn reported(wall: &Wall, history: &WallHistory, times: &[f64]) -> (Peak, [f64; 2]) {
     let u_ins = wall.body().instability;
-    if let Fate::Falls { falls, .. } = history.fate(times) {
-        let end = history.displacement.values.last().copied().unwrap_or_default();
-        let largest = u_ins.of(end);
-        return (Peak { value: largest.copysign(end), time: falls }, [largest, 1.0]);
-    }
-    let peak = history.displacement.peak;
-    (peak, [history.largest, history.largest / u_ins.of(peak.value)])
+    let (peak, falls) = (history.displacement.peak, history.fate(times).falling());
+    let end = history.displacement.values.last().copied().unwrap_or_default();
+    let own = [history.largest, history.largest / u_ins.of(peak.value)];
+    let reported = reported_peak(own, u_ins.of(end), falls.is_some());
+    (falls.map_or(peak, |time| Peak { value: reported[0].copysign(end), time }), reported)
 }
 
 /// One row for each sample of the record, and on at its step; the header names the columns with their units.
