@@ -65,7 +65,7 @@ def test_warnings():
         rw.Wall(height=3, thickness=0.25, u_start=0.2).simulate()
     with pytest.raises(ValueError, match="u_start = 0.2 m is beyond u_ins"):
         rw.Wall(height=3, thickness=0.25, u_start=0.2).peaks(rw.sine_cycle(1.0, 2.0), [1.0])
-    with pytest.warns(UserWarning, match="d1 is set and has no effect: it counts where force_law = trilinear"):
+    with pytest.warns(UserWarning, match="d1 is set and has no effect: it counts where force_law = tri"):
         rw.Wall(height=3, thickness=0.25, d1=0.7).simulate(rw.sine_cycle(1.0, 2.0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
