@@ -7,6 +7,7 @@ import subprocess
 import time
 
 import pytest
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 
 from conftest import ROOT
@@ -26,6 +27,11 @@ def parapet(wall, tmp_path_factory):
 def strip(wall, tmp_path_factory):
     settings = ["--set", "mechanism=vertical_spanning", "--set", "thickness=0.2", "--set", "u_start=0.15"]
     return make(wall, tmp_path_factory.mktemp("page") / "strip.html", *settings)
+
+
+@pytest.fixture(scope="module")
+def fallen(wall, tmp_path_factory):
+    return make(wall, tmp_path_factory.mktemp("page") / "fallen.html", "--synthetic")
 
 
 def move(browser, part):
@@ -110,8 +116,8 @@ def test_nothing_overflows(browser, parapet, width):
     assert content <= inner
 
 
-def test_overturning_is_marked(browser, wall, tmp_path):
-    browser.get(make(wall, tmp_path / "fallen.html", "--synthetic").as_uri())
+def test_overturning_is_marked(browser, fallen):
+    browser.get(fallen.as_uri())
     assert browser.find_elements(By.CSS_SELECTOR, "#history .mark")
     assert browser.find_element(By.ID, "overturned").text == ""
     move(browser, 1.0)
@@ -155,6 +161,41 @@ def test_a_building_fits_the_window(browser, building, width):
     )
     browser.get(building.as_uri())
     assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+
+
+@pytest.fixture(params=["fallen", "building"])
+def moving(request):
+    """A page on which walls fall."""
+    return request.getfixturevalue(request.param)
+
+
+def test_slider_and_histories_end_together(browser, moving):
+    browser.get(moving.as_uri())
+    times, ends = browser.execute_script(
+        "return [JSON.parse(document.getElementById('data').textContent).t,"
+        "  [...document.querySelectorAll('.cursor')]"
+        "    .map(cursor => JSON.parse(cursor.parentElement.dataset.ranges)[1])]"
+    )
+    assert len(ends) >= 4
+    for end in ends:
+        # to a frame, and to the five digits of the times
+        assert abs(times[-1] - end) <= times[1] + 5e-5 * end
+
+
+def test_a_click_on_a_history_moves_the_wall_there(browser, moving):
+    browser.get(moving.as_uri())
+    plot = next(plot for plot in browser.find_elements(By.CSS_SELECTOR, ".plot.wide:has(.cursor)"))
+    left, right, _, _ = browser.execute_script("return JSON.parse(arguments[0].dataset.area)", plot)
+    end = browser.execute_script("return JSON.parse(arguments[0].dataset.ranges)[1]", plot)
+    seen = set()
+    for part in (0.3, 0.7):
+        across = plot.rect["width"] * (left + (right - left) * part - 0.5)
+        ActionChains(browser).move_to_element_with_offset(plot, across, 0).click().perform()
+        now = float(browser.find_element(By.CSS_SELECTOR, ".now b").text)
+        # two pixels and a frame
+        assert abs(now - part * end) < 0.01 * end
+        seen.add(browser.find_element(By.ID, "time").get_property("value"))
+    assert len(seen) == 2
 
 
 STUDY = """

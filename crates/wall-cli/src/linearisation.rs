@@ -193,8 +193,9 @@ pub(crate) struct Counterpart {
 const AMPLITUDES: [f64; 2] = [0.01, 0.99];
 
 impl Counterpart {
-    /// Runs a scene with the other kinematics; `None` for walls that full rotations do not allow.
-    pub(crate) fn of(scene: &Scene, response: &Response) -> Option<Self> {
+    /// Runs a scene with the other kinematics and draws both up to a time \[s\]; `None` for walls that full
+    /// rotations do not allow.
+    pub(crate) fn of(scene: &Scene, response: &Response, end: f64) -> Option<Self> {
         let other = counterpart(scene)?;
         let twin = Response::of(&other).ok()?;
         let column = |response: &Response| -> Vec<(f64, f64)> {
@@ -208,7 +209,6 @@ impl Counterpart {
         };
         let pairs = own.iter().zip(&twin_column).take_while(|(a, b)| a.1.abs() <= 1.0 && b.1.abs() <= 1.0);
         let apart = pairs.map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max);
-        let end = own.last()?.0;
         let start = response.summary.u_ratio_max.clamp(AMPLITUDES[0], AMPLITUDES[1]);
         let period_of = |parameters: &Parameters| period(parameters, start).ok();
         let wall = period_of(&scene.parameters)?;

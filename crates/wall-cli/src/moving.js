@@ -22,7 +22,14 @@ function moveCursors(t, point) {
     }
   }
 }
-// Lets slider and button show the frames of the times, from the frame `open` on; page.html#t=9.2 opens there.
+// Returns the time at which the pointer is on a history.
+function timeUnder(event, plot) {
+  const [left, right] = JSON.parse(plot.dataset.area), [from, to] = JSON.parse(plot.dataset.ranges);
+  const box = plot.getBoundingClientRect();
+  return from + (to - from) * ((event.clientX - box.left) / box.width - left) / (right - left);
+}
+// Lets slider, button and histories show the frames of the times, from the frame `open` on; page.html#t=9.2
+// opens there.
 function startPlayer(times, show, open) {
   const last = times.length - 1, slider = at("time"), button = at("play");
   const shown = frame => { slider.value = frame; show(frame); };
@@ -42,10 +49,16 @@ function startPlayer(times, show, open) {
     playing = requestAnimationFrame(tick);
   };
   button.addEventListener("click", () => playing === null ? play() : stop());
-  slider.addEventListener("input", () => {
-    if (playing !== null) { stop(); }
-    shown(Number(slider.value));
-  });
+  const go = frame => { stop(); shown(frame); };
+  const frameAt = time => Math.max(0, times.findLastIndex(t => t <= time));
+  slider.addEventListener("input", () => go(Number(slider.value)));
+  for (const { parentElement: plot } of document.querySelectorAll(".cursor")) {
+    for (const kind of ["pointerdown", "pointermove"]) {
+      plot.addEventListener(kind, event => {
+        if (kind === "pointerdown" || event.buttons !== 0) { go(frameAt(timeUnder(event, plot))); }
+      });
+    }
+  }
   const wanted = /^#t=([0-9.]+)$/.exec(location.hash);
-  shown(wanted === null ? open : Math.max(0, times.findLastIndex(t => t <= Number(wanted[1]))));
+  shown(wanted === null ? open : frameAt(Number(wanted[1])));
 }

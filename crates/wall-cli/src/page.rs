@@ -30,10 +30,13 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     if response.samples.iter().any(|sample| !sample.outputs.displacement.is_finite()) {
         bail!("the response holds numbers that are not finite: there is nothing to draw");
     }
-    let frames: Vec<_> = frames(response.samples.len()).into_iter().map(|i| &response.samples[i]).collect();
+    let (overturned, falls) = (response.summary.overturn_time, response.summary.fate.falling());
+    // slider and histories end together
+    let end = falls.map_or(end, |time| end.min(time + AFTER_FALL));
+    let drawn = response.samples.partition_point(|sample| sample.time <= end);
+    let frames: Vec<_> = frames(drawn).into_iter().map(|i| &response.samples[i]).collect();
     let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
     let u_ins = wall.body().instability;
-    let (overturned, falls) = (response.summary.overturn_time, response.summary.fate.falling());
     let hinge = hinge(wall);
     // the top of a parapet, or the rotation of a strip's lower body in %
     let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
@@ -56,11 +59,10 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         None => ["u, mid-height (mm)", "top (mm)"],
         Some(_) => ["u, hinge (mm)", "rotation (%)"],
     };
-    let end = falls.map_or(end, |time| end.min(time + AFTER_FALL));
     let subtitle =
         if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
     let figures =
-        figures(scene, wall, response, end) + &rotations(scene, response) + &demands(wall, response);
+        figures(scene, wall, response, end) + &rotations(scene, response, end) + &demands(wall, response);
     let page = [
         ("title", &*escaped(&scene.title)),
         ("style", STYLE),
@@ -287,8 +289,8 @@ fn marks(fate: Fate) -> Vec<(f64, &'static str)> {
 }
 
 /// Compares a rigid wall with itself under the other kinematics; empty for walls that do not allow them.
-fn rotations(scene: &Scene, response: &Response) -> String {
-    let Some(twin) = Counterpart::of(scene, response) else { return String::new() };
+fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
+    let Some(twin) = Counterpart::of(scene, response, end) else { return String::new() };
     let caption = format!(
         "Full rotations (blue) and small ones (red, dashed): at most {:.3} u_ins apart while both stand",
         twin.apart

@@ -29,7 +29,9 @@ const FALLING: f64 = 3.0;
 
 /// Makes the page of a run.
 pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> String {
-    let frames = frames(run.times.len());
+    // slider and histories end together
+    let end = end(run);
+    let frames = frames(run.times.partition_point(|&time| time <= end));
     let of = |values: &[f64]| rounded(frames.iter().map(|&frame| values[frame]));
     let open = telling(run, &frames);
     let data = json!({
@@ -40,7 +42,6 @@ pub(super) fn page(building: &Building, parts: &Parts, run: &Coupled, note: &str
         "open": open,
         "sway": sway(building, run),
     });
-    let end = end(run);
     let page = [
         ("title", &*escaped(&building.title)),
         ("style", STYLE),
