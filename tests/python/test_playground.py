@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -242,13 +243,74 @@ def test_the_fragility_comes_from_twenty_motions(browser, page, record_property)
     rows = browser.find_elements(By.CSS_SELECTOR, "#states tr")
     assert [row.text.split()[0] for row in rows] == ["moderate", "collapse"]
     assert len(browser.find_elements(By.CSS_SELECTOR, "#fragility_chart circle")) >= 20
-    # a change of the wall makes it one of another wall
+    # a change of the wall makes it one of another wall, until the wall is the same again
+    stale = browser.find_element(By.ID, "fragility_stale")
+    assert not stale.is_displayed()
     slide(browser, "height", 3)
-    assert "stale" in browser.find_element(By.ID, "fragility_result").get_attribute("class")
+    assert stale.text.startswith("The wall or its motion has changed since")
+    slide(browser, "height", 2.5)
+    assert not stale.is_displayed()
     # viscous damping and impacts together: the page says why there is no fragility
     Select(browser.find_element(By.ID, "field_impact")).select_by_value("restitution")
     browser.find_element(By.ID, "fragility").click()
     assert "not both" in wait(browser, lambda: text_of(browser, "fragility_fault"))
+
+
+def turn(browser, width, height):
+    """Holds the phone upright or not."""
+    metrics = {"width": width, "height": height, "deviceScaleFactor": 2, "mobile": True}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+
+def panel_width(browser):
+    return browser.find_element(By.CSS_SELECTOR, "#controls fieldset").rect["width"]
+
+
+def test_a_turned_phone_changes_no_result(browser, page):
+    turn(browser, 390, 844)
+    visit(browser, page, "height=2.5")
+    assert panel_width(browser) == pytest.approx(390 - 2 * 12.8, abs=1)
+    browser.find_element(By.ID, "fragility").click()
+    wait(browser, lambda: browser.execute_script("return playground.fragility"))
+    browser.execute_script("pose(100)")
+    now, drawn = text_of(browser, "now"), browser.execute_script("return playground.timings.length")
+    turn(browser, 844, 390)
+    # the charts are drawn again, and show the same
+    wait(browser, lambda: browser.execute_script("return playground.timings.length") > drawn)
+    assert panel_width(browser) == pytest.approx(844 * 0.95, abs=1)
+    assert text_of(browser, "now") == now
+    assert not browser.find_element(By.ID, "fragility_stale").is_displayed()
+    assert "stale" not in browser.find_element(By.ID, "fragility_result").get_attribute("class")
+
+
+def test_a_link_without_its_record_names_the_file(browser, page):
+    visit(browser, page, "kind=record&record=quake.csv&scale=0.8")
+    assert text_of(browser, "headline") == "The record is missing"
+    assert text_of(browser, "detail").startswith("quake.csv: a link does not contain records; drop the file")
+    # the drawing of before, if there is one
+    visit(browser, page)
+    Select(browser.find_element(By.ID, "field_kind")).select_by_value("record")
+    answered(browser)
+    assert text_of(browser, "detail").endswith("Below is the last wall that could be computed.")
+
+
+def test_slider_and_histories_end_together(browser, page):
+    shown = visit(browser, page, "height=2&thickness=0.2&pga=8")
+    for chart in ("history", "motion"):
+        # to a frame
+        assert shown["charts"][chart]["ranges"][1] - shown["frames"]["t"][-1] < shown["frames"]["t"][1] + 1e-4
+    plot = browser.find_element(By.ID, "history")
+    ActionChains(browser).move_to_element(plot).click().perform()
+    left, right = shown["charts"]["history"]["area"][:2]
+    middle = shown["charts"]["history"]["ranges"][1] * (0.5 - left) / (right - left)
+    assert float(text_of(browser, "now").split()[0]) == pytest.approx(middle, rel=0.02)
+
+
+def test_an_enlarged_displacement_is_not_called_to_scale(browser, page):
+    visit(browser, page)
+    assert text_of(browser, "shown") == "Wall to scale, displacement enlarged 5 times"
+    slide(browser, "pga", 10)
+    assert text_of(browser, "shown") == "To scale"
 
 
 def test_the_charts_are_a_file(browser, page):

@@ -108,9 +108,24 @@ fn the_verdict_says_whether_the_wall_falls() {
         let answer = run(&mut Session::default(), &json!({}), &motion);
         answer["answer"]["verdict"]["headline"].as_str().unwrap().to_owned()
     };
-    assert!(headline("2.5").starts_with("The wall stands: it uses "));
+    assert!(headline("2.5").starts_with("The wall stands: it reaches "));
     assert!(headline("20").starts_with("The wall falls at "));
     assert_eq!(headline("0.01"), "The wall stands and hardly moves");
+}
+
+/// A wall with an elastic branch rocks below the acceleration that makes it rock slowly, and the displacement
+/// at which it falls is no capacity: a check by a code calls a part of it that.
+#[test]
+fn onset_is_static_and_u_ins_is_no_capacity() {
+    let motion = json!({ "kind": "synthetic", "seed": "1", "pga": "0.9" });
+    let answer = run(&mut Session::default(), &json!({}), &motion);
+    let detail = answer["answer"]["verdict"]["detail"].as_str().unwrap();
+    assert!(detail.contains(" is 0.95 times the static onset of rocking, 0.952 m/s²."), "{detail}");
+    let facts = answer["answer"]["facts"].as_array().unwrap();
+    let fact = |name: &str| facts.iter().find(|fact| fact[0] == name).unwrap()[1].as_str().unwrap();
+    assert_eq!(fact("static onset of rocking"), "0.952 m/s²");
+    assert!(fact("half cycles of rocking").parse::<u32>().unwrap() > 1);
+    assert!(!answer.to_string().contains("capacity"));
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
         None if summary.u_ratio_max < STILL => ("stands", "The wall stands and hardly moves".to_owned()),
         None => {
             let percent = number(100.0 * summary.u_ratio_max, 2);
-            ("stands", format!("The wall stands: it uses {percent} % of its displacement capacity"))
+            ("stands", format!("The wall stands: it reaches {percent} % of u_ins"))
         }
     };
     let moved = format!(
@@ -37,7 +37,7 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
     let shaken = scene.excitation.as_ref().map(|excitation| {
         let peak = excitation.bottom().peak();
         format!(
-            " The ground's peak of {} m/s² is {} times the {} m/s² at which rocking starts.",
+            " The ground's peak of {} m/s² is {} times the static onset of rocking, {} m/s².",
             number(peak, 3),
             number(peak / onset, 2),
             number(onset, 3)
@@ -57,7 +57,7 @@ pub(crate) fn facts(scene: &Scene, wall: &Wall, response: &Response) -> Vec<[Str
     let mut rows = vec![
         row("instability displacement u_ins", 1000.0 * body.instability.positive, "mm"),
         row("rigid strength F₀", 1e-3 * body.strength.positive, "kN"),
-        row("acceleration that starts rocking", wall.rocking_onset(), "m/s²"),
+        row("static onset of rocking", wall.rocking_onset(), "m/s²"),
         row("mass", body.mass, "kg"),
     ];
     if wall.omega1() > 0.0 {

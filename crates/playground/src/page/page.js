@@ -164,7 +164,8 @@ function run() {
   tell(faults ?? {});
   if (answer) { show({ ...answer, asked: asked.parameters, frames: ask("frames").answer }); }
   timings.push(performance.now() - begin);
-  at("fragility_result").classList.add("stale");
+  current = answer?.toml;
+  tellAge();
   remember();
 }
 // Puts each message beside its field; what has no field goes into the verdict.
@@ -182,11 +183,15 @@ function tell(faults) {
   document.querySelector(".result").classList.toggle("stale", wrong);
   if (wrong) {
     at("verdict").className = "verdict wrong";
-    at("headline").textContent = "This wall cannot be computed";
-    at("detail").textContent = Object.values(left).join(" ") || "See the message beside the field.";
+    const isMissing = record === null && faults.record !== undefined;
+    at("headline").textContent = isMissing ? "The record is missing" : "This wall cannot be computed";
+    const detail = isMissing ? `${faults.record}.` : Object.values(left).join(" ");
+    at("detail").textContent = (detail || "See the message beside the field.") +
+      (shown === null ? "" : " Below is the last wall that could be computed.");
   }
 }
 function show(answer) {
+  const isSame = shown?.toml === answer.toml;
   shown = answer;
   computed = answer.computed;
   refresh();
@@ -208,14 +213,21 @@ function show(answer) {
   draw(answer.wall, answer.asked);
   const instant = answer.summary.overturn_time ?? answer.summary.peak_time;
   const frame = times.findIndex(time => time >= instant);
-  pose(playing === null ? (frame < 0 ? times.length - 1 : frame)
+  pose(playing === null && !isSame ? (frame < 0 ? times.length - 1 : frame)
     : Math.min(Number(at("time").value), times.length - 1));
 }
 
 // ---- fragility
-let round = 0;
+// Scene files: of the fields, if they make a scene, and of the fragility.
+let round = 0, current, fragilityOf;
+// Says whether the fragility is still that of the fields.
+function tellAge() {
+  const isStale = current !== fragilityOf;
+  at("fragility_result").classList.toggle("stale", isStale);
+  at("fragility_stale").hidden = !isStale;
+}
 function fragility() {
-  const mine = ++round, begin = performance.now();
+  const mine = ++round, begin = performance.now(), toml = current;
   const end = faults => {
     at("progress").hidden = true;
     at("fragility_fault").textContent = Object.values(faults).join(" ");
@@ -243,7 +255,8 @@ function fragility() {
     }));
     at("fragility_chart").innerHTML = answer.result.svg;
     at("fragility_result").hidden = false;
-    at("fragility_result").classList.remove("stale");
+    fragilityOf = toml;
+    tellAge();
     window.playground.fragility = { milliseconds: performance.now() - begin, ...answer.result };
   };
   setTimeout(next);

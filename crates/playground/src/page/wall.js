@@ -6,7 +6,8 @@ function draw(wall, asked) {
   const arm = hinge === null ? h / 2 : Math.min(hinge, h - hinge);
   const largest = shown.summary.u_max / arm;
   factor = falls ? 1 : [10, 5, 2, 1].find(one => one * largest <= 0.3) ?? 1;
-  at("shown").textContent = factor === 1 ? "To scale" : `To scale, displacement\u00a0×\u00a0${factor}`;
+  at("shown").textContent =
+    factor === 1 ? "To scale" : `Wall to scale, displacement enlarged ${factor}\u00a0times`;
   const half = falls ? 1.05 * h : Math.max(0.5 * h, 1.4 * b);
   const top = 0.16 * h, below = 0.1 * h, line = 0.006 * h;
   const rect = (name, x, y, width, height) =>
