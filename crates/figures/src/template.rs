@@ -2,6 +2,8 @@
 
 /// What all pages begin with: their head, and the style they share.
 const HEAD: &str = include_str!("page.html");
+/// How all pages print. It stands last, so that it overrides the styles of single pages.
+const PAPER: &str = include_str!("paper.css");
 
 /// Makes a page of its own from a template of its body, which may begin with a style. One of the parts is the
 /// title.
@@ -9,7 +11,7 @@ const HEAD: &str = include_str!("page.html");
 /// # Panics
 /// If a gap has no content, or content no gap.
 pub fn page(template: &str, parts: &[(&str, &str)]) -> String {
-    filled(&[HEAD, template, "</html>\n"].concat(), parts)
+    filled(&[HEAD, template, "<style>\n", PAPER, "</style>\n</html>\n"].concat(), parts)
 }
 
 /// Fills the gaps of a template with what is named so, in one pass: braces in a title stay what they are.
