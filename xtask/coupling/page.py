@@ -2,6 +2,7 @@
 
 import html
 import math
+from pathlib import Path
 
 WIDTH, HEIGHT = 440, 300
 LEFT, RIGHT, TOP, BOTTOM = 62, 12, 12, 44
@@ -26,12 +27,15 @@ main { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 
 figure { margin: 0; border: 1px solid #ddd; border-radius: 6px; padding: 8px; }
 figcaption { font-size: .92rem; }
 svg { width: 100%; height: auto; display: block; font: 12px system-ui, sans-serif; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
   body { color: #e8e6e3; background: #161616; }
   figure { border-color: #3d3d3d; }
   svg, .key i { filter: invert(.9) hue-rotate(180deg); }
 }
 """
+
+# how all pages print
+PAPER = (Path(__file__).parents[2] / "crates/figures/src/paper.css").read_text(encoding="utf-8")
 
 INTRODUCTION = """
 <h1>Walls on floors: error against communication step and run time</h1>
@@ -48,7 +52,7 @@ def text(rows, accident, duration):
     """Returns the page; `rows` are those of `measure`."""
     parts = ['<!doctype html>\n<html lang="en">\n<meta charset="utf-8">']
     parts.append('<meta name="viewport" content="width=device-width, initial-scale=1">')
-    parts.append(f"<title>Coupling error</title>\n<style>{STYLE}</style>{INTRODUCTION}")
+    parts.append(f"<title>Coupling error</title>\n<style>{STYLE}{PAPER}</style>{INTRODUCTION}")
     keys = "".join(f'<span><i style="background:{color}"></i>{name}</span>' for name, color in COLORS.items())
     parts.append(f'<p class="key">{keys}</p>')
     for name in dict.fromkeys(row[0] for row in rows):
