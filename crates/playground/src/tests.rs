@@ -113,8 +113,8 @@ fn the_verdict_says_whether_the_wall_falls() {
     assert_eq!(headline("0.01"), "The wall stands and hardly moves");
 }
 
-/// A wall with an elastic branch rocks below the acceleration that makes it rock slowly, and the displacement
-/// at which it falls is no capacity: a check by a code calls a part of it that.
+/// A wall with an elastic branch rocks below the static onset. The displacement beyond which it overturns is
+/// no capacity: in a check by a code, capacity is a part of it.
 #[test]
 fn onset_is_static_and_u_ins_is_no_capacity() {
     let motion = json!({ "kind": "synthetic", "seed": "1", "pga": "0.9" });
