@@ -7,8 +7,6 @@ use rocking_wall::wall::Wall;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// A fallen wall leaves the plot at this part of `u_ins`: drawn further it would look like one at rest.
-const EDGE: f64 = 1.25;
 /// Part of the time before a fall that is shown after it.
 const AFTER_FALL: f64 = 0.15;
 /// Limits of the width of a chart \[px\].
@@ -27,13 +25,7 @@ impl Charts {
         let width = width.clamp(WIDTHS[0], WIDTHS[1]);
         let end = shown_end(response);
         let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
-        let fallen = |sample: &&Sample| {
-            response.summary.overturn_time.is_some_and(|time| sample.time > time)
-                && sample.outputs.ratio.abs() > EDGE
-        };
-        let standing = shown.iter().position(fallen).map_or(shown.len(), |first| first + 1);
-        let ratio = |sample: &&Sample| (sample.time, sample.outputs.ratio.clamp(-EDGE, EDGE));
-        let ratios: Vec<_> = shown[..standing].iter().map(ratio).collect();
+        let ratios = plots::cut(shown.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
         let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
         let of = |pick: fn(f64, f64) -> f64| ratios.iter().map(|point| point.1).fold(0.0, pick);
         let path = [of(f64::min), of(f64::max)];
@@ -67,7 +59,7 @@ impl Charts {
 /// The end of the time axes \[s\]: soon after a fall.
 fn shown_end(response: &Response) -> f64 {
     let end = response.summary.end_time;
-    response.summary.overturn_time.map_or(end, |time| end.min((1.0 + AFTER_FALL) * time + 0.5))
+    response.summary.fate.falling().map_or(end, |time| end.min((1.0 + AFTER_FALL) * time + 0.5))
 }
 
 /// The motion of the wall for its drawing, with the digits that a drawing needs.

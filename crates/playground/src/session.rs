@@ -94,7 +94,7 @@ impl Session {
             "summary": {
                 "u_max": summary.u_max,
                 "u_ratio_max": summary.u_ratio_max,
-                "overturn_time": summary.overturn_time,
+                "falls": summary.fate.falling(),
                 "peak_time": peak.time,
             },
             "toml": prepared.toml,

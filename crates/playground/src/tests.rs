@@ -128,6 +128,21 @@ fn onset_is_static_and_u_ins_is_no_capacity() {
     assert!(!answer.to_string().contains("capacity"));
 }
 
+/// A tie that holds the wall beyond `u_ins`: the page does not say that it falls, and shows the whole run.
+#[test]
+fn a_wall_that_comes_back_does_not_fall() {
+    let tied = json!({ "tie_stiffness": "5000", "tie_height": "3.5", "tie_side": "both" });
+    let motion = json!({ "kind": "synthetic", "seed": "1", "pga": "6" });
+    let answer = run(&mut Session::default(), &tied, &motion)["answer"].clone();
+    assert_eq!(answer["verdict"]["headline"], "The wall exceeds u_ins at 10.75 s and comes back");
+    assert_eq!(answer["summary"]["falls"], Value::Null);
+    let [time, ratio] =
+        [0, 2].map(|place| answer["charts"]["history"]["ranges"][place + 1].as_f64().unwrap());
+    assert!(time > 20.0 && ratio > 1.9, "{time} {ratio}");
+    let free = run(&mut Session::default(), &json!({}), &motion)["answer"].clone();
+    assert!(free["summary"]["falls"].as_f64().unwrap() < 13.0);
+}
+
 #[test]
 fn a_history_has_at_most_4000_points() {
     let motion = json!({ "kind": "harmonic", "amplitude": "0.5", "frequency": "1", "duration": "20" });

@@ -1,7 +1,7 @@
 //! The result in a sentence, and its numbers.
 
 use figures::number;
-use rocking_wall::response::Response;
+use rocking_wall::response::{Fate, Response};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::Wall;
@@ -15,10 +15,15 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
     let summary = &response.summary;
     let peak = response.demands.displacement.largest();
     let u_ins = wall.body().instability.of(peak.value);
-    let (state, headline) = match summary.overturn_time {
-        Some(time) => ("falls", format!("The wall falls at {time:.2} s")),
-        None if summary.u_ratio_max < STILL => ("stands", "The wall stands and hardly moves".to_owned()),
-        None => {
+    let (state, headline) = match summary.fate {
+        Fate::Falls { falls, .. } => ("falls", format!("The wall falls at {falls:.2} s")),
+        Fate::ComesBack { exceeds } => {
+            ("falls", format!("The wall exceeds u_ins at {exceeds:.2} s and comes back"))
+        }
+        Fate::Stands if summary.u_ratio_max < STILL => {
+            ("stands", "The wall stands and hardly moves".to_owned())
+        }
+        Fate::Stands => {
             let percent = number(100.0 * summary.u_ratio_max, 2);
             ("stands", format!("The wall stands: it reaches {percent} % of u_ins"))
         }
@@ -29,8 +34,8 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
         peak.time,
         millimetres(u_ins)
     );
-    let detail = match (&scene.excitation, summary.overturned) {
-        (_, true) => format!("It overturns beyond {} mm.", millimetres(u_ins)),
+    let detail = match summary.fate {
+        Fate::Falls { .. } => format!("It overturns beyond {} mm.", millimetres(u_ins)),
         _ => format!("{}{}.", moved[..1].to_uppercase(), &moved[1..]),
     };
     let onset = wall.rocking_onset();

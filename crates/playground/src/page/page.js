@@ -211,7 +211,7 @@ function show(answer) {
   const times = answer.frames.t;
   at("time").max = times.length - 1;
   draw(answer.wall, answer.asked);
-  const instant = answer.summary.overturn_time ?? answer.summary.peak_time;
+  const instant = answer.summary.falls ?? answer.summary.peak_time;
   const frame = times.findIndex(time => time >= instant);
   pose(playing === null && !isSame ? (frame < 0 ? times.length - 1 : frame)
     : Math.min(Number(at("time").value), times.length - 1));

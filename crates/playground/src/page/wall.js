@@ -2,7 +2,7 @@
 let factor = 1;
 // `asked` are the parameters of the run.
 function draw(wall, asked) {
-  const { height: h, thickness: b, hinge, overburden } = wall, falls = shown.summary.overturn_time !== null;
+  const { height: h, thickness: b, hinge, overburden } = wall, falls = shown.summary.falls !== null;
   const arm = hinge === null ? h / 2 : Math.min(hinge, h - hinge);
   const largest = shown.summary.u_max / arm;
   factor = falls ? 1 : [10, 5, 2, 1].find(one => one * largest <= 0.3) ?? 1;
@@ -56,7 +56,7 @@ function pose(frame) {
   const ratio = u / wall.u_ins[u < 0 ? 1 : 0];
   at("time").value = frame;
   at("time").setAttribute("aria-valuetext", `${t.toFixed(2)} s`);
-  const fallen = summary.overturn_time !== null && t >= summary.overturn_time;
+  const fallen = summary.falls !== null && t >= summary.falls;
   at("now").textContent = `${t.toFixed(2)} s: ` + (fallen && Math.abs(ratio) > 1.05 ? "falling"
     : `${(1000 * u).toFixed(1)} mm, ${ratio.toFixed(2)} u_ins`);
   for (const [id, chart] of Object.entries(charts)) {
