@@ -27,7 +27,7 @@ pub struct MotionTable {
     pub unit: Option<Unit>,
     /// Time between samples (s), for a record that does not state it.
     pub step: Option<f64>,
-    /// Column of a CSV table.
+    /// Column of a table (CSV or text).
     pub column: Option<String>,
     /// Channel of a record with several, by its number.
     pub channel: Option<String>,

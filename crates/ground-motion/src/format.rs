@@ -23,7 +23,7 @@ pub enum Format {
     Csmip,
     /// USGS SMC.
     Smc,
-    /// Comma-separated values: `time,…` with a header line, or one column.
+    /// A text table: times and accelerations between commas, semicolons, tabs or blanks; or one column.
     Csv,
 }
 

@@ -47,7 +47,7 @@ pub(crate) struct RecordOptionsArguments {
     /// Time between samples in s, for a record that does not state it
     #[arg(long, requires = "recorded", value_name = "SECONDS")]
     record_step: Option<f64>,
-    /// Column of a CSV table
+    /// Column of a table (CSV or text)
     #[arg(long, requires = "recorded")]
     column: Option<String>,
     /// Channel of a record with several, by its number; `wall record` without it shows all

@@ -1,4 +1,4 @@
-//! Small records of the project's own in every format, with samples in cm/s² (g in AT2) and a step of 0.01 s.
+//! Small records of the project's own in every format and in every form of a text table, with samples in cm/s² and a step of 0.01 s.
 
 use std::fmt::Write;
 
@@ -15,8 +15,8 @@ pub(crate) const STEP: f64 = 0.01;
 /// What a writer makes of samples.
 pub(crate) type Writer = fn(&[f64]) -> String;
 
-/// Every format with a writer.
-pub(crate) const ALL: [(Format, Writer); 7] = [
+/// Every format with its writers.
+pub(crate) const ALL: [(Format, Writer); 11] = [
     (Format::At2, at2),
     (Format::Esm, esm),
     (Format::Knet, knet),
@@ -24,6 +24,10 @@ pub(crate) const ALL: [(Format, Writer); 7] = [
     (Format::Csmip, csmip),
     (Format::Smc, smc),
     (Format::Csv, csv),
+    (Format::Csv, pairs),
+    (Format::Csv, tabs),
+    (Format::Csv, semicolons),
+    (Format::Csv, with_units),
 ];
 
 /// What has to be stated to read a format.
@@ -171,8 +175,33 @@ pub(crate) fn smc(samples: &[f64]) -> String {
 }
 
 pub(crate) fn csv(samples: &[f64]) -> String {
-    let row = |(index, a): (usize, &f64)| format!("{:.3},{a}\n", index as f64 * STEP);
-    "time,a_g\n".to_owned() + &samples.iter().enumerate().map(row).collect::<String>()
+    "time,a_g\n".to_owned() + &rows(samples, |time, a| format!("{time:.3},{a}"))
+}
+
+/// Times and accelerations between blanks, below a comment with the words of AT2.
+pub(crate) fn pairs(samples: &[f64]) -> String {
+    let comment = format!("# Test hill, NPTS = {}, DT = 0.01 s\n", samples.len());
+    comment + &rows(samples, |time, a| format!("{time:8.3} {a}"))
+}
+
+/// A table between tabs, below a title with the words of AT2.
+pub(crate) fn tabs(samples: &[f64]) -> String {
+    let title = format!("Test hill: npts {} and dt 0.01 s\n", samples.len());
+    title + "Time [sec]\tAcceleration\n" + &rows(samples, |time, a| format!("{time:.2}\t{a}"))
+}
+
+/// A table between semicolons, with decimal commas.
+pub(crate) fn semicolons(samples: &[f64]) -> String {
+    "time;a_g\n".to_owned() + &rows(samples, |time, a| format!("{time:.3};{a}").replace('.', ","))
+}
+
+/// A table whose header line states the units.
+pub(crate) fn with_units(samples: &[f64]) -> String {
+    "t [s],a [cm/s2]\n".to_owned() + &rows(samples, |time, a| format!("{time:.3},{a}"))
+}
+
+fn rows(samples: &[f64], row: impl Fn(f64, f64) -> String) -> String {
+    samples.iter().enumerate().map(|(index, &a)| row(index as f64 * STEP, a) + "\n").collect()
 }
 
 /// Places, lengths, kinds and new bytes of damages.

@@ -24,14 +24,23 @@ const HEADER_LINES: usize = 50;
 
 const COUNT_AND_STEP: &str = "the number of samples and the step, `NPTS= 7999, DT= .0050 SEC`";
 
-/// Returns whether one of the first lines states NPTS.
+/// Returns whether one of the first lines states NPTS and DT.
 pub(super) fn recognises(head: &[&str]) -> bool {
-    head.iter().take(HEADER_LINES).any(|line| find(line, "NPTS").is_some())
+    head.iter().take(HEADER_LINES).any(|line| states_count_and_step(line))
+}
+
+/// Returns whether a line has the words NPTS and DT, and is not the comment of a table.
+fn states_count_and_step(line: &str) -> bool {
+    let has = |word: &str| {
+        line.split(|c: char| !c.is_ascii_alphabetic()).any(|found| found.eq_ignore_ascii_case(word))
+    };
+    !line.trim_start().starts_with(['#', '%']) && has("NPTS") && has("DT")
 }
 
 /// Reads the text of an AT2 file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
-    let header_length = lines(text).take(HEADER_LINES).position(|(_, line)| find(line, "NPTS").is_some());
+    let first = |states: fn(&str) -> bool| lines(text).take(HEADER_LINES).position(|(_, line)| states(line));
+    let header_length = first(states_count_and_step).or_else(|| first(|line| find(line, "NPTS").is_some()));
     let Some(header_length) = header_length else {
         let found = lines(text).next().map_or_else(|| "an empty file".to_owned(), |(_, line)| excerpt(line));
         let expected = format!("an AT2 header with {COUNT_AND_STEP}");

@@ -30,14 +30,15 @@ impl Format {
     /// Finds the format of a text by its content, or else by the ending of the file's name.
     pub(crate) fn of(name: &str, text: &str) -> Self {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by one word
-        // anywhere in its header, comes last.
-        let known: [(Self, Recognises); 6] = [
+        // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by two words
+        // anywhere in its header, comes last: the title of a table may have them too.
+        let known: [(Self, Recognises); 7] = [
             (Self::Esm, esm::recognises),
             (Self::Knet, knet::recognises),
             (Self::Cosmos, cosmos::recognises),
             (Self::Smc, smc::recognises),
             (Self::Csmip, csmip::recognises),
+            (Self::Csv, csv::recognises),
             (Self::At2, at2::recognises),
         ];
         let by_content =

@@ -160,10 +160,10 @@ def read_record(
     channel: str | None = None,
     format: str | None = None,
 ) -> Record:
-    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC or CSV.
+    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV or text.
 
     The format is found from the content. State `unit` or `dt` [s] where the file does not, the `column` of
-    a CSV table with several, and the `channel` of a file with several. Warns of what a quick check finds.
+    a table with several, and the `channel` of a file with several. Warns of what a quick check finds.
     """
     records = read_channels(path, unit=unit, dt=dt, column=column, channel=channel, format=format)
     if len(records) != 1:
