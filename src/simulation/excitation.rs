@@ -1,6 +1,6 @@
 //! Recorded motion of the supports.
 
-use ground_motion::{GroundMotion, GroundMotionError};
+use ground_motion::{GroundMotion, GroundMotionError, Warning};
 
 use crate::solver::Segment;
 use crate::wall::{Body, Support};
@@ -78,6 +78,12 @@ impl Excitation {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "samples of a record")]
         let count = (self.duration() / step).round() as usize;
         GroundMotion::new(step, (0..=count).map(at).collect())
+    }
+
+    /// Warns about accelerations that no record has.
+    pub fn warning(&self) -> Option<Warning> {
+        let stronger = self.top.as_ref().filter(|top| top.peak() > self.bottom.peak());
+        stronger.unwrap_or(&self.bottom).warning()
     }
 
     fn records(&self) -> impl Iterator<Item = &GroundMotion> {

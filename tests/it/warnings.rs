@@ -49,6 +49,55 @@ fn improbable_walls_are_warned_of() {
     assert_eq!(warned(&["simulate", "--stop-time", "0.1"]), "");
 }
 
+/// 3000 m/s² are 305.9 g.
+#[test]
+fn motions_stronger_than_any_record_are_warned_of() {
+    let folder = folder("strong_motions");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    write("s.toml", "[motion]\nsynthetic = {}\npga = 3000\n");
+    write("top.toml", "[motion]\nrecord = \"r.csv\"\ntop = { record = \"r.csv\", scale = 1000 }\n");
+    write("pulse.toml", "[motion]\nsine_cycle = { amplitude = 3000, frequency = 1 }\n");
+    write("r.csv", "t [s],a [m/s2]\n0,0\n0.1,3\n0.2,-3\n0.3,0\n");
+    let walls = "[[walls]]\nname = \"a\"\ngeometry = { height = 2, thickness = 0.3 }\n";
+    let study = |levels: &str| {
+        format!(
+            "models = [\"CDC\"]\nintensity = {{ measure = \"PGA\" }}\n\
+             levels = {{ unit = \"m/s2\", {levels} }}\n\
+             records = {{ synthetic = {{ count = 2, seed = 1 }} }}\n{walls}"
+        )
+    };
+    write("grid.toml", &study("method = \"grid\", values = [1, 3000]"));
+    write("hunt.toml", &study("method = \"hunt\", first = 3000, increase = 1, top = 9000"));
+    write("step.toml", &study("method = \"step\", step = 3000, top = 9000"));
+    write("usual.toml", &study("method = \"step\", step = 3, top = 3000"));
+    let tied = ["--set", "tie_height=3", "--stiffness", "1e5"];
+    let cases: [&[&str]; 14] = [
+        &["simulate", "--synthetic", "--pga", "3000"],
+        &["simulate", "--record", "r.csv", "--scale", "1000"],
+        &["simulate", "--records", "r.csv", "--pga", "3000"],
+        &["simulate", "s.toml", "--stop-time", "1"],
+        &["simulate", "top.toml", "--stop-time", "0.3"],
+        &["simulate", "pulse.toml"],
+        &["spectrum", "s.toml", "--heights", "1:2:2", "--ratios", "5:6:2"],
+        &["motion", "--synthetic", "--pga", "3000", "--csv", "m.csv"],
+        &[&["tie", "--records", "r.csv", "--scale", "1000"][..], &tied].concat(),
+        &["ida", "grid.toml", "--output", "grid"],
+        &["ida", "hunt.toml", "--output", "hunt"],
+        &["ida", "step.toml", "--output", "step"],
+        // usual ones
+        &["simulate", "--synthetic", "--pga", "29"],
+        &["ida", "usual.toml", "--output", "usual"],
+    ];
+    for (index, arguments) in cases.into_iter().enumerate() {
+        let output = wall(&folder, arguments);
+        let message = text(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {message}");
+        let told = message.matches("a peak of 3000.0 m/s² is 305.9 g").count();
+        assert_eq!(told, usize::from(index < 12), "{arguments:?}: {message}");
+        assert_eq!(message.contains("check its scale"), index < 12, "{arguments:?}: {message}");
+    }
+}
+
 /// A parameter that is set counts, or is named in a warning with what would make it count.
 #[test]
 fn a_parameter_without_effect_is_warned_of() {

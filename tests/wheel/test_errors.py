@@ -67,6 +67,8 @@ def test_warnings():
         rw.Wall(height=3, thickness=0.25, u_start=0.2).peaks(rw.sine_cycle(1.0, 2.0), [1.0])
     with pytest.warns(UserWarning, match="d1 is set and has no effect: it counts where force_law = tri"):
         rw.Wall(height=3, thickness=0.25, d1=0.7).simulate(rw.sine_cycle(1.0, 2.0))
+    with pytest.warns(UserWarning, match="a peak of 300.0 m/s² is 30.6 g"):
+        rw.Wall(height=3, thickness=0.25).simulate(rw.synthetic_record(pga=3), scale=100)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         rw.Wall(height=3, thickness=0.25).simulate(rw.sine_cycle(1.0, 2.0))

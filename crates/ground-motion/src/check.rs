@@ -1,4 +1,4 @@
-//! A quick check of a record: baseline, unit, stated peak, missing start and tail.
+//! A quick check of a record: baseline, unit, stated peak, missing start and tail; and of a scaled motion.
 
 use std::fmt;
 
@@ -47,7 +47,7 @@ pub struct Check {
     pub warnings: Vec<Warning>,
 }
 
-/// A sign that a record is not ready for use.
+/// A sign that a record or a scaled motion is not ready for use.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Warning {
@@ -68,6 +68,11 @@ pub enum Warning {
         unit: Unit,
         /// Units that would give a credible peak.
         others: Vec<Unit>,
+    },
+    /// The peak of a motion is above that of any record, so its scale or a unit may be wrong.
+    Strong {
+        /// Peak acceleration (m/s²).
+        peak: f64,
     },
     /// The record starts in the middle of the shaking.
     MissingStart {
@@ -105,6 +110,13 @@ impl fmt::Display for Warning {
                 }
                 Ok(())
             }
+            Self::Strong { peak } => write!(
+                f,
+                "motion: a peak of {peak:.1} m/s² is {:.1} g, and few records have more than {} g; check its \
+                 scale, and the unit of its PGA or amplitude",
+                peak / STANDARD_GRAVITY,
+                CREDIBLE_PEAK[1]
+            ),
             Self::MissingStart { part } => {
                 let percent = 100.0 * part;
                 write!(f, "start: the first sample has {percent:.0} % of the peak; is the onset missing?")
@@ -117,6 +129,30 @@ impl fmt::Display for Warning {
                 write!(f, "peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")
             }
         }
+    }
+}
+
+impl GroundMotion {
+    /// Warns about a peak above 3 g, as a PGA in gal gives that is taken for one in m/s².
+    ///
+    /// ```
+    /// use ground_motion::SyntheticMotion;
+    ///
+    /// let motion = SyntheticMotion::default().motion()?;
+    /// assert_eq!(motion.scaled_to_peak(3.0)?.warning(), None);
+    /// let warning = motion.scaled_to_peak(300.0)?.warning().unwrap();
+    /// assert!(warning.to_string().contains("300.0 m/s² is 30.6 g"));
+    /// # Ok::<(), ground_motion::GroundMotionError>(())
+    /// ```
+    pub fn warning(&self) -> Option<Warning> {
+        Warning::of_peak(self.peak())
+    }
+}
+
+impl Warning {
+    /// Warns about the peak of a scaled motion (m/s²), as [`GroundMotion::warning`] does.
+    pub fn of_peak(peak: f64) -> Option<Self> {
+        (peak > CREDIBLE_PEAK[1] * STANDARD_GRAVITY).then_some(Self::Strong { peak })
     }
 }
 

@@ -25,6 +25,7 @@
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
+//! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
 //! | [`Spectrum`] | Sa at any period and damping, AvgSA |
 //! | [`Storeys`] | the motion of floors above the ground, in closed form per mode |

@@ -1,6 +1,7 @@
 //! From a request to its answer.
 
 use rocking_wall::response::Response;
+use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -73,6 +74,8 @@ impl Session {
         let (scene, wall) = (&prepared.scene, &prepared.wall);
         let (body, summary) = (wall.body(), &response.summary);
         let mut warnings: Vec<String> = wall.warnings().iter().map(ToString::to_string).collect();
+        let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
+        warnings.extend(of_motion.map(|warning| warning.to_string()));
         if summary.put_to_rest {
             warnings.push("impacts accumulated beyond their bound: the wall was put to rest".to_owned());
         }

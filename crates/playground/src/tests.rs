@@ -75,6 +75,11 @@ fn the_scene_of_a_record_computes_the_same() {
     let toml = answer["answer"]["toml"].as_str().unwrap_or_else(|| panic!("{answer}"));
     let scene = Scene::parse("scene.toml", toml, &folder).unwrap();
     assert_eq!(ask(&mut session, &json!("csv"))["answer"], Response::of(&scene).unwrap().csv());
+    assert_eq!(answer["answer"]["warnings"], json!([]), "{answer}");
+    let strong = json!({ "kind": "record", "record": "quake.csv", "unit": "m/s2", "scale": "100" });
+    let answer = run(&mut session, &json!({}), &strong);
+    let warning = answer["answer"]["warnings"][0].as_str().unwrap_or_else(|| panic!("{answer}"));
+    assert!(warning.contains("a peak of 300.0 m/s² is 30.6 g"), "{warning}");
     // the same bytes read in another way
     let motion = json!({ "kind": "record", "record": "quake.csv", "unit": "", "scale": "1" });
     let answer = run(&mut session, &json!({}), &motion);

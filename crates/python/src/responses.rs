@@ -2,6 +2,7 @@
 
 use figures::plot::Picture;
 use figures::response;
+use ground_motion::Warning;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -28,8 +29,12 @@ const COLUMNS: [Column; 11] = [
     ("a_top", |sample| sample.support.top),
 ];
 
-/// Returns the history, the peaks and the demands of a run.
-pub(crate) fn values<'py>(py: Python<'py>, response: &Response) -> PyResult<Bound<'py, PyDict>> {
+/// Returns the history, the peaks and the demands of a run, and what is to be told of the wall and its motion.
+pub(crate) fn values<'py>(
+    py: Python<'py>,
+    response: &Response,
+    of_motion: Option<Warning>,
+) -> PyResult<Bound<'py, PyDict>> {
     let history = PyDict::new(py);
     for (name, value) in COLUMNS {
         history.set_item(name, PyArray1::from_iter(py, response.samples.iter().map(value)))?;
@@ -39,7 +44,8 @@ pub(crate) fn values<'py>(py: Python<'py>, response: &Response) -> PyResult<Boun
         history.set_item("tie_force", PyArray1::from_iter(py, forces))?;
     }
     let summary = &response.summary;
-    let warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).collect();
+    let mut warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(of_motion.map(|warning| warning.to_string()));
     let values = PyDict::new(py);
     values.set_item("history", history)?;
     values.set_item("u_max", summary.u_max)?;

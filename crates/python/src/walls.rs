@@ -137,7 +137,7 @@ impl Wall {
             scene.thresholds = thresholds;
         }
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
-        responses::values(py, &response)
+        responses::values(py, &response, scene.excitation.as_ref().and_then(Excitation::warning))
     }
 
     /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none) under a

@@ -65,7 +65,9 @@ impl LoadedStudy {
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths);
-        Self::assemble(&name, text, file, walls, records).map(|study| Self { inputs, warnings, ..study })
+        let study = Self::assemble(&name, text, file, walls, records)?;
+        warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
+        Ok(Self { inputs, warnings, ..study })
     }
 
     /// Returns the study as plain values.

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use ground_motion::{Acceleration, GroundMotion, RecordOptions, SyntheticMotion, read};
 use rocking_wall::scene::Scene;
+use rocking_wall::simulation::Excitation;
 
 use crate::output;
 
@@ -74,16 +75,16 @@ impl RecordOptionsArguments {
 impl SceneArguments {
     /// The scene with its parameters set.
     pub(crate) fn load(&self) -> Result<Scene> {
-        match &self.scene {
-            Some(path) => Scene::read(path).map_err(|error| {
-                if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
-                    anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
-                } else {
-                    error.into()
-                }
-            }),
-            None => Ok(Scene::default()),
-        }
+        let Some(path) = &self.scene else { return Ok(Scene::default()) };
+        let scene = Scene::read(path).map_err(|error| {
+            if path.is_file() && path.extension().is_none_or(|ending| ending != "toml") {
+                anyhow!("{error}; a scene is a TOML file, and a record goes after --record")
+            } else {
+                error.into()
+            }
+        })?;
+        warn_of_motion(path, &scene);
+        Ok(scene)
     }
 
     /// Returns the files that the scene was read from.
@@ -111,6 +112,13 @@ impl SceneArguments {
     }
 }
 
+/// Warns about accelerations of a scene's own motion that no record has.
+pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
+    if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {
+        output::warn(&format!("{}: {warning}", path.display()));
+    }
+}
+
 impl RecordArguments {
     /// The motion given, scaled, and a note on it.
     pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
@@ -127,13 +135,18 @@ impl RecordArguments {
         Ok(Some((self.scaled(motion)?, note)))
     }
 
-    /// Scales a motion as the arguments say.
+    /// Scales a motion as the arguments say, and warns about one that no record is.
     pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
-        Ok(match (self.scale, self.pga) {
+        let scaled = match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
             (None, Some(pga)) => motion.scaled_to_peak(pga.0)?,
-            (None, None) => motion,
-        })
+            // its reading has warned
+            (None, None) => return Ok(motion),
+        };
+        if let Some(warning) = scaled.warning() {
+            output::warn(&warning.to_string());
+        }
+        Ok(scaled)
     }
 
     /// Reads a record and describes it.

@@ -8,6 +8,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::wall::Wall;
 use scene_fmu::{General, of_scene};
 
+use crate::args::warn_of_motion;
 use crate::output;
 
 #[derive(Debug, Args)]
@@ -33,6 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let named = || arguments.scene.display().to_string();
     scene_fmu::check(&scene).with_context(named)?;
     let wall = Wall::new(&scene.parameters).with_context(named)?;
+    warn_of_motion(&arguments.scene, &scene);
     for warning in wall.warnings() {
         output::warn(&warning.to_string());
     }

@@ -141,6 +141,10 @@ fn scenes(arguments: &Arguments, scene: Scene, wall: &Wall) -> Result<(Vec<Scene
         }
         let mut shaken = scene.clone();
         let motion = record.motion.checked_scaled(arguments.scale)?;
+        // at the scale 1 its reading has warned
+        if let Some(warning) = motion.warning().filter(|_| arguments.scale.abs() > 1.0) {
+            output::warn(&format!("{}: {warning}", path.display()));
+        }
         shaken.shake(Excitation::new(motion, None), DEFAULT_TAIL, Vec::new());
         scenes.push(shaken);
     }

@@ -98,6 +98,15 @@ impl Levels {
         }
     }
 
+    /// Returns the highest level at which every record is run, whatever the wall does \[m/s²\].
+    pub(super) fn certain(&self) -> f64 {
+        match *self {
+            Self::Grid(ref levels) => levels.iter().copied().fold(0.0, f64::max),
+            Self::ToOverturning { step, .. } => step,
+            Self::HuntAndFill { first, .. } => first,
+        }
+    }
+
     /// Estimates the runs of one curve; it is a guess where the collapse decides.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {

@@ -31,7 +31,7 @@ mod shaking;
 use std::borrow::Cow;
 
 use crate::parallel;
-use ground_motion::GroundMotion;
+use ground_motion::{GroundMotion, Warning};
 use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::record::{Outcome, RecordSolver};
@@ -177,6 +177,15 @@ impl Study {
     /// Returns the intensity of an unscaled record \[m/s²\].
     pub fn intensity(&self, record: usize) -> f64 {
         self.intensities[record]
+    }
+
+    /// Warns about accelerations that no record has: those of the strongest record at the highest of given
+    /// levels, or at the lowest of levels that go on to overturning.
+    pub fn warning(&self) -> Option<Warning> {
+        let level = self.levels.certain();
+        let peaks = self.records.iter().zip(&self.intensities);
+        let peaks = peaks.map(|(record, intensity)| record.motion.peak() * level / intensity);
+        peaks.max_by(f64::total_cmp).and_then(Warning::of_peak)
     }
 
     /// Returns a wall with the damping and impact of a model.
