@@ -22,7 +22,8 @@ const FAST: f64 = 0.1;
 /// what may be left out.
 fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
     let of = |term: f64, n: usize| {
-        // not the platform's pow: the motion is the same on all of them
+        // libm's pow: where a series is cut does not depend on the platform's. The constants of the wall do:
+        // `wall/equivalence.rs` and `wall/mechanism.rs` take powers and angles from the platform.
         libm::pow(most / (n as f64 * term.abs().max(f64::MIN_POSITIVE)), 1.0 / (n as f64 - 1.0))
     };
     // what is left out after the last term is a geometric series of about the same size

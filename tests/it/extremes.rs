@@ -9,3 +9,12 @@ fn every_extreme_keeps_its_limit() {
     let broken: Vec<_> = extremes.iter().filter(|extreme| !extreme.holds()).collect();
     assert!(broken.is_empty(), "{broken:#?}");
 }
+
+/// A value that equals its limit is written down, not measured. Only a plastic impact leaves exactly nothing.
+#[test]
+fn every_extreme_is_measured() {
+    for extreme in extremes().unwrap() {
+        let at_its_limit = extreme.value == extreme.limit;
+        assert_eq!(at_its_limit, extreme.name == "e = 0", "{extreme:?}");
+    }
+}
