@@ -8,7 +8,7 @@ use rocking_wall::wall::{COMPUTED, Parameters, Support, Wall, restitution};
 
 use crate::command_line::{folder, text, wall};
 use crate::properties::{configuration, motions, solvers_agree, splits, walls};
-use crate::record_path::{lanes_agree, records_agree};
+use crate::record_path::{batches_agree, records_agree};
 use crate::ties::tied;
 
 /// A wall that rocks to one side, rigid or elastic, with a tie or without.
@@ -21,6 +21,11 @@ fn one_sided() -> impl Strategy<Value = Parameters> {
             ..parameters
         }
     })
+}
+
+#[test]
+fn one_sided_rocking_is_alike_in_batches() {
+    batches_agree(one_sided());
 }
 
 proptest! {
@@ -43,14 +48,6 @@ proptest! {
         parameters in one_sided(), motion in motions(), refinement in 1_u32..40,
     ) {
         records_agree(&parameters, &motion, refinement)?;
-    }
-
-    #[test]
-    fn one_sided_rocking_is_alike_in_batches(
-        parameters in one_sided(), motion in motions(), refinement in prop_oneof![1_u32..20, 20_u32..200],
-        count in 2_usize..20, until in any::<bool>(),
-    ) {
-        lanes_agree(&parameters, &motion, refinement, count, until)?;
     }
 
     /// u never goes behind the transverse walls, at rest they carry the whole inertia force, and the impulses

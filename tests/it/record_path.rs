@@ -1,6 +1,9 @@
 //! Compares the record path with the path over segments, which the FMU uses.
 
+use std::cell::Cell;
+
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, Segment};
@@ -35,20 +38,6 @@ fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (V
 
 proptest! {
     #![proptest_config(configuration())]
-
-    /// A run of a batch gives the same bits alone and beside others, for any number and order, and agrees
-    /// with a single run.
-    #[test]
-    fn lanes_do_not_disturb_each_other(
-        parameters in prop_oneof![walls(), moving()],
-        motion in motions(),
-        // fine steps go side by side, coarse ones one by one
-        refinement in prop_oneof![1_u32..20, 20_u32..200],
-        count in 2_usize..20,
-        until in any::<bool>(),
-    ) {
-        lanes_agree(&parameters, &motion, refinement, count, until)?;
-    }
 
     /// The same for walls that start in motion, with steps from far below any period to longer than a swing.
     #[test]
@@ -114,15 +103,41 @@ proptest! {
     }
 }
 
+/// A run of a batch gives the same bits alone and beside others, for any number and order, and agrees with a
+/// single run.
+#[test]
+fn lanes_do_not_disturb_each_other() {
+    batches_agree(prop_oneof![walls(), moving()]);
+}
+
+/// Least share of the runs that can be compared with single runs. Found were 99 %.
+const COMPARED: f64 = 0.95;
+
+/// Compares batches of walls with single runs, and counts the runs that could be compared.
+pub(crate) fn batches_agree(walls: impl Strategy<Value = Parameters>) {
+    // fine steps go side by side, coarse ones one by one
+    let refinement = prop_oneof![1_u32..20, 20_u32..200];
+    let cases = (walls, motions(), refinement, 2_usize..20, any::<bool>());
+    let (all, compared) = (Cell::new(0), Cell::new(0));
+    let outcome = TestRunner::new(configuration()).run(&cases, |(wall, motion, refinement, count, until)| {
+        compared.set(compared.get() + lanes_agree(&wall, &motion, refinement, count, until)?);
+        all.set(all.get() + count);
+        Ok(())
+    });
+    outcome.unwrap_or_else(|error| panic!("{error}"));
+    let (compared, all) = (compared.get(), all.get());
+    assert!(compared as f64 >= COMPARED * all as f64, "{compared} of {all} runs could be compared");
+}
+
 /// Compares the runs of a batch with each alone in one, and with single runs, for a motion in units of the
-/// strength.
-pub(crate) fn lanes_agree(
+/// strength. Returns how many could be compared with single runs.
+fn lanes_agree(
     parameters: &Parameters,
     motion: &[f64],
     refinement: u32,
     count: usize,
     until: bool,
-) -> Result<(), TestCaseError> {
+) -> Result<usize, TestCaseError> {
     let wall = Wall::new(parameters).unwrap();
     let onset = wall.body().strength.positive / wall.body().effective_mass;
     let forcing: Vec<f64> = refined(motion, refinement).iter().map(|p| p * onset).collect();
@@ -135,13 +150,14 @@ pub(crate) fn lanes_agree(
     let batch = solver.batch(samples);
     let together = batch.run(&starts, until).unwrap();
     prop_assert_eq!(together.len(), count);
+    let mut compared = 0;
     for (start, outcome) in starts.iter().zip(together) {
         let one = batch.run(&[*start], until).unwrap()[0];
         prop_assert_eq!(one, outcome);
         prop_assert_eq!(one.state.displacement.to_bits(), outcome.state.displacement.to_bits());
-        outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?;
+        compared += usize::from(outcomes_agree(&wall, &solver, samples, *start, until, &outcome)?);
     }
-    Ok(())
+    Ok(compared)
 }
 
 /// Compares a run over a record with segments one by one, for a motion in units of the strength; each of its
@@ -160,7 +176,8 @@ pub(crate) fn records_agree(
     agree(parameters, &accelerations, step)
 }
 
-/// Compares a run of a batch with a single run, unless slightly more forcing changes the events.
+/// Compares a run of a batch with a single run: its end, or the time of overturning where it stops there.
+/// Returns false where slightly more or less forcing changes the events or much of the motion.
 fn outcomes_agree(
     wall: &Wall,
     solver: &RecordSolver<'_>,
@@ -168,7 +185,7 @@ fn outcomes_agree(
     start: RunStart,
     until: bool,
     outcome: &Outcome,
-) -> Result<(), TestCaseError> {
+) -> Result<bool, TestCaseError> {
     let run = |factor: f64, probe: f64| {
         let mut state = start.state;
         state.displacement *= 1.0 + probe;
@@ -177,7 +194,11 @@ fn outcomes_agree(
     };
     let (scale, rate) = (wall.displacement_scale(), wall.rocking_rate());
     let one = run(start.factor, 0.0);
+    prop_assert_eq!(one.overturning.is_some(), outcome.overturning.is_some());
     let apart = |a: &Outcome, b: &Outcome| {
+        if let (true, Some(a), Some(b)) = (until, a.overturning, b.overturning) {
+            return (a - b).abs() * rate;
+        }
         let of = |f: &dyn Fn(&Outcome) -> f64| (f(a) - f(b)).abs();
         of(&|p| p.state.displacement)
             .max(of(&|p| p.state.velocity) / rate)
@@ -188,21 +209,19 @@ fn outcomes_agree(
     let mut amplification = 1.0_f64;
     for probe in [1e-8, -1e-8] {
         let changed = run(start.factor * (1.0 + probe), probe);
-        if changed.overturning.is_some() != one.overturning.is_some() || (until && one.overturning.is_some())
-        {
-            return Ok(());
+        if changed.overturning.is_some() != one.overturning.is_some() {
+            return Ok(false);
         }
         amplification = amplification.max(apart(&one, &changed) / 1e-8);
     }
     if amplification > 1e5 {
-        return Ok(());
+        return Ok(false);
     }
     // as of `agree`
     let allowed = amplification * (32.0 * f64::EPSILON * (one.work.pieces + 1) as f64 + 1e-13);
     let difference = apart(&one, outcome);
     prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
-    prop_assert_eq!(one.overturning.is_some(), outcome.overturning.is_some());
-    Ok(())
+    Ok(true)
 }
 
 /// A broken line with each interval cut into `parts`.

@@ -24,7 +24,7 @@ const UNSAFE: [&str; 6] = [
 ];
 
 /// The files of the project with their texts.
-fn files() -> Vec<(String, String)> {
+pub(crate) fn files() -> Vec<(String, String)> {
     let list = Command::new("git").args(["ls-files"]).current_dir(crate::root()).output().unwrap();
     let list = String::from_utf8(list.stdout).unwrap();
     let wanted = |name: &&str| {

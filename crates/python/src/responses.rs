@@ -29,7 +29,7 @@ const COLUMNS: [Column; 11] = [
     ("a_top", |sample| sample.support.top),
 ];
 
-/// Returns the history, the peaks and the demands of a run, and what is to be told of the wall and its motion.
+/// Returns the history, the peaks and the demands of a run, and what is to be told of wall and motion.
 pub(crate) fn values<'py>(
     py: Python<'py>,
     response: &Response,

@@ -1,4 +1,5 @@
-//! Small records of the project's own in every format and in every form of a text table, with samples in cm/s² and a step of 0.01 s.
+//! Small records of the project's own in every format and in every form of a text table, with samples in
+//! cm/s² and a step of 0.01 s.
 
 use std::fmt::Write;
 

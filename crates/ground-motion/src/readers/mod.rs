@@ -30,8 +30,8 @@ impl Format {
     /// Finds the format of a text by its content, or else by the ending of the file's name.
     pub(crate) fn of(name: &str, text: &str) -> Self {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by two words
-        // anywhere in its header, comes last: the title of a table may have them too.
+        // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by two
+        // words anywhere in its header, comes last: the title of a table may have them too.
         let known: [(Self, Recognises); 7] = [
             (Self::Esm, esm::recognises),
             (Self::Knet, knet::recognises),
