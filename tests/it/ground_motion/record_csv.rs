@@ -105,6 +105,7 @@ fn reads_tables_as_people_have_them() {
         "Time(s) Acc(m/sec^2)\n0 0.5\n0.005 -0.1\n0.01 0.25\n",
         "# El Centro, 1940\n% corrected\n0 0.5\n0.005 -0.1\n# late\n0.01 0.25\n",
         "# time a\ntime,a_g\n0,0.5\n0.005,-0.1\n# late\n0.01,0.25\n",
+        "Time history, El Centro\ntime of arrival\nt,a\n0,0.5\n0.005,-0.1\n0.01,0.25\n",
         "El Centro, 1940\ncorrected\nt,a\n0,0.5\n0.005,-0.1\n0.01,0.25\n",
     ] {
         let record = read(text, &si()).unwrap_or_else(|error| panic!("{text}: {error}"));
@@ -155,8 +156,12 @@ fn only_a_count_and_a_step_make_an_at2() {
         assert_eq!(record.format, Format::Csv, "{text}");
         assert_eq!(record.motion.samples(), [0.5, -0.1, 0.25], "{text}");
     }
-    let at2 = read(&format!("El Centro\nNPTS = 3, DT = 0.005 s\n{body}"), &si()).unwrap();
-    assert_eq!((at2.format, at2.motion.step()), (Format::At2, 0.005));
+    for title in ["El Centro", "Time history", "Time series, in units of m/s2"] {
+        for count in ["NPTS = 3, DT = 0.005 s", "3 0.005 NPTS, DT"] {
+            let at2 = read(&format!("{title}\n{count}\n{body}"), &si()).unwrap();
+            assert_eq!((at2.format, at2.motion.step()), (Format::At2, 0.005), "{title} {count}");
+        }
+    }
 }
 
 /// What could be read in two ways is not read.

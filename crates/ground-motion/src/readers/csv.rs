@@ -39,10 +39,12 @@ const FORMS: &str = "a header line such as `time,a_g` and rows of numbers, times
 
 const COMMENTS: [char; 2] = ['#', '%'];
 
-/// Returns whether one of the first lines is the header line of a table.
+/// Returns whether one of the first lines is the header line of a table, and the next one a row of it.
 pub(super) fn recognises(head: &[&str]) -> bool {
     let content = head.iter().enumerate().map(|(index, line)| (index, line.trim_start()));
-    Heading::find(content.filter(|(_, line)| !line.starts_with(COMMENTS))).is_some()
+    let mut content = content.filter(|(_, line)| !line.starts_with(COMMENTS));
+    let Some(heading) = Heading::find(content.clone()) else { return false };
+    content.find(|(index, _)| *index > heading.line).is_some_and(|(_, row)| heading.fits(row))
 }
 
 /// Returns the lines that are no comments.

@@ -23,10 +23,18 @@ pub(super) struct Heading<'a> {
 }
 
 impl<'a> Heading<'a> {
-    /// Finds the header line of a table, below lines of titles. It stands before the first number.
+    /// Finds the header line of a table, below lines of titles: the one above the first number, or else the
+    /// first that names the time.
     pub(super) fn find(content: impl Iterator<Item = Line<'a>>) -> Option<Self> {
         let titles = content.take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES);
-        titles.into_iter().find_map(|(number, line)| Self::of(number, line))
+        let titles: Vec<_> = titles.collect();
+        let mut candidates = titles.last().into_iter().chain(&titles);
+        candidates.find_map(|&(number, line)| Self::of(number, line))
+    }
+
+    /// Returns whether a line is a row of numbers below these names.
+    pub(super) fn fits(&self, row: &str) -> bool {
+        starts_a_number(row) && self.separator.cells(row).count() == self.columns()
     }
 
     fn of(line: usize, text: &'a str) -> Option<Self> {
