@@ -22,7 +22,7 @@ const DAMPING: f64 = 0.05;
 const LIGHT: f64 = 1.0 / 20.0;
 
 /// An item of `[[storeys]]`, the lowest first.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoreyTable {
     /// Mass of the floor \[kg\]; not needed for a single storey with a period.
@@ -51,11 +51,11 @@ pub struct SupportsTable {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floors {
     storeys: Storeys,
+    /// As they were given: a single storey may have a period alone, and no mass.
+    tables: Vec<StoreyTable>,
     bottom: Option<usize>,
     top: Option<usize>,
     drift: bool,
-    /// The masses are those of the floors; a single storey may have a period alone.
-    has_masses: bool,
 }
 
 impl Floors {
@@ -86,8 +86,7 @@ impl Floors {
         if let Some(floor) = bottom.into_iter().chain(top).find(|floor| *floor > highest) {
             return Err((None, format!("there is no floor {floor}; floors count from 1 to {highest}")));
         }
-        let has_masses = tables.iter().all(|table| table.mass.is_some());
-        Ok(Self { storeys, bottom, top, drift: drift.unwrap_or(true), has_masses })
+        Ok(Self { storeys, tables: tables.to_vec(), bottom, top, drift: drift.unwrap_or(true) })
     }
 
     /// Returns the storeys.
@@ -166,7 +165,8 @@ impl Floors {
         let floors = [Some(bottom), top].into_iter().flatten().filter(|floor| *floor > 0);
         let least = floors.map(|floor| self.storeys.storeys()[floor - 1].mass).fold(f64::INFINITY, f64::min);
         let ratio = wall.body().mass / least;
-        (self.has_masses && ratio > LIGHT).then(|| {
+        let has_masses = self.tables.iter().all(|table| table.mass.is_some());
+        (has_masses && ratio > LIGHT).then(|| {
             format!(
                 "the wall has {ratio:.2} of the mass of its floor, which moves as if there were no wall; \
                  above {LIGHT} use `wall building`, whose walls act on the floors"
@@ -193,9 +193,19 @@ impl Floors {
             }
         }
         let _ = writeln!(text, "drift = {}", self.drift);
-        for Storey { mass, stiffness, damping_ratio } in self.storeys.storeys() {
-            let _ = write!(text, "\n[[storeys]]\nmass = {mass:?}\nstiffness = {stiffness:?}\n");
-            let _ = writeln!(text, "damping_ratio = {damping_ratio:?}");
+        for StoreyTable { mass, stiffness, period, damping_ratio } in &self.tables {
+            text.push_str("\n[[storeys]]\n");
+            let keys = [
+                ("mass", mass),
+                ("stiffness", stiffness),
+                ("period", period),
+                ("damping_ratio", damping_ratio),
+            ];
+            for (name, value) in keys {
+                if let Some(value) = value {
+                    let _ = writeln!(text, "{name} = {value:?}");
+                }
+            }
         }
         text
     }

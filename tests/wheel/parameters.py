@@ -1,4 +1,4 @@
-"""Writes `_parameters.py`, the parameters of a wall for type checkers, from the model description.
+"""Writes `_parameters.py`, the parameters of a wall and what follows from them, from the model description.
 
 Run it in an environment with the wheel: python tests/wheel/parameters.py
 """
@@ -10,10 +10,15 @@ from rocking_wall import _native
 
 FILE = Path(__file__).parents[2] / "crates/python/python/rocking_wall/_parameters.py"
 
-HEAD = '''"""The parameters of a wall, written by `tests/wheel/parameters.py` from the model description."""
+HEAD = '''"""The parameters of a wall, and what follows from them.
+
+Written by `tests/wheel/parameters.py` from the model description.
+"""
 
 from collections.abc import Sequence
 from typing import Literal, TypedDict
+
+from . import _native
 
 
 class Parameters(TypedDict, total=False):
@@ -24,6 +29,14 @@ TAIL = '''
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
     points: Sequence[Sequence[float]]
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
+'''
+
+CALCULATED = '''
+
+class Calculated:
+    """What follows from the parameters of a wall; in SI units."""
+
+    _native: _native.Wall
 '''
 
 
@@ -49,7 +62,18 @@ def text() -> str:
             lines += textwrap.wrap(choices, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
             lines.append("    ]")
         lines += textwrap.wrap(f'"""{told}"""', 110, initial_indent=" " * 4, subsequent_indent=" " * 4)
-    return HEAD + "\n".join(lines) + "\n" + TAIL
+    return HEAD + "\n".join(lines) + "\n" + TAIL + CALCULATED + calculated()
+
+
+def calculated() -> str:
+    """Returns the properties of what follows from the parameters."""
+    lines = []
+    for name, description, unit in _native.calculated():
+        told = f'"""{description}{f" [{unit}]" if unit else ""}."""'
+        lines += ["", "    @property", f"    def {name}(self) -> float:"]
+        lines += textwrap.wrap(told, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
+        lines += [f'        return self._native.calculated("{name}")']
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `errors` | errors of the libraries as exceptions |
 //! | `arrays` | samples from Python, arrays to Python |
+//! | `tables` | tables for Python |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the parameters of the model description |
 //! | `responses` | what a run has come to |
@@ -24,6 +25,7 @@ mod folders;
 mod motions;
 mod responses;
 mod studies;
+mod tables;
 mod variables;
 mod walls;
 
@@ -34,14 +36,14 @@ mod _native {
     use crate::folders::Folder;
     #[pymodule_export]
     use crate::motions::{
-        average_sa, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
+        average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
     };
     #[pymodule_export]
     use crate::responses::picture_of_response;
     #[pymodule_export]
     use crate::studies::Study;
     #[pymodule_export]
-    use crate::variables::variables;
+    use crate::variables::{calculated, variables};
     #[pymodule_export]
     use crate::walls::Wall;
     #[pymodule_export]

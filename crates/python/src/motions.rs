@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use figures::records;
 use ground_motion::{
     GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
-    SyntheticMotion,
+    SyntheticMotion, Unit,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -84,6 +84,15 @@ pub(crate) fn synthetic(
     pga: f64,
 ) -> PyResult<(f64, Numbers<'_>)> {
     made(py, SyntheticMotion { seed, duration, step: dt, peak: pga }.motion())
+}
+
+/// Copies a motion and converts it to m/s².
+#[pyfunction]
+pub(crate) fn in_si<'py>(py: Python<'py>, given: Given<'py>, unit: &str) -> PyResult<(f64, Numbers<'py>)> {
+    let unit: Unit = unit.parse().map_err(of_motion)?;
+    let (step, given) = given;
+    let samples = samples(&given)?.into_iter().map(|sample| unit.to_si(sample)).collect();
+    made(py, GroundMotion::new(step, samples))
 }
 
 /// Multiplies a motion by a factor.

@@ -29,11 +29,11 @@ const COLUMNS: [Column; 11] = [
     ("a_top", |sample| sample.support.top),
 ];
 
-/// Returns the history, the peaks and the demands of a run, and what is to be told of wall and motion.
+/// Returns the history, the peaks and the demands of a run, and its warnings with `more` of them.
 pub(crate) fn values<'py>(
     py: Python<'py>,
     response: &Response,
-    of_motion: Option<Warning>,
+    more: impl Iterator<Item = String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let history = PyDict::new(py);
     for (name, value) in COLUMNS {
@@ -44,8 +44,7 @@ pub(crate) fn values<'py>(
         history.set_item("tie_force", PyArray1::from_iter(py, forces))?;
     }
     let summary = &response.summary;
-    let mut warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).collect();
-    warnings.extend(of_motion.map(|warning| warning.to_string()));
+    let warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).chain(more).collect();
     let values = PyDict::new(py);
     values.set_item("history", history)?;
     values.set_item("u_max", summary.u_max)?;

@@ -13,14 +13,16 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use study::fragility::Interval;
-use study::ida::{Curve, Exceedance, IdaError, Study as Ida};
+use study::fragility::{Interval, Summary};
+use study::ida::{Curve, Exceedance, IdaError, Run, Study as Ida};
 use study::loaded::{LoadedStudy, Sent};
 use study::parallel;
 use study::results::{Fitting, WallResults};
 use study_folder::{Contents, encode};
 
 use crate::errors::{failed, of_scene};
+use crate::tables::Column::{self, Counts, Flags, Names, Numbers};
+use crate::tables::table;
 
 /// Time between two looks at Ctrl-C and at the progress.
 const LOOK: Duration = Duration::from_millis(50);
@@ -197,25 +199,10 @@ impl Study {
     }
 }
 
-/// A table: the columns by their names.
-fn table<'py>(
-    py: Python<'py>,
-    names: Vec<(&str, Vec<&str>)>,
-    numbers: Vec<(&str, Vec<f64>)>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let table = PyDict::new(py);
-    for (name, column) in names {
-        table.set_item(name, column)?;
-    }
-    for (name, column) in numbers {
-        table.set_item(name, PyArray1::from_vec(py, column))?;
-    }
-    Ok(table)
-}
-
 /// The first columns of a table: wall, model and record of each row, given by the number of its combination.
-fn names<'a>(study: &'a Ida, rows: &[usize]) -> Vec<(&'static str, Vec<&'a str>)> {
-    let of = |name: fn(&'a Ida, usize) -> &'a str| rows.iter().map(|&index| name(study, index)).collect();
+fn names<'a>(study: &'a Ida, rows: &[usize]) -> Vec<(&'static str, Column<'a>)> {
+    let of =
+        |name: fn(&'a Ida, usize) -> &'a str| Names(rows.iter().map(|&index| name(study, index)).collect());
     vec![
         ("wall", of(|study, index| &study.walls()[study.case(index).wall].name)),
         ("model", of(|study, index| &study.models()[study.case(index).model].name)),
@@ -229,20 +216,22 @@ fn levels<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound
     let runs: Vec<_> =
         curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run))).collect();
     let rows: Vec<_> = runs.iter().map(|(index, _)| *index).collect();
-    let numbers = vec![
-        ("intensity_g", runs.iter().map(|(_, run)| in_g(run.intensity)).collect()),
-        ("u_max_over_u_ins", runs.iter().map(|(_, run)| run.demand).collect()),
-        ("overturned", runs.iter().map(|(_, run)| f64::from(u8::from(run.overturning.is_some()))).collect()),
-        ("overturn_time_s", runs.iter().map(|(_, run)| run.overturning.unwrap_or(f64::NAN)).collect()),
+    let numbers = |value: fn(&Run) -> f64| Numbers(runs.iter().map(|(_, run)| value(run)).collect());
+    let values = [
+        ("intensity_g", numbers(|run| in_g(run.intensity))),
+        ("u_max_over_u_ins", numbers(|run| run.demand)),
+        ("overturned", Flags(runs.iter().map(|(_, run)| run.overturning.is_some()).collect())),
+        ("overturn_time_s", numbers(|run| run.overturning.unwrap_or(f64::NAN))),
     ];
-    table(py, names(study, &rows), numbers)
+    table(py, names(study, &rows).into_iter().chain(values))
 }
 
 /// The collapse of every wall, model and record, as in `collapses.csv`.
 fn collapses<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound<'py, PyDict>> {
     let rows: Vec<_> = (0..curves.len()).collect();
-    let of = |value: fn(&Curve) -> f64| curves.iter().map(value).collect();
-    let numbers = vec![
+    let of = |value: fn(&Curve) -> f64| Numbers(curves.iter().map(value).collect());
+    let count = |value: fn(&Curve) -> usize| Counts(curves.iter().map(value).collect());
+    let values = [
         (
             "collapse_g",
             of(|curve| match curve.collapse() {
@@ -252,10 +241,10 @@ fn collapses<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bo
         ),
         ("standing_below_g", of(|curve| in_g(curve.level_below_collapse()))),
         ("highest_level_g", of(|curve| in_g(curve.top()))),
-        ("runs", of(|curve| curve.runs().len() as f64)),
-        ("resurrections", of(|curve| curve.resurrections() as f64)),
+        ("runs", count(|curve| curve.runs().len())),
+        ("resurrections", count(Curve::resurrections)),
     ];
-    table(py, names(study, &rows), numbers)
+    table(py, names(study, &rows).into_iter().chain(values))
 }
 
 /// The fragility of every wall, model and limit state, as in `fragilities.csv`.
@@ -265,46 +254,51 @@ fn fragilities<'py>(
     results: &[WallResults],
     fractions: &[f64],
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (mut walls, mut models) = (Vec::new(), Vec::new());
-    let mut columns: Vec<(&str, Vec<f64>)> = Vec::new();
+    let mut rows = Vec::new();
     for (w, wall) in study.walls().iter().enumerate() {
         for (m, model) in study.models().iter().enumerate() {
-            for (f, fraction) in fractions.iter().enumerate() {
-                let summary = &results[w].summaries(f)[m];
-                let [median, median_low, median_high] = values(&summary.median, STANDARD_GRAVITY);
-                let [theta, theta_low, theta_high] = values(&summary.theta, STANDARD_GRAVITY);
-                let [ratio, ratio_low, ratio_high] = values(&summary.median_ratio, 1.0);
-                let [theta_ratio, theta_ratio_low, theta_ratio_high] = values(&summary.theta_ratio, 1.0);
-                let row = [
-                    ("u_max_over_u_ins", *fraction),
-                    ("records", summary.records as f64),
-                    ("censored", summary.censored as f64),
-                    ("median_g", median),
-                    ("median_low_g", median_low),
-                    ("median_high_g", median_high),
-                    ("theta_g", theta),
-                    ("theta_low_g", theta_low),
-                    ("theta_high_g", theta_high),
-                    ("beta", summary.fitted.map_or(f64::NAN, |fit| fit.dispersion)),
-                    ("beta_alone", summary.alone.map_or(f64::NAN, |fit| fit.dispersion)),
-                    ("median_ratio", ratio),
-                    ("median_ratio_low", ratio_low),
-                    ("median_ratio_high", ratio_high),
-                    ("theta_ratio", theta_ratio),
-                    ("theta_ratio_low", theta_ratio_low),
-                    ("theta_ratio_high", theta_ratio_high),
-                ];
-                walls.push(wall.name.as_str());
-                models.push(model.name.as_str());
-                columns.resize(row.len(), ("", Vec::new()));
-                for (column, (name, value)) in columns.iter_mut().zip(row) {
-                    column.0 = name;
-                    column.1.push(value);
-                }
-            }
+            let row = |(f, fraction): (usize, &f64)| {
+                (wall.name.as_str(), model.name.as_str(), *fraction, &results[w].summaries(f)[m])
+            };
+            rows.extend(fractions.iter().enumerate().map(row));
         }
     }
-    table(py, vec![("wall", walls), ("model", models)], columns)
+    let summaries = || rows.iter().map(|row| row.3);
+    let numbers = |value: fn(&Summary) -> f64| Numbers(summaries().map(value).collect());
+    let counts = |value: fn(&Summary) -> usize| Counts(summaries().map(value).collect());
+    let interval = |names: [&'static str; 3], of: fn(&Summary) -> &Interval, unit: f64| {
+        let [estimates, lows, highs] = [0, 1, 2]
+            .map(|part| Numbers(summaries().map(|summary| values(of(summary), unit)[part]).collect()));
+        [(names[0], estimates), (names[1], lows), (names[2], highs)]
+    };
+    let g = STANDARD_GRAVITY;
+    let first = [
+        ("wall", Names(rows.iter().map(|row| row.0).collect())),
+        ("model", Names(rows.iter().map(|row| row.1).collect())),
+        ("u_max_over_u_ins", Numbers(rows.iter().map(|row| row.2).collect())),
+        ("records", counts(|summary| summary.records)),
+        ("censored", counts(|summary| summary.censored)),
+    ];
+    let betas = [
+        ("beta", numbers(|summary| summary.fitted.map_or(f64::NAN, |fit| fit.dispersion))),
+        ("beta_alone", numbers(|summary| summary.alone.map_or(f64::NAN, |fit| fit.dispersion))),
+    ];
+    let columns = first
+        .into_iter()
+        .chain(interval(["median_g", "median_low_g", "median_high_g"], |summary| &summary.median, g))
+        .chain(interval(["theta_g", "theta_low_g", "theta_high_g"], |summary| &summary.theta, g))
+        .chain(betas)
+        .chain(interval(
+            ["median_ratio", "median_ratio_low", "median_ratio_high"],
+            |summary| &summary.median_ratio,
+            1.0,
+        ))
+        .chain(interval(
+            ["theta_ratio", "theta_ratio_low", "theta_ratio_high"],
+            |summary| &summary.theta_ratio,
+            1.0,
+        ));
+    table(py, columns)
 }
 
 /// Returns an estimate and the ends of its interval in a unit: infinite above the levels, NaN where only

@@ -1,6 +1,6 @@
 //! The parameters of the model description.
 
-use fmu_export::{Kind, Variable, VariableId};
+use fmu_export::{Causality, Kind, Variable, VariableId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::GROUPS;
@@ -13,6 +13,19 @@ pub(crate) fn variables(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     names.filter_map(|(group, name)| Some(entry(py, group, find(name)?))).collect()
 }
 
+/// Lists what follows from the parameters: name, description, unit.
+#[pyfunction]
+pub(crate) fn calculated() -> Vec<(&'static str, &'static str, &'static str)> {
+    let all = RealVariable::ALL.iter().map(|variable| variable.variable());
+    let calculated = all.filter(|variable| variable.causality == Causality::CalculatedParameter);
+    calculated.map(|variable| (variable.name, variable.description, unit(variable))).collect()
+}
+
+/// Returns the unit of a variable; the description writes "1" for what has none.
+fn unit(variable: &Variable) -> &'static str {
+    variable.unit.filter(|unit| *unit != "1").unwrap_or_default()
+}
+
 fn find(name: &str) -> Option<&'static Variable> {
     let real = RealVariable::from_name(name).map(VariableId::variable);
     real.or_else(|| IntegerVariable::from_name(name).map(VariableId::variable))
@@ -23,8 +36,7 @@ fn entry<'py>(py: Python<'py>, group: &str, variable: &Variable) -> PyResult<Bou
     values.set_item("name", variable.name)?;
     values.set_item("group", group)?;
     values.set_item("description", variable.description)?;
-    // the description writes "1" for what has no unit
-    values.set_item("unit", variable.unit.filter(|unit| *unit != "1").unwrap_or_default())?;
+    values.set_item("unit", unit(variable))?;
     match variable.kind {
         Kind::Real { start, min, max } => {
             values.set_item("default", start)?;

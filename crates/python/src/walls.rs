@@ -1,14 +1,18 @@
 //! The class `Wall`: a scene whose motion is given run by run.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use figures::capacity::{Curve, plot};
+use ground_motion::GroundMotion;
 use numpy::PyArray1;
-use pyo3::exceptions::{PyFileNotFoundError, PyTypeError};
+use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
-use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, check_thresholds, parameter_text};
+use rocking_wall::scene::{
+    Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_thresholds, parameter_text,
+    to_toml,
+};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::record::{Outcome, RecordSolver};
 use rocking_wall::solver::{Method, Motion};
@@ -16,8 +20,8 @@ use rocking_wall::wall::Wall as Equation;
 use scene_fmu::General;
 use study::ida::Shaking;
 
-use crate::arrays::{Given, Numbers, motion, samples};
-use crate::errors::{failed, of_scene, refused};
+use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
+use crate::errors::{failed, of_motion, of_scene, refused};
 use crate::responses;
 
 /// Runs of a batch between two looks at Ctrl-C: the time of a blink.
@@ -29,11 +33,17 @@ const LONGEST_TAIL: f64 = 1e6;
 /// A wall, valid since it was made.
 #[pyclass(frozen, module = "rocking_wall._native")]
 pub(crate) struct Wall {
-    scene: Scene,
-    equation: Equation,
+    pub(crate) scene: Scene,
+    pub(crate) equation: Equation,
     /// The start where it was given by name; else a record finds the wall upright.
     start: Option<f64>,
 }
+
+/// A wall as values that pickle can send: its scene file without the motion, all of its parameters as texts,
+/// its start where it was given, and the motions of its supports with what is known of them.
+type Values<Samples> = (String, Vec<(String, String)>, Option<f64>, Option<Motions<Samples>>, Vec<String>);
+/// Steps and samples of the bottom support and, where it has its own, the top one.
+type Motions<Samples> = ((f64, Samples), Option<(f64, Samples)>);
 
 #[pymethods]
 impl Wall {
@@ -54,6 +64,61 @@ impl Wall {
         Self::of(self.scene.clone(), self.start, parameters)
     }
 
+    /// Returns the same wall on floors of storeys, given as mass, stiffness, period and damping ratio.
+    fn on_storeys(
+        &self,
+        storeys: Vec<[Option<f64>; 4]>,
+        bottom: Option<usize>,
+        top: Option<usize>,
+        drift: bool,
+    ) -> PyResult<Self> {
+        let table = |[mass, stiffness, period, damping_ratio]: [Option<f64>; 4]| StoreyTable {
+            mass,
+            stiffness,
+            period,
+            damping_ratio,
+        };
+        let tables: Vec<_> = storeys.into_iter().map(table).collect();
+        let supports = SupportsTable { bottom, top, drift: Some(drift) };
+        let floors = Floors::new(&tables, supports).map_err(|(index, message)| match index {
+            Some(index) => refused(format!("storey {}: {message}", index + 1)),
+            None => refused(message),
+        })?;
+        floors.supports(self.scene.parameters.mechanism).map_err(of_scene)?;
+        let scene = Scene { floors: Some(floors), ..self.scene.clone() };
+        Ok(Self { scene, equation: self.equation.clone(), start: self.start })
+    }
+
+    /// Returns the values of the wall, to send them.
+    fn sent<'py>(&self, py: Python<'py>) -> Values<Numbers<'py>> {
+        let motion = self.scene.excitation.as_ref().map(|motion| {
+            let top = motion.top().map(|top| of_motion_values(py, top));
+            (of_motion_values(py, motion.bottom()), top)
+        });
+        let parameters = self.parameters().into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
+        (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone())
+    }
+
+    /// Makes a wall of its values.
+    #[staticmethod]
+    fn received(values: Values<Vec<f64>>) -> PyResult<Self> {
+        let (text, parameters, start, motion, motion_notes) = values;
+        let mut scene = Scene::parse("a wall that was sent", &text, Path::new(".")).map_err(of_scene)?;
+        for (name, text) in &parameters {
+            // the text of the scene leaves out what a law of points does not use
+            if scene.parameters.multilinear.is_none() || name != "force_law" {
+                scene.set(name, text).map_err(of_scene)?;
+            }
+        }
+        if let Some((bottom, top)) = motion {
+            let made = |(step, samples)| GroundMotion::new(step, samples).map_err(of_motion);
+            scene.excitation = Some(Excitation::new(made(bottom)?, top.map(made).transpose()?));
+        }
+        scene.motion_notes = motion_notes;
+        let equation = Equation::new(&scene.parameters).map_err(refused)?;
+        Ok(Self { scene, equation, start })
+    }
+
     #[getter]
     fn title(&self) -> &str {
         &self.scene.title
@@ -62,7 +127,17 @@ impl Wall {
     /// Returns what is unusual about the wall.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.equation.warnings().iter().map(ToString::to_string).collect()
+        let warnings = self.equation.warnings().iter();
+        let heavy = self.scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
+        warnings.map(ToString::to_string).chain(heavy).collect()
+    }
+
+    /// Returns a number that follows from the parameters, by its name in the model description.
+    fn calculated(&self, name: &str) -> PyResult<f64> {
+        let facts = self.equation.facts().into_iter();
+        let found = facts.filter(|fact| fact.name == name).map(|fact| fact.value).next();
+        found
+            .ok_or_else(|| PyAttributeError::new_err(format!("{name:?} does not follow from the parameters")))
     }
 
     /// Returns the parameters as texts of a scene file.
@@ -137,7 +212,10 @@ impl Wall {
             scene.thresholds = thresholds;
         }
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
-        responses::values(py, &response, scene.excitation.as_ref().and_then(Excitation::warning))
+        let heavy = scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
+        let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
+        let more = heavy.into_iter().chain(of_motion.map(|warning| warning.to_string()));
+        responses::values(py, &response, more)
     }
 
     /// Returns `u_max`, its largest ratio to `u_ins`, and the time of overturning (NaN for none) under a
@@ -211,7 +289,7 @@ impl Wall {
 }
 
 /// Sets parameters by name, as a scene file does.
-fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyResult<()> {
+pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyResult<()> {
     let mut law_of_points = scene.parameters.multilinear.is_some();
     for (name, value) in parameters {
         let name: String = name.extract()?;

@@ -27,7 +27,7 @@ from ._records import (
 from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
 from ._studies import Study, StudyResults
 from ._tables import Table
-from ._walls import Description, Wall, package
+from ._walls import Description, Storey, Wall, package
 
 __all__ = [
     "Demands",
@@ -38,6 +38,7 @@ __all__ = [
     "Peaks",
     "Record",
     "Response",
+    "Storey",
     "Study",
     "StudyResults",
     "Table",

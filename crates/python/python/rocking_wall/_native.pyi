@@ -10,6 +10,8 @@ _Numbers = NDArray[np.float64]
 _Motion = tuple[float, _Numbers]
 _Given = tuple[float, ArrayLike]
 _Columns = dict[str, Any]
+_Motions = tuple[_Given, _Given | None]
+_WallValues = tuple[str, list[tuple[str, str]], float | None, _Motions | None, list[str]]
 _Values = tuple[str, list[tuple[str, str]], list[tuple[str, float, _Numbers]]]
 
 VERSION: Final[str]
@@ -20,6 +22,8 @@ __all__ = [
     "VERSION",
     "Wall",
     "average_sa",
+    "calculated",
+    "in_si",
     "picture",
     "picture_of_response",
     "pulse",
@@ -50,6 +54,7 @@ class _Variable(TypedDict):
     choices: list[str]
 
 def variables() -> list[_Variable]: ...
+def calculated() -> list[tuple[str, str, str]]: ...
 def read_channels(
     path: str,
     unit: str | None,
@@ -67,6 +72,7 @@ def pulse(
     duration: float | None,
 ) -> _Motion: ...
 def synthetic(seed: int, duration: float, dt: float, pga: float) -> _Motion: ...
+def in_si(given: _Given, unit: str) -> _Motion: ...
 def scaled(given: _Given, factor: float) -> _Motion: ...
 def scaled_to(given: _Given, pga: float) -> _Motion: ...
 def trimmed(given: _Given, start: float, end: float) -> _Motion: ...
@@ -80,6 +86,17 @@ class Wall:
     @staticmethod
     def from_toml(path: str) -> Wall: ...
     def replaced(self, parameters: Mapping[str, Any]) -> Wall: ...
+    def on_storeys(
+        self,
+        storeys: list[tuple[float | None, float | None, float | None, float | None]],
+        bottom: int | None,
+        top: int | None,
+        drift: bool,
+    ) -> Wall: ...
+    def sent(self) -> _WallValues: ...
+    @staticmethod
+    def received(values: _WallValues) -> Wall: ...
+    def calculated(self, name: str) -> float: ...
     @property
     def title(self) -> str: ...
     @property

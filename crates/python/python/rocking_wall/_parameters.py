@@ -1,7 +1,12 @@
-"""The parameters of a wall, written by `tests/wheel/parameters.py` from the model description."""
+"""The parameters of a wall, and what follows from them.
+
+Written by `tests/wheel/parameters.py` from the model description.
+"""
 
 from collections.abc import Sequence
 from typing import Literal, TypedDict
+
+from . import _native
 
 
 class Parameters(TypedDict, total=False):
@@ -129,3 +134,59 @@ class Parameters(TypedDict, total=False):
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
     points: Sequence[Sequence[float]]
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
+
+
+class Calculated:
+    """What follows from the parameters of a wall; in SI units."""
+
+    _native: _native.Wall
+
+    @property
+    def mass(self) -> float:
+        """Mass of the wall, overburden not included [kg]."""
+        return self._native.calculated("mass")
+
+    @property
+    def effective_mass(self) -> float:
+        """Effective mass of the equation of motion [kg]."""
+        return self._native.calculated("effective_mass")
+
+    @property
+    def participation(self) -> float:
+        """Participation factor of the support acceleration."""
+        return self._native.calculated("participation")
+
+    @property
+    def F0(self) -> float:
+        """Rigid restoring force at zero displacement, side u > 0 [N]."""
+        return self._native.calculated("F0")
+
+    @property
+    def F0_negative(self) -> float:
+        """Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]."""
+        return self._native.calculated("F0_negative")
+
+    @property
+    def u_ins(self) -> float:
+        """Static instability displacement, side u > 0 [m]."""
+        return self._native.calculated("u_ins")
+
+    @property
+    def u_ins_negative(self) -> float:
+        """Static instability displacement, side u < 0, as an absolute value [m]."""
+        return self._native.calculated("u_ins_negative")
+
+    @property
+    def omega1(self) -> float:
+        """Angular frequency of the elastic branch; zero for rigid_linear [rad/s]."""
+        return self._native.calculated("omega1")
+
+    @property
+    def xi_used(self) -> float:
+        """Damping ratio in use on the elastic branch: given, predicted or from c_bar; 0 without one."""
+        return self._native.calculated("xi_used")
+
+    @property
+    def restitution_used(self) -> float:
+        """Coefficient of restitution in use, for impacts and for predicted damping."""
+        return self._native.calculated("restitution_used")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 from warnings import warn
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _native
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 Unit = Literal["m/s2", "cm/s2", "mm/s2", "g"]
 Maxima = Literal["everywhere", "at_samples"]
+
+NUMBERS = (int, float, np.integer, np.floating)
 
 AVERAGE_PERIODS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4)
 """Usual periods of AvgSA [s]."""
@@ -35,8 +37,16 @@ class Record:
 
     >>> import numpy as np
     >>> record = Record(0.01, np.sin(np.arange(0, 10, 0.01))[::2])
-    >>> record.duration, len(record.a)
+    >>> record.duration, len(record)
     (4.99, 500)
+
+    A slice is a record, which starts again at time 0; with a stride of two it has every second sample.
+    `numpy` takes a record as the array of its samples.
+
+    >>> 2 * record[100:300] == Record(0.01, 2 * record.a[100:300])
+    True
+    >>> record[::2].dt, float(np.abs(record).max()) == record.pga
+    (0.02, True)
     """
 
     dt: float
@@ -48,17 +58,82 @@ class Record:
     warnings: tuple[str, ...]
     """What a quick check of the file has found."""
 
+    # numpy's numbers leave `2 * record` to the record
+    __array_priority__ = 1000.0
+
     def __init__(
-        self, dt: float, a: ArrayLike, *, name: str = "record", warnings: tuple[str, ...] = ()
+        self,
+        dt: float,
+        a: ArrayLike,
+        *,
+        unit: Unit = "m/s2",
+        name: str = "record",
+        warnings: tuple[str, ...] = (),
     ) -> None:
-        # a factor of 1 copies the samples, and checks them and the step
-        dt, a = _native.scaled((dt, a), 1.0)
+        """Makes a record of its samples, at least two, in a `unit`: m/s2, cm/s2 (gal), mm/s2 or g.
+
+        Raises `TypeError` for what are not numbers and `ValueError` for samples that are not finite or not in
+        one dimension, for a step that is not positive, and for an unknown unit.
+        """
+        if not isinstance(dt, NUMBERS):
+            swapped = "; they are swapped" if np.ndim(a) == 0 else ""
+            raise TypeError(
+                f"Record(dt, samples): dt must be the time between samples in s, found a value of the type "
+                f"{type(dt).__name__}{swapped}"
+            )
+        dt, a = _native.in_si((float(dt), a), unit)
         a.flags.writeable = False
         for attribute, value in (("dt", dt), ("a", a), ("name", name), ("warnings", tuple(warnings))):
             object.__setattr__(self, attribute, value)
 
     def __repr__(self) -> str:
         return f"Record({self.name!r}, {len(self.a)} samples of {self.dt:g} s, PGA {self.pga:.4g} m/s²)"
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        # what numpy copies can be written to
+        self.a.flags.writeable = False
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same step and samples; names do not count."""
+        if not isinstance(other, Record):
+            return NotImplemented
+        return self.dt == other.dt and np.array_equal(self.a, other.a)
+
+    def __hash__(self) -> int:
+        # zeros of both signs are equal
+        return hash((self.dt, (self.a + 0.0).tobytes()))
+
+    def __len__(self) -> int:
+        return len(self.a)
+
+    @overload
+    def __getitem__(self, at: int) -> float: ...
+    @overload
+    def __getitem__(self, at: slice) -> Record: ...
+    def __getitem__(self, at: int | slice) -> float | Record:
+        if not isinstance(at, slice):
+            return float(self.a[at])
+        start, stop, step = at.indices(len(self))
+        if step < 0:
+            raise ValueError(f"a slice of a record goes forward in time, found the stride {step}")
+        return self._with((self.dt * step, self.a[start:stop:step]))
+
+    def __mul__(self, factor: float) -> Record:
+        """Returns `scaled(factor)`."""
+        if not isinstance(factor, NUMBERS):
+            found = type(factor).__name__
+            raise TypeError(f"a record times a number is a record, found a value of the type {found}; use record.a")
+        return self.scaled(float(factor))
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Record:
+        """Returns the record of the opposite polarity."""
+        return self.scaled(-1.0)
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.a, dtype=dtype, copy=copy)
 
     @property
     def _motion(self) -> tuple[float, NDArray[np.float64]]:
@@ -125,6 +200,17 @@ class Record:
 
     def _repr_svg_(self) -> str:
         return _native.picture(self._motion, DRAWN_PERIODS, self.name)
+
+
+def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.float64]]:
+    """Returns the motion of what must be a record; `name` stands for it in messages."""
+    if isinstance(record, Record):
+        return record._motion
+    if isinstance(record, (str, PathLike)):
+        remedy = f"read it with rw.read_record({fspath(record)!r})"
+    else:
+        remedy = "make one with rw.Record(dt, samples) or rw.read_record(path)"
+    raise TypeError(f"{name} must be a Record, found a value of the type {type(record).__name__}: {remedy}")
 
 
 def at_samples(maxima: Maxima) -> bool:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
 from os import PathLike, fspath
-from typing import Any, Unpack
+from typing import Any, NoReturn, Unpack
 from warnings import warn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._parameters import Parameters
-from ._records import Record
+from ._parameters import Calculated, Parameters
+from ._records import Record, motion_of
 from ._responses import Peaks, Response
 from ._tables import shown
 
@@ -43,15 +44,46 @@ class Description(dict[str, Any]):
         return f"<table><tbody>{''.join(rows)}</tbody></table>{self._picture}"
 
 
-class Wall:
+@dataclass(frozen=True, kw_only=True)
+class Storey:
+    """A storey between ground and wall: the mass of its floor, and a stiffness or a period.
+
+    A single storey with a period needs no mass.
+    """
+
+    mass: float | None = None
+    """Mass of the floor [kg]."""
+    stiffness: float | None = None
+    """Lateral stiffness [N/m]."""
+    period: float | None = None
+    """Period that the storey alone would have on the ground [s], instead of the stiffness."""
+    damping_ratio: float | None = None
+    """Damping ratio [-]; by default 0.05."""
+
+
+class Wall(Calculated):
     def __init__(self, **parameters: Unpack[Parameters]) -> None:
-        self._native = _native.Wall(dict(parameters))
+        object.__setattr__(self, "_native", _native.Wall(dict(parameters)))
 
     @classmethod
     def _of(cls, native: _native.Wall) -> Wall:
         wall = cls.__new__(cls)
-        wall._native = native
+        object.__setattr__(wall, "_native", native)
         return wall
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(
+            f"a wall never changes: wall.replace({name}={value!r}) returns one with another value of a parameter"
+        )
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError("a wall never changes")
+
+    def __getstate__(self) -> object:
+        return self._native.sent()
+
+    def __setstate__(self, state: Any) -> None:
+        object.__setattr__(self, "_native", _native.Wall.received(state))
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Wall:
@@ -65,6 +97,34 @@ class Wall:
         True
         """
         return self._of(self._native.replaced(dict(parameters)))
+
+    def on_storeys(
+        self,
+        storeys: Sequence[Storey],
+        *,
+        bottom: int | None = None,
+        top: int | None = None,
+        drift: bool = True,
+    ) -> Wall:
+        """Returns the same wall on storeys, the lowest first: records shake the ground, the wall feels its floors.
+
+        The storeys move as if there were no wall. A run warns of a wall above a twentieth of the mass of its
+        floor, which is for `Building`.
+
+        :param bottom: Floor that the wall stands on, counted from 1, or 0 for the ground; by default the roof, and
+            for a strip wall the floor below the roof.
+        :param top: Floor that a strip wall leans on; by default the one above the bottom.
+        :param drift: Whether the drift between the supports acts on a strip wall.
+
+        Raises `ValueError` for storeys that cannot be, and for floors that are not there.
+
+        >>> from rocking_wall import synthetic_record
+        >>> wall = Wall(height=1.5, thickness=0.3).on_storeys([Storey(period=0.3, damping_ratio=0.05)])
+        >>> bool(wall.simulate(synthetic_record()).a_bottom.max() > synthetic_record().pga)
+        True
+        """
+        tables = [(each.mass, each.stiffness, each.period, each.damping_ratio) for each in storeys]
+        return self._of(self._native.on_storeys(tables, bottom, top, drift))
 
     @property
     def parameters(self) -> dict[str, float | str]:
@@ -112,8 +172,8 @@ class Wall:
             if record is None and given:
                 raise ValueError(f"{name} needs a record beside it")
         values = self._native.simulate(
-            None if record is None else record.scaled(scale)._motion,
-            top=None if top is None else top.scaled(scale)._motion,
+            None if record is None else _native.scaled(motion_of(record), scale),
+            top=None if top is None else _native.scaled(motion_of(top, "top"), scale),
             tail=tail,
             stop_time=stop_time,
             output_step=output_step,
@@ -137,7 +197,7 @@ class Wall:
         >>> peaks.overturned
         array([False, False,  True])
         """
-        u_max, u_ratio_max, overturn_time = self._native.peaks(record._motion, factors, tail)
+        u_max, u_ratio_max, overturn_time = self._native.peaks(motion_of(record), factors, tail)
         return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
 
 
@@ -178,6 +238,12 @@ def parameter_lines() -> str:
     return "\n".join(lines)
 
 
+def calculated_lines() -> str:
+    """Lists what follows from the parameters, with units."""
+    units = ((name, told, f" [{unit}]" if unit else "") for name, told, unit in _native.calculated())
+    return "\n".join(f"- {name}{unit}: {told}" for name, told, unit in units)
+
+
 Wall.__doc__ = f"""A wall: a parapet, or a vertical spanning strip.
 
 Parameters are given by their names; what is not given has its default. A wall that exists is valid and
@@ -187,6 +253,10 @@ never changes.
 Wall(mechanism='parapet', height=3.0, thickness=0.25, force_law='bilinear', damping_model='none', \
 impact='restitution', ...)
 {parameter_lines()}
+
+What follows from them can be read:
+
+{calculated_lines()}
 
 Two parameters are those of scenes only: `kinematics` {{linear, trigonometric}}, and `points`
 [[u/u_ins, F/F0], ...] of `force_law="multilinear"`.

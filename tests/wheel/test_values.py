@@ -1,0 +1,170 @@
+"""Walls and records are values: they do not change, can be copied, sent and compared."""
+
+import concurrent.futures
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import rocking_wall as rw
+from rocking_wall import _native
+
+SAMPLES = np.array([0.0, 0.5, -1.25, 3.0, -0.75, 0.25])
+WALLS = {
+    "default": rw.Wall(),
+    "named start": rw.Wall(height=3, thickness=0.25, u_start=0.01),
+    "law of points": rw.Wall(a1=0.05, force_law="multilinear", points=[[0.02, 0.8], [0.1, 0.9], [1.0, 0.0]]),
+    "full rotations": rw.Wall(
+        kinematics="trigonometric", force_law="rigid_linear", damping_model="none", impact="restitution"
+    ),
+    "motion": rw.Wall.from_toml("scenes/shaken_parapet.toml"),
+    "floor": rw.Wall.from_toml("scenes/parapet_on_a_roof.toml"),
+    "floors": rw.Wall.from_toml("scenes/strip_between_floors.toml"),
+    "period alone": rw.Wall(height=3, thickness=0.25).on_storeys([rw.Storey(period=0.3)]),
+}
+WAYS = [copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))]
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", WALLS)
+def test_a_wall_is_copied_and_sent(name, way, record):
+    wall = WALLS[name]
+    other = way(wall)
+    assert other.parameters == wall.parameters
+    assert other._native.sent()[0] == wall._native.sent()[0]
+    assert other.describe()["warnings"] == wall.describe()["warnings"]
+    np.testing.assert_array_equal(other.simulate(record).u, wall.simulate(record).u)
+    if name in ("motion", "floor", "floors"):
+        np.testing.assert_array_equal(other.simulate().u, wall.simulate().u)
+
+
+def peak(wall, record):
+    """Runs in another process."""
+    return wall.simulate(record).u_max
+
+
+def test_walls_in_a_pool_of_processes(record):
+    walls = [rw.Wall(height=height, thickness=0.25) for height in (2.0, 3.0)]
+    with concurrent.futures.ProcessPoolExecutor(2) as pool:
+        assert list(pool.map(peak, walls, [record] * 2)) == [peak(wall, record) for wall in walls]
+
+
+def test_a_wall_never_changes():
+    wall = rw.Wall(height=3, thickness=0.25)
+    with pytest.raises(AttributeError, match=r"never changes: wall.replace\(height=4\)"):
+        wall.height = 4
+    with pytest.raises(AttributeError, match="never changes"):
+        wall.u_ins = 1.0
+    with pytest.raises(AttributeError, match="never changes"):
+        del wall._native
+    assert wall.u_ins == 0.125
+
+
+def test_what_follows_from_the_parameters_can_be_read():
+    names = [name for name, _, _ in _native.calculated()]
+    assert {"mass", "F0", "u_ins", "omega1", "xi_used", "restitution_used"} < set(names)
+    wall = rw.Wall(height=3, thickness=0.25)
+    described = wall.describe()
+    for name in names:
+        assert getattr(wall, name) == described[name], name
+        assert f"- {name}" in rw.Wall.__doc__ and getattr(rw.Wall, name).__doc__
+    # ρ b h, W b/(2 h_half) with h_half = h/2
+    assert wall.mass == pytest.approx(1800 * 3 * 0.25) and wall.F0 == pytest.approx(wall.mass * 9.81 / 12)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_record_is_copied_and_sent(way):
+    record = rw.Record(0.01, SAMPLES, name="one", warnings=("odd",))
+    other = way(record)
+    assert other == record and (other.name, other.warnings) == ("one", ("odd",))
+    assert not other.a.flags.writeable
+
+
+def test_records_are_compared_by_step_and_samples():
+    record = rw.Record(0.01, SAMPLES)
+    assert record == rw.Record(0.01, list(SAMPLES), name="other")
+    assert record != rw.Record(0.02, SAMPLES) and record != rw.Record(0.01, SAMPLES + 1.0)
+    assert record != rw.Record(0.01, SAMPLES[:-1]) and record != "record"
+    assert len({record, rw.Record(0.01, SAMPLES), rw.Record(0.02, SAMPLES)}) == 2
+    assert hash(rw.Record(0.01, [0.0, 1.0])) == hash(rw.Record(0.01, [-0.0, 1.0]))
+
+
+def test_a_record_is_a_sequence_of_samples():
+    record = rw.Record(0.01, SAMPLES, name="one")
+    assert len(record) == 6 and record[3] == 3.0 and record[-1] == 0.25
+    assert list(record) == list(SAMPLES)
+    assert record[1:4] == rw.Record(0.01, SAMPLES[1:4]) and record[1:4].name == "one"
+    assert record[::2] == rw.Record(0.02, SAMPLES[::2])
+    with pytest.raises(IndexError):
+        record[6]
+    with pytest.raises(ValueError, match="forward in time, found the stride -1"):
+        record[::-1]
+    with pytest.raises(ValueError, match="at least two samples, found 1"):
+        record[2:3]
+
+
+@pytest.mark.parametrize("factor", [2, 2.0, np.float64(2.0), np.float32(2.0), np.int64(2)])
+def test_a_record_times_a_number(factor):
+    record = rw.Record(0.01, SAMPLES, name="one")
+    for product in (record * factor, factor * record):
+        assert isinstance(product, rw.Record) and product == record.scaled(2.0) and product.name == "one"
+    assert -record == record.scaled(-1.0)
+
+
+def test_a_record_times_anything_else():
+    record = rw.Record(0.01, SAMPLES)
+    for other in (SAMPLES, [1.0, 2.0], "2", record):
+        with pytest.raises(TypeError, match="use record.a"):
+            record * other
+        with pytest.raises(TypeError):
+            other * record
+
+
+def test_numpy_takes_a_record_as_its_samples():
+    record = rw.Record(0.01, SAMPLES)
+    assert np.asarray(record) is record.a or np.shares_memory(np.asarray(record), record.a)
+    np.testing.assert_array_equal(np.asarray(record, dtype=np.float32), SAMPLES.astype(np.float32))
+    copied = np.array(record)
+    copied[0] = 7.0
+    assert record[0] == 0.0
+    np.testing.assert_array_equal(np.abs(record), np.abs(SAMPLES))
+
+
+@pytest.mark.parametrize("unit, factor", [("m/s2", 1.0), ("cm/s2", 0.01), ("gal", 0.01), ("g", 9.80665)])
+def test_samples_in_a_unit(unit, factor):
+    np.testing.assert_allclose(rw.Record(0.01, SAMPLES, unit=unit).a, factor * SAMPLES, rtol=1e-15)
+
+
+def test_wrong_arguments_say_what_is_expected(record):
+    wall = rw.Wall(height=3, thickness=0.25)
+    for call, words in [
+        (lambda: wall.simulate("x.AT2"), r"record must be a Record, .* type str: read it with rw.read_record\('x"),
+        (lambda: wall.simulate(SAMPLES), r"type ndarray: make one with rw.Record\(dt, samples\)"),
+        (lambda: wall.simulate(record, top="x.AT2"), r"top must be a Record"),
+        (lambda: wall.peaks("x.AT2", [1.0]), r"rw.read_record\('x.AT2'\)"),
+        (lambda: rw.Record(SAMPLES, 0.01), r"Record\(dt, samples\): dt must be .* they are swapped"),
+        (lambda: rw.Record("0.01", SAMPLES), r"dt must be the time between samples in s, .* type str$"),
+    ]:
+        with pytest.raises(TypeError, match=words):
+            call()
+    with pytest.raises(ValueError, match="unit"):
+        rw.Record(0.01, SAMPLES, unit="furlong")
+
+
+def test_counts_and_flags_are_integers_and_booleans(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(
+        'models = ["CR"]\nlevels = { method = "step", step = 1.0, top = 10 }\n'
+        "records = { synthetic = { count = 2, duration = 10 } }\n"
+        'walls = [{ name = "1", geometry = { height = 3, thickness = 0.25 } }]\n',
+        encoding="utf-8",
+    )
+    results = rw.Study.from_toml(path).run(progress=False)
+    kinds = {
+        name: table[name].dtype.kind
+        for table in (results.levels, results.collapses, results.fragilities)
+        for name in ("overturned", "runs", "resurrections", "records", "censored")
+        if name in table
+    }
+    assert kinds == {"overturned": "b", "runs": "i", "resurrections": "i", "records": "i", "censored": "i"}
