@@ -139,7 +139,7 @@ def test_samples_in_a_unit(unit, factor):
 def test_wrong_arguments_say_what_is_expected(record):
     wall = rw.Wall(height=3, thickness=0.25)
     for call, words in [
-        (lambda: wall.simulate("x.AT2"), r"record must be a Record, .* type str: read it with rw.read_record\('x"),
+        (lambda: wall.simulate("x.AT2"), r"record must be a Record, .*: read it with rw.read_record\('x"),
         (lambda: wall.simulate(SAMPLES), r"type ndarray: make one with rw.Record\(dt, samples\)"),
         (lambda: wall.simulate(record, top="x.AT2"), r"top must be a Record"),
         (lambda: wall.peaks("x.AT2", [1.0]), r"rw.read_record\('x.AT2'\)"),

@@ -8,6 +8,8 @@
 //! assert!(plot(&[curve], secants).picture().svg().contains("T = 1.1 s"));
 //! ```
 
+use study::check::CapacityOverDemand;
+
 use crate::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
 use crate::plot::{Axis, Look, Plot, Series};
 
@@ -48,25 +50,8 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
     Plot::new([820.0, 460.0], axes, series)
 }
 
-/// A capacity curve and the demand on it, in acceleration \[m/s²\] over displacement \[m\].
-#[derive(Clone, Debug)]
-pub struct Demand {
-    /// Corners (d*, a*) of the capacity curve.
-    pub capacity: Vec<(f64, f64)>,
-    /// Points (`S_d`, `S_a`) of the demand.
-    pub spectrum: Vec<(f64, f64)>,
-    /// The secant's point on the curve, and its period \[s\].
-    pub secant: (f64, f64),
-    /// See `secant`.
-    pub period: f64,
-    /// `d_u*`.
-    pub capacity_displacement: f64,
-    /// `S_d` at the period.
-    pub displacement: f64,
-}
-
 /// Draws a capacity curve over the demand.
-pub fn over_demand(demand: &Demand) -> Plot {
+pub fn over_demand(demand: &CapacityOverDemand) -> Plot {
     let shown = |&(d, a): &(f64, f64)| (1000.0 * d, a);
     let (d_s, a_s) = demand.secant;
     let right = 1.25 * demand.capacity_displacement.max(demand.displacement);

@@ -16,11 +16,15 @@
 //! | [`work_precision`] | error against run time |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
 //! | [`many_lines`] | thousands of lines in few bytes, with their style |
+//! | [`rocking_spectrum`] | rocking spectra as heat maps |
+//! | [`mod@calibration`] | calibrations as charts |
 //! | [`sheet`] | drawings side by side in a file |
 //! | [`template`] | no chart: fills the gaps of a page |
 //! | [`palette`] | the colours and marks of all of them |
 
 mod axes;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod calibration;
 pub mod capacity;
 pub mod chart;
 pub mod heat_map;
@@ -30,6 +34,7 @@ pub mod plot;
 mod points;
 pub mod records;
 pub mod response;
+pub mod rocking_spectrum;
 pub mod sheet;
 pub mod template;
 pub mod work_precision;

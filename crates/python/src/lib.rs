@@ -13,6 +13,7 @@
 //! | `variables` | the parameters of the model description |
 //! | `responses` | what a run has come to |
 //! | `walls` | the class `Wall` |
+//! | `checks`, `spectra`, `calibrations` | capacity against demand, rocking spectra, calibration |
 //! | `studies` | the class `Study` |
 //! | `folders` | the class `Folder` |
 
@@ -20,10 +21,13 @@
 #![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 
 mod arrays;
+mod calibrations;
+mod checks;
 mod errors;
 mod folders;
 mod motions;
 mod responses;
+mod spectra;
 mod studies;
 mod tables;
 mod variables;
@@ -33,6 +37,10 @@ mod walls;
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::calibrations::calibrate_wall;
+    #[pymodule_export]
+    use crate::checks::check_wall;
+    #[pymodule_export]
     use crate::folders::Folder;
     #[pymodule_export]
     use crate::motions::{
@@ -40,6 +48,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::responses::picture_of_response;
+    #[pymodule_export]
+    use crate::spectra::{picture_of_spectrum, spectrum_over_pulses, spectrum_over_walls};
     #[pymodule_export]
     use crate::studies::Study;
     #[pymodule_export]

@@ -124,6 +124,11 @@ impl Wall {
         &self.scene.title
     }
 
+    #[getter]
+    fn has_storeys(&self) -> bool {
+        self.scene.floors.is_some()
+    }
+
     /// Returns what is unusual about the wall.
     #[getter]
     fn warnings(&self) -> Vec<String> {

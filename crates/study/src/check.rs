@@ -14,7 +14,9 @@
 
 use std::f64::consts::TAU;
 
-use ground_motion::GroundMotionError;
+use ground_motion::{GroundMotion, GroundMotionError, Maxima, Spectrum};
+use rocking_wall::scene::{DEFAULT_TAIL, Floors, SceneError};
+use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::{Tie, Wall};
 
 /// Displacements of a check, as fractions; both are the user's choice.
@@ -48,9 +50,158 @@ pub enum CheckError {
     /// The spectrum ends before a period.
     #[error("the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period")]
     Period { period: f64, from: f64, to: f64 },
+    /// A point of a spectrum, the first with the number 1.
+    #[error("point {number} of the spectrum, T = {period} s and Sa = {acceleration} m/s²: expected {POINTS}")]
+    Point { number: usize, period: f64, acceleration: f64 },
+    /// A spectrum without its first point.
+    #[error("the spectrum has no T = 0, the peak acceleration; give it with that point")]
+    NoPeak,
+    /// A spectrum of no records.
+    #[error("the demand needs at least one record")]
+    NoRecords,
     /// A spectrum of a record.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
+    /// A wall that does not go with its floors.
+    #[error(transparent)]
+    Floors(#[from] SceneError),
+}
+
+/// What the points of a spectrum are.
+pub const POINTS: &str = "periods from 0 on that rise, and Sa above 0";
+
+/// The demand of a check.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demand(Of);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Of {
+    /// Points (T, `S_a`) \[s, m/s²\].
+    Points(Vec<(f64, f64)>),
+    Records(Spectrum, Vec<GroundMotion>),
+}
+
+impl Demand {
+    /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
+    ///
+    /// # Errors
+    /// [`CheckError::Point`] of the first that is not one of [`POINTS`], and [`CheckError::NoPeak`] if the
+    /// first is not that of T = 0.
+    pub fn of_points(points: Vec<(f64, f64)>) -> Result<Self, CheckError> {
+        let mut least = 0.0;
+        for (index, &(period, acceleration)) in points.iter().enumerate() {
+            let rises = period >= least && (index == 0 || period > least);
+            if !(rises && period.is_finite() && acceleration.is_finite() && acceleration > 0.0) {
+                return Err(CheckError::Point { number: index + 1, period, acceleration });
+            }
+            least = period;
+        }
+        match points.first() {
+            Some(first) if first.0 == 0.0 => Ok(Self(Of::Points(points))),
+            _ => Err(CheckError::NoPeak),
+        }
+    }
+
+    /// Makes the demand of records, their median spectrum with a damping ratio: of the ground, or of the
+    /// floors that a wall stands on; those of a strip wall count by their weights.
+    ///
+    /// # Errors
+    /// [`CheckError`] without records, for a damping ratio that is none, or where the wall does not go with
+    /// its floors.
+    pub fn of_records(
+        records: Vec<GroundMotion>,
+        floors: Option<&Floors>,
+        wall: &Wall,
+        damping: f64,
+    ) -> Result<Self, CheckError> {
+        if records.is_empty() {
+            return Err(CheckError::NoRecords);
+        }
+        let spectrum = Spectrum::new(damping, Maxima::Everywhere)?;
+        let felt = |record: GroundMotion| match floors {
+            None => Ok(record),
+            Some(floors) => {
+                let end = record.duration() + DEFAULT_TAIL;
+                let motion = floors.motion(wall.body().mechanism, &Excitation::new(record, None), end)?;
+                Ok::<_, CheckError>(motion.effective(wall.body())?)
+            }
+        };
+        let records = records.into_iter().map(felt).collect::<Result<_, _>>()?;
+        Ok(Self(Of::Records(spectrum, records)))
+    }
+
+    /// Returns `S_a` at a period \[m/s²\].
+    ///
+    /// # Errors
+    /// [`CheckError`] for a period that the demand does not have.
+    pub fn at(&self, period: f64) -> Result<f64, CheckError> {
+        match &self.0 {
+            Of::Points(points) => interpolated(points, period),
+            Of::Records(spectrum, motions) => {
+                let at = |motion| spectrum.acceleration(motion, period);
+                let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
+                values.sort_by(f64::total_cmp);
+                let middle = values.len() / 2;
+                let even = values.len().is_multiple_of(2);
+                Ok(if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] })
+            }
+        }
+    }
+
+    /// Points (`S_d`, `S_a`) up to twice a period, to draw \[m, m/s²\].
+    fn drawn(&self, period: f64) -> Result<Vec<(f64, f64)>, CheckError> {
+        let longest = match &self.0 {
+            Of::Points(points) => points.last().map_or(0.0, |point| point.0).min(2.0 * period),
+            Of::Records(..) => 2.0 * period,
+        };
+        let at = |part: u32| {
+            let period = longest * f64::from(part) / 200.0;
+            let acceleration = self.at(if part < 3 { 0.0 } else { period })?;
+            Ok((acceleration * (period / TAU).powi(2), acceleration))
+        };
+        (0..=200).map(at).collect()
+    }
+}
+
+/// The capacity curve of the governing side over the demand, to draw: accelerations \[m/s²\] over
+/// displacements \[m\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct CapacityOverDemand {
+    /// Corners (d*, a*) of the capacity curve.
+    pub capacity: Vec<(f64, f64)>,
+    /// Points (`S_d`, `S_a`) of the demand.
+    pub spectrum: Vec<(f64, f64)>,
+    /// The secant's point on the curve.
+    pub secant: (f64, f64),
+    /// Its period \[s\].
+    pub period: f64,
+    /// `d_u*`.
+    pub capacity_displacement: f64,
+    /// `S_d` at the period.
+    pub displacement: f64,
+}
+
+impl CapacityOverDemand {
+    /// Lays the curve of the governing side over the demand.
+    ///
+    /// # Errors
+    /// [`CheckError`] for a period that the demand does not have.
+    ///
+    /// # Panics
+    /// If there is no side.
+    pub fn new(wall: &Wall, demand: &Demand, sides: &[SideCheck]) -> Result<Self, CheckError> {
+        let worst = governing(sides);
+        let corners = wall.capacity_corners(worst.sign);
+        let corners = corners.iter().map(|point| (point.spectral_displacement, point.spectral_acceleration));
+        Ok(Self {
+            capacity: corners.collect(),
+            spectrum: demand.drawn(worst.secant_period)?,
+            secant: worst.secant.into(),
+            period: worst.secant_period,
+            capacity_displacement: worst.displacement_capacity,
+            displacement: worst.displacement_demand,
+        })
+    }
 }
 
 /// The check of one side, in d* = u/λ and a* = F/(λ `m_eff`).
@@ -157,10 +308,7 @@ fn check_side(
 }
 
 /// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them.
-///
-/// # Errors
-/// [`CheckError::Period`] outside its points.
-pub fn interpolated(points: &[(f64, f64)], period: f64) -> Result<f64, CheckError> {
+fn interpolated(points: &[(f64, f64)], period: f64) -> Result<f64, CheckError> {
     let after = points.partition_point(|point| point.0 < period);
     match (after.checked_sub(1).and_then(|before| points.get(before)), points.get(after)) {
         (_, Some(&(at, value))) if at == period => Ok(value),

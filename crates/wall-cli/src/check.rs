@@ -5,16 +5,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use figures::capacity::{Demand, over_demand};
+use figures::capacity::over_demand;
 use figures::escaped;
 use figures::plot::Plot;
 use ground_motion::spectrum::DAMPING;
-use ground_motion::{GroundMotion, Maxima, RecordOptions, Spectrum, Unit, read};
-use rocking_wall::scene::{DEFAULT_TAIL, Floors};
-use rocking_wall::simulation::Excitation;
+use ground_motion::{RecordOptions, Unit, read};
+use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
-use study::check::{CheckError, Fractions, SideCheck, check, governing, interpolated};
+use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
 
 use crate::args::SceneArguments;
 use crate::capacity::significant;
@@ -60,10 +59,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let source = Source::read(arguments, scene.floors.as_ref(), &wall)?;
     let fractions =
         Fractions { displacement: arguments.displacement_fraction, secant: arguments.secant_fraction };
-    let sides = check(&wall, fractions, |period| source.at(period))?;
+    let sides = check(&wall, fractions, |period| source.demand.at(period))?;
     if let Some(path) = &arguments.html {
         let table = escaped(&table(&scene.title, &source, arguments, &sides));
-        let wide = figure(&wall, &source, &sides)?;
+        let wide = over_demand(&CapacityOverDemand::new(&wall, &source.demand, &sides)?);
         // on a phone the legend would hide the curves
         let mut narrow = Plot { size: [390.0, 330.0], ..wide.clone() };
         narrow.series.iter_mut().for_each(|series| series.name.clear());
@@ -88,13 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 struct Source {
     name: String,
     damping: f64,
-    spectrum: Of,
-}
-
-enum Of {
-    /// Points (T, `S_a`) \[s, m/s²\].
-    Points(Vec<(f64, f64)>),
-    Records(Spectrum, Vec<GroundMotion>),
+    demand: Demand,
 }
 
 /// Largest spectrum file that is read.
@@ -104,7 +97,6 @@ impl Source {
     fn read(arguments: &Arguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
         let damping = arguments.damping;
-        let of = Spectrum::new(damping, Maxima::Everywhere)?;
         if let (Some(path), Some(unit)) = (&arguments.spectrum, unit) {
             if floors.is_some() {
                 output::warn(
@@ -112,7 +104,7 @@ impl Source {
                 );
             }
             let name = format!("{}, Sa in {unit}", path.display());
-            return Ok(Self { name, damping, spectrum: Of::Points(points(path, unit)?) });
+            return Ok(Self { name, damping, demand: points(path, unit)? });
         }
         let options = RecordOptions { unit, ..RecordOptions::default() };
         let mut motions = Vec::new();
@@ -121,10 +113,7 @@ impl Source {
             for warning in &record.check().warnings {
                 output::warn(&format!("{}: {warning}", path.display()));
             }
-            motions.push(match floors {
-                Some(floors) => felt(floors, wall, record.motion)?,
-                None => record.motion,
-            });
+            motions.push(record.motion);
         }
         let count = motions.len();
         let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
@@ -132,48 +121,12 @@ impl Source {
             floors.warning(wall).iter().for_each(|warning| output::warn(warning));
             let _ = write!(name, " {}", floors.note());
         }
-        Ok(Self { name, damping, spectrum: Of::Records(of, motions) })
+        Ok(Self { name, damping, demand: Demand::of_records(motions, floors, wall, damping)? })
     }
-
-    /// `S_a` at a period \[m/s²\].
-    fn at(&self, period: f64) -> Result<f64, CheckError> {
-        match &self.spectrum {
-            Of::Points(points) => interpolated(points, period),
-            Of::Records(spectrum, motions) => {
-                let at = |motion| spectrum.acceleration(motion, period);
-                let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
-                values.sort_by(f64::total_cmp);
-                let middle = values.len() / 2;
-                let even = values.len().is_multiple_of(2);
-                Ok(if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] })
-            }
-        }
-    }
-
-    /// Points (`S_d`, `S_a`) up to twice a period, to draw \[m, m/s²\].
-    fn drawn(&self, period: f64) -> Result<Vec<(f64, f64)>, CheckError> {
-        let longest = match &self.spectrum {
-            Of::Points(points) => points.last().map_or(0.0, |point| point.0).min(2.0 * period),
-            Of::Records(..) => 2.0 * period,
-        };
-        let at = |part: u32| {
-            let period = longest * f64::from(part) / 200.0;
-            let acceleration = self.at(if part < 3 { 0.0 } else { period })?;
-            Ok((acceleration * (period / std::f64::consts::TAU).powi(2), acceleration))
-        };
-        (0..=200).map(at).collect()
-    }
-}
-
-/// Computes the acceleration that a wall feels on its floors; those of a strip wall count by their weights.
-fn felt(floors: &Floors, wall: &Wall, ground: GroundMotion) -> Result<GroundMotion> {
-    let end = ground.duration() + DEFAULT_TAIL;
-    let motion = floors.motion(wall.body().mechanism, &Excitation::new(ground, None), end)?;
-    Ok(motion.effective(wall.body())?)
 }
 
 /// Reads the points of a spectrum; a first line that holds no numbers is a header.
-fn points(path: &Path, unit: Unit) -> Result<Vec<(f64, f64)>> {
+fn points(path: &Path, unit: Unit) -> Result<Demand> {
     let context = || format!("{}: cannot be read", path.display());
     let metadata = std::fs::metadata(path).with_context(context)?;
     // a pipe would be waited for
@@ -181,7 +134,7 @@ fn points(path: &Path, unit: Unit) -> Result<Vec<(f64, f64)>> {
         bail!("{}: expected a spectrum as CSV of at most {MAX_FILE_BYTES} bytes", path.display());
     }
     let text = std::fs::read_to_string(path).with_context(context)?;
-    let mut points: Vec<(f64, f64)> = Vec::new();
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
     for (index, line) in text.lines().enumerate() {
         let number = |field: &str| field.trim().parse::<f64>().ok();
         let fields: Vec<_> = line.split([',', ';', '\t']).collect();
@@ -195,20 +148,15 @@ fn points(path: &Path, unit: Unit) -> Result<Vec<(f64, f64)>> {
             }
             bail!("{}: line {}: expected T in s and Sa, such as 0.5,0.42", path.display(), index + 1);
         };
-        let rises = points.last().is_none_or(|last| period > last.0);
-        let valid = period.is_finite() && period >= 0.0 && value.is_finite() && value > 0.0;
-        if !valid || !rises {
-            let expected = "periods from 0 on that rise, and Sa above 0";
-            bail!("{}: line {}: expected {expected}", path.display(), index + 1);
-        }
         points.push((period, unit.to_si(value)));
+        lines.push(index + 1);
     }
-    let first = points.first().ok_or_else(|| anyhow!("{}: no points", path.display()))?;
-    if first.0 > 0.0 {
-        let message = "the spectrum has no T = 0, the peak acceleration; give it with that point";
-        return Err(anyhow!(message)).with_context(|| path.display().to_string());
-    }
-    Ok(points)
+    Demand::of_points(points).map_err(|error| match error {
+        CheckError::Point { number, .. } => {
+            anyhow!("{}: line {}: expected {POINTS}", path.display(), lines[number - 1])
+        }
+        other => anyhow!("{}: {other}", path.display()),
+    })
 }
 
 fn side_name(side: &SideCheck) -> &'static str {
@@ -283,19 +231,4 @@ fn json(title: &str, source: &Source, arguments: &Arguments, sides: &[SideCheck]
         "sides": sides.iter().map(side).collect::<Vec<_>>(),
         "governing": side_name(governing(sides)),
     })
-}
-
-/// The capacity curve of the governing side over the demand.
-fn figure(wall: &Wall, source: &Source, sides: &[SideCheck]) -> Result<Plot> {
-    let worst = governing(sides);
-    let spectral = wall.capacity_corners(worst.sign);
-    let points = spectral.iter().map(|point| (point.spectral_displacement, point.spectral_acceleration));
-    Ok(over_demand(&Demand {
-        capacity: points.collect(),
-        spectrum: source.drawn(worst.secant_period)?,
-        secant: (worst.secant[0], worst.secant[1]),
-        period: worst.secant_period,
-        capacity_displacement: worst.displacement_capacity,
-        displacement: worst.displacement_demand,
-    }))
 }

@@ -3,19 +3,20 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use clap::Args;
+use figures::rocking_spectrum::{Shown, own_words, svg};
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use study::parallel;
-use study::spectrum::{Point, PulseForm, Size, Slenderness, over_pulses, over_walls};
+use study::spectrum::{Point, PulseForm, Size, Slenderness, common_motion, over_pulses, over_walls};
 
 use crate::args::{RecordArguments, SceneArguments};
 use crate::output;
-use crate::spectrum_page::{Shown, own_words, page, svg};
+use crate::spectrum_page::page;
 use study_folder::csv::optional;
 
 #[derive(Debug, Args)]
@@ -127,7 +128,7 @@ fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threa
             parameters.thickness,
             wall.rocking_rate()
         )],
-        labels: ["ω_p / p", "a_p / a₀"],
+        labels: ["ω_p / p", "a_p / a₀"].map(str::to_owned),
         names: ["frequency_ratio", "amplitude_ratio"],
         axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ \
                m_eff), which is g tan α for a parapet without overburden; walls of any size with the same \
@@ -174,7 +175,7 @@ fn walls(
         own: alone.ok().map(|alone| (own, alone.points[0][0])),
         title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
         notes,
-        labels: [size.label(), slenderness.label()],
+        labels: [size.label(), slenderness.label()].map(str::to_owned),
         names: [column, row],
         axes: "Each cell is one wall under the whole motion, followed until its peak has come.".into(),
     })
@@ -187,24 +188,15 @@ fn motion(arguments: &Arguments, scene: &Scene) -> Result<(GroundMotion, Vec<Str
         let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
         scene.shake(Excitation::new(motion, None), DEFAULT_TAIL, vec![note, peak]);
     }
-    match scene.support_motion()? {
-        Some(motion) if motion.top().is_some() => {
-            bail!("a rocking spectrum takes one motion for both supports; the scene has one for each")
-        }
-        Some(motion) => Ok((motion.bottom().clone(), scene.motion_notes)),
-        None => bail!(
-            "a rocking spectrum needs a motion; give --record, --synthetic, --pulse, or a scene with one"
-        ),
+    if scene.excitation.is_none() {
+        bail!("a rocking spectrum needs a motion; give --record, --synthetic, --pulse, or a scene with one");
     }
+    Ok((common_motion(&scene)?, scene.motion_notes))
 }
 
 fn form(name: &str) -> Result<PulseForm> {
-    match name {
-        "ricker" => Ok(PulseForm::Ricker),
-        "sine_cycle" => Ok(PulseForm::SineCycle),
-        "half_sine" => Ok(PulseForm::HalfSine),
-        _ => bail!("--pulse {name}: expected ricker, sine_cycle or half_sine"),
-    }
+    PulseForm::from_name(name)
+        .ok_or_else(|| anyhow!("--pulse {name}: expected ricker, sine_cycle or half_sine"))
 }
 
 fn words(form: PulseForm) -> &'static str {

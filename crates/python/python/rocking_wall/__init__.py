@@ -12,6 +12,8 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 """
 
 from . import dask
+from ._calibration import Calibration
+from ._checks import Check, CheckedSide
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -25,11 +27,15 @@ from ._records import (
     synthetic_record,
 )
 from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
+from ._spectra import RockingSpectrum
 from ._studies import Study, StudyResults
 from ._tables import Table
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
+    "Calibration",
+    "Check",
+    "CheckedSide",
     "Demands",
     "Description",
     "Extremes",
@@ -38,6 +44,7 @@ __all__ = [
     "Peaks",
     "Record",
     "Response",
+    "RockingSpectrum",
     "Storey",
     "Study",
     "StudyResults",

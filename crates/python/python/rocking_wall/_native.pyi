@@ -14,6 +14,9 @@ _Motions = tuple[_Given, _Given | None]
 _WallValues = tuple[str, list[tuple[str, str]], float | None, _Motions | None, list[str]]
 _Values = tuple[str, list[tuple[str, str]], list[tuple[str, float, _Numbers]]]
 
+_Map = NDArray[np.float64]
+_Spectrum = tuple[_Numbers, _Numbers, _Map, NDArray[np.bool_], _Map]
+
 VERSION: Final[str]
 
 __all__ = [
@@ -23,14 +26,19 @@ __all__ = [
     "Wall",
     "average_sa",
     "calculated",
+    "calibrate_wall",
+    "check_wall",
     "in_si",
     "picture",
     "picture_of_response",
+    "picture_of_spectrum",
     "pulse",
     "read_channels",
     "scaled",
     "scaled_to",
     "spectrum",
+    "spectrum_over_pulses",
+    "spectrum_over_walls",
     "synthetic",
     "trimmed",
     "variables",
@@ -80,6 +88,39 @@ def spectrum(given: _Given, periods: ArrayLike, damping: float, at_samples: bool
 def average_sa(given: _Given, periods: ArrayLike, damping: float, at_samples: bool) -> float: ...
 def picture(given: _Given, periods: ArrayLike, name: str) -> str: ...
 def picture_of_response(time: ArrayLike, a_bottom: ArrayLike, u_ratio: ArrayLike) -> str: ...
+def check_wall(
+    wall: Wall,
+    records: list[_Motion],
+    spectrum: list[ArrayLike] | None,
+    damping: float,
+    fractions: list[float],
+) -> tuple[list[dict[str, Any]], float, str]: ...
+def spectrum_over_walls(
+    wall: Wall,
+    record: _Given | None,
+    sizes: tuple[bool, ArrayLike],
+    slendernesses: tuple[bool, ArrayLike],
+    threads: int | None,
+) -> _Spectrum: ...
+def spectrum_over_pulses(
+    wall: Wall, form: str, columns: ArrayLike, rows: ArrayLike, threads: int | None
+) -> _Spectrum: ...
+def picture_of_spectrum(
+    columns: list[float],
+    rows: list[float],
+    points: list[list[tuple[float, bool, float]]],
+    title: str,
+    labels: tuple[str, str],
+) -> str: ...
+def calibrate_wall(
+    wall: Wall,
+    models: list[str] | None,
+    restitution: ArrayLike | None,
+    a1: ArrayLike | None,
+    start: ArrayLike,
+    step: float,
+    threads: int | None,
+) -> tuple[list[_Columns], list[str]]: ...
 @final
 class Wall:
     def __new__(cls, parameters: Mapping[str, Any]) -> Wall: ...
@@ -99,6 +140,8 @@ class Wall:
     def calculated(self, name: str) -> float: ...
     @property
     def title(self) -> str: ...
+    @property
+    def has_storeys(self) -> bool: ...
     @property
     def warnings(self) -> list[str]: ...
     @property

@@ -7,17 +7,20 @@ from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
 from os import PathLike, fspath
-from typing import Any, NoReturn, Unpack
+from typing import Any, Literal, NoReturn, Unpack
 from warnings import warn
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._calibration import Calibration
+from ._checks import Check, CheckedSide
 from ._parameters import Calculated, Parameters
 from ._records import Record, motion_of
 from ._responses import Peaks, Response
-from ._tables import shown
+from ._spectra import RockingSpectrum
+from ._tables import Table, shown
 
 
 class Description(dict[str, Any]):
@@ -73,7 +76,7 @@ class Wall(Calculated):
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError(
-            f"a wall never changes: wall.replace({name}={value!r}) returns one with another value of a parameter"
+            f"a wall never changes: wall.replace({name}={value!r}) returns another one"
         )
 
     def __delattr__(self, name: str) -> NoReturn:
@@ -106,13 +109,13 @@ class Wall(Calculated):
         top: int | None = None,
         drift: bool = True,
     ) -> Wall:
-        """Returns the same wall on storeys, the lowest first: records shake the ground, the wall feels its floors.
+        """Returns the same wall on storeys, the lowest first: records shake the ground below them.
 
         The storeys move as if there were no wall. A run warns of a wall above a twentieth of the mass of its
         floor, which is for `Building`.
 
-        :param bottom: Floor that the wall stands on, counted from 1, or 0 for the ground; by default the roof, and
-            for a strip wall the floor below the roof.
+        :param bottom: Floor that the wall stands on, counted from 1, or 0 for the ground; by default the
+            roof, and for a strip wall the floor below the roof.
         :param top: Floor that a strip wall leans on; by default the one above the bottom.
         :param drift: Whether the drift between the supports acts on a strip wall.
 
@@ -199,6 +202,143 @@ class Wall(Calculated):
         """
         u_max, u_ratio_max, overturn_time = self._native.peaks(motion_of(record), factors, tail)
         return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
+
+    def check(
+        self,
+        records: Sequence[Record] | Record = (),
+        *,
+        spectrum: tuple[ArrayLike, ArrayLike] | None = None,
+        damping: float = 0.05,
+        displacement_fraction: float = 0.4,
+        secant_fraction: float = 0.4,
+    ) -> Check:
+        """Compares the static capacity of the wall with a demand, side by side.
+
+        :param records: Records whose median spectrum is the demand; a wall on storeys feels its floors.
+        :param spectrum: Periods [s], rising from 0, and Sa [m/s²] instead, of what the wall stands on.
+        :param damping: Damping ratio of the spectra of the records.
+        :param displacement_fraction: Displacement capacity over that at which the force of the wall vanishes.
+        :param secant_fraction: Displacement of the secant period over the displacement capacity.
+
+        Raises `ValueError` for a demand without the secant period, and for fractions that are none.
+
+        >>> wall = Wall(height=3, thickness=0.25)
+        >>> round(wall.check(spectrum=([0.0, 4.0], [1.0, 1.0])).governing.acceleration_ratio, 9)
+        0.792975
+        """
+        given = [records] if isinstance(records, Record) else records
+        if (spectrum is None) == (len(given) == 0):
+            raise ValueError("a check takes either records or a spectrum")
+        if spectrum is not None and self._native.has_storeys:
+            warn("the storeys are not applied to the spectrum; it must be that of the floor", stacklevel=2)
+        sides, governing, picture = _native.check_wall(
+            self._native,
+            [motion_of(record) for record in given],
+            None if spectrum is None else list(spectrum),
+            damping,
+            [displacement_fraction, secant_fraction],
+        )
+        checked = tuple(CheckedSide(**side) for side in sides)
+        return Check(checked, next(side for side in checked if side.sign == governing), picture)
+
+    def rocking_spectrum(
+        self,
+        record: Record | None = None,
+        *,
+        heights: ArrayLike | None = None,
+        radii: ArrayLike | None = None,
+        ratios: ArrayLike | None = None,
+        angles: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> RockingSpectrum:
+        """Computes u_max/u_ins of walls of many sizes under a record, or under the motion of the scene.
+
+        The walls are otherwise as this one, upright and at rest. Ctrl-C stops the work.
+
+        :param heights: Heights [m] along the columns; by default 31 from 0.5 to 8.
+        :param radii: Semi-diagonals R of a parapet [m] instead.
+        :param ratios: Slendernesses h/b along the rows; by default 33 from 4 to 20.
+        :param angles: Angles atan(b/h) of a parapet [rad] instead.
+        :param threads: Number of threads; by default one for each core.
+
+        >>> from rocking_wall import sine_cycle
+        >>> Wall().rocking_spectrum(sine_cycle(2.0, 1.0), heights=[1, 2, 4], ratios=[5, 10])
+        RockingSpectrum(slenderness × height_m, 2 × 3, 4 overturned)
+        """
+        if heights is not None and radii is not None:
+            raise ValueError("give either heights or radii")
+        if ratios is not None and angles is not None:
+            raise ValueError("give either ratios or angles")
+        sizes = radii if radii is not None else HEIGHTS if heights is None else heights
+        slendernesses = angles if angles is not None else RATIOS if ratios is None else ratios
+        values = _native.spectrum_over_walls(
+            self._native,
+            None if record is None else motion_of(record),
+            (radii is not None, sizes),
+            (angles is not None, slendernesses),
+            threads,
+        )
+        column = "height_m" if radii is None else "semi_diagonal_m"
+        return RockingSpectrum(column, "slenderness" if angles is None else "angle_rad", *values)
+
+    def pulse_spectrum(
+        self,
+        form: Literal["ricker", "sine_cycle", "half_sine"],
+        *,
+        frequency_ratios: ArrayLike | None = None,
+        amplitude_ratios: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> RockingSpectrum:
+        """Computes u_max/u_ins of this wall under pulses of one form. Ctrl-C stops the work.
+
+        :param frequency_ratios: ω_p/p along the columns; by default 39 from 0.5 to 10.
+        :param amplitude_ratios: a_p/a₀ along the rows, with the acceleration a₀ at which the rigid wall begins
+            to rock; by default 39 from 0.5 to 10.
+        :param threads: Number of threads; by default one for each core.
+
+        >>> Wall().pulse_spectrum("ricker", frequency_ratios=[2, 4], amplitude_ratios=[0.5, 5]).rocked
+        array([[False,  True],
+               [ True,  True]])
+        """
+        columns = PULSES if frequency_ratios is None else frequency_ratios
+        rows = PULSES if amplitude_ratios is None else amplitude_ratios
+        values = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
+        return RockingSpectrum("frequency_ratio", "amplitude_ratio", *values)
+
+    def calibrate(
+        self,
+        models: Sequence[str] | None = None,
+        *,
+        restitution: ArrayLike | None = None,
+        a1: ArrayLike | None = None,
+        start: ArrayLike = (0.9,),
+        step: float = 0.01,
+        threads: int | None = None,
+    ) -> Calibration:
+        """Finds the damping with which the wall rocks freely as with restitution. Ctrl-C stops the work.
+
+        :param models: Damping models; by default all that the force law allows.
+        :param restitution: Coefficients of restitution e; by default 0.80, 0.82 … 0.98.
+        :param a1: Ends of the elastic branch; by default nine from 0.01 to 0.10. A law of points and the
+            rigid-linear law have their own.
+        :param start: Initial displacements over u_ins.
+        :param step: Time between the samples compared [s].
+        :param threads: Number of threads; by default one for each core.
+
+        >>> found = Wall().calibrate(["constant_ratio"], restitution=[0.85], a1=[0.03])
+        >>> abs(found.fits["damping"][0] - 0.04) < 0.01
+        np.True_
+        """
+        names = None if models is None else list(models)
+        (fits, coefficients, laws), pictures = _native.calibrate_wall(
+            self._native, names, restitution, a1, start, step, threads
+        )
+        return Calibration(Table(fits), Table(coefficients), Table(laws), pictures)
+
+
+HEIGHTS = np.linspace(0.5, 8.0, 31).round(12)
+RATIOS = np.linspace(4.0, 20.0, 33).round(12)
+PULSES = np.linspace(0.5, 10.0, 39).round(12)
 
 
 def value_of(text: str) -> float | str:

@@ -28,8 +28,11 @@ mod minimum;
 use std::num::NonZeroUsize;
 
 use crate::parallel;
-use rocking_wall::variables::DampingModel;
+use rocking_wall::variables::ForceLaw;
 use rocking_wall::wall::Parameters;
+
+// a chart of a calibration names its model
+pub use rocking_wall::variables::DampingModel;
 
 pub use error::CalibrationError;
 pub use matching::Fit;
@@ -63,6 +66,33 @@ impl Default for Grid {
             start: vec![0.9],
             step: STEP,
         }
+    }
+}
+
+impl Grid {
+    /// Checks the values for a damping model.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] of a list that is empty, or of a value out of range.
+    pub fn check(&self, model: DampingModel) -> Result<(), CalibrationError> {
+        if model == DampingModel::None {
+            return Err(CalibrationError::NoDamping);
+        }
+        let lists = [
+            ("e", &self.restitution, [0.0, 1.0]),
+            ("a1", &self.a1, [0.0, 1.0]),
+            ("u0/u_ins", &self.start, [DECAYED, 1.0]),
+            ("step", &vec![self.step], [0.0, 10.0]),
+        ];
+        for (name, values, [low, high]) in lists {
+            if values.is_empty() && name != "a1" {
+                return Err(CalibrationError::Empty { name });
+            }
+            if let Some(&value) = values.iter().find(|&&value| !(value > low && value < high)) {
+                return Err(CalibrationError::Range { name, value, low, high });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -111,7 +141,7 @@ pub fn calibrate(
     grid: &Grid,
     threads: NonZeroUsize,
 ) -> Result<Calibration, CalibrationError> {
-    check(model, grid)?;
+    grid.check(model)?;
     let own = own_a1(parameters);
     let a1 = own.as_ref().map_or(grid.a1.as_slice(), std::slice::from_ref);
     if a1.is_empty() {
@@ -126,16 +156,34 @@ pub fn calibrate(
     }
     let fit = |index: usize| cases[index].fit(parameters, model, grid.step);
     let fits = parallel::map(cases.len(), threads.get(), fit)?;
-    let coefficients: Vec<Coefficient> = fits
-        .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))
-        .map(|fits| Coefficient { a1: fits[0].a1, start: fits[0].start, x: coefficient(fits) })
-        .collect();
-    let law = |&start: &f64| {
-        let points: Vec<_> = coefficients.iter().filter(|c| c.start == start).map(|c| (c.a1, c.x)).collect();
-        PowerLaw::fit(&points).map(|law| (start, law))
-    };
-    let laws = grid.start.iter().filter_map(law).collect();
-    Ok(Calibration { model, fits, coefficients, laws })
+    Ok(Calibration::new(model, fits))
+}
+
+/// Returns the damping models that a wall can be calibrated for: with the rigid-linear law only that of a
+/// free-standing block.
+pub fn calibrated_models(parameters: &Parameters) -> &'static [DampingModel] {
+    if parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear {
+        return &[DampingModel::FreeStandingBlock];
+    }
+    &[DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional]
+}
+
+impl Calibration {
+    /// Makes a calibration of its fits, one for each a₁, u₀ and e, in this order.
+    pub fn new(model: DampingModel, fits: Vec<Fit>) -> Self {
+        let coefficients: Vec<Coefficient> = fits
+            .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))
+            .map(|fits| Coefficient { a1: fits[0].a1, start: fits[0].start, x: coefficient(fits) })
+            .collect();
+        let law = |first: &Coefficient| {
+            let same = coefficients.iter().filter(|c| c.start == first.start);
+            let points: Vec<_> = same.map(|c| (c.a1, c.x)).collect();
+            PowerLaw::fit(&points).map(|law| (first.start, law))
+        };
+        let starts = coefficients.iter().take_while(|c| c.a1 == coefficients[0].a1);
+        let laws = starts.filter_map(law).collect();
+        Self { model, fits, coefficients, laws }
+    }
 }
 
 /// Returns x of ξ = −x ln e, Eq. (19), by least squares through the origin: Σ ξ (−ln e)/Σ (ln e)².
@@ -174,25 +222,4 @@ impl PowerLaw {
     pub fn at(&self, a1: f64) -> f64 {
         self.q * a1.powf(self.r)
     }
-}
-
-fn check(model: DampingModel, grid: &Grid) -> Result<(), CalibrationError> {
-    if model == DampingModel::None {
-        return Err(CalibrationError::NoDamping);
-    }
-    let lists = [
-        ("e", &grid.restitution, [0.0, 1.0]),
-        ("a1", &grid.a1, [0.0, 1.0]),
-        ("u0/u_ins", &grid.start, [DECAYED, 1.0]),
-        ("step", &vec![grid.step], [0.0, 10.0]),
-    ];
-    for (name, values, [low, high]) in lists {
-        if values.is_empty() && name != "a1" {
-            return Err(CalibrationError::Empty { name });
-        }
-        if let Some(&value) = values.iter().find(|&&value| !(value > low && value < high)) {
-            return Err(CalibrationError::Range { name, value, low, high });
-        }
-    }
-    Ok(())
 }

@@ -85,6 +85,16 @@ impl Slenderness {
 }
 
 impl PulseForm {
+    /// Returns the form of a name: `ricker`, `sine_cycle`, `half_sine`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "ricker" => Some(Self::Ricker),
+            "sine_cycle" => Some(Self::SineCycle),
+            "half_sine" => Some(Self::HalfSine),
+            _ => None,
+        }
+    }
+
     /// Returns the pulse with a frequency \[Hz\] and the amplitude 1 m/s². A Ricker pulse starts where it is
     /// −4e-17.
     pub fn pulse(self, frequency: f64) -> Pulse {

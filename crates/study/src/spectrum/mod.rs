@@ -30,6 +30,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
+use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
@@ -133,6 +134,21 @@ pub fn over_pulses(
     let found = parallel::map(columns.len(), threads, run)?;
     let points = (0..rows.len()).map(|row| found.iter().map(|column| column[row]).collect()).collect();
     Ok(RockingSpectrum { columns: columns.to_vec(), rows: rows.to_vec(), points })
+}
+
+/// Returns the motion that both supports of a scene have.
+///
+/// # Errors
+/// [`SceneError::Value`] for a scene without motion, or with one for each support.
+pub fn common_motion(scene: &Scene) -> Result<GroundMotion, SceneError> {
+    let refused = |message: &str| Err(SceneError::Value { message: message.into() });
+    match scene.support_motion()? {
+        Some(motion) if motion.top().is_some() => {
+            refused("a rocking spectrum takes one motion for both supports; the scene has one for each")
+        }
+        Some(motion) => Ok(motion.bottom().clone()),
+        None => refused("a rocking spectrum needs a record, or a scene with a motion"),
+    }
 }
 
 fn check_count(found: usize) -> Result<(), SpectrumError> {

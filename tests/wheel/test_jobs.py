@@ -1,0 +1,165 @@
+"""What the jobs of the program `wall` find, the methods of a wall find too."""
+
+import csv
+import warnings
+
+import numpy as np
+import pytest
+
+import rocking_wall as rw
+
+SET = {"height": 3.0, "thickness": 0.25, "overburden_eccentricity": 0.02, "overburden": 2000.0}
+ARGUMENTS = [word for name, value in SET.items() for word in ("--set", f"{name}={value}")]
+
+
+def columns(path):
+    """Reads the columns of a CSV file."""
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def assert_table(table, path):
+    """Compares a table with a CSV file, column by column."""
+    told = columns(path)
+    assert list(table) == list(told)
+    for name, texts in told.items():
+        for value, text in zip(table[name], texts, strict=True):
+            if isinstance(value, (np.bool_, np.str_)):
+                assert str(value).lower() == text.lower(), name
+            elif text == "":
+                assert np.isnan(value), name
+            else:
+                assert value == float(text), name
+
+
+def records(program, folder, count):
+    """Writes records and returns their paths."""
+    paths = [folder / f"{seed}.csv" for seed in range(1, count + 1)]
+    for seed, path in enumerate(paths, 1):
+        samples = rw.synthetic_record(seed, duration=12.0, pga=2.0).a
+        path.write_text("time,a_g\n" + "".join(f"{0.005 * k:.3f},{a!r}\n" for k, a in enumerate(samples.tolist())))
+    return paths
+
+
+def assert_check(check, told):
+    """Compares a check with the program's JSON."""
+    assert len(check.sides) == len(told["sides"])
+    for side, there in zip(check.sides, told["sides"]):
+        assert ("u > 0" if side.sign > 0 else "u < 0") == there.pop("side")
+        for name, value in there.items():
+            assert getattr(side, name) == value, name
+    assert (check.governing.sign > 0) == (told["governing"] == "u > 0")
+    assert check.ratio == min(min(s["acceleration_ratio"], s["displacement_ratio"]) for s in told["sides"])
+
+
+@pytest.mark.parametrize("scene", [None, "scenes/parapet_on_a_roof.toml"])
+def test_a_check_with_records(program, tmp_path, scene):
+    paths = records(program, tmp_path, 3)
+    wall = rw.Wall(**SET) if scene is None else rw.Wall.from_toml(scene)
+    arguments = ARGUMENTS if scene is None else [scene]
+    unit = ["--unit", "m/s2", "--damping", "0.03", "--json"]
+    told = program("check", *arguments, "--records", *paths, *unit)
+    check = wall.check([rw.read_record(path, unit="m/s2") for path in paths], damping=0.03)
+    assert_check(check, told)
+    assert "<svg" in check._repr_html_() and len(check.table["sign"]) == 2
+
+
+def test_a_check_with_a_spectrum(program, tmp_path):
+    path = tmp_path / "spectrum.csv"
+    points = [(0.0, 2.0), (0.1, 5.0), (0.5, 5.0), (1.0, 2.5), (2.0, 1.25), (4.0, 0.3)]
+    path.write_text("time,a_g\n" + "".join(f"{t},{sa}\n" for t, sa in points), encoding="utf-8")
+    fractions = ["--displacement-fraction", "0.6", "--secant-fraction", "0.5"]
+    told = program("check", *ARGUMENTS, "--spectrum", path, "--unit", "m/s2", "--json", *fractions)
+    wall, spectrum = rw.Wall(**SET), tuple(zip(*points))
+    assert_check(wall.check(spectrum=spectrum, displacement_fraction=0.6, secant_fraction=0.5), told)
+    roof = rw.Wall.from_toml("scenes/parapet_on_a_roof.toml")
+    with pytest.warns(UserWarning, match="the storeys are not applied"):
+        roof.check(spectrum=spectrum)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        wall.check(spectrum=spectrum)
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        ({}, "either records or a spectrum"),
+        ({"spectrum": ([0.1, 1.0], [1.0, 1.0])}, "no T = 0"),
+        ({"spectrum": ([0.0, 1.0, 0.5], [1.0, 1.0, 1.0])}, "point 3 of the spectrum, T = 0.5 s"),
+        ({"spectrum": ([0.0, 1.0], [1.0])}, "2 periods and 1 values of Sa"),
+        ({"spectrum": ([0.0, 0.1], [1.0, 1.0])}, r"goes from 0 to 0.1 s and has no T = "),
+        ({"spectrum": ([0.0, 9.0], [1.0, 1.0]), "secant_fraction": 2.0}, "must be above 0 and at most 1"),
+    ],
+)
+def test_what_cannot_be_checked(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        rw.Wall(**SET).check(**arguments)
+
+
+@pytest.mark.parametrize("axes", ["heights", "radii"])
+def test_a_spectrum_over_walls(program, tmp_path, axes):
+    [path] = records(program, tmp_path, 1)
+    out = tmp_path / "spectrum.csv"
+    rows = "ratios" if axes == "heights" else "angles"
+    given = {"heights": "1:4:4", "radii": "1:4:4", "ratios": "5:15:3", "angles": "0.05:0.15:3"}
+    options = [word for name in (axes, rows) for word in (f"--{name}", given[name])]
+    program("spectrum", *ARGUMENTS, "--record", path, "--unit", "m/s2", "--csv", out, *options)
+    sizes = [1.0, 2.0, 3.0, 4.0]
+    values = {"heights": sizes, "radii": sizes, "ratios": [5.0, 10.0, 15.0], "angles": [0.05, 0.1, 0.15]}
+    record = rw.read_record(path, unit="m/s2")
+    found = rw.Wall(**SET).rocking_spectrum(record, **{axes: values[axes], rows: values[rows]})
+    assert found.u_ratio_max.shape == (3, 4) and found.overturned.any() and not found.overturned.all()
+    assert_table(found.table, out)
+    alone = rw.Wall(**SET).rocking_spectrum(record, **{axes: values[axes], rows: values[rows]}, threads=1)
+    np.testing.assert_array_equal(alone.u_ratio_max, found.u_ratio_max)
+    assert "<svg" in found._repr_svg_() and "slenderness" in found._repr_svg_()
+
+
+def test_a_spectrum_over_pulses(program, tmp_path):
+    out = tmp_path / "spectrum.csv"
+    options = ["--frequency-ratios", "1:9:9", "--amplitude-ratios", "1:6:6"]
+    program("spectrum", *ARGUMENTS, "--pulse", "sine_cycle", "--csv", out, *options)
+    found = rw.Wall(**SET).pulse_spectrum(
+        "sine_cycle", frequency_ratios=range(1, 10), amplitude_ratios=range(1, 7)
+    )
+    assert_table(found.table, out)
+
+
+def test_a_spectrum_of_a_scene_and_its_refusals(record):
+    wall = rw.Wall.from_toml("scenes/shaken_parapet.toml")
+    found = wall.rocking_spectrum(heights=[2.0, 3.0], ratios=[10.0])
+    assert found.u_ratio_max.shape == (1, 2)
+    for call, words in [
+        (lambda: rw.Wall().rocking_spectrum(), "needs a record"),
+        (lambda: wall.rocking_spectrum(record, heights=[1], radii=[1]), "either heights or radii"),
+        (lambda: wall.rocking_spectrum(record, heights=[]), "at least one value"),
+        (lambda: wall.rocking_spectrum(record, heights=[1] * 1000, ratios=[9] * 1000), "1000000 points"),
+        (lambda: wall.pulse_spectrum("square"), 'form = "square" is not one of ricker'),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            call()
+
+
+def test_a_calibration(program, tmp_path):
+    out = tmp_path / "fits.csv"
+    grid = ["--restitution", "0.85,0.9", "--a1", "0.02,0.04", "--start", "0.8,0.9"]
+    program("calibrate", *ARGUMENTS, *grid, "--csv", out)
+    found = rw.Wall(**SET).calibrate(restitution=[0.85, 0.9], a1=[0.02, 0.04], start=[0.8, 0.9])
+    assert_table(found.fits, out)
+    assert found.fits["samples"].dtype.kind == "i" and len(found.coefficients["x"]) == 3 * 2 * 2
+    # two values of a1 lie on their law
+    for model, start, q, r in zip(*found.laws.values()):
+        for row in found.coefficients.rows():
+            if (row["damping_model"], row["u0_over_u_ins"]) == (model, start):
+                assert row["x"] == pytest.approx(q * row["a1"] ** r, rel=1e-6)
+    assert found._repr_html_().count("<svg") == 3 + 2
+
+
+def test_a_calibration_of_a_law_with_its_own_a1():
+    rigid = rw.Wall(force_law="rigid_linear", damping_model="none").calibrate(restitution=[0.85])
+    assert rigid.fits["damping_model"].tolist() == ["free_standing_block"] and len(rigid.laws["q"]) == 0
+    with pytest.raises(ValueError, match="models: \"viscous\" is not one of"):
+        rw.Wall().calibrate(["viscous"])
+    with pytest.raises(ValueError, match="e = 2: must be above 0 and below 1"):
+        rw.Wall().calibrate(restitution=[2.0])
