@@ -1,6 +1,7 @@
 """What the jobs of the program `wall` find, the methods of a wall find too."""
 
 import csv
+import pickle
 import warnings
 
 import numpy as np
@@ -38,7 +39,8 @@ def records(program, folder, count):
     paths = [folder / f"{seed}.csv" for seed in range(1, count + 1)]
     for seed, path in enumerate(paths, 1):
         samples = rw.synthetic_record(seed, duration=12.0, pga=2.0).a
-        path.write_text("time,a_g\n" + "".join(f"{0.005 * k:.3f},{a!r}\n" for k, a in enumerate(samples.tolist())))
+        rows = (f"{0.005 * k:.3f},{a!r}\n" for k, a in enumerate(samples.tolist()))
+        path.write_text("time,a_g\n" + "".join(rows), encoding="utf-8")
     return paths
 
 
@@ -163,3 +165,129 @@ def test_a_calibration_of_a_law_with_its_own_a1():
         rw.Wall().calibrate(["viscous"])
     with pytest.raises(ValueError, match="e = 2: must be above 0 and below 1"):
         rw.Wall().calibrate(restitution=[2.0])
+
+
+STUDY = """
+title = "Parts"
+models = ["CR", { model = "CDC", xi = 0.05 }]
+levels = { method = "step", step = 0.3, top = 6 }
+intensity = { measure = "PGA" }
+report = { fractions = [0.4, 1.0], resamples = 100 }
+records = { files = ["1.csv", "2.csv", "3.csv"], unit = "m/s2" }
+walls = [{ table = "walls.csv" }]
+"""
+ROWS = [
+    {"name": "low", "height": 1.5, "force_law": "bilinear", "restitution": None},
+    {"name": "high", "height": 3.0, "force_law": "trilinear", "restitution": 0.9},
+]
+OPTIONS = {
+    "models": ["CR", {"model": "CDC", "xi": 0.05}],
+    "levels": {"method": "step", "step": 0.3, "top": 6},
+    "intensity": {"measure": "PGA"},
+    "report": {"fractions": np.array([0.4, 1.0]), "resamples": 100},
+    "title": "Parts",
+}
+
+
+@pytest.fixture(scope="module")
+def study_file(program, tmp_path_factory):
+    """A study as a file, and its results."""
+    folder = tmp_path_factory.mktemp("study")
+    records(program, folder, 3)
+    rows = ["low,1.5,bilinear,0.25,", "high,3.0,trilinear,0.25,0.9"]
+    table = "\n".join(["name,height,force_law,thickness,restitution", *rows]) + "\n"
+    (folder / "walls.csv").write_text(table, encoding="utf-8")
+    (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    return folder, rw.Study(folder / "study.toml").run(progress=False)
+
+
+def walls_of(kind):
+    """The walls of the study in several ways."""
+    given = [{name: value for name, value in row.items() if value is not None} for row in ROWS]
+    given = [{**row, "thickness": 0.25} for row in given]
+    parameters = [{name: value for name, value in row.items() if name != "name"} for row in given]
+    if kind == "frame":
+        pandas = pytest.importorskip("pandas")
+        return pandas.DataFrame(ROWS).assign(thickness=0.25)
+    if kind == "missing":
+        pandas = pytest.importorskip("pandas")
+        return pandas.DataFrame(ROWS).assign(thickness=0.25).convert_dtypes()
+    if kind == "table":
+        return rw.Table({name: [row[name] for row in ROWS] for name in ROWS[0]} | {"thickness": [0.25] * 2})
+    if kind == "list":
+        return given
+    names = [row["name"] for row in ROWS]
+    if kind == "dictionaries":
+        return dict(zip(names, parameters))
+    return {name: rw.Wall(**row) for name, row in zip(names, parameters)}
+
+
+@pytest.mark.parametrize("kind", ["frame", "missing", "table", "list", "dictionaries", "walls"])
+def test_a_study_without_a_file(study_file, kind):
+    folder, told = study_file
+    paths = [folder / f"{number}.csv" for number in (1, 2, 3)]
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    study = rw.Study(walls=walls_of(kind), records=motions, **OPTIONS)
+    assert (study.walls, study.records) == (["low", "high"], ["1.csv", "2.csv", "3.csv"])
+    assert study.title == "Parts" and study.measure == "PGA" and study.models == ["CR", "CDC 0.05"]
+    found = study.run(progress=False)
+    for name in ("levels", "collapses", "fragilities"):
+        for column, values in getattr(told, name).items():
+            np.testing.assert_array_equal(getattr(found, name)[column], values)
+
+
+def test_a_study_without_a_file_is_sent(program, tmp_path, record):
+    wall = rw.Wall(height=1.5, thickness=0.25).on_storeys([rw.Storey(period=0.3)])
+    options = {"models": ["CR"], "levels": {"method": "grid", "values": [1]}}
+    study = rw.Study(walls=[wall], records={"one": record}, **options)
+    assert study.walls == ["1"] and study.records == ["one"]
+    assert pickle.loads(pickle.dumps(study))._native.part(0) == study._native.part(0)
+    path = tmp_path / "motion.csv"
+    program("motion", "--synthetic", "--csv", path)
+    read = rw.Study(walls=wall, records=path, **options)
+    assert read.records == ["motion.csv"] and read._native.sent()[2][0][1] == record.dt
+
+
+def test_a_study_warns_of_what_it_does_not_use(record):
+    levels = {"method": "grid", "values": [1]}
+    wall = rw.Wall(height=3, thickness=0.25, damping_model="none", impact="restitution", u_start=0.01)
+    with pytest.warns(UserWarning, match="does not use damping_model, impact, u_start; its models"):
+        rw.Study(walls=[wall], records=record, models=["CR"], levels=levels)
+    scene = rw.Wall.from_toml("scenes/shaken_parapet.toml")
+    with pytest.warns(UserWarning, match="the motion of its scene"):
+        rw.Study(walls=[scene], records=record, models=["CR"], levels=levels)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rw.Study(walls=[wall.replace(**PLAIN)], records=record, models=["CR"], levels=levels)
+
+
+PLAIN = {"damping_model": "constant_ratio", "impact": "none", "u_start": 0.0}
+
+
+@pytest.mark.parametrize(
+    "parts, error, words",
+    [
+        ({"walls": None}, TypeError, "needs a path, or its parts: walls missing"),
+        ({"walls": []}, ValueError, "at least one wall"),
+        ({"walls": ["low"]}, TypeError, "a Wall or a dictionary of parameters, found .* str"),
+        ({"walls": [{"xi": 0.1}]}, TypeError, 'wall "1": "xi" is not a parameter of a wall of a study'),
+        ({"walls": [{"height": -1}]}, ValueError, 'wall "1": .*height'),
+        ({"walls": [{"name": "a"}, {"name": "a"}]}, ValueError, 'the name "a" occurs twice'),
+        ({"records": [[0.0, 1.0]]}, TypeError, "record must be a Record, found a value of the type list"),
+        ({"records": []}, ValueError, "at least one record"),
+        ({"models": ["CDX"]}, ValueError, '^"CDX" is not a damping model'),
+        ({"levels": {"method": "walk"}}, ValueError, 'method = "walk" is not one of hunt, step, grid'),
+        ({"report": {"fractions": [1.5]}}, ValueError, "^1.5 is not a fraction of u_ins"),
+        ({"report": {"fractions": {1, 2}}}, TypeError, "found a value of the type set"),
+        ({"path": "study.toml"}, TypeError, "a study file has its own walls, records, models, levels"),
+    ],
+)
+def test_what_is_no_study(record, parts, error, words):
+    whole = {
+        "walls": [{"height": 3.0, "thickness": 0.25}],
+        "records": [record],
+        "models": ["CR"],
+        "levels": {"method": "grid", "values": [0.5]},
+    }
+    with pytest.raises(error, match=words):
+        rw.Study(**{**whole, **parts})

@@ -15,6 +15,7 @@
 //! | `walls` | the class `Wall` |
 //! | `checks`, `spectra`, `calibrations` | capacity against demand, rocking spectra, calibration |
 //! | `studies` | the class `Study` |
+//! | `study_walls` | the walls of a study |
 //! | `folders` | the class `Folder` |
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands over what it has made of the arguments")]
@@ -29,6 +30,7 @@ mod motions;
 mod responses;
 mod spectra;
 mod studies;
+mod study_walls;
 mod tables;
 mod variables;
 mod walls;

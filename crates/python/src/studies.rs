@@ -13,14 +13,17 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use rocking_wall::scene::SceneError;
 use study::fragility::{Interval, Summary};
-use study::ida::{Curve, Exceedance, IdaError, Run, Study as Ida};
+use study::ida::{Curve, Exceedance, IdaError, NamedRecord, Run, Study as Ida};
 use study::loaded::{LoadedStudy, Sent};
 use study::parallel;
 use study::results::{Fitting, WallResults};
 use study_folder::{Contents, encode};
 
-use crate::errors::{failed, of_scene};
+use crate::arrays::{Given, motion};
+use crate::errors::{failed, of_scene, refused};
+use crate::study_walls::named_walls;
 use crate::tables::Column::{self, Counts, Flags, Names, Numbers};
 use crate::tables::table;
 
@@ -50,6 +53,28 @@ impl Study {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let loaded = py.detach(|| LoadedStudy::read(&path)).map_err(of_scene)?;
+        Ok(Self { loaded, contents: OnceLock::new() })
+    }
+
+    /// Makes a study of the text of its options, of walls and of records, by their names.
+    #[staticmethod]
+    fn of_parts(
+        py: Python<'_>,
+        text: String,
+        walls: Vec<(String, Bound<'_, PyAny>)>,
+        records: Vec<(String, Given<'_>)>,
+    ) -> PyResult<Self> {
+        let mut warnings = Vec::new();
+        let walls = named_walls(&walls, &mut warnings)?;
+        let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+        let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
+        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
+        let mut loaded = made.map_err(|error| match error {
+            // the lines are those of a text that nobody has written
+            SceneError::Line { message, .. } => refused(message),
+            other => refused(other),
+        })?;
+        loaded.warnings.splice(..0, warnings);
         Ok(Self { loaded, contents: OnceLock::new() })
     }
 

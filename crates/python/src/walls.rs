@@ -36,7 +36,7 @@ pub(crate) struct Wall {
     pub(crate) scene: Scene,
     pub(crate) equation: Equation,
     /// The start where it was given by name; else a record finds the wall upright.
-    start: Option<f64>,
+    pub(crate) start: Option<f64>,
 }
 
 /// A wall as values that pickle can send: its scene file without the motion, all of its parameters as texts,

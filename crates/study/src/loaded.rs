@@ -70,6 +70,24 @@ impl LoadedStudy {
         Ok(Self { inputs, warnings, ..study })
     }
 
+    /// Makes a study of walls and records that no file names, and of the other keys of a study file.
+    ///
+    /// # Errors
+    /// [`SceneError`] of a key, or where walls, records and models do not go together.
+    pub fn of_parts(
+        text: String,
+        walls: Vec<NamedWall>,
+        records: Vec<NamedRecord>,
+    ) -> Result<Self, SceneError> {
+        let name = "the study";
+        let file = StudyFile::parse(name, &text)?;
+        let mut warnings = Vec::new();
+        for wall in &walls {
+            warn(wall, &mut warnings);
+        }
+        Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
+    }
+
     /// Returns the study as plain values.
     pub fn sent(&self) -> Sent {
         let wall = |wall: &NamedWall| (wall.name.clone(), wall_text(wall));

@@ -16,11 +16,11 @@ class Calibration:
     """Damping that matches the free rocking of a wall with restitution, section 5 of the paper."""
 
     fits: Table
-    """One fit for each damping model, a1, u0/u_ins and e: the damping, the error of Eq. (18), and the number of
-    samples compared."""
+    """One fit for each damping model, a1, u0/u_ins and e: the damping, the error of Eq. (18), and the number
+    of samples compared."""
     coefficients: Table
-    """x of ξ = -x ln e, Eq. (19), for each damping model, a1 and u0/u_ins; `x_paper` is what the paper prints, NaN
-    for nothing."""
+    """x of ξ = -x ln e, Eq. (19), for each damping model, a1 and u0/u_ins; `x_paper` is what the paper
+    prints, NaN for nothing."""
     laws: Table
     """q and r of x = q a1^r, Eqs. (20) to (22), for each damping model and u0/u_ins."""
     _pictures: list[str]

@@ -123,7 +123,7 @@ class Record:
         """Returns `scaled(factor)`."""
         if not isinstance(factor, NUMBERS):
             found = type(factor).__name__
-            raise TypeError(f"a record is multiplied by a number, found a value of the type {found}; use record.a")
+            raise TypeError(f"expected a number, found a value of the type {found}; use record.a")
         return self.scaled(float(factor))
 
     __rmul__ = __mul__

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 from warnings import warn
 
+import numpy as np
+
 from . import _native
+from ._records import Record, motion_of, read_record
 from ._tables import Table
+from ._walls import Wall
 
 if TYPE_CHECKING:
     import pandas
+
+    AWall: TypeAlias = Wall | Mapping[str, Any]
+    Walls: TypeAlias = pandas.DataFrame | Table | Wall | Sequence[AWall] | Mapping[str, AWall]
+    ARecord: TypeAlias = Record | str | PathLike[str]
+    Records: TypeAlias = ARecord | Sequence[ARecord] | Mapping[str, ARecord]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -44,12 +54,68 @@ class StudyResults:
 class Study:
     """An incremental dynamic analysis: walls, records, damping models, intensity measure and levels.
 
-    The file is that of `wall ida`; scenes and records that it names are looked up beside it.
+    It is a file, that of `wall ida`, beside which scenes and records are looked up; or its parts by the keys
+    of such a file.
+
+    >>> from rocking_wall import Wall, synthetic_record
+    >>> study = Study(
+    ...     walls={"low": Wall(height=1.5, thickness=0.25), "high": Wall(height=3, thickness=0.25)},
+    ...     records=[synthetic_record(seed, duration=12) for seed in (1, 2, 3)],
+    ...     models=["CR", "CDC"],
+    ...     levels={"method": "step", "step": 0.5, "top": 10},
+    ... )
+    >>> study
+    Study('Incremental dynamic analysis', 2 walls, 3 records, 2 damping models)
     """
 
-    def __init__(self, path: str | PathLike[str]) -> None:
-        self._native = _native.Study(fspath(path))
-        self._name = Path(path).stem
+    def __init__(
+        self,
+        path: str | PathLike[str] | None = None,
+        *,
+        walls: Walls | None = None,
+        records: Records | None = None,
+        models: Sequence[str | Mapping[str, Any]] | None = None,
+        levels: Mapping[str, Any] | None = None,
+        title: str | None = None,
+        intensity: Mapping[str, Any] | None = None,
+        tail: float | None = None,
+        report: Mapping[str, Any] | None = None,
+        classes: Sequence[Mapping[str, Any]] | None = None,
+    ) -> None:
+        """Reads a study file, or makes a study of its parts.
+
+        :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
+            their names in a column `name`; or walls, or dictionaries of parameters, in a list or by their
+            names. What is missing has its default. Damping and impact are those of the models.
+        :param records: Records, or paths of records, in a list or by their names.
+        :param models: Damping models: none, CR, "CR rigid", CDC, CDR, SDR, block.
+        :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
+        :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
+        :param tail: Free vibration after each record [s]; by default 10.
+        :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
+        :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
+
+        Raises `ValueError` and `TypeError` for what cannot be used, `FileNotFoundError` for a file that is
+        missing.
+        """
+        parts: dict[str, Any] = {"walls": walls, "records": records, "models": models, "levels": levels}
+        options: dict[str, Any] = {"title": title, "intensity": intensity, "tail": tail, "report": report}
+        options["classes"] = classes
+        if path is None:
+            missing = [name for name, part in parts.items() if part is None]
+            if missing:
+                raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
+            options = {"models": models, "levels": levels, **options}
+            given = {name: option for name, option in options.items() if option is not None}
+            text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())
+            self._native = _native.Study.of_parts(text, named_walls(walls), named_records(records))
+            self._name = "study" if title is None else title
+        else:
+            given = {name: part for name, part in {**parts, **options}.items() if part is not None}
+            if given:
+                raise TypeError(f"a study file has its own {', '.join(given)}; leave them out")
+            self._native = _native.Study(fspath(path))
+            self._name = Path(path).stem
         for warning in self._native.warnings:
             warn(warning, stacklevel=2)
 
@@ -107,6 +173,72 @@ class Study:
         with bar(len(self), progress) as report:
             tables = self._native.run(threads, report)
         return StudyResults(*(Table(table) for table in tables))
+
+
+def toml(value: object) -> str:
+    """Returns the text of a value in TOML."""
+    if isinstance(value, Mapping):
+        entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
+        return "{ " + ", ".join(entries) + " }"
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(toml(each) for each in value) + "]"
+    if isinstance(value, str | bool | int | float):
+        return json.dumps(value, ensure_ascii=False)
+    found = type(value).__name__
+    raise TypeError(f"expected numbers, texts, lists and dictionaries, found a value of the type {found}")
+
+
+def named_walls(walls: Any) -> list[tuple[str, Any]]:
+    """Returns names, and walls or dictionaries of their parameters."""
+    if isinstance(walls, Wall):
+        walls = [walls]
+    elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
+        walls = Table({str(name): list(walls[name]) for name in walls.columns}).rows()
+    elif isinstance(walls, Mapping):
+        if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
+            walls = Table(walls).rows()
+        else:
+            return [(str(name), one_wall(wall)) for name, wall in walls.items()]
+    return [
+        (str(wall.get("name", number) if isinstance(wall, Mapping) else number), one_wall(wall))
+        for number, wall in enumerate(walls, 1)
+    ]
+
+
+def one_wall(wall: object) -> Any:
+    """Returns a wall, or its parameters without those that are missing."""
+    if isinstance(wall, Wall):
+        return wall._native
+    if isinstance(wall, Mapping):
+        return {name: value for name, value in wall.items() if name != "name" and not is_missing(value)}
+    found = type(wall).__name__
+    raise TypeError(
+        f"a wall of a study is a Wall or a dictionary of parameters, found a value of the type {found}"
+    )
+
+
+def is_missing(value: object) -> bool:
+    """Tells whether a cell of a table is empty."""
+    if isinstance(value, float | np.floating):
+        return bool(np.isnan(value))
+    # that of pandas cannot be compared
+    return value is None or type(value).__name__ == "NAType" or (isinstance(value, str) and value == "")
+
+
+def named_records(records: Any) -> list[tuple[str, tuple[float, Any]]]:
+    """Returns names and motions of records, which are read where they are paths."""
+    if isinstance(records, Record | str | PathLike):
+        records = [records]
+    if isinstance(records, Mapping):
+        return [(str(name), motion_of(read(record))) for name, record in records.items()]
+    return [(getattr(record, "name", ""), motion_of(record)) for record in map(read, records)]
+
+
+def read(record: object) -> object:
+    """Reads a record where it is a path."""
+    return read_record(record) if isinstance(record, str | PathLike) else record
 
 
 @contextmanager

@@ -292,8 +292,8 @@ class Wall(Calculated):
         """Computes u_max/u_ins of this wall under pulses of one form. Ctrl-C stops the work.
 
         :param frequency_ratios: ω_p/p along the columns; by default 39 from 0.5 to 10.
-        :param amplitude_ratios: a_p/a₀ along the rows, with the acceleration a₀ at which the rigid wall begins
-            to rock; by default 39 from 0.5 to 10.
+        :param amplitude_ratios: a_p/a₀ along the rows, with the acceleration a₀ at which the rigid wall
+            begins to rock; by default 39 from 0.5 to 10.
         :param threads: Number of threads; by default one for each core.
 
         >>> Wall().pulse_spectrum("ricker", frequency_ratios=[2, 4], amplitude_ratios=[0.5, 5]).rocked

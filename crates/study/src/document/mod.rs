@@ -107,13 +107,14 @@ struct Document {
     #[serde(default)]
     intensity: Option<Spanned<IntensityTable>>,
     levels: Spanned<LevelsTable>,
-    records: Spanned<RecordsTable>,
+    records: Option<Spanned<RecordsTable>>,
     report: Option<Spanned<ReportTable>>,
     #[serde(default)]
     classes: Vec<Spanned<ClassTable>>,
     #[serde(default)]
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,
+    #[serde(default)]
     walls: Vec<Spanned<WallTable>>,
 }
 
@@ -174,7 +175,8 @@ struct WallText {
 }
 
 impl StudyFile {
-    /// Reads a study from its text; `name` stands for the file in messages.
+    /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing:
+    /// a program can have them otherwise.
     ///
     /// # Errors
     /// [`SceneError`] with file, line, value and remedy.
@@ -201,7 +203,12 @@ impl StudyFile {
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
-            records: records(&document.records, place)?,
+            records: document
+                .records
+                .as_ref()
+                .map(|table| records(table, place))
+                .transpose()?
+                .unwrap_or_default(),
             measure: measure(document.intensity.as_ref(), place)?,
             levels: levels(&document.levels, place)?,
             tail,
