@@ -103,6 +103,7 @@ fn arrows_between_crates_point_one_way() {
         (
             "rocking-wall-python",
             &[
+                "rocking-building",
                 "fmu-export",
                 "ground-motion",
                 "rocking-figures",

@@ -6,6 +6,8 @@ import sys
 import threading
 import time
 
+import pytest
+
 import rocking_wall as rw
 
 LONG = """
@@ -40,6 +42,36 @@ def test_ctrl_c_stops_a_study(tmp_path):
         assert process.poll() is None, "the study is not long enough"
         process.send_signal(signal.SIGINT)
         # a study to its end would take minutes
+        told, _ = process.communicate(timeout=30)
+    assert told == "stopped\n" and process.returncode == 0
+
+
+JOBS = {
+    "building": "rw.Building('scenes/building/three_storeys.toml').simulate(record, tolerance=1e-6)",
+    "calibrate": "rw.Wall().calibrate(restitution=np.linspace(0.8, 0.99, 100), a1=np.linspace(0.01, 0.1, 99))",
+    "pulses": "rw.Wall().pulse_spectrum('ricker', **dict.fromkeys(AXES, np.linspace(0.5, 10, 490)))",
+    "walls": "rw.Wall().rocking_spectrum(record, heights=np.linspace(1, 9, 99), ratios=np.linspace(4, 20, 999))",
+}
+JOB = """
+import numpy as np, rocking_wall as rw
+AXES = ("frequency_ratios", "amplitude_ratios")
+record = rw.synthetic_record(duration=300)
+print("started", flush=True)
+try:
+    {}
+except KeyboardInterrupt:
+    print("stopped")
+"""
+
+
+@pytest.mark.parametrize("job", JOBS)
+def test_ctrl_c_stops_a_job(job):
+    command = [sys.executable, "-c", JOB.format(JOBS[job])]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "started\n"
+        time.sleep(0.5)
+        assert process.poll() is None, "the job is not long enough"
+        process.send_signal(signal.SIGINT)
         told, _ = process.communicate(timeout=30)
     assert told == "stopped\n" and process.returncode == 0
 

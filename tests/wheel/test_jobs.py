@@ -167,6 +167,40 @@ def test_a_calibration_of_a_law_with_its_own_a1():
         rw.Wall().calibrate(restitution=[2.0])
 
 
+def test_a_building(program, tmp_path, record):
+    out, options = tmp_path / "building.csv", ["--tail", "1", "--tolerance", "0.05"]
+    motion = ["--synthetic", "--scale", "0.6", "--csv", out]
+    told = program("building", "scenes/building/three_storeys.toml", *motion, *options, "--json")
+    building = rw.Building.from_toml("scenes/building/three_storeys.toml")
+    found = building.simulate(record, scale=0.6, tail=1.0, tolerance=0.05)
+    assert (found.title, found.step, found.change) == (told["title"], told["step"], told["change"])
+    assert list(found.floors) == building.floors == [floor["name"] for floor in told["floors"]]
+    for floor in told["floors"]:
+        ours = found.floors[floor["name"]]
+        assert (ours.acceleration_peak, ours.drift_peak) == (floor["acceleration"], floor["drift"])
+    assert list(found.walls) == building.walls == [wall["name"] for wall in told["walls"]]
+    for wall in told["walls"]:
+        ours = found.walls[wall["name"]]
+        assert (ours.u_max, ours.overturn_time) == (wall["u_max"], wall["overturn_time"])
+        for name in ("u_ratio", "reaction_bottom", "reaction_top"):
+            assert getattr(ours, f"{name}_peak") == wall[name], name
+    histories = columns(out)
+    for name, wall in found.walls.items():
+        np.testing.assert_array_equal(wall.u, np.array(histories[f"{name}.u"], float))
+    assert found.peaks["overturned"].dtype.kind == "b" and "<svg" in found._repr_html_()
+
+
+def test_what_is_no_building(tmp_path, record):
+    with pytest.raises(FileNotFoundError, match="none.toml: cannot be read"):
+        rw.Building(tmp_path / "none.toml")
+    with pytest.warns(UserWarning, match='floor "floor_1" does not start at rest'):
+        building = rw.Building("scenes/building/building.toml")
+    with pytest.raises(ValueError, match="tolerance = 2 from 1e-6 to 1"):
+        building.simulate(record, tolerance=2.0)
+    with pytest.raises(TypeError, match="must be a Record"):
+        building.simulate("x.AT2")
+
+
 STUDY = """
 title = "Parts"
 models = ["CR", { model = "CDC", xi = 0.05 }]

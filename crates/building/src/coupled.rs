@@ -129,6 +129,20 @@ impl Coupled {
         ground: &GroundMotion,
         settings: Settings,
     ) -> Result<Self, BuildingError> {
+        Self::run_while(building, parts, ground, settings, &|| true)
+    }
+
+    /// Runs a building as [`run`](Self::run) does, as long as it is wanted.
+    ///
+    /// # Errors
+    /// As those of [`run`](Self::run), and [`BuildingError::Stopped`].
+    pub fn run_while(
+        building: &Building,
+        parts: &Parts,
+        ground: &GroundMotion,
+        settings: Settings,
+        is_wanted: &dyn Fn() -> bool,
+    ) -> Result<Self, BuildingError> {
         let (plan, references) = (&parts.plan, References::new(building)?);
         let mut parts = (ground.step() / LONGEST_STEP).ceil().max(1.0);
         let mut before: Option<Self> = None;
@@ -143,7 +157,7 @@ impl Coupled {
                 );
                 return Err(BuildingError::Run { time: settings.end, reason });
             }
-            let mut run = Loop::new(plan, &references, ground)?.follow(parts, settings.end)?;
+            let mut run = Loop::new(plan, &references, ground)?.follow(parts, settings.end, is_wanted)?;
             if let Some(before) = &before {
                 run.change = run.change_from(before);
                 if run.change <= settings.tolerance {
@@ -225,7 +239,12 @@ impl<'a> Loop<'a> {
     }
 
     /// Runs to the end with a number of steps for each of the record.
-    fn follow(mut self, parts: f64, end: f64) -> Result<Coupled, BuildingError> {
+    fn follow(
+        mut self,
+        parts: f64,
+        end: f64,
+        is_wanted: &dyn Fn() -> bool,
+    ) -> Result<Coupled, BuildingError> {
         let step = self.ground.step() / parts;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to MOST_UNIT_STEPS")]
         let [parts, samples] = [parts, (end / self.ground.step()).round()].map(|count| count as usize);
@@ -238,6 +257,9 @@ impl<'a> Loop<'a> {
             walls: vec![WallHistory::default(); self.references.walls.len()],
         };
         for sample in 0..=samples {
+            if !is_wanted() {
+                return Err(BuildingError::Stopped);
+            }
             let ends =
                 self.ground.samples().get(sample..sample + 2).map_or([0.0; 2], |ends| [ends[0], ends[1]]);
             let rate = (ends[1] - ends[0]) / self.ground.step();

@@ -19,6 +19,9 @@ pub enum BuildingError {
     /// The FMU that a part is made of.
     #[error("{file}: {reason}")]
     General { file: String, reason: String },
+    /// The run was no longer wanted.
+    #[error("the run was stopped")]
+    Stopped,
     /// The run.
     #[error("at t = {time} s: {reason}")]
     Run { time: f64, reason: String },

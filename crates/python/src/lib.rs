@@ -9,11 +9,13 @@
 //! | `errors` | errors of the libraries as exceptions |
 //! | `arrays` | samples from Python, arrays to Python |
 //! | `tables` | tables for Python |
+//! | `watch` | work on another thread, while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the parameters of the model description |
 //! | `responses` | what a run has come to |
 //! | `walls` | the class `Wall` |
 //! | `checks`, `spectra`, `calibrations` | capacity against demand, rocking spectra, calibration |
+//! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
 //! | `folders` | the class `Folder` |
@@ -22,6 +24,7 @@
 #![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 
 mod arrays;
+mod buildings;
 mod calibrations;
 mod checks;
 mod errors;
@@ -34,10 +37,13 @@ mod study_walls;
 mod tables;
 mod variables;
 mod walls;
+mod watch;
 
 /// The part of `rocking_wall` that is in Rust.
 #[pyo3::pymodule]
 mod _native {
+    #[pymodule_export]
+    use crate::buildings::{Building, picture_of_building};
     #[pymodule_export]
     use crate::calibrations::calibrate_wall;
     #[pymodule_export]

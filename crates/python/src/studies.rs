@@ -4,9 +4,7 @@ use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
-use std::time::Duration;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ground_motion::STANDARD_GRAVITY;
 use numpy::PyArray1;
@@ -26,9 +24,7 @@ use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 use crate::tables::Column::{self, Counts, Flags, Names, Numbers};
 use crate::tables::table;
-
-/// Time between two looks at Ctrl-C and at the progress.
-const LOOK: Duration = Duration::from_millis(50);
+use crate::watch::watched;
 
 /// A study ready to run.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -190,36 +186,22 @@ impl Study {
     /// Computes all curves on other threads, while this one looks at Ctrl-C and reports progress.
     fn curves(&self, py: Python<'_>, threads: usize, progress: &Bound<'_, PyAny>) -> PyResult<Vec<Curve>> {
         let study = &self.loaded.study;
-        let (asked_to_stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
-        let curve = |index| {
-            if asked_to_stop.load(Ordering::Relaxed) {
-                return Err(Stop::Asked);
-            }
-            let curve = study.curve(study.case(index)).map_err(Stop::Failed)?;
-            done.fetch_add(1, Ordering::Relaxed);
-            Ok(curve)
+        let done = AtomicUsize::new(0);
+        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
+            parallel::map(study.count(), threads, |index| {
+                if !is_wanted() {
+                    return Err(Stop::Asked);
+                }
+                let curve = study.curve(study.case(index)).map_err(Stop::Failed)?;
+                done.fetch_add(1, Ordering::Relaxed);
+                Ok(curve)
+            })
         };
-        let watcher = thread::current();
-        let (outcome, watched) = thread::scope(|scope| {
-            let work = scope.spawn(|| {
-                let outcome = parallel::map(study.count(), threads, curve);
-                watcher.unpark();
-                outcome
-            });
-            let mut watched = Ok(());
-            while !work.is_finished() && watched.is_ok() {
-                py.detach(|| thread::park_timeout(LOOK));
-                let report = || progress.call1((done.load(Ordering::Relaxed),)).map(drop);
-                watched = py.check_signals().and_then(|()| report());
+        watched(py, work, || progress.call1((done.load(Ordering::Relaxed),)).map(drop))?.map_err(|stop| {
+            match stop {
+                Stop::Failed(error) => failed(error),
+                Stop::Asked => PyKeyboardInterrupt::new_err(()),
             }
-            asked_to_stop.store(watched.is_err(), Ordering::Relaxed);
-            (py.detach(|| work.join()), watched)
-        });
-        let outcome = outcome.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        outcome.map_err(|stop| match (watched, stop) {
-            (Err(error), _) => error,
-            (Ok(()), Stop::Failed(error)) => failed(error),
-            (Ok(()), Stop::Asked) => PyKeyboardInterrupt::new_err(()),
         })
     }
 }

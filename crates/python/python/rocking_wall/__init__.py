@@ -12,6 +12,7 @@ are in SI units, except for the columns of a study whose names end in `_g`. What
 """
 
 from . import dask
+from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
 from ._calibration import Calibration
 from ._checks import Check, CheckedSide
 from ._native import VERSION as __version__
@@ -33,12 +34,16 @@ from ._tables import Table
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
+    "Building",
+    "BuildingResponse",
+    "BuildingWallResponse",
     "Calibration",
     "Check",
     "CheckedSide",
     "Demands",
     "Description",
     "Extremes",
+    "FloorResponse",
     "Instant",
     "Parameters",
     "Peaks",

@@ -1,0 +1,168 @@
+"""Buildings: storeys and walls as one system."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+from typing import Any
+from warnings import warn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._records import Record, motion_of
+from ._responses import Instant
+from ._tables import Table
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class FloorResponse:
+    """A floor in time; each history has its largest absolute value, with its sign and its time, beside it."""
+
+    acceleration: Array
+    """Absolute acceleration [m/s²]."""
+    acceleration_peak: Instant
+    """Its peak between the samples too."""
+    drift: Array
+    """Displacement relative to what the floor stands on [m]."""
+    drift_peak: Instant
+    """Its peak between the samples too."""
+
+
+@dataclass(frozen=True, eq=False)
+class BuildingWallResponse:
+    """A wall of a building in time; each history has its largest absolute value beside it."""
+
+    u: Array
+    """Displacement relative to the supports [m]."""
+    u_peak: Instant
+    """Its peak between the samples too."""
+    u_ratio: Array
+    """u/u_ins of its side [-]."""
+    u_ratio_peak: Instant
+    """Its peak between the samples too."""
+    reaction_bottom: Array
+    """Force of the bottom support on the wall [N]."""
+    reaction_bottom_peak: Instant
+    """Its peak between the samples too."""
+    reaction_top: Array
+    """Force of the top support on the wall [N]; 0 for a parapet."""
+    reaction_top_peak: Instant
+    """Its peak between the samples too."""
+    u_max: float
+    """Largest |u| between the samples too [m]."""
+    overturn_time: float | None
+    """When the wall overturned [s]; None for never."""
+
+    @property
+    def overturned(self) -> bool:
+        """Whether the wall overturned."""
+        return self.overturn_time is not None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BuildingResponse:
+    """The response of a building: histories at the samples of the record, and on at its step."""
+
+    title: str
+    """Title of the building."""
+    time: Array
+    """Time [s]."""
+    ground: Array
+    """Acceleration of the ground [m/s²]."""
+    floors: dict[str, FloorResponse]
+    """Floors by their names."""
+    walls: dict[str, BuildingWallResponse]
+    """Walls by their names."""
+    step: float
+    """Communication step [s], short enough for the tolerance."""
+    change: float
+    """Largest change of a peak by the last halving of the step, over the peak [-]."""
+
+    def __repr__(self) -> str:
+        fallen = [name for name, wall in self.walls.items() if wall.overturned]
+        fate = f"overturned: {', '.join(fallen)}" if fallen else "all walls standing"
+        return f"BuildingResponse({self.title!r}, {self.time[-1]:g} s, {fate})"
+
+    @property
+    def peaks(self) -> Table:
+        """Peaks of the walls: largest |u|, u/u_ins, forces of the supports, and the time of overturning."""
+        walls = self.walls.values()
+        times = [np.nan if wall.overturn_time is None else wall.overturn_time for wall in walls]
+        return Table(
+            {
+                "wall": list(self.walls),
+                "u_max": [wall.u_max for wall in walls],
+                "u_ratio_peak": [wall.u_ratio_peak["value"] for wall in walls],
+                "reaction_bottom_peak": [wall.reaction_bottom_peak["value"] for wall in walls],
+                "reaction_top_peak": [wall.reaction_top_peak["value"] for wall in walls],
+                "overturned": [wall.overturned for wall in walls],
+                "overturn_time": times,
+            }
+        )
+
+    def _repr_html_(self) -> str:
+        picture = _native.picture_of_building(
+            self.time.tolist(),
+            self.ground.tolist(),
+            [floor.acceleration.tolist() for floor in self.floors.values()],
+            [wall.u_ratio.tolist() for wall in self.walls.values()],
+        )
+        return self.peaks._repr_html_() + picture
+
+
+class Building:
+    """Storeys and walls that act on each other, under a record.
+
+    The file is that of `wall building`; scenes of its walls are looked up beside it.
+    """
+
+    def __init__(self, path: str | PathLike[str]) -> None:
+        self._native = _native.Building(fspath(path))
+        for warning in self._native.warnings:
+            warn(warning, stacklevel=2)
+
+    @classmethod
+    def from_toml(cls, path: str | PathLike[str]) -> Building:
+        """Reads the file of a building."""
+        return cls(path)
+
+    def __repr__(self) -> str:
+        return f"Building({self.title!r}, {len(self.floors)} floors, {len(self.walls)} walls)"
+
+    @property
+    def title(self) -> str:
+        """Title."""
+        return self._native.title
+
+    @property
+    def floors(self) -> list[str]:
+        """Names of the floors."""
+        return self._native.floors
+
+    @property
+    def walls(self) -> list[str]:
+        """Names of the walls."""
+        return self._native.walls
+
+    def simulate(
+        self, record: Record, *, scale: float = 1.0, tail: float = 10.0, tolerance: float = 0.01
+    ) -> BuildingResponse:
+        """Runs the building under a record, floors and walls in one loop. Ctrl-C stops the run.
+
+        :param scale: Factor on the record.
+        :param tail: Free vibration after the record [s].
+        :param tolerance: Change of any peak by halving the step, over the peak, at which the step is short
+            enough.
+
+        Raises `ValueError` for a tail or tolerance out of range, and `RuntimeError` where no step is short
+        enough.
+        """
+        ground = _native.scaled(motion_of(record), scale)
+        values: dict[str, Any] = self._native.run(ground, tail, tolerance)
+        floors = {name: FloorResponse(**floor) for name, floor in values.pop("floors").items()}
+        walls = {name: BuildingWallResponse(**wall) for name, wall in values.pop("walls").items()}
+        return BuildingResponse(**values, floors=floors, walls=walls)

@@ -1,0 +1,165 @@
+//! The class `Building`: storeys and walls as one system.
+
+use std::path::{Path, PathBuf};
+
+use building::coupled::{Coupled, History, Peak, Settings};
+use building::document::Floor;
+use building::{BuildingError, Parts};
+use figures::palette::{DARK_GREY, SERIES};
+use figures::plot::Picture;
+use figures::response::{cut, histories};
+use numpy::PyArray1;
+use pyo3::exceptions::PyFileNotFoundError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Given, motion};
+use crate::errors::{failed, refused};
+use crate::watch::watched;
+
+/// A building ready to run.
+#[pyclass(frozen, module = "rocking_wall._native")]
+pub(crate) struct Building {
+    building: building::Building,
+    parts: Parts,
+}
+
+#[pymethods]
+impl Building {
+    /// Reads the file of a building, and the scenes of its walls.
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        py.detach(|| {
+            let building = building::Building::read(&path)?;
+            let parts = Parts::read(&building)?;
+            Ok(Self { building, parts })
+        })
+        .map_err(|error| of_building(error, &path))
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.building.title
+    }
+
+    #[getter]
+    fn floors(&self) -> Vec<&str> {
+        self.building.floors.iter().map(|floor| floor.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn walls(&self) -> Vec<&str> {
+        self.building.walls.iter().map(|wall| wall.name.as_str()).collect()
+    }
+
+    /// Returns what the walls warn of, and the floors that do not start at rest.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        let moving = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
+        let moving = self.building.floors.iter().filter(moving);
+        let moving =
+            moving.map(|floor| format!("floor {:?} does not start at rest, as its file says", floor.name));
+        self.parts.warnings.iter().cloned().chain(moving).collect()
+    }
+
+    /// Runs the building under a motion of the ground.
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        ground: Given<'py>,
+        tail: f64,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        if !(0.0..=1e6).contains(&tail) || !(1e-6..=1.0).contains(&tolerance) {
+            return Err(refused(format!(
+                "tail = {tail} s must be from 0 to 1e6 s, tolerance = {tolerance} from 1e-6 to 1"
+            )));
+        }
+        let ground = motion(&ground)?;
+        let settings = Settings { end: ground.duration() + tail, tolerance };
+        let Self { building, parts } = self;
+        let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
+            Coupled::run_while(building, parts, &ground, settings, is_wanted)
+        };
+        let run = watched(py, work, || Ok(()))?.map_err(failed)?;
+        self.values(py, &run)
+    }
+}
+
+impl Building {
+    fn values<'py>(&self, py: Python<'py>, run: &Coupled) -> PyResult<Bound<'py, PyDict>> {
+        let (floors, walls) = (PyDict::new(py), PyDict::new(py));
+        for (floor, history) in self.building.floors.iter().zip(&run.floors) {
+            let values = PyDict::new(py);
+            for (name, history) in [("acceleration", &history.acceleration), ("drift", &history.drift)] {
+                set(&values, name, history)?;
+            }
+            floors.set_item(&floor.name, values)?;
+        }
+        for (wall, history) in self.building.walls.iter().zip(&run.walls) {
+            let values = PyDict::new(py);
+            for (name, history) in [
+                ("u", &history.displacement),
+                ("u_ratio", &history.ratio),
+                ("reaction_bottom", &history.reaction_bottom),
+                ("reaction_top", &history.reaction_top),
+            ] {
+                set(&values, name, history)?;
+            }
+            values.set_item("u_max", history.largest)?;
+            values.set_item("overturn_time", history.overturn_time)?;
+            walls.set_item(&wall.name, values)?;
+        }
+        let values = PyDict::new(py);
+        values.set_item("title", &self.building.title)?;
+        values.set_item("time", PyArray1::from_slice(py, &run.times))?;
+        values.set_item("ground", PyArray1::from_slice(py, &run.ground.values))?;
+        values.set_item("floors", floors)?;
+        values.set_item("walls", walls)?;
+        values.set_item("step", run.step)?;
+        values.set_item("change", run.change)?;
+        Ok(values)
+    }
+}
+
+/// Sets a history and its peak.
+fn set(values: &Bound<'_, PyDict>, name: &str, history: &History) -> PyResult<()> {
+    let py = values.py();
+    let Peak { value, time } = history.peak;
+    let peak = PyDict::new(py);
+    peak.set_item("value", value)?;
+    peak.set_item("time", time)?;
+    values.set_item(name, PyArray1::from_slice(py, &history.values))?;
+    values.set_item(format!("{name}_peak"), peak)
+}
+
+fn of_building(error: BuildingError, path: &Path) -> PyErr {
+    if path.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
+}
+
+/// Draws the accelerations of ground and floors above u/`u_ins` of the walls, as SVG.
+#[pyfunction]
+pub(crate) fn picture_of_building(
+    time: Vec<f64>,
+    ground: Vec<f64>,
+    accelerations: Vec<Vec<f64>>,
+    u_ratios: Vec<Vec<f64>>,
+) -> String {
+    let over_time = |values: Vec<f64>| time.iter().copied().zip(values).collect::<Vec<_>>();
+    let end = time.last().copied().unwrap_or_default();
+    let color = |index: usize| SERIES[index % SERIES.len()].0;
+    let mut floors = vec![(over_time(ground), DARK_GREY)];
+    let own = accelerations.into_iter().enumerate();
+    floors.extend(own.map(|(index, values)| (over_time(values), color(index))));
+    let walls = u_ratios.into_iter().enumerate();
+    let walls: Vec<_> = walls.map(|(index, values)| (cut(over_time(values)), color(index))).collect();
+    let drawn = |lines: &[(Vec<(f64, f64)>, &'static str)], label: &str, shown: &[f64]| {
+        let lines: Vec<_> = lines.iter().map(|(points, color)| (&points[..], *color)).collect();
+        histories(&lines, [0.0, end], label, shown)
+    };
+    let mut plots = vec![drawn(&floors, "acceleration (m/s²)", &[])];
+    if !walls.is_empty() {
+        plots.push(drawn(&walls, "u / u_ins", &[-1.0, 1.0]));
+    }
+    Picture::stacked(&plots).svg()
+}

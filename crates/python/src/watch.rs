@@ -1,0 +1,41 @@
+//! Work on another thread, while this one looks at Ctrl-C.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+
+/// Time between two looks at Ctrl-C and at the progress.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Works on another thread, which asks whether its work is still wanted, and returns what it has made. This
+/// thread looks at Ctrl-C and calls `report`.
+///
+/// # Errors
+/// `KeyboardInterrupt`, or the error of `report`; the work has then ended.
+pub(crate) fn watched<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+    report: impl Fn() -> PyResult<()>,
+) -> PyResult<T> {
+    let asked_to_stop = AtomicBool::new(false);
+    let is_wanted = || !asked_to_stop.load(Ordering::Relaxed);
+    let watcher = thread::current();
+    let (outcome, watched) = thread::scope(|scope| {
+        let work = scope.spawn(|| {
+            let outcome = work(&is_wanted);
+            watcher.unpark();
+            outcome
+        });
+        let mut watched = Ok(());
+        while !work.is_finished() && watched.is_ok() {
+            py.detach(|| thread::park_timeout(LOOK));
+            watched = py.check_signals().and_then(|()| report());
+        }
+        asked_to_stop.store(watched.is_err(), Ordering::Relaxed);
+        (py.detach(|| work.join()), watched)
+    });
+    let outcome = outcome.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    watched.map(|()| outcome)
+}
