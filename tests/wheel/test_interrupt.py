@@ -34,28 +34,31 @@ def study(folder, text):
     return path
 
 
-def test_ctrl_c_stops_a_study(tmp_path):
-    command = [sys.executable, "-c", SCRIPT, str(study(tmp_path, LONG))]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+def assert_stops(*arguments):
+    """Starts Python, sends Ctrl-C and waits for its end, which would otherwise come minutes later."""
+    with subprocess.Popen([sys.executable, "-c", *arguments], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "started\n"
         time.sleep(0.5)
-        assert process.poll() is None, "the study is not long enough"
+        assert process.poll() is None, "the work is not long enough"
         process.send_signal(signal.SIGINT)
-        # a study to its end would take minutes
         told, _ = process.communicate(timeout=30)
     assert told == "stopped\n" and process.returncode == 0
 
 
+def test_ctrl_c_stops_a_study(tmp_path):
+    assert_stops(SCRIPT, str(study(tmp_path, LONG)))
+
+
 JOBS = {
     "building": "rw.Building('scenes/building/three_storeys.toml').simulate(record, tolerance=1e-6)",
-    "calibrate": "rw.Wall().calibrate(restitution=np.linspace(0.8, 0.99, 100), a1=np.linspace(0.01, 0.1, 99))",
-    "pulses": "rw.Wall().pulse_spectrum('ricker', **dict.fromkeys(AXES, np.linspace(0.5, 10, 490)))",
-    "walls": "rw.Wall().rocking_spectrum(record, heights=np.linspace(1, 9, 99), ratios=np.linspace(4, 20, 999))",
+    "calibrate": "wall.calibrate(restitution=np.linspace(0.8, 0.99, 100), a1=np.linspace(0.01, 0.1, 99))",
+    "pulses": "wall.pulse_spectrum('ricker', **dict.fromkeys(AXES, np.linspace(0.5, 10, 490)))",
+    "walls": "wall.rocking_spectrum(record, heights=np.linspace(1, 9, 99), ratios=np.linspace(4, 20, 999))",
 }
 JOB = """
 import numpy as np, rocking_wall as rw
 AXES = ("frequency_ratios", "amplitude_ratios")
-record = rw.synthetic_record(duration=300)
+wall, record = rw.Wall(), rw.synthetic_record(duration=300)
 print("started", flush=True)
 try:
     {}
@@ -66,14 +69,7 @@ except KeyboardInterrupt:
 
 @pytest.mark.parametrize("job", JOBS)
 def test_ctrl_c_stops_a_job(job):
-    command = [sys.executable, "-c", JOB.format(JOBS[job])]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "started\n"
-        time.sleep(0.5)
-        assert process.poll() is None, "the job is not long enough"
-        process.send_signal(signal.SIGINT)
-        told, _ = process.communicate(timeout=30)
-    assert told == "stopped\n" and process.returncode == 0
+    assert_stops(JOB.format(JOBS[job]))
 
 
 def test_other_threads_run_beside_a_study(tmp_path):

@@ -20,19 +20,16 @@ pub(crate) fn check_wall<'py>(
     damping: f64,
     fractions: [f64; 2],
 ) -> PyResult<(Vec<Bound<'py, PyDict>>, f64, String)> {
-    let demand = match spectrum {
-        Some([periods, accelerations]) => {
-            let (periods, accelerations) = (samples(&periods)?, samples(&accelerations)?);
-            if periods.len() != accelerations.len() {
-                let found = format!("{} periods and {} values of Sa", periods.len(), accelerations.len());
-                return Err(refused(format!("the spectrum has {found}; give one Sa for each period")));
-            }
-            Demand::of_points(periods.into_iter().zip(accelerations).collect())
+    let demand = if let Some([periods, accelerations]) = spectrum {
+        let (periods, accelerations) = (samples(&periods)?, samples(&accelerations)?);
+        if periods.len() != accelerations.len() {
+            let found = format!("{} periods and {} values of Sa", periods.len(), accelerations.len());
+            return Err(refused(format!("the spectrum has {found}; give one Sa for each period")));
         }
-        None => {
-            let motions = records.iter().map(motion).collect::<PyResult<_>>()?;
-            py.detach(|| Demand::of_records(motions, wall.scene.floors.as_ref(), &wall.equation, damping))
-        }
+        Demand::of_points(periods.into_iter().zip(accelerations).collect())
+    } else {
+        let motions = records.iter().map(motion).collect::<PyResult<_>>()?;
+        py.detach(|| Demand::of_records(motions, wall.scene.floors.as_ref(), &wall.equation, damping))
     };
     let demand = demand.map_err(refused)?;
     let [displacement, secant] = fractions;
