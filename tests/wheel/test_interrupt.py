@@ -52,6 +52,7 @@ def test_ctrl_c_stops_a_study(tmp_path):
 JOBS = {
     "building": "rw.Building('scenes/building/three_storeys.toml').simulate(record, tolerance=1e-6)",
     "calibrate": "wall.calibrate(restitution=np.linspace(0.8, 0.99, 100), a1=np.linspace(0.01, 0.1, 99))",
+    "ties": "rw.Wall(tie_height=3).tie([record] * 9, stiffness=np.linspace(1e3, 1e6, 999))",
     "pulses": "wall.pulse_spectrum('ricker', **dict.fromkeys(AXES, np.linspace(0.5, 10, 490)))",
     "walls": "wall.rocking_spectrum(record, heights=np.linspace(1, 9, 99), ratios=np.linspace(4, 20, 999))",
 }

@@ -167,6 +167,39 @@ def test_a_calibration_of_a_law_with_its_own_a1():
         rw.Wall().calibrate(restitution=[2.0])
 
 
+TIED = {"height": 3.0, "thickness": 0.25, "tie_height": 2.5, "tie_strength": 2e3}
+
+
+@pytest.mark.parametrize("both", [False, True])
+def test_a_tie(program, tmp_path, both):
+    paths, out = records(program, tmp_path, 3), tmp_path / "tie.csv"
+    arguments = [word for name, value in TIED.items() for word in ("--set", f"{name}={value}")]
+    arguments += ["--unit", "m/s2", "--scale", "1.5", "--stiffness", "0,1e4,1e6"]
+    program("tie", *arguments, "--records", *paths, "--csv", out, *["--both-polarities"] * both)
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    wall = rw.Wall(**TIED)
+    found = wall.tie(motions, stiffness=[1e6, 0, 1e4], scale=1.5, both_polarities=both)
+    assert_table(found.table, out)
+    assert found.force.shape == (3, 6 if both else 3) and found.falls.any() and found.strength_reached.any()
+    np.testing.assert_array_equal(found.falls.sum(axis=1), found.table["falls"])
+    np.testing.assert_array_equal(np.median(found.force, axis=1), found.table["force_median_n"])
+    assert found.table["falls"].dtype.kind == "i" and "<svg" in found._repr_html_()
+    alone = wall.tie(motions, stiffness=[0, 1e4, 1e6], scale=1.5, both_polarities=both, threads=1)
+    np.testing.assert_array_equal(alone.u_ratio_max, found.u_ratio_max)
+
+
+def test_what_is_no_tie(record):
+    wall = rw.Wall(**TIED)
+    for call, words in [
+        (lambda: rw.Wall().tie(record), "no tie_height; set it"),
+        (lambda: wall.tie(), "there is no motion"),
+        (lambda: wall.tie(scale=2.0), "scale needs records"),
+        (lambda: wall.tie(record, stiffness=[-1.0]), "stiffness = -1 N/m must be 0 or above"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            call()
+
+
 def test_a_building(program, tmp_path, record):
     out, options = tmp_path / "building.csv", ["--tail", "1", "--tolerance", "0.05"]
     motion = ["--synthetic", "--scale", "0.6", "--csv", out]

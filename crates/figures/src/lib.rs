@@ -18,6 +18,7 @@
 //! | [`many_lines`] | thousands of lines in few bytes, with their style |
 //! | [`rocking_spectrum`] | rocking spectra as heat maps |
 //! | [`mod@calibration`] | calibrations as charts |
+//! | [`tie`] | force and displacement over the stiffness of a tie |
 //! | [`sheet`] | drawings side by side in a file |
 //! | [`template`] | no chart: fills the gaps of a page |
 //! | [`palette`] | the colours and marks of all of them |
@@ -37,6 +38,7 @@ pub mod response;
 pub mod rocking_spectrum;
 pub mod sheet;
 pub mod template;
+pub mod tie;
 pub mod work_precision;
 
 pub use axes::{number, ticks};

@@ -14,7 +14,8 @@
 //! | `variables` | the parameters of the model description |
 //! | `responses` | what a run has come to |
 //! | `walls` | the class `Wall` |
-//! | `checks`, `spectra`, `calibrations` | capacity against demand, rocking spectra, calibration |
+//! | `checks`, `spectra` | capacity against demand, rocking spectra |
+//! | `calibrations`, `ties` | damping that matches restitution, ties of any stiffness |
 //! | `buildings` | the class `Building` |
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
@@ -35,6 +36,7 @@ mod spectra;
 mod studies;
 mod study_walls;
 mod tables;
+mod ties;
 mod variables;
 mod walls;
 mod watch;
@@ -60,6 +62,8 @@ mod _native {
     use crate::spectra::{picture_of_spectrum, spectrum_over_pulses, spectrum_over_walls};
     #[pymodule_export]
     use crate::studies::Study;
+    #[pymodule_export]
+    use crate::ties::tie_of_wall;
     #[pymodule_export]
     use crate::variables::{calculated, variables};
     #[pymodule_export]

@@ -17,6 +17,8 @@
 //! | [`results`] | the curves and the fragilities of each wall of a study |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
+//! | [`polarity`] | motions with both signs |
+//! | [`tie`] | force and displacement over the stiffness of a tie |
 //! | [`check`] | static capacity against a response spectrum |
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
 //! | [`stability`] | stability maps and extremes |
@@ -36,12 +38,14 @@ mod free_motion;
 pub mod ida;
 pub mod loaded;
 pub mod parallel;
+pub mod polarity;
 mod random;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod reproduce;
 pub mod results;
 pub mod spectrum;
 pub mod stability;
+pub mod tie;
 pub mod validation;
 mod wall_table;
 

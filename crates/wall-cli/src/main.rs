@@ -16,7 +16,6 @@ mod moving;
 mod output;
 mod package;
 mod page;
-mod polarity;
 mod progress;
 mod record;
 mod reproduce;

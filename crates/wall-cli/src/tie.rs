@@ -4,24 +4,21 @@ use std::fmt::Write;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use clap::Args;
-use figures::palette::{BLUE, Mark, RED};
-use figures::plot::{Axis, Look, Picture, Plot, Scale, Series};
-use ground_motion::{RecordOptions, Unit, read};
-use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene};
-use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::TieDemands;
+use figures::tie::picture;
+use ground_motion::{GroundMotion, RecordOptions, Unit, read};
+use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::Parameters;
 use serde_json::{Value, json};
 use study::parallel;
+use study::polarity::Polarities;
+use study::tie::{COLUMNS, Row, TieStudy};
 
 use crate::args::SceneArguments;
 use crate::capacity::significant;
 use crate::output;
-use crate::polarity::Polarities;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -56,54 +53,23 @@ pub(crate) struct Arguments {
     plot: Option<PathBuf>,
 }
 
-/// What one motion asks of the tie, and of the wall with it.
-#[derive(Clone, Copy)]
-struct Outcome {
-    /// \[N\]
-    force: f64,
-    /// Largest |u|/`u_ins`; 1 where the wall falls.
-    u_ratio: f64,
-    fate: Fate,
-    /// The wall falls to the side on which no tie holds it.
-    away: bool,
-    /// The force reached the tie's strength.
-    reached: bool,
-}
-
-/// The outcomes for one stiffness \[N/m\].
-struct Row {
-    stiffness: f64,
-    outcomes: Vec<Outcome>,
-}
-
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
     output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
-    if scene.parameters.tie_height <= 0.0 {
-        bail!("the scene has no tie_height; set it in [tie] or with --set tie_height=3");
-    }
-    let tied = Parameters { tie_stiffness: 1.0, ..scene.parameters.clone() };
-    let tied = arguments.scene.named(Wall::new(&tied))?;
-    let stiffnesses = stiffnesses(arguments, &tied)?;
-    let (scenes, polarities) = scenes(arguments, scene, &tied)?;
-    let threads = parallel::threads(arguments.threads).get();
-    let outcomes = parallel::map(stiffnesses.len() * scenes.len(), threads, |index| {
-        let stiffness = stiffnesses[index / scenes.len()];
-        outcome(&scenes[index % scenes.len()], stiffness)
-    })?;
-    let rows = stiffnesses.iter().zip(outcomes.chunks(scenes.len()));
-    let rows: Vec<Row> =
-        rows.map(|(&stiffness, chunk)| Row { stiffness, outcomes: chunk.to_vec() }).collect();
+    let records = records(arguments)?;
+    let study = arguments.scene.named(TieStudy::new(scene, records, arguments.both_polarities))?;
+    let stiffnesses = study.stiffnesses(&arguments.stiffness)?;
+    let rows = study.rows(&stiffnesses, parallel::threads(arguments.threads).get())?;
     if let Some(path) = &arguments.plot {
         output::picture(path, || Ok(picture(&rows)))?;
     }
     output::save(arguments.csv.as_ref(), || csv(&rows))?;
     let text = if arguments.json {
-        serde_json::to_string_pretty(&json(&scenes[0], polarities, &rows))? + "\n"
+        serde_json::to_string_pretty(&json(&study, &rows))? + "\n"
     } else {
-        let mut text = table(&scenes[0], &rows) + polarities.note();
+        let mut text = table(study.scene(), &rows) + study.polarities().note();
         for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
             let _ = writeln!(text, "\nwritten {}", path.display());
         }
@@ -112,120 +78,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::to_stdout(&text)
 }
 
-/// The stiffnesses asked for, in order; `wall` has the tie.
-fn stiffnesses(arguments: &Arguments, wall: &Wall) -> Result<Vec<f64>> {
-    let mut stiffnesses = arguments.stiffness.clone();
-    if let Some(wrong) = stiffnesses.iter().find(|stiffness| !(stiffness.is_finite() && **stiffness >= 0.0)) {
-        bail!("--stiffness {wrong}: must be 0 or above, in N/m");
-    }
-    if stiffnesses.is_empty() {
-        let lever = wall.tie().map_or(1.0, |tie| tie.lever);
-        let unit = wall.body().geometric_stiffness / (lever * lever);
-        stiffnesses.push(0.0);
-        stiffnesses.extend((-8..=12).map(|exponent| unit * 10.0_f64.powf(f64::from(exponent) / 4.0)));
-    }
-    stiffnesses.sort_by(f64::total_cmp);
-    stiffnesses.dedup();
-    Ok(stiffnesses)
-}
-
-/// The scene under each motion and its signs, with as few samples as possible; `wall` has the tie.
-fn scenes(arguments: &Arguments, scene: Scene, wall: &Wall) -> Result<(Vec<Scene>, Polarities)> {
+/// The records asked for, scaled.
+fn records(arguments: &Arguments) -> Result<Vec<GroundMotion>> {
     let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
     let options = RecordOptions { unit, ..RecordOptions::default() };
-    let mut scenes = Vec::new();
+    let mut motions = Vec::new();
     for path in &arguments.records {
         let record = read(path, &options)?;
         for warning in &record.check().warnings {
             output::warn(&format!("{}: {warning}", path.display()));
         }
-        let mut shaken = scene.clone();
         let motion = record.motion.checked_scaled(arguments.scale)?;
         // at the scale 1 its reading has warned
         if let Some(warning) = motion.warning().filter(|_| arguments.scale.abs() > 1.0) {
             output::warn(&format!("{}: {warning}", path.display()));
         }
-        shaken.shake(Excitation::new(motion, None), DEFAULT_TAIL, Vec::new());
-        scenes.push(shaken);
+        motions.push(motion);
     }
-    if scenes.is_empty() {
-        if scene.excitation.is_none() {
-            bail!("the scene has no motion; give records with --records");
-        }
-        scenes.push(scene);
-    }
-    let polarities = Polarities::of(arguments.both_polarities, &scenes[0].parameters, wall);
-    if polarities == Polarities::Both {
-        for index in 0..scenes.len() {
-            let mut other = scenes[index].clone();
-            other.excitation = other.excitation.map(|motion| motion.reversed()).transpose()?;
-            scenes.push(other);
-        }
-    }
-    for scene in &mut scenes {
-        scene.output_step = scene.stop_time;
-    }
-    Ok((scenes, polarities))
+    Ok(motions)
 }
-
-fn outcome(scene: &Scene, stiffness: f64) -> Result<Outcome> {
-    let mut scene = scene.clone();
-    scene.parameters.tie_stiffness = stiffness;
-    let free = match scene.parameters.tie_side {
-        TieSide::Positive => -1.0,
-        TieSide::Negative => 1.0,
-        TieSide::Both => 0.0,
-    };
-    let Response { summary, demands, residual, .. } = Response::of(&scene)?;
-    let tie = demands.tie;
-    Ok(Outcome {
-        force: tie.map_or(0.0, |TieDemands { force, .. }| force.value),
-        u_ratio: summary.u_ratio_max,
-        fate: summary.fate,
-        away: summary.fate.falls() && residual * free > 0.0,
-        reached: tie.is_some_and(|tie| tie.strength.is_some()),
-    })
-}
-
-impl Row {
-    /// Median and largest of a quantity.
-    fn of(&self, pick: fn(&Outcome) -> f64) -> [f64; 2] {
-        let mut values: Vec<f64> = self.outcomes.iter().map(pick).collect();
-        values.sort_by(f64::total_cmp);
-        let (middle, last) = (values.len() / 2, values.len() - 1);
-        let even = values.len().is_multiple_of(2);
-        [if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] }, values[last]]
-    }
-
-    fn count(&self, pick: fn(&Outcome) -> bool) -> usize {
-        self.outcomes.iter().filter(|outcome| pick(outcome)).count()
-    }
-
-    /// Median and largest force \[N\] and u/`u_ins`; walls that fall, those of them that fall away from the
-    /// tie, walls beyond `u_ins` and back, strengths reached.
-    fn values(&self) -> ([f64; 4], [usize; 4]) {
-        let ([force, most], [ratio, largest]) = (self.of(|o| o.force), self.of(|o| o.u_ratio));
-        let counts: [fn(&Outcome) -> bool; 4] = [
-            |outcome| outcome.fate.falls(),
-            |outcome| outcome.away,
-            |outcome| matches!(outcome.fate, Fate::ComesBack { .. }),
-            |outcome| outcome.reached,
-        ];
-        ([force, most, ratio, largest], counts.map(|pick| self.count(pick)))
-    }
-}
-
-const COLUMNS: [&str; 9] = [
-    "stiffness_n_m",
-    "force_median_n",
-    "force_max_n",
-    "u_ratio_median",
-    "u_ratio_max",
-    "falls",
-    "falls_away_from_tie",
-    "beyond_u_ins_and_back",
-    "strength_reached",
-];
 
 fn table(scene: &Scene, rows: &[Row]) -> String {
     let Parameters { tie_height, tie_side, .. } = scene.parameters;
@@ -275,7 +146,8 @@ fn csv(rows: &[Row]) -> String {
     text
 }
 
-fn json(scene: &Scene, polarities: Polarities, rows: &[Row]) -> Value {
+fn json(study: &TieStudy, rows: &[Row]) -> Value {
+    let Parameters { tie_height, tie_side, .. } = study.scene().parameters;
     let object = |row: &Row| {
         let (numbers, counts) = row.values();
         let values = [json!(row.stiffness)].into_iter().chain(numbers.map(|number| json!(number)));
@@ -283,35 +155,11 @@ fn json(scene: &Scene, polarities: Polarities, rows: &[Row]) -> Value {
         COLUMNS.iter().map(|name| (*name).to_owned()).zip(values).collect::<serde_json::Map<_, _>>()
     };
     json!({
-        "title": scene.title,
-        "tie_height": scene.parameters.tie_height,
-        "tie_side": scene.parameters.tie_side.name(),
+        "title": study.scene().title,
+        "tie_height": tie_height,
+        "tie_side": tie_side.name(),
         "motions": rows[0].outcomes.len(),
-        "alike_on_both_sides": polarities == Polarities::Alike,
+        "alike_on_both_sides": study.polarities() == Polarities::Alike,
         "rows": rows.iter().map(|row| Value::Object(object(row))).collect::<Vec<_>>(),
     })
-}
-
-/// Medians (lines) and largest values (marks) of force and displacement over the stiffness.
-fn picture(rows: &[Row]) -> Picture {
-    let tied: Vec<&Row> = rows.iter().filter(|row| row.stiffness > 0.0).collect();
-    let panel = |label: &str, color, pick: fn(&Outcome) -> f64, scale: f64| {
-        let points = |part: usize| -> Vec<(f64, f64)> {
-            tied.iter().map(|row| (row.stiffness.log10(), scale * row.of(pick)[part])).collect()
-        };
-        let largest = points(1);
-        let top = 1.08 * largest.iter().map(|point| point.1).fold(0.0, f64::max);
-        let marks = Series { look: Look::Marks(Mark::Circle), ..Series::line(color, 3.0, largest) };
-        let series = vec![Series::line(color, 1.6, points(0)), marks];
-        let x = [points(0).first().map_or(0.0, |p| p.0 - 0.1), points(0).last().map_or(1.0, |p| p.0 + 0.1)];
-        let axes = [Axis::over("log10 of the stiffness (N/m)", x), Axis::over(label, [-0.02 * top, top])];
-        Plot { scale: Scale::Linear, ..Plot::new([820.0, 320.0], axes, series) }
-    };
-    Picture::stacked(&[
-        Plot {
-            title: "Line: median of the motions; dots: largest".to_owned(),
-            ..panel("force of the tie (kN)", RED, |outcome| outcome.force, 1e-3)
-        },
-        panel("largest |u|/u_ins", BLUE, |outcome| outcome.u_ratio, 1.0),
-    ])
 }

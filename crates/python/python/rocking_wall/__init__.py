@@ -31,6 +31,7 @@ from ._responses import Demands, Extremes, Instant, Peaks, Response, Threshold
 from ._spectra import RockingSpectrum
 from ._studies import Study, StudyResults
 from ._tables import Table
+from ._ties import TieStudy
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
@@ -55,6 +56,7 @@ __all__ = [
     "StudyResults",
     "Table",
     "Threshold",
+    "TieStudy",
     "Wall",
     "__version__",
     "dask",

@@ -42,6 +42,7 @@ __all__ = [
     "spectrum_over_pulses",
     "spectrum_over_walls",
     "synthetic",
+    "tie_of_wall",
     "trimmed",
     "variables",
 ]
@@ -117,6 +118,13 @@ def picture_of_spectrum(
     title: str,
     labels: tuple[str, str],
 ) -> str: ...
+def tie_of_wall(
+    wall: Wall,
+    records: list[_Motion],
+    stiffness: ArrayLike | None,
+    both_polarities: bool,
+    threads: int | None,
+) -> tuple[dict[str, Any], _Columns, str, bool]: ...
 def calibrate_wall(
     wall: Wall,
     models: list[str] | None,

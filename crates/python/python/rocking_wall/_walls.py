@@ -21,6 +21,7 @@ from ._records import Record, motion_of
 from ._responses import Peaks, Response
 from ._spectra import RockingSpectrum
 from ._tables import Table, shown
+from ._ties import TieStudy
 
 
 class Description(dict[str, Any]):
@@ -304,6 +305,40 @@ class Wall(Calculated):
         rows = PULSES if amplitude_ratios is None else amplitude_ratios
         values = _native.spectrum_over_pulses(self._native, form, columns, rows, threads)
         return RockingSpectrum("frequency_ratio", "amplitude_ratio", *values)
+
+    def tie(
+        self,
+        records: Sequence[Record] | Record = (),
+        *,
+        stiffness: ArrayLike | None = None,
+        scale: float = 1.0,
+        both_polarities: bool = False,
+        threads: int | None = None,
+    ) -> TieStudy:
+        """Runs the wall with ties of many stiffnesses at its `tie_height`. Ctrl-C stops the work.
+
+        :param records: Records, each from rest; by default the motion of the scene.
+        :param stiffness: Stiffnesses of the tie [N/m], 0 for none; by default 0, and 1e-2 to 1e3 of 2 W/h at
+            the tie.
+        :param scale: Factor on the records.
+        :param both_polarities: Run each motion with both signs.
+        :param threads: Number of threads; by default one for each core.
+
+        Raises `ValueError` for a wall without a tie_height, without a motion, or with a negative stiffness.
+
+        >>> from rocking_wall import synthetic_record
+        >>> wall = Wall(height=3, thickness=0.25, tie_height=3)
+        >>> wall.tie([synthetic_record()], stiffness=[0, 1e4, 1e6]).force.argmin()
+        np.int64(0)
+        """
+        given = [records] if isinstance(records, Record) else records
+        if scale != 1.0 and len(given) == 0:
+            raise ValueError("scale needs records beside it")
+        motions = [_native.scaled(motion_of(record), scale) for record in given]
+        values, table, picture, is_alike = _native.tie_of_wall(
+            self._native, motions, stiffness, both_polarities, threads
+        )
+        return TieStudy(**values, table=Table(table), alike_on_both_sides=is_alike, _picture=picture)
 
     def calibrate(
         self,

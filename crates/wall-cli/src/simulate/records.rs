@@ -11,9 +11,9 @@ use serde_json::json;
 use study::parallel;
 
 use super::arguments::Arguments;
-use crate::polarity::Polarities;
 use crate::progress::Progress;
 use crate::{demands, output};
+use study::polarity::Polarities;
 use study_folder::csv::{optional, quoted};
 
 /// A record, scaled.

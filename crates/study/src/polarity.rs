@@ -1,10 +1,10 @@
-//! `--both-polarities`: each motion as it is and with the other sign.
+//! Each motion as it is and with the other sign.
 
 use rocking_wall::wall::{Parameters, Wall};
 
-/// The signs of the motions of a command.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Polarities {
+/// The signs with which motions are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polarities {
     /// As they are.
     Given,
     /// Both signs.
@@ -15,7 +15,8 @@ pub(crate) enum Polarities {
 }
 
 impl Polarities {
-    pub(crate) fn of(both: bool, parameters: &Parameters, wall: &Wall) -> Self {
+    /// Returns the signs for a wall: both where they are asked for and differ.
+    pub fn of(both: bool, parameters: &Parameters, wall: &Wall) -> Self {
         let upright = parameters.u_start == 0.0 && parameters.u_dot_start == 0.0;
         match (both, wall.has_equal_sides() && upright) {
             (false, _) => Self::Given,
@@ -24,8 +25,8 @@ impl Polarities {
         }
     }
 
-    /// The signs, with the factors on a motion.
-    pub(crate) fn signs(self) -> &'static [(&'static str, f64)] {
+    /// Returns the signs, with the factors on a motion.
+    pub fn signs(self) -> &'static [(&'static str, f64)] {
         match self {
             Self::Given => &[("+", 1.0)],
             Self::Both => &[("+", 1.0), ("-", -1.0)],
@@ -33,8 +34,8 @@ impl Polarities {
         }
     }
 
-    /// What the user should know.
-    pub(crate) fn note(self) -> &'static str {
+    /// Returns what the user should know, as a line or nothing.
+    pub fn note(self) -> &'static str {
         match self {
             Self::Given | Self::Both => "",
             Self::Alike => {

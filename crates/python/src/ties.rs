@@ -1,0 +1,84 @@
+//! Ties of any stiffness.
+
+use std::num::NonZeroUsize;
+
+use figures::tie::picture;
+use numpy::{Element, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rocking_wall::response::Fate;
+use study::parallel;
+use study::polarity::Polarities;
+use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
+
+use crate::arrays::{Given, motion, samples};
+use crate::errors::{of_scene, refused};
+use crate::tables::Column::{Counts, Numbers};
+use crate::tables::table;
+use crate::walls::Wall;
+
+/// Runs for each thread between two looks at Ctrl-C.
+const RUNS_AT_ONCE: usize = 4;
+
+/// Runs a wall with a tie of each stiffness under each motion; returns the outcomes by stiffness and motion,
+/// their table, the picture, and whether one sign of the motions stands for both.
+#[pyfunction]
+pub(crate) fn tie_of_wall<'py>(
+    py: Python<'py>,
+    wall: &Wall,
+    records: Vec<Given<'py>>,
+    stiffness: Option<Bound<'py, PyAny>>,
+    both_polarities: bool,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
+    let records = records.iter().map(motion).collect::<PyResult<_>>()?;
+    let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
+    let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
+    let stiffnesses = study.stiffnesses(&given).map_err(refused)?;
+    let threads = parallel::threads(threads).get();
+    let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
+    let mut rows = Vec::with_capacity(stiffnesses.len());
+    for stiffnesses in stiffnesses.chunks(at_once) {
+        rows.extend(py.detach(|| study.rows(stiffnesses, threads)).map_err(of_tie)?);
+        py.check_signals()?;
+    }
+    let is_alike = study.polarities() == Polarities::Alike;
+    Ok((outcomes(py, &rows)?, medians(py, &rows)?, picture(&rows).svg(), is_alike))
+}
+
+fn of_tie(error: TieError) -> PyErr {
+    match error {
+        TieError::Run(error) => of_scene(error),
+        other => refused(other),
+    }
+}
+
+fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
+    fn array<'py, T: Element>(
+        py: Python<'py>,
+        rows: &[Row],
+        value: fn(&Outcome) -> T,
+    ) -> PyResult<Bound<'py, PyArray2<T>>> {
+        let values: Vec<Vec<T>> = rows.iter().map(|row| row.outcomes.iter().map(value).collect()).collect();
+        Ok(PyArray2::from_vec2(py, &values)?)
+    }
+    let values = PyDict::new(py);
+    values.set_item("stiffness", PyArray1::from_iter(py, rows.iter().map(|row| row.stiffness)))?;
+    values.set_item("force", array(py, rows, |outcome| outcome.force)?)?;
+    values.set_item("u_ratio_max", array(py, rows, |outcome| outcome.u_ratio)?)?;
+    values.set_item("falls", array(py, rows, |outcome| outcome.fate.falls())?)?;
+    values.set_item("falls_away_from_tie", array(py, rows, |outcome| outcome.away)?)?;
+    let comes_back = |outcome: &Outcome| matches!(outcome.fate, Fate::ComesBack { .. });
+    values.set_item("beyond_u_ins_and_back", array(py, rows, comes_back)?)?;
+    values.set_item("strength_reached", array(py, rows, |outcome| outcome.reached)?)?;
+    Ok(values)
+}
+
+/// The table of `wall tie --csv`.
+fn medians<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
+    let values: Vec<_> = rows.iter().map(Row::values).collect();
+    let mut columns = vec![Numbers(rows.iter().map(|row| row.stiffness).collect())];
+    columns.extend((0..4).map(|part| Numbers(values.iter().map(|(numbers, _)| numbers[part]).collect())));
+    columns.extend((0..4).map(|part| Counts(values.iter().map(|(_, counts)| counts[part]).collect())));
+    table(py, COLUMNS.into_iter().zip(columns))
+}
