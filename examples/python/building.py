@@ -20,5 +20,5 @@ for name, floor in response.floors.items():
     peak = floor.acceleration_peak
     print(f"{name}: {abs(peak['value']):.2f} m/s² at {peak['time']:.2f} s")
 for row in response.peaks.rows():
-    fate = f"overturned at {row['overturn_time']:.2f} s" if row["overturned"] else "stands"
+    fate = f"exceeds u_ins at {row['overturn_time']:.2f} s" if row["overturned"] else "stands"
     print(f"{row['wall']}: {abs(row['u_ratio_peak']):.2f} u_ins, {fate}")

@@ -200,12 +200,13 @@ def test_what_is_no_tie(record):
             call()
 
 
-def test_a_building(program, tmp_path, record):
+@pytest.mark.parametrize("scale", [0.3, 2.0])
+def test_a_building(program, tmp_path, record, scale):
     out, options = tmp_path / "building.csv", ["--tail", "1", "--tolerance", "0.05"]
-    motion = ["--synthetic", "--scale", "0.6", "--csv", out]
+    motion = ["--synthetic", "--scale", scale, "--csv", out]
     told = program("building", "scenes/building/three_storeys.toml", *motion, *options, "--json")
     building = rw.Building.from_toml("scenes/building/three_storeys.toml")
-    found = building.simulate(record, scale=0.6, tail=1.0, tolerance=0.05)
+    found = building.simulate(record, scale=scale, tail=1.0, tolerance=0.05)
     assert (found.title, found.step, found.change) == (told["title"], told["step"], told["change"])
     assert list(found.floors) == building.floors == [floor["name"] for floor in told["floors"]]
     for floor in told["floors"]:
@@ -214,12 +215,14 @@ def test_a_building(program, tmp_path, record):
     assert list(found.walls) == building.walls == [wall["name"] for wall in told["walls"]]
     for wall in told["walls"]:
         ours = found.walls[wall["name"]]
-        assert (ours.u_max, ours.overturn_time) == (wall["u_max"], wall["overturn_time"])
+        told_of_fall = (wall["u_max"], wall["overturn_time"], wall["falls"])
+        assert (ours.u_max, ours.overturn_time, ours.falls) == told_of_fall
         for name in ("u_ratio", "reaction_bottom", "reaction_top"):
             assert getattr(ours, f"{name}_peak") == wall[name], name
     histories = columns(out)
     for name, wall in found.walls.items():
-        np.testing.assert_array_equal(wall.u, np.array(histories[f"{name}.u"], float))
+        np.testing.assert_array_equal(wall.u, np.array(histories[f"{name}.u_m"], float))
+    assert any(wall.falls for wall in found.walls.values()) == (scale == 2.0)
     assert found.peaks["overturned"].dtype.kind == "b" and "<svg" in found._repr_html_()
 
 

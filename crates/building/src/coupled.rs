@@ -8,6 +8,8 @@ use fmu_export::Step;
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_wall::response::Fate;
+use rocking_wall::solver::reported_peak;
+use rocking_wall::wall::Wall;
 
 use crate::document::Building;
 use crate::error::BuildingError;
@@ -114,6 +116,16 @@ impl WallHistory {
     /// Returns what becomes of the wall, from its history at the times of the run \[s\].
     pub fn fate(&self, times: &[f64]) -> Fate {
         Fate::of(self.overturn_time, times.iter().copied().zip(self.ratio.values.iter().copied()))
+    }
+
+    /// Returns the peak of u \[m\], and the largest |u| \[m\] and |u|/`u_ins`, as results report them.
+    pub fn reported(&self, wall: &Wall, times: &[f64]) -> (Peak, [f64; 2]) {
+        let u_ins = wall.body().instability;
+        let (peak, falls) = (self.displacement.peak, self.fate(times).falling());
+        let end = self.displacement.values.last().copied().unwrap_or_default();
+        let own = [self.largest, self.largest / u_ins.of(peak.value)];
+        let reported = reported_peak(own, u_ins.of(end), falls.is_some());
+        (falls.map_or(peak, |time| Peak { value: reported[0].copysign(end), time }), reported)
     }
 }
 

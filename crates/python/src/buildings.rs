@@ -96,7 +96,7 @@ impl Building {
             }
             floors.set_item(&floor.name, values)?;
         }
-        for (wall, history) in self.building.walls.iter().zip(&run.walls) {
+        for ((wall, history), own) in self.building.walls.iter().zip(&run.walls).zip(&self.parts.walls) {
             let values = PyDict::new(py);
             for (name, history) in [
                 ("u", &history.displacement),
@@ -106,8 +106,12 @@ impl Building {
             ] {
                 set(&values, name, history)?;
             }
-            values.set_item("u_max", history.largest)?;
+            let (at, [u_max, ratio]) = history.reported(own, &run.times);
+            values.set_item("u_peak", peak(py, at)?)?;
+            values.set_item("u_ratio_peak", peak(py, Peak { value: ratio.copysign(at.value), ..at })?)?;
+            values.set_item("u_max", u_max)?;
             values.set_item("overturn_time", history.overturn_time)?;
+            values.set_item("falls", history.fate(&run.times).falls())?;
             walls.set_item(&wall.name, values)?;
         }
         let values = PyDict::new(py);
@@ -124,13 +128,15 @@ impl Building {
 
 /// Sets a history and its peak.
 fn set(values: &Bound<'_, PyDict>, name: &str, history: &History) -> PyResult<()> {
-    let py = values.py();
-    let Peak { value, time } = history.peak;
+    values.set_item(name, PyArray1::from_slice(values.py(), &history.values))?;
+    values.set_item(format!("{name}_peak"), peak(values.py(), history.peak)?)
+}
+
+fn peak(py: Python<'_>, Peak { value, time }: Peak) -> PyResult<Bound<'_, PyDict>> {
     let peak = PyDict::new(py);
     peak.set_item("value", value)?;
     peak.set_item("time", time)?;
-    values.set_item(name, PyArray1::from_slice(py, &history.values))?;
-    values.set_item(format!("{name}_peak"), peak)
+    Ok(peak)
 }
 
 fn of_building(error: BuildingError, path: &Path) -> PyErr {

@@ -39,11 +39,11 @@ class BuildingWallResponse:
     u: Array
     """Displacement relative to the supports [m]."""
     u_peak: Instant
-    """Its peak between the samples too."""
+    """Its peak; u_ins of its side for a wall that falls."""
     u_ratio: Array
     """u/u_ins of its side [-]."""
     u_ratio_peak: Instant
-    """Its peak between the samples too."""
+    """Its peak; 1 or -1 for a wall that falls."""
     reaction_bottom: Array
     """Force of the bottom support on the wall [N]."""
     reaction_bottom_peak: Instant
@@ -53,13 +53,15 @@ class BuildingWallResponse:
     reaction_top_peak: Instant
     """Its peak between the samples too."""
     u_max: float
-    """Largest |u| between the samples too [m]."""
+    """Largest |u| between the samples too [m]; u_ins of its side for a wall that falls."""
     overturn_time: float | None
-    """When the wall overturned [s]; None for never."""
+    """When |u| first exceeded u_ins [s]; None for never."""
+    falls: bool
+    """Whether the wall falls; one that overturned can come back."""
 
     @property
     def overturned(self) -> bool:
-        """Whether the wall overturned."""
+        """Whether |u| exceeded u_ins."""
         return self.overturn_time is not None
 
 
@@ -83,8 +85,8 @@ class BuildingResponse:
     """Largest change of a peak by the last halving of the step, over the peak [-]."""
 
     def __repr__(self) -> str:
-        fallen = [name for name, wall in self.walls.items() if wall.overturned]
-        fate = f"overturned: {', '.join(fallen)}" if fallen else "all walls standing"
+        fallen = [name for name, wall in self.walls.items() if wall.falls]
+        fate = f"fallen: {', '.join(fallen)}" if fallen else "all walls standing"
         return f"BuildingResponse({self.title!r}, {self.time[-1]:g} s, {fate})"
 
     @property
@@ -100,6 +102,7 @@ class BuildingResponse:
                 "reaction_bottom_peak": [wall.reaction_bottom_peak["value"] for wall in walls],
                 "reaction_top_peak": [wall.reaction_top_peak["value"] for wall in walls],
                 "overturned": [wall.overturned for wall in walls],
+                "falls": [wall.falls for wall in walls],
                 "overturn_time": times,
             }
         )

@@ -4,14 +4,12 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use building::coupled::{Coupled, History, Peak, Settings, WallHistory};
+use building::coupled::{Coupled, History, Peak, Settings};
 use building::document::Floor;
 use building::{Building, Parts};
 use clap::Args;
 use ground_motion::GroundMotion;
 use rocking_wall::scene::DEFAULT_TAIL;
-use rocking_wall::solver::reported_peak;
-use rocking_wall::wall::Wall;
 use serde_json::json;
 
 use super::animation;
@@ -108,7 +106,7 @@ fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> Strin
         "wall", "u [mm]", "u/u_ins", "bottom force [kN]", "top force [kN]"
     );
     for ((wall, history), own) in building.walls.iter().zip(&run.walls).zip(&parts.walls) {
-        let (peak, [_, ratio]) = reported(own, history, &run.times);
+        let (peak, [_, ratio]) = history.reported(own, &run.times);
         let u = at(peak, 1000.0, 1);
         let top = if wall.top.is_some() { at(history.reaction_top.peak, 1e-3, 2) } else { "-".to_owned() };
         let _ = writeln!(
@@ -120,16 +118,6 @@ fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> Strin
         );
     }
     text
-}
-
-/// The peak of u \[m\], and the largest |u| \[m\] and |u|/`u_ins`, of a wall that falls up to `u_ins`.
-fn reported(wall: &Wall, history: &WallHistory, times: &[f64]) -> (Peak, [f64; 2]) {
-    let u_ins = wall.body().instability;
-    let (peak, falls) = (history.displacement.peak, history.fate(times).falling());
-    let end = history.displacement.values.last().copied().unwrap_or_default();
-    let own = [history.largest, history.largest / u_ins.of(peak.value)];
-    let reported = reported_peak(own, u_ins.of(end), falls.is_some());
-    (falls.map_or(peak, |time| Peak { value: reported[0].copysign(end), time }), reported)
 }
 
 /// One row for each sample of the record, and on at its step; the header names the columns with their units.
@@ -170,7 +158,7 @@ fn json(building: &Building, parts: &Parts, run: &Coupled) -> serde_json::Value 
         json!({ "name": floor.name, "acceleration": acceleration, "drift": drift })
     });
     let walls = building.walls.iter().zip(&run.walls).zip(&parts.walls).map(|((wall, history), own)| {
-        let (at, [u_max, ratio]) = reported(own, history, &run.times);
+        let (at, [u_max, ratio]) = history.reported(own, &run.times);
         json!({
             "name": wall.name,
             "u_max": u_max,
