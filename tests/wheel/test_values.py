@@ -26,6 +26,7 @@ WALLS = {
 WAYS = [copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value))]
 
 
+@pytest.mark.filterwarnings("ignore:a1 is set and has no effect")
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", WALLS)
 def test_a_wall_is_copied_and_sent(name, way, record):

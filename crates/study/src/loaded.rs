@@ -83,7 +83,7 @@ impl LoadedStudy {
         let file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
         for wall in &walls {
-            warn(wall, &mut warnings);
+            warn(wall, &file.models, &mut warnings);
         }
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }

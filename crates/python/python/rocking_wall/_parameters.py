@@ -163,7 +163,8 @@ class Calculated:
 
     @property
     def F0_negative(self) -> float:
-        """Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]."""
+        """Rigid restoring force at zero displacement, side u < 0, as an absolute value; where
+        overburden_eccentricity is not 0 [N]."""
         return self._native.calculated("F0_negative")
 
     @property
@@ -173,20 +174,24 @@ class Calculated:
 
     @property
     def u_ins_negative(self) -> float:
-        """Static instability displacement, side u < 0, as an absolute value [m]."""
+        """Static instability displacement, side u < 0, as an absolute value; where overburden_eccentricity is
+        not 0 [m]."""
         return self._native.calculated("u_ins_negative")
 
     @property
     def omega1(self) -> float:
-        """Angular frequency of the elastic branch; zero for rigid_linear [rad/s]."""
+        """Angular frequency of the elastic branch; zero for rigid_linear; where force_law = bilinear or
+        trilinear [rad/s]."""
         return self._native.calculated("omega1")
 
     @property
     def xi_used(self) -> float:
-        """Damping ratio in use on the elastic branch: given, predicted or from c_bar; 0 without one."""
+        """Damping ratio in use on the elastic branch: given, computed or from c_bar; 0 without one; where
+        damping_model is not none."""
         return self._native.calculated("xi_used")
 
     @property
     def restitution_used(self) -> float:
-        """Coefficient of restitution in use, for impacts and for predicted damping."""
+        """Coefficient of restitution in use, for impacts and for computed damping; where impact =
+        restitution, or xi = -1, or c_bar = -1."""
         return self._native.calculated("restitution_used")
