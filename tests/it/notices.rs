@@ -4,11 +4,13 @@ use std::collections::BTreeSet;
 use std::process::Command;
 
 /// Crates of this workspace.
-const OURS: [&str; 11] = [
+const OURS: [&str; 13] = [
     "fmu-export",
     "fmu-export-build",
     "ground-motion",
+    "rocking-building",
     "rocking-figures",
+    "rocking-floor",
     "rocking-oscillator",
     "rocking-playground",
     "rocking-scene-fmu",
