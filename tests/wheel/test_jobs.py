@@ -194,7 +194,7 @@ def test_what_is_no_tie(record):
         (lambda: rw.Wall().tie(record), "no tie_height; set it"),
         (lambda: wall.tie(), "there is no motion"),
         (lambda: wall.tie(scale=2.0), "scale needs records"),
-        (lambda: wall.tie(record, stiffness=[-1.0]), "stiffness = -1 N/m must be 0 or above"),
+        (lambda: wall.tie(record, stiffness=[-1.0]), "tie_stiffness = -1 N/m is below its limit 0"),
     ]:
         with pytest.raises(ValueError, match=words):
             call()

@@ -2,7 +2,6 @@
 
 use figures::plot::Picture;
 use figures::response;
-use ground_motion::Warning;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

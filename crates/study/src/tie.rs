@@ -13,12 +13,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use fmu_export::VariableId;
 use ground_motion::{GroundMotion, GroundMotionError};
 use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError, check_limits};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::TieDemands;
-use rocking_wall::variables::TieSide;
+use rocking_wall::variables::{RealVariable, TieSide};
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use crate::parallel;
@@ -31,9 +32,9 @@ pub enum TieError {
     /// There is no tie.
     #[error("the wall has no tie_height; set it, such as tie_height = 3")]
     NoHeight,
-    /// A stiffness that is none.
-    #[error("stiffness = {stiffness} N/m must be 0 or above")]
-    Stiffness { stiffness: f64 },
+    /// A stiffness beyond the limits of the model description.
+    #[error("{0}")]
+    Stiffness(String),
     /// There is no motion.
     #[error("there is no motion; give records, or a scene with one")]
     NoMotion,
@@ -153,9 +154,9 @@ impl TieStudy {
     /// [`TieError::Stiffness`].
     pub fn stiffnesses(&self, given: &[f64]) -> Result<Vec<f64>, TieError> {
         let mut stiffnesses = given.to_vec();
-        let is_wrong = |stiffness: &&f64| !(stiffness.is_finite() && **stiffness >= 0.0);
-        if let Some(&stiffness) = stiffnesses.iter().find(is_wrong) {
-            return Err(TieError::Stiffness { stiffness });
+        let variable = RealVariable::TieStiffness.variable();
+        for &stiffness in given {
+            check_limits(variable, stiffness).map_err(TieError::Stiffness)?;
         }
         if stiffnesses.is_empty() {
             let lever = self.tied.tie().map_or(1.0, |tie| tie.lever);
