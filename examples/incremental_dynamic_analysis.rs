@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let models = vec![
         Model::new(Damping::Restitution),
-        Model::new(Damping::ConstantCoefficient(RatioSource::Predicted)),
+        Model::new(Damping::ConstantCoefficient(RatioSource::Computed)),
     ];
     let levels = Levels::HuntAndFill { first: 1.0, increase: 0.5, top: 60.0, resolution: 0.02, gap: 0.25 };
     let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;

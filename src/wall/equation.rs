@@ -198,7 +198,7 @@ impl Wall {
         self.damping.elastic * self.body.effective_mass
     }
 
-    /// Coefficient of restitution in use, at impacts or behind predicted damping, e₁ against transverse walls
+    /// Coefficient of restitution in use, at impacts or behind computed damping, e₁ against transverse walls
     /// \[-\].
     pub fn restitution(&self) -> f64 {
         self.restitution

@@ -249,7 +249,7 @@ fn what_cannot_run_is_refused() {
         }
     };
     let cr = || vec![Model::new(Damping::Restitution)];
-    let rigid_ratio = Model::new(Damping::ConstantRatio(RatioSource::Predicted));
+    let rigid_ratio = Model::new(Damping::ConstantRatio(RatioSource::Computed));
     let mut rigid = walls();
     rigid[1].parameters.force_law = rocking_wall::variables::ForceLaw::RigidLinear;
     refused(vec![], records(1), cr(), HUNT, &["at least one wall"]);

@@ -168,7 +168,7 @@ fn an_interrupted_study_says_that_it_resumes() {
     let manifest = fs::read_to_string(folder.join("whole/study.json")).unwrap();
     assert!(manifest.contains("\"hunt from ") && manifest.contains("\"AvgSA over "), "{manifest}");
     assert!(
-        !["HuntAndFill", "Predicted", "periods: ["].iter().any(|word| manifest.contains(word)),
+        !["HuntAndFill", "Computed", "periods: ["].iter().any(|word| manifest.contains(word)),
         "{manifest}"
     );
     // and another study is refused in words

@@ -128,7 +128,7 @@ impl Fragility {
 /// The energy loss of a wall as a study knows it.
 fn damping(parameters: &Parameters) -> Result<Damping, String> {
     let source =
-        |number: f64| if number == COMPUTED { RatioSource::Predicted } else { RatioSource::Given(number) };
+        |number: f64| if number == COMPUTED { RatioSource::Computed } else { RatioSource::Given(number) };
     let (ratio, c_bar) = (source(parameters.xi), source(parameters.c_bar));
     match (parameters.damping_model, parameters.impact) {
         (DampingModel::None, Impact::None) => Ok(Damping::None),

@@ -217,12 +217,12 @@ fn if_any(name: &str, symbol: &str, value: f64, unit: &str) -> String {
     if value == 0.0 { name } else { format!("{name}, {symbol} = {value:.2} {unit}") }
 }
 
-/// What happens at u = 0. Without impacts e matters only where the damping is predicted from it.
+/// What happens at u = 0. Without impacts e matters only where the damping is computed from it.
 fn impact(parameters: &Parameters, e: f64) -> String {
-    let predicted = usage(parameters).any(|usage| usage.name == "restitution" && usage.matters);
+    let computed = usage(parameters).any(|usage| usage.name == "restitution" && usage.matters);
     match parameters.impact {
         Impact::Restitution => format!("restitution, e = {e:.3}"),
-        Impact::None if predicted => format!("none; the damping stands for e = {e:.3}"),
+        Impact::None if computed => format!("none; the damping stands for e = {e:.3}"),
         Impact::None => "none".to_owned(),
     }
 }

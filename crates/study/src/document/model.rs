@@ -33,7 +33,7 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
             let damping = match text.strip_suffix(" Eq. 14") {
                 Some(short @ ("CDC" | "CDR" | "SDR")) => known(short, RatioSource::Equation14),
                 Some(_) => None,
-                None => known(text, RatioSource::Predicted),
+                None => known(text, RatioSource::Computed),
             };
             damping.map(Model::new).ok_or_else(|| unknown(text))
         }
@@ -66,7 +66,7 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
             let number = given(taken, number).map_err(|error| refuse(error.to_string()))?;
             let damping = match short {
                 "CDC" | "CDR" | "SDR" | "block" => {
-                    known(short, number.map_or(RatioSource::Predicted, RatioSource::Given))
+                    known(short, number.map_or(RatioSource::Computed, RatioSource::Given))
                 }
                 _ => return Err(refuse(format!("{short:?} takes no {taken}; write it as \"{short}\""))),
             };

@@ -7,7 +7,7 @@ use rocking_wall::wall::{COMPUTED, ParameterError, Parameters, Wall, equivalence
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RatioSource {
     /// Eqs. (20)–(23), from a₁ and e.
-    Predicted,
+    Computed,
     /// A given damping ratio ξ, or c̄ of a free-standing block \[-\].
     Given(f64),
     /// ξ = −0.68 ln e. Makris and Konstantinidis, Eq. (14).
@@ -37,9 +37,9 @@ impl Damping {
     /// Returns the short name, the viscous damping and the source of its ratio.
     fn parts(self) -> (&'static str, DampingModel, RatioSource) {
         match self {
-            Self::None => ("none", DampingModel::None, RatioSource::Predicted),
-            Self::Restitution => ("CR", DampingModel::None, RatioSource::Predicted),
-            Self::RigidRestitution => ("CR rigid", DampingModel::None, RatioSource::Predicted),
+            Self::None => ("none", DampingModel::None, RatioSource::Computed),
+            Self::Restitution => ("CR", DampingModel::None, RatioSource::Computed),
+            Self::RigidRestitution => ("CR rigid", DampingModel::None, RatioSource::Computed),
             Self::ConstantCoefficient(source) => ("CDC", DampingModel::ConstantCoefficient, source),
             Self::FreeStandingBlock(source) => ("block", DampingModel::FreeStandingBlock, source),
             Self::ConstantRatio(source) => ("CDR", DampingModel::ConstantRatio, source),
@@ -62,7 +62,7 @@ impl Model {
     pub fn new(damping: Damping) -> Self {
         let (short, _, source) = damping.parts();
         let name = match source {
-            RatioSource::Predicted => short.to_owned(),
+            RatioSource::Computed => short.to_owned(),
             RatioSource::Given(value) => format!("{short} {value}"),
             RatioSource::Equation14 => format!("{short} Eq. 14"),
         };
@@ -73,9 +73,9 @@ impl Model {
     pub fn figure_15() -> Vec<Self> {
         let dampings = [
             Damping::Restitution,
-            Damping::ConstantCoefficient(RatioSource::Predicted),
-            Damping::ConstantRatio(RatioSource::Predicted),
-            Damping::StiffnessProportional(RatioSource::Predicted),
+            Damping::ConstantCoefficient(RatioSource::Computed),
+            Damping::ConstantRatio(RatioSource::Computed),
+            Damping::StiffnessProportional(RatioSource::Computed),
             Damping::ConstantRatio(RatioSource::Equation14),
         ];
         dampings.map(Self::new).into()
@@ -102,7 +102,7 @@ impl Model {
             return Ok(parameters);
         }
         let ratio = match source {
-            RatioSource::Predicted => COMPUTED,
+            RatioSource::Computed => COMPUTED,
             RatioSource::Given(value) => value,
             RatioSource::Equation14 => {
                 let e = Wall::new(&parameters)?.restitution();
