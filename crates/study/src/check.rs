@@ -19,6 +19,8 @@ use rocking_wall::scene::{DEFAULT_TAIL, Floors, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::{Tie, Wall};
 
+use crate::fragility::sample_median;
+
 /// Displacements of a check, as fractions; both are the user's choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
@@ -140,10 +142,7 @@ impl Demand {
             Of::Records(spectrum, motions) => {
                 let at = |motion| spectrum.acceleration(motion, period);
                 let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
-                values.sort_by(f64::total_cmp);
-                let middle = values.len() / 2;
-                let even = values.len().is_multiple_of(2);
-                Ok(if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] })
+                Ok(sample_median(&mut values))
             }
         }
     }

@@ -22,6 +22,7 @@ use rocking_wall::solver::TieDemands;
 use rocking_wall::variables::{RealVariable, TieSide};
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
+use crate::fragility::sample_median;
 use crate::parallel;
 use crate::polarity::Polarities;
 
@@ -206,10 +207,8 @@ impl Row {
     /// Returns median and largest of a quantity.
     pub fn of(&self, pick: fn(&Outcome) -> f64) -> [f64; 2] {
         let mut values: Vec<f64> = self.outcomes.iter().map(pick).collect();
-        values.sort_by(f64::total_cmp);
-        let (middle, last) = (values.len() / 2, values.len() - 1);
-        let even = values.len().is_multiple_of(2);
-        [if even { 0.5 * (values[middle - 1] + values[middle]) } else { values[middle] }, values[last]]
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        [sample_median(&mut values), largest]
     }
 
     fn count(&self, pick: fn(&Outcome) -> bool) -> usize {

@@ -33,4 +33,5 @@ pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;
 pub use observation::{Observation, ObservationKind};
+pub(crate) use sample::sample_median;
 pub use sample::{fractile, median, steps};

@@ -28,7 +28,7 @@ pub fn fractile(sorted: &[f64], part: f64) -> Option<f64> {
 }
 
 /// Returns the middle value, or the mean of the two in the middle; NaN of an empty sample.
-pub(super) fn sample_median(values: &mut [f64]) -> f64 {
+pub(crate) fn sample_median(values: &mut [f64]) -> f64 {
     if values.is_empty() {
         return f64::NAN;
     }
