@@ -195,10 +195,8 @@ impl Model for Unit {
         }
         if self.exchange.is_none() {
             log.info(format_args!("solver: {}", self.simulation.method()));
-        } else if self.parameters.solver != Parameters::default().solver {
-            log.warning(format_args!(
-                "solver is set and has no effect: in Model Exchange the importer's solver integrates"
-            ));
+        } else {
+            self.warn_of_solver(log);
         }
         Ok(())
     }

@@ -2,7 +2,8 @@
 
 use fmu_export::{Failure, Log, ModelExchange, Update};
 
-use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, RealVariable};
+use crate::variables::{CONTINUOUS_STATES, DERIVATIVES, EVENT_INDICATORS, GROUPS, RealVariable};
+use crate::wall::{Usage, usage};
 
 use super::exchange::OwnMotion;
 use super::instance::Unit;
@@ -31,6 +32,18 @@ impl Unit {
         };
         let support = self.support();
         self.simulation.place(displacement, velocity, support);
+    }
+
+    /// Warns about parameters of the solver that are set: the importer's solver integrates.
+    pub(super) fn warn_of_solver(&self, log: &mut Log<'_>) {
+        let (_, names) = GROUPS.iter().find(|(group, _)| *group == "solver").unwrap_or(&("", &[]));
+        // those without effect in co-simulation either have their warning already
+        let is_set = |usage: &Usage| usage.matters && !usage.is_start && names.contains(&usage.name);
+        for Usage { name, .. } in usage(&self.parameters).filter(is_set) {
+            log.warning(format_args!(
+                "{name} is set and has no effect: in Model Exchange the importer's solver integrates"
+            ));
+        }
     }
 
     fn indicators(&self) -> [f64; EVENT_INDICATORS] {

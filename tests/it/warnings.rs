@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::{GROUPS, Scene};
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::RealVariable;
+use rocking_wall::variables::{IntegerVariable, RealVariable, Solver};
 use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::command_line::{folder, text, wall};
@@ -199,27 +199,30 @@ fn a_start_beyond_u_ins_is_refused() {
 
 /// What a unit logs with these parameters and inputs, in co-simulation, and whether it could start.
 fn logged(parameters: &[(RealVariable, f64)], inputs: &[(RealVariable, f64)]) -> (bool, String) {
+    let change =
+        |unit: &mut Unit| parameters.iter().for_each(|&(variable, value)| unit.set_real(variable, value));
+    logged_by(Interface::CoSimulation, change, inputs)
+}
+
+fn logged_by(
+    interface: Interface,
+    change: impl Fn(&mut Unit),
+    inputs: &[(RealVariable, f64)],
+) -> (bool, String) {
     let texts = Arc::new(Mutex::new(Vec::new()));
     let sink = texts.clone();
     let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
     let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
-    let environment = Environment {
-        interface: Interface::CoSimulation,
-        instance_name: "wall",
-        resources: None,
-        payload: None,
-    };
+    let environment = Environment { interface, instance_name: "wall", resources: None, payload: None };
     let mut unit = Unit::instantiate(environment, &mut log).unwrap();
-    for &(variable, value) in parameters {
-        unit.set_real(variable, value);
-    }
+    change(&mut unit);
     let started = unit.initialize(&mut log);
     for step in 0..3_u32 {
         for &(variable, value) in inputs {
             unit.set_real(variable, value);
         }
         let step = Step { from: 0.01 * f64::from(step), duration: 0.01, may_end_early: false };
-        if started.is_ok() {
+        if started.is_ok() && interface == Interface::CoSimulation {
             unit.do_step(step, &mut log).unwrap();
         }
     }
@@ -241,6 +244,24 @@ fn the_unit_warns_once_of_a_start_that_was_forgotten() {
         assert_eq!(logged(&[(UStart, 0.1)], &[(input, 0.1)]).1, "");
     }
     assert!(logged(&[(D1, 0.7)], &[]).1.starts_with("d1 is set and has no effect"));
+}
+
+/// In Model Exchange the importer's solver integrates: no parameter of the wall's own counts.
+#[test]
+fn model_exchange_warns_of_a_solver_that_is_set() {
+    let change = |solver: Solver| {
+        move |unit: &mut Unit| {
+            unit.set_integer(IntegerVariable::Solver, solver.value());
+            unit.set_real(RealVariable::Tolerance, 1e-10);
+        }
+    };
+    let warning = |name: &str| {
+        format!("{name} is set and has no effect: in Model Exchange the importer's solver integrates")
+    };
+    let told = |interface, solver| logged_by(interface, change(solver), &[]).1;
+    assert_eq!(told(Interface::ModelExchange, Solver::Automatic), warning("tolerance"));
+    assert_eq!(told(Interface::ModelExchange, Solver::Adaptive), warning("solver") + &warning("tolerance"));
+    assert_eq!(told(Interface::CoSimulation, Solver::Adaptive), "");
 }
 
 /// A strip wall whose supports have motions of their own shows both, and both peaks.
