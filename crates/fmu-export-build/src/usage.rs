@@ -75,7 +75,8 @@ pub(crate) fn written(xml: &str, variables: &[Variable]) -> String {
         let name = format!("<ScalarVariable name=\"{}\"", variable.name);
         let Some(name_end) = text.find(&name).map(|start| start + name.len()) else { continue };
         let tag = &text[name_end..];
-        let tag = &tag[..tag.find('>').unwrap_or(tag.len())];
+        // a value may contain `>`, but no `<`
+        let tag = &tag[..tag.find('<').unwrap_or(tag.len())];
         match tag.split_once(OPEN) {
             Some((before, after)) => {
                 let end = name_end + before.len() + OPEN.len() + after.find('"').unwrap_or(after.len());

@@ -43,7 +43,7 @@ pub(crate) fn spelled_out(manifest: &Manifest) -> String {
     let is = |damping: &str, short: &str| {
         let rest = damping.strip_prefix(short);
         // a ratio or an equation may follow the name
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with([' ']) && rest != " rigid")
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' ') && rest != " rigid")
     };
     let used = NAMES.iter().filter(|(short, _)| models.iter().any(|model| is(&model.damping, short)));
     let words: Vec<_> = used.map(|(short, meaning)| format!("{short}: {meaning}")).collect();
