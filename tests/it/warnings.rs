@@ -109,15 +109,23 @@ fn a_parameter_without_effect_is_warned_of() {
         (
             vec!["xi=0.05", "restitution=0.9"],
             "restitution",
-            "impact = restitution, or xi = -1, or c_bar = -1",
+            "impact = restitution, or xi = -1 and damping_model = constant_coefficient, constant_ratio or \
+             stiffness_proportional, or c_bar = -1 and damping_model = free_standing_block",
         ),
-        (vec!["restitution=0.9", "restitution_source=analytic"], "restitution_source", "restitution = -1"),
+        (
+            // restitution is -1 here: what else it takes is told too
+            vec!["xi=0.05", "restitution_source=analytic"],
+            "restitution_source",
+            "restitution = -1 and impact = restitution, or restitution = -1 and xi = -1 and damping_model = \
+             constant_coefficient, constant_ratio or stiffness_proportional, or restitution = -1 and \
+             c_bar = -1 and damping_model = free_standing_block",
+        ),
         (vec!["hinge_ratio=0.6"], "hinge_ratio", "mechanism = vertical_spanning"),
         (vec!["overburden_eccentricity=0.1"], "overburden_eccentricity", "overburden is not 0"),
         (
             vec!["overburden=3000", "eccentricity_mode=follows_pivot"],
             "eccentricity_mode",
-            "overburden_eccentricity is not 0",
+            "overburden_eccentricity is not 0 and overburden is not 0",
         ),
         (
             vec!["force_law=rigid_linear", "damping_model=none", "a1=0.05"],

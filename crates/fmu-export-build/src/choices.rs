@@ -1,7 +1,6 @@
 //! Writes `choices.rs`: plain enumerations, the start values of the parameters, and where variables
 //! matter. It knows no FMI.
 
-use crate::condition::words;
 use crate::description::Description;
 use crate::names::{HEAD, add, camel, field, markdown, type_name};
 use crate::usage;
@@ -32,7 +31,7 @@ pub(crate) fn module(description: &Description) -> String {
             _ => "true".to_owned(),
         };
         let matters = usage::code(variable, &description.variables);
-        let (name, words) = (&variable.name, words(&variable.conditions));
+        let (name, words) = (&variable.name, usage::condition(variable, &description.variables));
         format!(
             "            Usage {{ name: {name:?}, is_start: {is_start}, matters: {matters}, condition: {:?} \
              }},\n",

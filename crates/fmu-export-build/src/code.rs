@@ -6,7 +6,7 @@
 use crate::description::Description;
 use crate::names::{HEAD, add, camel, field, markdown, type_name};
 use crate::usage::described;
-use crate::variable::{BaseType, EnumerationType, Item, Kind, Variable};
+use crate::variable::{BaseType, Item, Kind, Variable};
 
 /// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to
 /// its parameters.
@@ -25,7 +25,7 @@ pub(crate) fn module(description: &Description) -> String {
     for base in BaseType::ALL {
         let of_base = |variable: &&Variable| variable.base() == base;
         let variables: Vec<_> = description.variables.iter().filter(of_base).collect();
-        base_type(&mut code, base, &variables, &description.enumerations);
+        base_type(&mut code, base, &variables, description);
         let of_base: Vec<_> = parameters.iter().copied().filter(of_base).collect();
         if !of_base.is_empty() {
             access(&mut code, base, &of_base);
@@ -118,11 +118,11 @@ fn exchange(code: &mut String, description: &Description) {
 }
 
 /// The enum of the variables of one base type, its `VariableId` and its table.
-fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumerations: &[EnumerationType]) {
+fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], description: &Description) {
     let of = if base == BaseType::Integer { "Integer or Enumeration" } else { &format!("{base:?}") };
     add(code, format_args!("\n/// Variables of type {of}.\n{DERIVE}pub enum {base:?}Variable {{\n"));
     for variable in variables {
-        let text = markdown(&described(variable));
+        let text = markdown(&described(variable, &description.variables));
         // Plain brackets would be a link to rustdoc.
         let unit = match variable.unit.as_deref() {
             None | Some("1") => String::new(),
@@ -141,7 +141,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], enumera
     let arms = variables.iter().map(|variable| {
         format!("            {} => Some(Self::{}),\n", variable.reference, camel(&variable.name))
     });
-    let rows = variables.iter().map(|variable| table_row(variable, enumerations));
+    let rows = variables.iter().map(|variable| table_row(variable, description));
     code.push_str(
         &FILLED
             .replace("@name@", &name)
@@ -191,18 +191,19 @@ static @table@: [::fmu_export::Variable; @count@] = [
 @rows@];
 ";
 
-fn table_row(variable: &Variable, enumerations: &[EnumerationType]) -> String {
+fn table_row(variable: &Variable, whole: &Description) -> String {
     let Variable { name, reference, causality, variability, unit, .. } = variable;
-    let description = described(variable);
+    let description = described(variable, &whole.variables);
     let kind = match &variable.kind {
         Kind::Enumeration { start } => {
-            let items =
-                variable.items(enumerations).iter().map(|Item { name, value, description, .. }| {
+            let items = variable.items(&whole.enumerations).iter().map(
+                |Item { name, value, description, .. }| {
                     format!(
                         "\n            ::fmu_export::Item {{ name: {name:?}, value: {value}, description: \
                      {description:?} }},"
                     )
-                });
+                },
+            );
             let items: String = items.collect();
             format!("Enumeration {{ start: {start:?}, items: &[{items}\n        ] }}")
         }

@@ -7,7 +7,7 @@
 //!
 //! At least one `<Where>` has to hold, with all its attributes. An attribute names a parameter and its
 //! values, or `not` and the values that it must not have; a parameter that does not matter itself has none
-//! of them.
+//! of them, so that its own condition is part of this one.
 
 use crate::element::Element;
 
@@ -42,17 +42,17 @@ pub(crate) fn read<'a>(tools: impl Iterator<Item = &'a Element>) -> Vec<Alternat
 
 /// The condition in words, as in `solver = adaptive, or solver = automatic and a = 1`; `None` for a variable
 /// that always matters.
-pub(crate) fn words(conditions: &[Alternative]) -> Option<String> {
+pub(crate) fn words(alternatives: &[Vec<&Test>]) -> Option<String> {
     let test = |Test { parameter, is_not, values }: &Test| {
         let (last, others) = values.split_last()?;
         let listed =
             if others.is_empty() { last.clone() } else { format!("{} or {last}", others.join(", ")) };
         Some(format!("{parameter} {} {listed}", if *is_not { "is not" } else { "=" }))
     };
-    let alternative = |alternative: &Alternative| {
-        let tests: Vec<_> = alternative.tests.iter().filter_map(test).collect();
+    let alternative = |tests: &Vec<&Test>| {
+        let tests: Vec<_> = tests.iter().copied().filter_map(test).collect();
         tests.join(" and ")
     };
-    let alternatives: Vec<_> = conditions.iter().map(alternative).collect();
+    let alternatives: Vec<_> = alternatives.iter().map(alternative).collect();
     (!alternatives.is_empty()).then(|| alternatives.join(", or "))
 }

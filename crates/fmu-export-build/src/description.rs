@@ -1,11 +1,10 @@
 //! A description that has passed every check.
 
 use crate::check;
-use crate::condition::words;
 use crate::element::Element;
 use crate::error::{Fault, Problem};
 use crate::fingerprint::{fingerprint, with_guid, without_annotations};
-use crate::usage::written;
+use crate::usage::{condition, written};
 use crate::variable::{Causality, EnumerationType, Variable};
 
 /// A description that has passed every check.
@@ -108,7 +107,7 @@ impl Description {
         self.variables
             .iter()
             .find(|variable| variable.name == name)
-            .and_then(|variable| words(&variable.conditions))
+            .and_then(|variable| condition(variable, &self.variables))
     }
 
     /// The description in canonical form: no comments, two blanks per level.

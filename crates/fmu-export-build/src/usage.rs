@@ -1,6 +1,6 @@
 //! What the conditions of variables mean for each other: their check, and their Rust.
 
-use crate::condition::{Alternative, Test, words};
+use crate::condition::{Test, words};
 use crate::error::{Fault, Problem};
 use crate::names::{camel, field, type_name};
 use crate::variable::{Causality, EnumerationType, Kind, Variable};
@@ -57,10 +57,36 @@ fn parameter_called<'a>(variables: &'a [Variable], name: &str) -> Option<&'a Var
     variables.iter().find(|other| other.name == name && other.causality == Causality::Parameter)
 }
 
+/// Where `variable` matters: at least one of the lists of tests has to hold completely. None for a variable
+/// that always does.
+///
+/// The conditions of the parameters that it names are part of its own: where these do not matter, it does
+/// not either.
+pub(crate) fn alternatives<'a>(variable: &'a Variable, variables: &'a [Variable]) -> Vec<Vec<&'a Test>> {
+    let of_test = |test: &'a Test| -> Vec<Vec<&'a Test>> {
+        let behind = parameter_called(variables, &test.parameter).map(|of| alternatives(of, variables));
+        match behind.unwrap_or_default() {
+            none if none.is_empty() => vec![vec![test]],
+            behind => behind.into_iter().map(|tests| [vec![test], tests].concat()).collect(),
+        }
+    };
+    let all_of = |tests: &'a [Test]| {
+        tests.iter().map(of_test).fold(vec![Vec::new()], |lists, more| {
+            lists.iter().flat_map(|list| more.iter().map(|tests| [&list[..], tests].concat())).collect()
+        })
+    };
+    variable.conditions.iter().flat_map(|alternative| all_of(&alternative.tests)).collect()
+}
+
+/// The condition of a variable in words; `None` for one that always matters.
+pub(crate) fn condition(variable: &Variable, variables: &[Variable]) -> Option<String> {
+    words(&alternatives(variable, variables))
+}
+
 /// The description of a variable with its condition, where it has one.
-pub(crate) fn described(variable: &Variable) -> String {
+pub(crate) fn described(variable: &Variable, variables: &[Variable]) -> String {
     let description = &variable.description;
-    match words(&variable.conditions) {
+    match condition(variable, variables) {
         None => description.clone(),
         Some(words) if description.is_empty() => format!("where {words}"),
         Some(words) => format!("{description}; where {words}"),
@@ -71,7 +97,7 @@ pub(crate) fn described(variable: &Variable) -> String {
 pub(crate) fn written(xml: &str, variables: &[Variable]) -> String {
     const OPEN: &str = "description=\"";
     let mut text = xml.to_owned();
-    for (variable, words) in variables.iter().filter_map(|one| Some((one, words(&one.conditions)?))) {
+    for (variable, words) in variables.iter().filter_map(|one| Some((one, condition(one, variables)?))) {
         let name = format!("<ScalarVariable name=\"{}\"", variable.name);
         let Some(name_end) = text.find(&name).map(|start| start + name.len()) else { continue };
         let tag = &text[name_end..];
@@ -90,20 +116,9 @@ pub(crate) fn written(xml: &str, variables: &[Variable]) -> String {
 
 /// The condition as Rust, for the fields of `$parameters`.
 pub(crate) fn code(variable: &Variable, variables: &[Variable]) -> String {
-    let test = |test: &Test| {
-        let of = parameter_called(variables, &test.parameter)?;
-        let own = test_code(test, of);
-        let behind = code(of, variables);
-        Some(match of.conditions.len() {
-            0 => own,
-            1 => format!("{own} && {behind}"),
-            _ => format!("{own} && ({behind})"),
-        })
-    };
-    let alternative = |alternative: &Alternative| {
-        alternative.tests.iter().filter_map(test).collect::<Vec<_>>().join(" && ")
-    };
-    let alternatives: Vec<_> = variable.conditions.iter().map(alternative).collect();
+    let test = |test: &Test| Some(test_code(test, parameter_called(variables, &test.parameter)?));
+    let all_of = |tests: &Vec<&Test>| tests.iter().copied().filter_map(test).collect::<Vec<_>>().join(" && ");
+    let alternatives: Vec<_> = alternatives(variable, variables).iter().map(all_of).collect();
     if alternatives.is_empty() { "true".to_owned() } else { alternatives.join(" || ") }
 }
 

@@ -27,6 +27,42 @@ fn a_condition_is_told_in_words() {
     assert_eq!(Description::parse(BLOCK).unwrap().condition("layers"), None);
 }
 
+/// What makes a parameter count is worth nothing where that parameter does not count itself.
+#[test]
+fn a_condition_includes_those_of_the_parameters_that_it_names() {
+    let own = "<Annotations><Tool name=\"t\"><Where surface=\"sand\"/><Where weight_given=\"not 0\"/></Tool>\
+               </Annotations>";
+    let (before, start) = BLOCK.split_once("name=\"x_start\"").unwrap();
+    let start = start.replacen("</ScalarVariable>", &format!("{own}</ScalarVariable>"), 1);
+    let text = format!("{before}name=\"x_start\"{start}").replace("layers", "weight_given");
+    let (before, x) = text.split_once("name=\"x\"").unwrap();
+    let place =
+        "<Annotations><Tool name=\"t\"><Where x_start=\"0\" surface=\"wet_ice sand\"/></Tool></Annotations>";
+    let x = x.replacen("</ScalarVariable>", &format!("{place}</ScalarVariable>"), 1);
+    let description = Description::parse(&format!("{before}name=\"x\"{x}")).unwrap();
+    assert_eq!(
+        description.condition("x").unwrap(),
+        "x_start = 0 and surface = sand and surface = wet_ice or sand, or \
+         x_start = 0 and weight_given is not 0 and surface = wet_ice or sand"
+    );
+}
+
+/// XML allows `>` in values.
+#[test]
+fn a_condition_follows_the_whole_description() {
+    let description = with_where("<Where surface=\"sand\"/>").unwrap();
+    let text = description.text_with_guid(&description.guid());
+    let text = text.replace("description=\"where surface = sand\"", "description=\"a > b\"");
+    assert_ne!(text, description.text_with_guid(&description.guid()));
+    let (before, layers) = text.split_once(LAYERS).unwrap();
+    let note =
+        "<Annotations><Tool name=\"t\"><Where surface=\"sand\"/></Tool></Annotations></ScalarVariable>";
+    let layers = layers.replacen("</ScalarVariable>", note, 1);
+    let description = Description::parse(&format!("{before}{LAYERS}{layers}")).unwrap();
+    let packaged = description.text_with_guid(&description.guid());
+    assert!(packaged.contains("description=\"a > b; where surface = sand\""), "{packaged}");
+}
+
 /// Importers see the condition in the description of the variable; annotations they do not see.
 #[test]
 fn a_packaged_description_tells_the_condition() {
