@@ -137,6 +137,11 @@ fn a_header_line_states_the_unit() {
     assert_refused("t [s],a [g]\n0,1\n0.1,2\n", &si(), &["line 1", "the stated unit m/s2", "found g"]);
     assert_refused("t [ms],a [g]\n0,1\n5,2\n", &none, &["line 1", "times in s", "`ms`"]);
     assert_refused("t [s],a [V]\n0,1\n0.1,2\n", &none, &["line 1", "a unit of acceleration", "`V`"]);
+    // a name of one column may state it, too; what is in the brackets of a title need not be a unit
+    let one = read("a [g]\n1\n2\n", &RecordOptions { unit: None, ..with_step(0.1) }).unwrap();
+    assert_eq!(one.motion.samples(), [Unit::StandardGravity.to_si(1.0), Unit::StandardGravity.to_si(2.0)]);
+    assert_refused("a [g]\n1\n2\n", &with_step(0.1), &["line 1", "the stated unit m/s2", "found g"]);
+    assert_eq!(read("El Centro (1940)\n1\n2\n", &with_step(0.1)).unwrap().motion.samples(), [1.0, 2.0]);
     // a_g is the ground's acceleration, not one in g
     assert_refused("time,a_g\n0,1\n0.1,2\n", &none, &["a stated unit"]);
 }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Times and accelerations without a header line. Or one column of samples, with the step stated beside it; a
-//! first line may name it.
+//! first line may name it, with its unit in brackets.
 //!
 //! Commas, semicolons, tabs or blanks separate the columns. Beside semicolons, tabs and blanks, decimals may
 //! have a comma. Times are uniform. Lines that start with `#` or `%` are skipped, and so are titles above a
@@ -27,7 +27,7 @@ use crate::parsed::Parsed;
 use crate::unit::Unit;
 
 use cells::{Numbers, Separator};
-use heading::{Heading, unquoted};
+use heading::{Heading, name_and_unit, unquoted};
 use times::Times;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
@@ -61,11 +61,21 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     };
     let heading = Heading::find(content(text));
     let chosen = heading.as_ref().map(|heading| heading.chosen(options)).transpose()?;
-    let stated = chosen.and_then(|(_, unit)| unit).or(options.unit);
+    let row = if is_name(first) { rows.next().map(|(_, row)| row) } else { Some(first) };
+    let separator = row.and_then(Separator::of_row);
+    let stated = match chosen {
+        Some((_, unit)) => unit,
+        // what is in the brackets of a title need not be a unit
+        None if separator.is_none() => match name_and_unit(unquoted(first)) {
+            (_, Some(word)) if word.parse::<Unit>().is_ok() => Some(options.unit_of(word, number)?),
+            _ => None,
+        },
+        None => None,
+    };
+    let stated = stated.or(options.unit);
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
     let unit = stated.unwrap_or(Unit::MetrePerSecondSquared);
-    let row = if is_name(first) { rows.next().map(|(_, row)| row) } else { Some(first) };
-    let parsed = match (&heading, chosen, row.and_then(Separator::of_row)) {
+    let parsed = match (&heading, chosen, separator) {
         (Some(heading), Some((column, _)), _) => {
             let Heading { line, separator, .. } = *heading;
             let columns = heading.columns();

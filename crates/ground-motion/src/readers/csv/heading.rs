@@ -119,7 +119,7 @@ fn words(text: &str) -> Vec<String> {
 }
 
 /// Splits `a_g [m/s2]` or `a_g (m/s2)` into the name and what is in its bracket.
-fn name_and_unit(name: &str) -> (&str, Option<&str>) {
+pub(super) fn name_and_unit(name: &str) -> (&str, Option<&str>) {
     for (opening, closing) in [('[', ']'), ('(', ')')] {
         if let Some((before, unit)) = name.strip_suffix(closing).and_then(|text| text.split_once(opening)) {
             return (before.trim(), Some(unit.trim()));
