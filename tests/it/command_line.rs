@@ -134,8 +134,9 @@ fn bad_scenes() {
         let file = format!("{name}.toml");
         std::fs::write(folder.join(&file), scene).unwrap();
         refused(&folder, &["simulate", &file, "--csv", "out.csv", "--html", "out.html"], words);
-        if !matches!(name, "step" | "exact_ratio") {
-            refused(&folder, &["package", &file, "-o", "out.fmu"], &[]);
+        // an FMU has no output step
+        if name != "step" {
+            refused(&folder, &["package", &file, "-o", "out.fmu"], words);
         }
     }
     refused(&folder, &["simulate", "missing.toml"], &["missing.toml"]);

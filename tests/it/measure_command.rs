@@ -80,4 +80,6 @@ fn bad_input_is_refused_before_anything_is_measured() {
     refused(&folder, &["accuracy", &scene(), "--html", "a.html", "--peers", "none.csv"], &["none.csv"]);
     std::fs::write(folder.join("bad.toml"), "[geometry]\nheight = -3\n").unwrap();
     refused(&folder, &["accuracy", &scene(), "bad.toml"], &["bad.toml", "line 2", "-3"]);
+    std::fs::write(folder.join("fallen.toml"), "[start]\nu_start = 0.21\n").unwrap();
+    refused(&folder, &["accuracy", "fallen.toml"], &["u_start = 0.21 m is beyond u_ins", "set u_start = 0"]);
 }

@@ -98,7 +98,7 @@ fn floor_failed(floor: &Floor, error: &dyn std::fmt::Display) -> BuildingError {
 fn scene(building: &Building, wall: &Member, warnings: &mut Vec<String>) -> Result<(Scene, Wall), String> {
     let path = wall.scene.display();
     let mut scene = Scene::read(&wall.scene).map_err(|error| error.to_string())?;
-    let made = Wall::new(&scene.parameters).map_err(|error| format!("{path}: {error}"))?;
+    let made = scene_fmu::check(&scene).map_err(|error| format!("{path}: {error}"))?;
     let name = &wall.name;
     warnings.extend(made.warnings().iter().map(|warning| format!("wall {name:?}: {warning}")));
     if scene.parameters.u_start != 0.0 {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use fmu_export_build::archive::ArchiveError;
 use fmu_export_build::{Fault, ReductionError};
+use rocking_wall::wall::ParameterError;
 
 /// Why there is no FMU of a scene.
 #[derive(Debug, thiserror::Error)]
@@ -30,6 +31,9 @@ pub enum SceneFmuError {
         "an FMU has small rotations only; set kinematics = linear, or use `wall simulate`, which needs no FMU"
     )]
     FullRotations,
+    /// The parameters make no wall, or one that cannot be moved or started so.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
     /// The description cannot be reduced to the scene.
     #[error(transparent)]
     Reduction(#[from] ReductionError),

@@ -23,7 +23,8 @@ use fmu_export_build::archive::Archive;
 use fmu_export_build::{DefaultExperiment, Description, Reduction};
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{self, GROUPS, Scene};
-use rocking_wall::wall::{Kinematics, Parameters};
+use rocking_wall::simulation::Simulation;
+use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
 
 pub use error::SceneFmuError;
 pub use general::General;
@@ -47,7 +48,8 @@ pub struct SceneFmu {
 /// Makes the FMU of a scene from the general one.
 ///
 /// # Errors
-/// [`SceneFmuError`] of a scene in full rotations, or where the description cannot be reduced.
+/// [`SceneFmuError`] of a scene in full rotations or without a wall, or where the description cannot be
+/// reduced.
 pub fn of_scene(scene: &Scene, general: General) -> Result<SceneFmu, SceneFmuError> {
     let stop = scene.stop_time;
     of_scene_in(scene, general, experiment(stop, stop / STEPS))
@@ -92,13 +94,15 @@ pub fn of_scene_in(
     })
 }
 
-/// Checks that a scene can have an FMU.
+/// Checks that a scene can have an FMU, and returns its wall.
 ///
 /// # Errors
-/// [`SceneFmuError::FullRotations`].
-pub fn check(scene: &Scene) -> Result<(), SceneFmuError> {
+/// [`SceneFmuError::FullRotations`], [`SceneFmuError::Parameters`].
+pub fn check(scene: &Scene) -> Result<Wall, SceneFmuError> {
     match scene.parameters.kinematics {
-        Kinematics::Linear => Ok(()),
+        Kinematics::Linear => {
+            Ok(Simulation::new(&scene.parameters, None, 0.0, Support::default())?.wall().clone())
+        }
         Kinematics::Trigonometric => Err(SceneFmuError::FullRotations),
     }
 }

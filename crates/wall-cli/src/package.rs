@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use clap::Args;
 use rocking_wall::scene::Scene;
-use rocking_wall::wall::Wall;
 use scene_fmu::{General, of_scene};
 
 use crate::args::warn_of_motion;
@@ -32,8 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let base = arguments.base.clone().unwrap_or_else(|| made.into());
     output::check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
     let named = || arguments.scene.display().to_string();
-    scene_fmu::check(&scene).with_context(named)?;
-    let wall = Wall::new(&scene.parameters).with_context(named)?;
+    let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(&arguments.scene, &scene);
     for warning in wall.warnings() {
         output::warn(&warning.to_string());

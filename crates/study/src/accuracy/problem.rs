@@ -28,10 +28,11 @@ impl Problem {
     /// has none.
     ///
     /// # Errors
-    /// [`AccuracyError::Parameters`] if the parameters make no wall, [`AccuracyError::Supports`] if it does
-    /// not go with its floors.
+    /// [`AccuracyError::Parameters`] if the parameters make no wall, or start it where it cannot be,
+    /// [`AccuracyError::Supports`] if it does not go with its floors.
     pub fn from_scene(scene: &Scene) -> Result<Self, AccuracyError> {
         let wall = Wall::new(&scene.parameters)?;
+        wall.check_start(scene.parameters.u_start)?;
         let motion = scene.support_motion()?;
         let step = motion.as_ref().map_or(scene.output_step, |motion| motion.step());
         let count = (scene.stop_time / step).round().clamp(1.0, MOST_SAMPLES);
