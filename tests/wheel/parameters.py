@@ -48,12 +48,11 @@ def text() -> str:
         more = ["multilinear"] if variable["name"] == "force_law" else []
         choices = ", ".join(f'"{choice}"' for choice in variable["choices"] + more)
         kind = f"Literal[{choices}]" if choices else "float"
-        unit = f" [{variable['unit']}]" if variable["unit"] else ""
         low, high = variable["limits"]
         limits = (f", at least {low:g}" if low is not None else "") + (
             f", at most {high:g}" if high is not None else ""
         )
-        told = f"{variable['description']}{unit}{limits}; default {variable['default']}."
+        told = f"{limited(variable['description'], variable['unit'], limits)}; default {variable['default']}."
         lines.append("")
         if len(f"    {variable['name']}: {kind}") <= 110:
             lines.append(f"    {variable['name']}: {kind}")
@@ -65,11 +64,17 @@ def text() -> str:
     return HEAD + "\n".join(lines) + "\n" + TAIL + CALCULATED + calculated()
 
 
+def limited(description: str, unit: str, limits: str = "") -> str:
+    """Returns a description with unit and limits, before the condition where it has one."""
+    description, where, condition = description.partition("; where ")
+    return f"{description}{f' [{unit}]' if unit else ''}{limits}{where}{condition}"
+
+
 def calculated() -> str:
     """Returns the properties of what follows from the parameters."""
     lines = []
     for name, description, unit in _native.calculated():
-        told = f'"""{description}{f" [{unit}]" if unit else ""}."""'
+        told = f'"""{limited(description, unit)}."""'
         lines += ["", "    @property", f"    def {name}(self) -> float:"]
         lines += textwrap.wrap(told, 110, initial_indent=" " * 8, subsequent_indent=" " * 8)
         lines += [f'        return self._native.calculated("{name}")']

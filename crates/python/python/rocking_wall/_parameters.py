@@ -32,33 +32,33 @@ class Parameters(TypedDict, total=False):
     """Acceleration of gravity [m/s2], at least 0.001, at most 1000; default 9.81."""
 
     hinge_ratio: float
-    """Height of the intermediate hinge as a fraction of height; where mechanism = vertical_spanning, at least
-    0.01, at most 0.99; default 0.5."""
+    """Height of the intermediate hinge as a fraction of height, at least 0.01, at most 0.99; where mechanism
+    = vertical_spanning; default 0.5."""
 
     overburden: float
     """Vertical force on the top section, without mass, for the whole width [N], at least 0, at most 1e+12;
     default 0.0."""
 
     overburden_eccentricity: float
-    """Distance of the overburden from the centre of the top section, positive towards +u; where overburden is
-    not 0 [m], at least -100, at most 100; default 0.0."""
+    """Distance of the overburden from the centre of the top section, positive towards +u [m], at least -100,
+    at most 100; where overburden is not 0; default 0.0."""
 
     eccentricity_mode: Literal["fixed_to_wall", "follows_pivot"]
-    """Whether the eccentricity changes sides with the wall; where overburden_eccentricity is not 0; default
-    fixed_to_wall."""
+    """Whether the eccentricity changes sides with the wall; where overburden_eccentricity is not 0 and
+    overburden is not 0; default fixed_to_wall."""
 
     force_law: Literal["rigid_linear", "bilinear", "trilinear", "multilinear"]
     """Shape of the restoring force; default bilinear."""
 
     a1: float
-    """End of the elastic branch as a fraction of u_ins; where force_law = bilinear or trilinear, at least
-    1e-09, at most 1; default 0.03."""
+    """End of the elastic branch as a fraction of u_ins, at least 1e-09, at most 1; where force_law = bilinear
+    or trilinear; default 0.03."""
 
     a3: float
     """End of the softening branch as a fraction of u_ins, at least 1e-09, at most 1; default 1.0."""
 
     d1: float
-    """Plateau force as a fraction of F0; where force_law = trilinear, at least 1e-09, at most 1; default
+    """Plateau force as a fraction of F0, at least 1e-09, at most 1; where force_law = trilinear; default
     0.85."""
 
     softening: Literal["parallel", "rotated", "chord"]
@@ -70,24 +70,27 @@ class Parameters(TypedDict, total=False):
     """Continuous damping; default constant_ratio."""
 
     xi: float
-    """Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22); where
-    damping_model = constant_coefficient, constant_ratio or stiffness_proportional, at least -1, at most 10;
-    default -1.0."""
+    """Damping ratio on the elastic branch; -1: computed from a1 and restitution (Eqs. 20 to 22), at least -1,
+    at most 10; where damping_model = constant_coefficient, constant_ratio or stiffness_proportional; default
+    -1.0."""
 
     c_bar: float
-    """Damping constant of a free-standing block; -1: computed from restitution (Eq. 23); where damping_model
-    = free_standing_block, at least -1, at most 100; default -1.0."""
+    """Damping constant of a free-standing block; -1: computed from restitution (Eq. 23), at least -1, at most
+    100; where damping_model = free_standing_block; default -1.0."""
 
     impact: Literal["none", "restitution"]
     """What happens when the wall passes through zero displacement; default none."""
 
     restitution_source: Literal["analytic", "calibrated", "momentum"]
-    """How the coefficient of restitution is computed from the geometry; where restitution = -1; default
-    calibrated."""
+    """How the coefficient of restitution is computed from the geometry; where restitution = -1 and impact =
+    restitution, or restitution = -1 and xi = -1 and damping_model = constant_coefficient, constant_ratio or
+    stiffness_proportional, or restitution = -1 and c_bar = -1 and damping_model = free_standing_block;
+    default calibrated."""
 
     restitution: float
-    """Coefficient of restitution at impacts and behind damping; -1: as restitution_source says; where impact
-    = restitution, or xi = -1, or c_bar = -1, at least -1, at most 1; default -1.0."""
+    """Coefficient of restitution at impacts and behind damping; -1: as restitution_source says, at least -1,
+    at most 1; where impact = restitution, or xi = -1 and damping_model = constant_coefficient, constant_ratio
+    or stiffness_proportional, or c_bar = -1 and damping_model = free_standing_block; default -1.0."""
 
     rocking: Literal["two_sided", "one_sided_positive", "one_sided_negative"]
     """Sides to which the wall can rock; one-sided rocking needs impact = restitution; default two_sided."""
@@ -103,29 +106,29 @@ class Parameters(TypedDict, total=False):
     """Integration method; default automatic."""
 
     tolerance: float
-    """Relative tolerance of the adaptive solver; the tighter of this and the importer's applies; where solver
-    = adaptive, or solver = automatic and damping_model = constant_ratio or stiffness_proportional, at least
-    1e-15, at most 0.01; default 1e-08."""
+    """Relative tolerance of the adaptive solver; the tighter of this and the importer's applies, at least
+    1e-15, at most 0.01; where solver = adaptive, or solver = automatic and damping_model = constant_ratio or
+    stiffness_proportional; default 1e-08."""
 
     newmark_step: float
-    """Integration step of the newmark solver; where solver = newmark [s], at least 1e-09, at most 1; default
+    """Integration step of the newmark solver [s], at least 1e-09, at most 1; where solver = newmark; default
     0.001."""
 
     tie_height: float
-    """Height of the tie above the base, at most height; where tie_stiffness is not 0 [m], at least 0, at most
-    1000; default 0.0."""
+    """Height of the tie above the base, at most height [m], at least 0, at most 1000; where tie_stiffness is
+    not 0; default 0.0."""
 
     tie_stiffness: float
     """Stiffness of the tie between a parapet and its support; 0 for none [N/m], at least 0, at most 1e+15;
     default 0.0."""
 
     tie_slack: float
-    """Displacement of the wall at the tie before it pulls; where tie_stiffness is not 0 [m], at least 0, at
-    most 1000; default 0.0."""
+    """Displacement of the wall at the tie before it pulls [m], at least 0, at most 1000; where tie_stiffness
+    is not 0; default 0.0."""
 
     tie_strength: float
-    """Force that the tie resists, a limit state of its demand; 0 where none is given; where tie_stiffness is
-    not 0 [N], at least 0, at most 1e+12; default 0.0."""
+    """Force that the tie resists, a limit state of its demand; 0 where none is given [N], at least 0, at most
+    1e+12; where tie_stiffness is not 0; default 0.0."""
 
     tie_side: Literal["positive", "negative", "both"]
     """Side on which the tie holds the wall; where tie_stiffness is not 0; default positive."""
@@ -163,8 +166,8 @@ class Calculated:
 
     @property
     def F0_negative(self) -> float:
-        """Rigid restoring force at zero displacement, side u < 0, as an absolute value; where
-        overburden_eccentricity is not 0 [N]."""
+        """Rigid restoring force at zero displacement, side u < 0, as an absolute value [N]; where
+        overburden_eccentricity is not 0 and overburden is not 0."""
         return self._native.calculated("F0_negative")
 
     @property
@@ -174,14 +177,14 @@ class Calculated:
 
     @property
     def u_ins_negative(self) -> float:
-        """Static instability displacement, side u < 0, as an absolute value; where overburden_eccentricity is
-        not 0 [m]."""
+        """Static instability displacement, side u < 0, as an absolute value [m]; where
+        overburden_eccentricity is not 0 and overburden is not 0."""
         return self._native.calculated("u_ins_negative")
 
     @property
     def omega1(self) -> float:
-        """Angular frequency of the elastic branch; zero for rigid_linear; where force_law = bilinear or
-        trilinear [rad/s]."""
+        """Angular frequency of the elastic branch; zero for rigid_linear [rad/s]; where force_law = bilinear
+        or trilinear."""
         return self._native.calculated("omega1")
 
     @property
@@ -193,5 +196,6 @@ class Calculated:
     @property
     def restitution_used(self) -> float:
         """Coefficient of restitution in use, for impacts and for computed damping; where impact =
-        restitution, or xi = -1, or c_bar = -1."""
+        restitution, or xi = -1 and damping_model = constant_coefficient, constant_ratio or
+        stiffness_proportional, or c_bar = -1 and damping_model = free_standing_block."""
         return self._native.calculated("restitution_used")
