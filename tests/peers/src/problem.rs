@@ -72,7 +72,7 @@ struct Document<'a> {
 }
 
 impl Problem {
-    /// Walls 2, 5 and 6, each with CDC and CDR and the predicted ξ.
+    /// Walls 2, 5 and 6, each with CDC and CDR and the computed ξ.
     ///
     /// # Errors
     /// If a wall cannot be followed, or overturns, in which case errors are meaningless.
