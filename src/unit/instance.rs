@@ -8,7 +8,7 @@ use fmu_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, Vari
 use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
 use crate::solver::Segment;
-use crate::variables::RealVariable;
+use crate::variables::{RealVariable, real_calculated, real_output, real_parameter};
 use crate::wall::{Ends, Parameters, Support, Wall};
 
 use super::exchange::Exchange;
@@ -106,7 +106,8 @@ impl Unit {
             RealVariable::ABottom => Some(&mut self.inputs.bottom),
             RealVariable::ATop => Some(&mut self.inputs.top),
             RealVariable::Drift => Some(&mut self.inputs.drift),
-            _ => None,
+            // a_g is held over a step
+            RealVariable::AG | real_output!() | real_parameter!() | real_calculated!() => None,
         }
     }
 

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::simulation::Outputs;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
-    integer_parameter, real_parameter,
+    integer_parameter, real_calculated, real_input, real_output, real_parameter,
 };
 use crate::wall::{Kinematics, Parameters, Support};
 
@@ -99,15 +99,19 @@ impl Model for Unit {
         match variable {}
     }
 
+    #[allow(unreachable_patterns, reason = "the states are outputs, too")]
     fn set_real(&mut self, variable: RealVariable, value: f64) {
-        if variable == RealVariable::AG {
-            self.inputs.ground = value;
-        } else if matches!(variable, RealVariable::U | RealVariable::UDot) {
-            self.place(variable, value);
-        } else if let Some(input) = self.input(variable) {
-            input.set(value);
-        } else {
-            self.parameters.set_real(variable, value);
+        use RealVariable as V;
+        match variable {
+            V::AG => self.inputs.ground = value,
+            V::ABottom => self.inputs.bottom.set(value),
+            V::ATop => self.inputs.top.set(value),
+            V::Drift => self.inputs.drift.set(value),
+            V::U | V::UDot => self.place(variable, value),
+            real_parameter!() => assert!(self.parameters.set_real(variable, value), "it is a parameter"),
+            real_output!() | real_calculated!() => {
+                unreachable!("the layer refuses to set {}", variable.variable().name)
+            }
         }
         self.refresh();
     }
@@ -127,23 +131,29 @@ impl Model for Unit {
         self.input(variable).map(|input| input.rate = value).is_some()
     }
 
+    #[allow(clippy::match_same_arms, reason = "the reason stands beside each group")]
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
+        use RealVariable as V;
         let Outputs { velocity, acceleration, .. } = self.outputs();
         let rates = || {
             let support_rate = self.inputs.rate(|input| input.last_rate);
             self.simulation.derivative(self.support(), [velocity, acceleration], support_rate)
         };
         match variable {
-            RealVariable::U => Some(velocity),
-            RealVariable::UDot => Some(acceleration),
-            RealVariable::UDdot => Some(rates().acceleration),
-            RealVariable::ReactionBottom => Some(rates().reactions.bottom),
-            RealVariable::ReactionTop => Some(rates().reactions.top),
-            RealVariable::TieForce => Some(rates().tie_force),
-            _ => None,
+            V::U => Some(velocity),
+            V::UDot => Some(acceleration),
+            V::UDdot => Some(rates().acceleration),
+            V::ReactionBottom => Some(rates().reactions.bottom),
+            V::ReactionTop => Some(rates().reactions.top),
+            V::TieForce => Some(rates().tie_force),
+            // what no floor needs, and memories of the past
+            V::URatio | V::RestoringForce | V::DampingForce => None,
+            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => None,
+            real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
 
+    #[allow(unreachable_patterns, reason = "the states are outputs, too")]
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
         use RealVariable as V;
         let (motion, [bottom, top, drift]) = match known {
@@ -153,7 +163,7 @@ impl Model for Unit {
             V::ABottom => ([0.0; 2], [1.0, 0.0, 0.0]),
             V::ATop => ([0.0; 2], [0.0, 1.0, 0.0]),
             V::Drift => ([0.0; 2], [0.0, 0.0, 1.0]),
-            _ => return None,
+            real_output!() | real_parameter!() | real_calculated!() => return None,
         };
         let along = self.simulation.derivative(self.support(), motion, Support { bottom, top, drift });
         match unknown {
@@ -168,7 +178,7 @@ impl Model for Unit {
             V::TieForce => Some(along.tie_force),
             // memories of the past: not functions of the present state and inputs
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
-            _ => None,
+            real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
 

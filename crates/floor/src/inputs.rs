@@ -3,29 +3,46 @@
 use crate::choices::Coupling;
 use crate::floor::Floor;
 use crate::motion::Load;
-use crate::variables::RealVariable as V;
+use crate::variables::{RealVariable, real_calculated, real_local, real_output, real_parameter};
 
 /// Walls that can push one floor.
 const WALLS: usize = 8;
-const REACTIONS: [V; WALLS] = [
-    V::Reaction1,
-    V::Reaction2,
-    V::Reaction3,
-    V::Reaction4,
-    V::Reaction5,
-    V::Reaction6,
-    V::Reaction7,
-    V::Reaction8,
-];
-const IMPULSES: [V; WALLS] =
-    [V::Impulse1, V::Impulse2, V::Impulse3, V::Impulse4, V::Impulse5, V::Impulse6, V::Impulse7, V::Impulse8];
 
-/// Returns which wall an input is of, counted from 0, and the coupling that it takes part in.
-pub(crate) fn wall_of(variable: V) -> Option<(Coupling, usize)> {
-    let lists = [(Coupling::Reactions, REACTIONS), (Coupling::Impulses, IMPULSES)];
-    lists
-        .into_iter()
-        .find_map(|(coupling, list)| Some((coupling, list.iter().position(|&own| own == variable)?)))
+/// What an input belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Source {
+    /// The base.
+    Base,
+    /// A wall, counted from 0, and the coupling in which the input takes part.
+    Wall(Coupling, usize),
+}
+
+impl Source {
+    /// Returns what an input belongs to; `None` for other variables.
+    pub(crate) fn of(variable: RealVariable) -> Option<Self> {
+        use Coupling::{Impulses, Reactions};
+        let (coupling, wall) = match variable {
+            RealVariable::AG => return Some(Self::Base),
+            RealVariable::Reaction1 => (Reactions, 0),
+            RealVariable::Reaction2 => (Reactions, 1),
+            RealVariable::Reaction3 => (Reactions, 2),
+            RealVariable::Reaction4 => (Reactions, 3),
+            RealVariable::Reaction5 => (Reactions, 4),
+            RealVariable::Reaction6 => (Reactions, 5),
+            RealVariable::Reaction7 => (Reactions, 6),
+            RealVariable::Reaction8 => (Reactions, 7),
+            RealVariable::Impulse1 => (Impulses, 0),
+            RealVariable::Impulse2 => (Impulses, 1),
+            RealVariable::Impulse3 => (Impulses, 2),
+            RealVariable::Impulse4 => (Impulses, 3),
+            RealVariable::Impulse5 => (Impulses, 4),
+            RealVariable::Impulse6 => (Impulses, 5),
+            RealVariable::Impulse7 => (Impulses, 6),
+            RealVariable::Impulse8 => (Impulses, 7),
+            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
+        };
+        Some(Self::Wall(coupling, wall))
+    }
 }
 
 /// A continuous input.
@@ -64,20 +81,40 @@ pub(crate) struct Inputs {
 
 impl Inputs {
     /// Returns the value of an input; 0 for other variables.
-    pub(crate) fn get(&self, variable: V) -> f64 {
-        match wall_of(variable) {
-            Some((Coupling::Reactions, wall)) => self.reactions[wall].value,
-            Some((Coupling::Impulses, wall)) => self.impulses[wall],
-            None => self.ground.value,
+    pub(crate) fn get(&self, variable: RealVariable) -> f64 {
+        match Source::of(variable) {
+            Some(Source::Base) => self.ground.value,
+            Some(Source::Wall(Coupling::Reactions, wall)) => self.reactions[wall].value,
+            Some(Source::Wall(Coupling::Impulses, wall)) => self.impulses[wall],
+            None => 0.0,
+        }
+    }
+
+    /// Sets an input.
+    pub(crate) fn set(&mut self, variable: RealVariable, value: f64) {
+        if let Some(Source::Wall(Coupling::Impulses, wall)) = Source::of(variable) {
+            self.impulses[wall] = value;
+        } else if let Some(input) = self.continuous(variable) {
+            input.set(value);
         }
     }
 
     /// Returns a continuous input; `None` for other variables.
-    pub(crate) fn continuous(&mut self, variable: V) -> Option<&mut Input> {
-        match wall_of(variable) {
-            Some((Coupling::Reactions, wall)) => Some(&mut self.reactions[wall]),
-            None if variable == V::AG => Some(&mut self.ground),
-            _ => None,
+    pub(crate) fn continuous(&mut self, variable: RealVariable) -> Option<&mut Input> {
+        match Source::of(variable)? {
+            Source::Base => Some(&mut self.ground),
+            Source::Wall(Coupling::Reactions, wall) => Some(&mut self.reactions[wall]),
+            Source::Wall(Coupling::Impulses, _) => None,
+        }
+    }
+
+    /// Returns by how much the force of the walls grows with an input of `coupling`, where `used` is used.
+    pub(crate) fn weight(&self, coupling: Coupling, used: Coupling) -> f64 {
+        match coupling {
+            _ if coupling != used => 0.0,
+            Coupling::Reactions => 1.0,
+            Coupling::Impulses if self.last_duration > 0.0 => 1.0 / self.last_duration,
+            Coupling::Impulses => 0.0,
         }
     }
 

@@ -4,12 +4,12 @@ use fmu_export::{Environment, Experiment, Failure, Interface, Log, Model, StateC
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Base, Input, Inputs, wall_of};
+use crate::inputs::{Base, Input, Inputs, Source};
 use crate::motion::{Load, State};
 use crate::values;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
-    integer_parameter, real_parameter,
+    integer_parameter, real_calculated, real_input, real_local, real_output, real_parameter,
 };
 
 /// A floor between the FMI calls.
@@ -71,6 +71,7 @@ impl Unit {
     }
 
     /// Returns a continuous state of Model Exchange; `None` for other variables.
+    #[allow(unreachable_patterns, reason = "the states are outputs and local variables, too")]
     pub(crate) fn continuous_state(&mut self, variable: RealVariable) -> Option<&mut f64> {
         match variable {
             RealVariable::Displacement => Some(&mut self.state.displacement),
@@ -78,7 +79,7 @@ impl Unit {
             RealVariable::EnergyDamping => Some(&mut self.state.damping_energy),
             RealVariable::BaseDisplacement => Some(&mut self.base.displacement),
             RealVariable::BaseVelocity => Some(&mut self.base.velocity),
-            _ => None,
+            real_input!() | real_output!() | real_local!() | real_parameter!() | real_calculated!() => None,
         }
     }
 
@@ -215,17 +216,17 @@ impl Model for Unit {
     }
 
     fn set_real(&mut self, variable: RealVariable, value: f64) {
-        if let Some(input) = self.inputs.continuous(variable) {
-            input.set(value);
-        } else if let Some((_, wall)) = wall_of(variable) {
-            self.inputs.impulses[wall] = value;
-        } else if let Some(state) = self.continuous_state(variable) {
-            *state = value;
-            let load = self.load();
-            self.state.event(&self.floor, load);
-        } else {
-            // the layer sets no other outputs
-            self.parameters.set_real(variable, value);
+        match variable {
+            real_input!() => self.inputs.set(variable, value),
+            real_parameter!() => assert!(self.parameters.set_real(variable, value), "it is a parameter"),
+            real_output!() | real_local!() | real_calculated!() => {
+                let Some(state) = self.continuous_state(variable) else {
+                    unreachable!("the layer refuses to set {}", variable.variable().name);
+                };
+                *state = value;
+                let load = self.load();
+                self.state.event(&self.floor, load);
+            }
         }
     }
 
@@ -257,10 +258,19 @@ impl Model for Unit {
             V::SpringForce => Some(spring),
             V::DampingForce => Some(damping),
             V::ReactionBottom => Some(-(spring + damping)),
-            _ => None,
+            // steps, and sums of them
+            V::ImpulseBottom
+            | V::DisplacementPlastic
+            | V::EnergyDamping
+            | V::EnergyHysteretic
+            | real_local!()
+            | real_input!()
+            | real_parameter!()
+            | real_calculated!() => None,
         }
     }
 
+    #[allow(unreachable_patterns, reason = "the states are outputs and local variables, too")]
     fn directional_derivative(&self, unknown: RealVariable, known: RealVariable) -> Option<f64> {
         use RealVariable as V;
         let Floor { mass, damping, .. } = self.floor;
@@ -272,17 +282,14 @@ impl Model for Unit {
             V::BaseDisplacement => Along { base_displacement: 1.0, ..Along::default() },
             V::BaseVelocity => Along { base_velocity: 1.0, ..Along::default() },
             V::EnergyDamping => Along { energy: 1.0, ..Along::default() },
-            V::AG => Along { ground: 1.0, ..Along::default() },
-            _ => {
-                let (coupling, _) = wall_of(known)?;
-                let walls = match coupling {
-                    _ if coupling != self.parameters.coupling => 0.0,
-                    Coupling::Reactions => 1.0,
-                    Coupling::Impulses if self.inputs.last_duration > 0.0 => 1.0 / self.inputs.last_duration,
-                    Coupling::Impulses => 0.0,
-                };
-                Along { walls, ..Along::default() }
-            }
+            real_input!() => match Source::of(known)? {
+                Source::Base => Along { ground: 1.0, ..Along::default() },
+                Source::Wall(coupling, _) => {
+                    let walls = self.inputs.weight(coupling, self.parameters.coupling);
+                    Along { walls, ..Along::default() }
+                }
+            },
+            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
         };
         let absolute = -(along.spring + along.damping + along.walls) / mass;
         let sign = self.state.branch.sign();
@@ -306,7 +313,7 @@ impl Model for Unit {
             V::ReactionBottom => Some(-(along.spring + along.damping)),
             // a memory of the past: not a function of the present state and inputs
             V::ImpulseBottom => Some(0.0),
-            _ => None,
+            real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
 

@@ -6,7 +6,7 @@
 use crate::description::Description;
 use crate::names::{HEAD, add, camel, field, markdown, type_name};
 use crate::usage::described;
-use crate::variable::{BaseType, Item, Kind, Variable};
+use crate::variable::{BaseType, Causality, Item, Kind, Variable};
 
 /// The text of `variables.rs`: constants, and for each FMI base type its enum, its table and the access to
 /// its parameters.
@@ -30,6 +30,7 @@ pub(crate) fn module(description: &Description) -> String {
         if !of_base.is_empty() {
             access(&mut code, base, &of_base);
         }
+        patterns(&mut code, base, &variables);
     }
     transfer(&mut code, &parameters);
     code
@@ -217,15 +218,25 @@ fn table_row(variable: &Variable, whole: &Description) -> String {
     )
 }
 
-/// Getter and setter of the parameters of one base type, and the pattern that matches them.
+/// The name of the getter of one base type.
+fn method(base: BaseType) -> &'static str {
+    match base {
+        BaseType::Real => "real",
+        BaseType::Integer => "integer",
+        BaseType::Boolean => "boolean",
+        BaseType::String => "text",
+    }
+}
+
+/// Getter and setter of the parameters of one base type.
 fn access(code: &mut String, base: BaseType, parameters: &[&Variable]) {
-    let (method, value) = match base {
-        BaseType::Real => ("real", "f64"),
-        BaseType::Integer => ("integer", "i32"),
-        BaseType::Boolean => ("boolean", "bool"),
-        BaseType::String => ("text", "&str"),
+    let value = match base {
+        BaseType::Real => "f64",
+        BaseType::Integer => "i32",
+        BaseType::Boolean => "bool",
+        BaseType::String => "&str",
     };
-    let (mut get, mut set, mut pattern) = (String::new(), String::new(), Vec::new());
+    let (mut get, mut set) = (String::new(), String::new());
     for parameter in parameters {
         let (variant, field) = (camel(&parameter.name), field(parameter));
         let (read, write) = match &parameter.kind {
@@ -239,16 +250,14 @@ fn access(code: &mut String, base: BaseType, parameters: &[&Variable]) {
         };
         add(&mut get, format_args!("            {base:?}Variable::{variant} => Some({read}),\n"));
         add(&mut set, format_args!("            {base:?}Variable::{variant} => {write},\n"));
-        pattern.push(format!("{base:?}Variable::{variant}"));
     }
     code.push_str(
         &ACCESS
             .replace("@base@", &format!("{base:?}"))
-            .replace("@method@", method)
+            .replace("@method@", method(base))
             .replace("@value@", value)
             .replace("@get@", &get)
-            .replace("@set@", &set)
-            .replace("@pattern@", &pattern.join("\n            | ")),
+            .replace("@set@", &set),
     );
 }
 
@@ -271,13 +280,38 @@ impl Parameters {
     }
 }
 
-/// The pattern of the parameters of type @base@, for a `match` that is to name all other variables.
+";
+
+/// The patterns of the variables of one base type by their causality.
+fn patterns(code: &mut String, base: BaseType, variables: &[&Variable]) {
+    for (causality, name) in [
+        (Causality::Input, "input"),
+        (Causality::Output, "output"),
+        (Causality::Local, "local"),
+        (Causality::Parameter, "parameter"),
+        (Causality::CalculatedParameter, "calculated"),
+    ] {
+        let of = variables.iter().filter(|variable| variable.causality == causality);
+        let pattern: Vec<_> =
+            of.map(|variable| format!("{base:?}Variable::{}", camel(&variable.name))).collect();
+        if !pattern.is_empty() {
+            code.push_str(
+                &PATTERN
+                    .replace("@name@", &format!("{}_{name}", method(base)))
+                    .replace("@pattern@", &pattern.join("\n            | ")),
+            );
+        }
+    }
+}
+
+const PATTERN: &str = "
+/// The pattern of these variables, for a `match` that is to name all others.
 #[allow(unused_macros)]
-macro_rules! @method@_parameter {
+macro_rules! @name@ {
     () => {
         @pattern@
     };
 }
 #[allow(unused_imports)]
-pub(crate) use @method@_parameter;
+pub(crate) use @name@;
 ";

@@ -52,6 +52,21 @@ fn states_and_derivatives_are_named() {
     }
 }
 
+/// A `match` names the variables of one causality and leaves the others to patterns, so that the compiler
+/// misses a new one.
+#[test]
+fn each_causality_has_a_pattern() {
+    let code = module("patterns", BLOCK);
+    let pattern = |name: &str| {
+        let head = format!("macro_rules! {name} {{");
+        body(&code, &head).split_whitespace().skip(3).take_while(|word| *word != "};").collect::<String>()
+    };
+    assert_eq!(pattern("real_input"), "RealVariable::Force");
+    assert_eq!(pattern("real_output"), "RealVariable::X|RealVariable::XDot");
+    assert_eq!(pattern("real_calculated"), "RealVariable::Weight");
+    assert_eq!(pattern("integer_parameter"), "IntegerVariable::Surface|IntegerVariable::Layers");
+}
+
 #[test]
 fn the_tables_say_what_the_description_says() {
     let code = module("tables", BLOCK);
