@@ -14,7 +14,9 @@ use crate::command_line::{folder, text, wall};
 
 /// Runs `arguments` and returns what the program warns of.
 fn warned(arguments: &[&str]) -> String {
-    let output = wall(&folder("warnings"), arguments);
+    // tests run side by side, each in a folder of its own
+    let test = std::thread::current().name().unwrap_or("warnings").replace("::", "_");
+    let output = wall(&folder(&test), arguments);
     assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stderr)
 }
