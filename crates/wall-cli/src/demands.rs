@@ -23,6 +23,13 @@ pub(crate) fn overturned(fate: Fate, digits: usize) -> String {
     }
 }
 
+/// Says where demands end; `None` for a wall that did not overturn.
+pub(crate) fn until(response: &Response) -> Option<&'static str> {
+    let is_tied = response.demands.tie.is_some();
+    let until = if is_tied { "up to overturning; that on the tie beyond" } else { "up to overturning" };
+    response.summary.overturned.then_some(until)
+}
+
 /// Names and values; a parapet has no top support.
 pub(crate) fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     let demands = &response.demands;

@@ -234,7 +234,7 @@ fn row(name: &str, value: &str) -> String {
 fn demands(wall: &Wall, response: &Response) -> String {
     let lines = demands::lines(response, wall.body().mechanism == Mechanism::VerticalSpanning);
     let rows: String = lines.iter().map(|(name, value)| row(name, value)).collect();
-    let until = if response.summary.overturned { ", up to overturning" } else { "" };
+    let until = demands::until(response).map_or_else(String::new, |until| format!(", {until}"));
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
 }
 

@@ -93,8 +93,8 @@ fn table(scene: &Scene, response: &Response) -> String {
             summary.work.pieces, summary.work.corners, summary.work.impacts
         ),
     );
-    if summary.overturned {
-        line("demands", "up to overturning".to_owned());
+    if let Some(until) = demands::until(response) {
+        line("demands", until.to_owned());
     }
     let has_top = scene.parameters.mechanism == Mechanism::VerticalSpanning;
     for (name, value) in demands::lines(response, has_top) {
