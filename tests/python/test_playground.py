@@ -306,6 +306,20 @@ def test_slider_and_histories_end_together(browser, page):
     assert float(text_of(browser, "now").split()[0]) == pytest.approx(middle, rel=0.02)
 
 
+@pytest.mark.parametrize("width, height", [(1280, 900), (390, 844)])
+def test_no_label_is_cut(browser, page, width, height):
+    turn(browser, width, height)
+    visit(browser, page)
+    cut = browser.execute_script(
+        "return [...document.querySelectorAll('.plot svg text')].filter(text => {"
+        "  const own = text.getBoundingClientRect(), svg = text.closest('svg').getBoundingClientRect();"
+        "  return own.top < svg.top - 1 || own.bottom > svg.bottom + 1"
+        "    || own.left < svg.left - 1 || own.right > svg.right + 1;"
+        "}).map(text => text.textContent)"
+    )
+    assert cut == []
+
+
 def test_an_enlarged_displacement_is_not_called_to_scale(browser, page):
     visit(browser, page)
     assert text_of(browser, "shown") == "Wall to scale, displacement enlarged 5 times"

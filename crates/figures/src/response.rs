@@ -50,7 +50,7 @@ pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
 pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Plot {
     let top = top.map(|points| (points, AMBER));
     let lines: Vec<_> = [(bottom, DARK_GREY)].into_iter().chain(top).collect();
-    histories(&lines, [0.0, end], "acceleration (m/s²)", &[])
+    histories(&lines, [0.0, end], "a (m/s²)", &[])
 }
 
 /// Draws lines in their colours over the times \[s\]. The values `shown` lie within the vertical axis, which
@@ -68,12 +68,15 @@ pub fn histories(
     Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
-/// Draws the part of the backbone that a run went through, on the whole of it: F \[kN\] over u/`u_ins`.
-pub fn path_on_backbone(backbone: &[(f64, f64)], [lowest, highest]: [f64; 2]) -> Plot {
-    let reach = highest.max(-lowest).clamp(1.0, 1.1);
+/// Draws the part of the backbone that a history of u/`u_ins` went through, on the backbone to both sides: F
+/// \[kN\] over u/`u_ins`. The history is [`cut`].
+pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot {
+    let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
+    let [lowest, highest] = [of(f64::min), of(f64::max)];
+    let reach = highest.max(-lowest).max(1.0);
     let x_range = [-1.05 * reach, 1.05 * reach];
     let within = clipped(backbone, x_range);
-    let path = clipped(backbone, [lowest.max(x_range[0]), highest.min(x_range[1])]);
+    let path = clipped(backbone, [lowest, highest]);
     let y_range = padded(within.iter().map(|point| point.1));
     let law = Series { look: Look::Dashed, ..Series::line(RED, 1.0, within) };
     let axes = [Axis::over("u / u_ins", x_range), Axis::over("restoring force F (kN)", y_range)];

@@ -27,8 +27,6 @@ impl Charts {
         let shown: Vec<&Sample> = response.samples.iter().take_while(|sample| sample.time <= end).collect();
         let ratios = plots::cut(shown.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
         let ground: Vec<_> = shown.iter().map(|sample| (sample.time, sample.support.bottom)).collect();
-        let of = |pick: fn(f64, f64) -> f64| ratios.iter().map(|point| point.1).fold(0.0, pick);
-        let path = [of(f64::min), of(f64::max)];
         let u_ins = wall.body().instability;
         let backbone = wall.backbone();
         let backbone: Vec<_> = backbone.iter().map(|&(u, force)| (u / u_ins.of(u), 1e-3 * force)).collect();
@@ -36,7 +34,7 @@ impl Charts {
         Self {
             history: sized((0.42 * width).clamp(170.0, 250.0), plots::history(&ratios, end)),
             motion: sized(150.0, plots::motion(&ground, None, end)),
-            force: sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, path)),
+            force: sized((0.5 * width).clamp(200.0, 270.0), plots::path_on_backbone(&backbone, &ratios)),
         }
     }
 

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use anyhow::Result;
 use figures::palette::{BLUE, GREY, RED};
 use figures::plot::Plot;
-use figures::response::{both_rotations, period_ratios};
-use rocking_wall::response::{Response, Sample};
+use figures::response::{both_rotations, cut, period_ratios};
+use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Wall};
@@ -199,8 +199,7 @@ impl Counterpart {
         let other = counterpart(scene)?;
         let twin = Response::of(&other).ok()?;
         let column = |response: &Response| -> Vec<(f64, f64)> {
-            let shown = |sample: &Sample| (sample.time, sample.outputs.ratio.clamp(-1.25, 1.25));
-            response.samples.iter().map(shown).collect()
+            cut(response.samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect())
         };
         let (own, twin_column) = (column(response), column(&twin));
         let [linear, full] = match scene.parameters.kinematics {

@@ -108,8 +108,7 @@ fn hinge(wall: &Wall) -> Option<f64> {
 /// The wall at rest, to scale, y upwards; the script turns its bodies.
 fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let (h, b) = (wall.body().height, scene.parameters.thickness);
-    let fallen = response.summary.overturned;
-    let half = if fallen { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
+    let half = if response.summary.overturned { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
     let (top, bottom) = (0.12 * h, 0.1 * h);
     let line = 0.004 * h.max(half);
     // the ground goes on beyond the view box, which the window may widen
@@ -253,8 +252,6 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
         None if on_floors => "Acceleration of the floor",
         None => "Acceleration of the support",
     };
-    let ratios = || response.samples.iter().map(|sample| sample.outputs.ratio);
-    let range = [ratios().fold(0.0, f64::min), ratios().fold(0.0, f64::max)];
     let u_ins = wall.body().instability;
     let backbone: Vec<_> =
         wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
@@ -270,7 +267,7 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
         plot(
             "force",
             "Restoring force on its backbone (dashed)",
-            &plots::path_on_backbone(&backbone, range),
+            &plots::path_on_backbone(&backbone, &ratio),
             &[],
             false,
         ),

@@ -61,12 +61,17 @@ fn the_line_of_a_wall_that_comes_back_goes_on() {
     };
     let html = page(tied);
     assert!(html.contains("and comes back.") && html.contains(">exceeds u_ins</span>"));
+    let shown =
+        html.split("id=\"force\"").nth(1).and_then(|rest| rest.split("data-ranges=\"[").nth(1)).unwrap();
+    let left: f64 = shown.split(',').next().unwrap().parse().unwrap();
     let peak = html.split("\"open\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
     let mut scene = Scene::default();
     tied(&mut scene);
     let response = Response::of(&scene).unwrap();
     let time = response.samples[peak.parse::<usize>().unwrap()].time;
     assert!(time > response.summary.overturn_time.unwrap(), "{time}");
+    let ratio = response.summary.u_ratio_max;
+    assert!(ratio > 1.2 && -left > ratio, "the dot of the force stays within {left}: {ratio}");
 }
 
 #[test]
