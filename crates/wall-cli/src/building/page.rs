@@ -112,9 +112,8 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
             "height": body.height,
             "thickness": scene.parameters.thickness,
             "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
-            "u_ins": [body.instability.positive, body.instability.negative],
             "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
-            "fallen": history.fate(times).falling(),
+            "falls": history.fate(times).falling(),
         })
     });
     shown.collect()
