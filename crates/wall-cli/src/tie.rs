@@ -98,6 +98,13 @@ fn records(arguments: &Arguments) -> Result<Vec<GroundMotion>> {
     Ok(motions)
 }
 
+/// The columns of [`table`]: two lines of heads, so that a row fits on a screen, and widths.
+const HEADS: [[&str; 9]; 2] = [
+    ["", "N median", "N max", "u/u_ins", "u/u_ins", "", "away", "beyond u_ins", "strength"],
+    ["K [N/m]", "[kN]", "[kN]", "median", "max", "falls", "from tie", "and back", "reached"],
+];
+const WIDTHS: [usize; 9] = [13, 13, 13, 13, 13, 6, 9, 13, 9];
+
 fn table(scene: &Scene, rows: &[Row]) -> String {
     let Parameters { tie_height, tie_side, .. } = scene.parameters;
     let side = match tie_side {
@@ -108,30 +115,14 @@ fn table(scene: &Scene, rows: &[Row]) -> String {
     let count = rows[0].outcomes.len();
     let motions = if count == 1 { "motion" } else { "motions" };
     let mut text = format!("{}, tie at {tie_height} m against {side}, {count} {motions}\n\n", scene.title);
-    let _ = writeln!(
-        text,
-        "{:>13} {:>14} {:>13} {:>14} {:>13} {:>6} {:>14} {:>22} {:>17}",
-        "K [N/m]",
-        "N median [kN]",
-        "N max [kN]",
-        "u/u_ins median",
-        "u/u_ins max",
-        "falls",
-        "away from tie",
-        "beyond u_ins and back",
-        "strength reached"
-    );
+    for heads in HEADS {
+        let cells = heads.iter().zip(WIDTHS).map(|(head, width)| format!("{head:>width$}"));
+        text += &(cells.collect::<Vec<_>>().join(" ") + "\n");
+    }
     for row in rows {
         let ([force, most, ratio, largest], [falls, away, back, reached]) = row.values();
-        let _ = writeln!(
-            text,
-            "{} {:>14} {} {:>14} {} {falls:>6} {away:>14} {back:>22} {reached:>17}",
-            significant(row.stiffness),
-            significant(1e-3 * force),
-            significant(1e-3 * most),
-            significant(ratio),
-            significant(largest)
-        );
+        let numbers = [row.stiffness, 1e-3 * force, 1e-3 * most, ratio, largest].map(significant).join(" ");
+        let _ = writeln!(text, "{numbers} {falls:>6} {away:>9} {back:>13} {reached:>9}");
     }
     text
 }
