@@ -60,7 +60,7 @@ const GROUPS = [
     { name: "c_bar", label: "Damping c_bar", range: [0, 0.5, 0.01] },
     { name: "impact", label: "At impacts", names: { none: "nothing", restitution: "restitution" } },
     { name: "restitution", label: "Restitution e", range: [0.5, 1, 0.005] },
-    { name: "restitution_source", label: "Restitution, if computed" },
+    { name: "restitution_source", label: "Formula for e" },
   ]],
   ["Ties and transverse walls", [
     { name: "tie_stiffness", label: "Stiffness of a tie", range: [0, 1000000, 5000], when: parapet },

@@ -64,7 +64,8 @@ function build(described) {
   }
 }
 function row(field, about) {
-  const id = `field_${field.name}`, meaning = about.meaning ?? "";
+  // the model description writes -1 where this page has an empty field
+  const id = `field_${field.name}`, meaning = (about.meaning ?? "").replace("-1: computed", "empty: computed");
   const label = make("label", { textContent: field.label, htmlFor: id, title: meaning });
   const fault = make("p", { className: "fault", hidden: true, role: "alert", id: `fault_${field.name}` });
   const element = make("div", { className: "field" }, label);
@@ -118,7 +119,7 @@ function refresh() {
     if (field.computable) {
       // an empty field shows the number that the library computes
       element.querySelector("input").placeholder = computed[field.name] ?? "";
-      element.querySelector("small").textContent = value === "" ? "computed" : "";
+      element.querySelector("small").textContent = value === "" ? "computed" : "given";
     }
   }
   for (const details of document.querySelectorAll("form details")) {
