@@ -29,10 +29,7 @@ pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Res
 pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
     match path.and_then(|path| Some((path, path.extension()?))) {
         Some((path, ending)) if !ending.eq_ignore_ascii_case("svg") => {
-            bail!(
-                "{}: --svg writes SVG, which moves or scales; give a file that ends in .svg",
-                path.display()
-            )
+            bail!("{}: --svg writes SVG; give a file that ends in .svg", path.display())
         }
         _ => Ok(()),
     }
