@@ -116,6 +116,13 @@ fn the_verdict_says_whether_the_wall_falls() {
     assert!(headline("2.5").starts_with("The wall stands: it reaches "));
     assert!(headline("20").starts_with("The wall falls at "));
     assert_eq!(headline("0.01"), "The wall stands and hardly moves");
+    let parameters = json!({ "restitution": "0.8", "impact": "restitution", "damping_model": "none" });
+    let motion = json!({ "kind": "synthetic", "seed": "1", "pga": "8" });
+    let answer = run(&mut Session::default(), &parameters, &motion);
+    assert_eq!(
+        answer["answer"]["verdict"]["headline"],
+        "The wall exceeds u_ins at 7.05 s, comes back and falls at 9.26 s"
+    );
 }
 
 /// A wall with an elastic branch rocks below the static onset. The displacement beyond which it overturns is

@@ -16,6 +16,10 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
     let peak = response.demands.displacement.largest();
     let u_ins = wall.body().instability.of(peak.value);
     let (state, headline) = match summary.fate {
+        Fate::Falls { exceeds, falls } if falls > exceeds => (
+            "falls",
+            format!("The wall exceeds u_ins at {exceeds:.2} s, comes back and falls at {falls:.2} s"),
+        ),
         Fate::Falls { falls, .. } => ("falls", format!("The wall falls at {falls:.2} s")),
         Fate::ComesBack { exceeds } => {
             ("falls", format!("The wall exceeds u_ins at {exceeds:.2} s and comes back"))
