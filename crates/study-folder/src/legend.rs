@@ -30,7 +30,7 @@ pub(crate) fn file(
 /// What the short names of damping models stand for.
 const NAMES: [(&str, &str); 6] = [
     ("CR", "coefficient of restitution, applied at each impact"),
-    ("CR rigid", "the same on the rigid-linear force law"),
+    ("CR rigid", "coefficient of restitution on the rigid-linear force law"),
     ("CDC", "constant damping coefficient"),
     ("CDR", "constant damping ratio"),
     ("SDR", "stiffness-proportional damping ratio"),
