@@ -64,8 +64,9 @@ function build(described) {
   }
 }
 function row(field, about) {
-  // the model description writes -1 where this page has an empty field
-  const id = `field_${field.name}`, meaning = (about.meaning ?? "").replace("-1: computed", "empty: computed");
+  // the model description has -1 where this page has an empty field
+  const meaning = (about.meaning ?? "").replace("-1: computed", "empty: computed");
+  const id = `field_${field.name}`;
   const label = make("label", { textContent: field.label, htmlFor: id, title: meaning });
   const fault = make("p", { className: "fault", hidden: true, role: "alert", id: `fault_${field.name}` });
   const element = make("div", { className: "field" }, label);
