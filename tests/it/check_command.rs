@@ -48,6 +48,24 @@ fn a_check_is_that_by_hand() {
 }
 
 #[test]
+fn a_spectrum_states_its_unit() {
+    let folder = folder("check_unit");
+    let write = |header: &str| {
+        std::fs::write(folder.join("s.csv"), format!("{header}\n0,0.2\n0.5,0.5\n4,0.03\n")).unwrap();
+    };
+    let check = ["check", "--spectrum", "s.csv"];
+    for header in ["T [s],Sa [g]", "T,Sa (g)", "\"T\",\"Sa [g]\""] {
+        write(header);
+        // 0.2 g
+        assert!(printed(&folder, &check).contains("1.96133"), "{header}");
+        refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave --unit out"]);
+    }
+    write("T,Sa (5 %)");
+    refused(&folder, &check, &["states no unit", "--unit"]);
+    assert!(printed(&folder, &[&check[..], &["--unit", "m/s2"]].concat()).contains("0.200000"));
+}
+
+#[test]
 fn a_check_refuses_what_it_cannot_use() {
     let folder = folder("check_refuses");
     let refuses = |spectrum: &str, words: &str| {

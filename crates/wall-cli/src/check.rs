@@ -30,8 +30,8 @@ pub(crate) struct Arguments {
     /// Demand: the median spectrum of these records, felt on the floor of a scene with storeys
     #[arg(long, value_name = "FILE", num_args = 1..)]
     records: Vec<PathBuf>,
-    /// Unit of the spectrum, or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
-    #[arg(long, required_unless_present = "records")]
+    /// Unit of a spectrum or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
+    #[arg(long)]
     unit: Option<String>,
     /// Damping ratio of the spectrum
     #[arg(long, value_name = "RATIO", default_value_t = DAMPING)]
@@ -97,14 +97,14 @@ impl Source {
     fn read(arguments: &Arguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
         let damping = arguments.damping;
-        if let (Some(path), Some(unit)) = (&arguments.spectrum, unit) {
+        if let Some(path) = &arguments.spectrum {
             if floors.is_some() {
                 output::warn(
                     "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
                 );
             }
-            let name = format!("{}, Sa in {unit}", path.display());
-            return Ok(Self { name, damping, demand: points(path, unit)? });
+            let (unit, demand) = points(path, unit)?;
+            return Ok(Self { name: format!("{}, Sa in {unit}", path.display()), damping, demand });
         }
         let options = RecordOptions { unit, ..RecordOptions::default() };
         let mut motions = Vec::new();
@@ -125,8 +125,8 @@ impl Source {
     }
 }
 
-/// Reads the points of a spectrum; a first line that holds no numbers is a header.
-fn points(path: &Path, unit: Unit) -> Result<Demand> {
+/// Reads a spectrum and its unit, which the file states in its header line, or the arguments do.
+fn points(path: &Path, given: Option<Unit>) -> Result<(Unit, Demand)> {
     let context = || format!("{}: cannot be read", path.display());
     let metadata = std::fs::metadata(path).with_context(context)?;
     // a pipe would be waited for
@@ -134,6 +134,15 @@ fn points(path: &Path, unit: Unit) -> Result<Demand> {
         bail!("{}: expected a spectrum as CSV of at most {MAX_FILE_BYTES} bytes", path.display());
     }
     let text = std::fs::read_to_string(path).with_context(context)?;
+    let unit = match (stated_unit(&text), given) {
+        (Some(stated), Some(given)) if stated != given => {
+            bail!("{}: line 1: states {stated}, and --unit {given}; leave --unit out", path.display());
+        }
+        (stated, given) => stated.or(given).with_context(|| {
+            let path = path.display();
+            format!("{path}: states no unit; give --unit, or write it into a header line, T [s],Sa [g]")
+        })?,
+    };
     let (mut points, mut lines) = (Vec::new(), Vec::new());
     for (index, line) in text.lines().enumerate() {
         let number = |field: &str| field.trim().parse::<f64>().ok();
@@ -151,12 +160,20 @@ fn points(path: &Path, unit: Unit) -> Result<Demand> {
         points.push((period, unit.to_si(value)));
         lines.push(index + 1);
     }
-    Demand::of_points(points).map_err(|error| match error {
+    let demand = Demand::of_points(points).map_err(|error| match error {
         CheckError::Point { number, .. } => {
             anyhow!("{}: line {}: expected {POINTS}", path.display(), lines[number - 1])
         }
         other => anyhow!("{}: {other}", path.display()),
-    })
+    })?;
+    Ok((unit, demand))
+}
+
+/// Finds the unit in brackets at the end of a header line, `T [s],Sa [g]`; `Sa (5 %)` states none.
+fn stated_unit(text: &str) -> Option<Unit> {
+    let header = text.lines().next()?.trim().trim_end_matches('"');
+    let bracket = |(opening, closing)| header.strip_suffix(closing)?.rsplit_once(opening);
+    [('[', ']'), ('(', ')')].into_iter().find_map(bracket)?.1.parse().ok()
 }
 
 fn side_name(side: &SideCheck) -> &'static str {
