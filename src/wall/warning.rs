@@ -163,6 +163,8 @@ impl Warning {
             ("thickness", b, " m", [0.03, 3.0]),
             ("height/thickness", height / b, "", [1.0, 100.0]),
             ("gravity", parameters.gravity, " m/s2", [9.7, 9.9]),
+            // a number in per cent; below 0 it is computed
+            ("xi", parameters.xi, "", if parameters.xi < 0.0 { any } else { [0.0, 0.5] }),
             // 0.1 to 1000 kN per metre of width
             (
                 "overburden",

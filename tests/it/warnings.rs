@@ -36,6 +36,8 @@ fn improbable_walls_are_warned_of() {
         (vec!["width=0.07", "overburden=1e11"], ["overburden = 1e11 N is", "7 to 70000 N"]),
         (vec!["height=300"], ["height = 300 m", "0.2 to 30 m"]),
         (vec!["thickness=5"], ["height/thickness = 0.8 is", "1 to 100 is"]),
+        // meant in per cent
+        (vec!["xi=5"], ["xi = 5 is unusual", "0 to 0.5 is usual"]),
         (vec!["gravity=1.62"], ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
     ] {
         let mut arguments = vec!["simulate", "--stop-time", "0.1", "--set", "u_start=0"];
