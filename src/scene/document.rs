@@ -104,7 +104,7 @@ impl Document {
 pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
     toml::from_str(place.text()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        let message = error.message().replace('\n', " ");
+        let message = in_toml_words(&error.message().replace('\n', " "));
         // unknown field `x`, expected one of `a`, `b`, ...
         let mut names = message.split('`').skip(1).step_by(2);
         let meant = match names.next() {
@@ -115,6 +115,21 @@ pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T
         let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
         place.error(span, format!("{message}, in `{shown}`{meant}"))
     })
+}
+
+/// Replaces the Rust type that a message of the TOML reader expects by the word of TOML.
+pub fn in_toml_words(message: &str) -> String {
+    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
+    let expected = match expected {
+        "a map" => "a table",
+        "a sequence" => "a list",
+        "path string" => "a path in quotes",
+        "f64" => "a number",
+        "u32" | "u64" | "usize" => "a whole number from 0 on",
+        name if name.starts_with("struct ") => "a table",
+        other => other,
+    };
+    format!("{found}, expected {expected}")
 }
 
 /// The text of a scene file.

@@ -31,7 +31,7 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
-pub use document::parse_toml;
+pub use document::{in_toml_words, parse_toml};
 pub use error::Place;
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits};

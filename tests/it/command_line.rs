@@ -128,6 +128,24 @@ const BAD_SCENES: [(&str, &str, &[&str]); 25] = [
 ];
 
 #[test]
+fn wrong_types_are_told_in_the_words_of_toml() {
+    let folder = folder("toml_words");
+    for (command, text, words) in [
+        ("simulate", "motion = \"a.AT2\"\n", "expected a table"),
+        ("simulate", "geometry = 3\n", "expected a table"),
+        ("simulate", "storeys = 3\n", "expected a list"),
+        ("simulate", "[[storeys]]\nmass = \"heavy\"\n", "expected a number"),
+        ("simulate", "[motion]\nsynthetic = { seed = \"a\" }\n", "expected a whole number from 0 on"),
+        ("simulate", "[motion]\nrecord = 3\n", "expected a path in quotes"),
+        ("ida", "intensity = \"PGA\"\n", "expected a table"),
+        ("building", "floor = 3\n", "expected a list"),
+    ] {
+        std::fs::write(folder.join("wrong.toml"), text).unwrap();
+        refused(&folder, &[command, "wrong.toml"], &["line", words]);
+    }
+}
+
+#[test]
 fn bad_scenes() {
     let folder = folder("bad_scenes");
     for (name, scene, words) in BAD_SCENES {

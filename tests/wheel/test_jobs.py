@@ -341,7 +341,7 @@ PLAIN = {"damping_model": "constant_ratio", "impact": "none", "u_start": 0.0}
         ({"walls": []}, ValueError, "at least one wall"),
         ({"walls": ["low"]}, TypeError, "a Wall or a dictionary of parameters, found .* str"),
         ({"walls": [{"xi": 0.1}]}, TypeError, 'wall "1": "xi" is not a parameter of a wall of a study'),
-        ({"walls": [{"height": -1}]}, ValueError, 'wall "1": .*height'),
+        ({"walls": [{"height": -1}]}, ValueError, '^wall "1": height = -1 m is below'),
         ({"walls": [{"name": "a"}, {"name": "a"}]}, ValueError, 'the name "a" occurs twice'),
         ({"records": [[0.0, 1.0]]}, TypeError, "record must be a Record, found a value of the type list"),
         ({"records": []}, ValueError, "at least one record"),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fmu_export::{Causality, Kind, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
+use rocking_wall::scene::in_toml_words;
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
@@ -157,7 +158,8 @@ impl Building {
     pub fn parse(path: &Path, text: &str) -> Result<Self> {
         let source = Source { file: path.display().to_string(), text };
         let document: Document = toml::from_str(text).map_err(|error| {
-            source.error(error.span().unwrap_or(0..0), error.message().replace('\n', " "))
+            let message = in_toml_words(&error.message().replace('\n', " "));
+            source.error(error.span().unwrap_or(0..0), message)
         })?;
         Self::from_document(document, &source, path)
     }

@@ -68,6 +68,7 @@ fn of_parameters(name: &str, parameters: &Bound<'_, PyDict>) -> PyResult<NamedWa
         }
     }
     let mut scene = Scene::default();
-    set_all(&mut scene, parameters).map_err(|error| refused(format!("wall {name:?}: {error}")))?;
+    let refuse = |error: PyErr| refused(format!("wall {name:?}: {}", error.value(parameters.py())));
+    set_all(&mut scene, parameters).map_err(refuse)?;
     Ok(NamedWall::new(name, scene.parameters))
 }
