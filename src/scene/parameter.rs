@@ -206,7 +206,7 @@ fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
 fn gone(name: &str) -> Option<String> {
     (name == "damping_source").then(|| {
         "there is no damping_source: xi and c_bar count where they are given, and are computed where they \
-         are left out; leave damping_source out"
+         are left out; leave damping_source out, and xi and c_bar where it was predicted"
             .to_owned()
     })
 }

@@ -199,7 +199,7 @@ impl Unit {
         if by_default && !std::mem::replace(start_warned, true) {
             log.warning(format_args!(
                 "the wall is shaken and was released from u_start = {start} m, the start value: for a wall \
-                 that is at rest before set u_start = 0"
+                 that is at rest until then, set u_start = 0"
             ));
         }
     }

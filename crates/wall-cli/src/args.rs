@@ -23,7 +23,7 @@ pub(crate) struct SceneArguments {
 /// A record file and how to read it.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
-    /// Accelerogram that replaces the scene's motion, in any format `wall record` reads
+    /// Accelerogram, in any format `wall record` reads; it replaces the motion of a scene
     #[arg(long, value_name = "FILE", group = "recorded")]
     pub(crate) record: Option<PathBuf>,
     #[command(flatten)]

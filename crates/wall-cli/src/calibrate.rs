@@ -23,17 +23,18 @@ use figures::template;
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// Damping models: `constant_coefficient`, `free_standing_block`, `constant_ratio`,
-    /// `stiffness_proportional` [default: all that the force law allows]
+    /// Damping models, separated by commas: `constant_coefficient`, `free_standing_block`,
+    /// `constant_ratio`, `stiffness_proportional` [default: all that the force law allows]
     #[arg(long, value_delimiter = ',')]
     models: Vec<String>,
-    /// Coefficients of restitution
+    /// Coefficients of restitution, separated by commas
     #[arg(long, value_name = "E", value_delimiter = ',', default_values_t = Grid::default().restitution)]
     restitution: Vec<f64>,
-    /// Ends of the elastic branch over `u_ins`; a multilinear or rigid-linear law has its own
+    /// Ends of the elastic branch over `u_ins`, separated by commas; a multilinear or rigid-linear law
+    /// has its own
     #[arg(long, value_name = "A1", value_delimiter = ',', default_values_t = Grid::default().a1)]
     a1: Vec<f64>,
-    /// Initial displacements over `u_ins`
+    /// Initial displacements over `u_ins`, separated by commas
     #[arg(long, value_name = "RATIO", value_delimiter = ',', default_values_t = Grid::default().start)]
     start: Vec<f64>,
     /// Time between the samples compared in s

@@ -22,10 +22,10 @@ pub(crate) struct Arguments {
     files: Vec<PathBuf>,
     #[command(flatten)]
     options: RecordOptionsArguments,
-    /// Periods in s to show Sa at
+    /// Periods in s to show Sa at, separated by commas
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = [0.2, 0.5, 1.0, 2.0])]
     periods: Vec<f64>,
-    /// Periods in s whose geometric mean of Sa is AvgSA
+    /// Periods in s whose geometric mean of Sa is AvgSA, separated by commas
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', default_values_t = AVERAGE_PERIODS)]
     average: Vec<f64>,
     /// Damping ratio of the oscillators

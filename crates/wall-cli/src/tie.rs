@@ -36,7 +36,8 @@ pub(crate) struct Arguments {
     /// Factor on the records
     #[arg(long, requires = "records", value_name = "FACTOR", default_value_t = 1.0)]
     scale: f64,
-    /// Stiffnesses in N/m, from 0 for no tie [default: 0, and 1e-2 to 1e3 of 2 W/h at the tie]
+    /// Stiffnesses in N/m, separated by commas, from 0 for no tie [default: 0, and 1e-2 to 1e3 of
+    /// 2 W/h at the tie]
     #[arg(long, value_name = "N_PER_M", value_delimiter = ',')]
     stiffness: Vec<f64>,
     /// Number of threads [default: one for each core]

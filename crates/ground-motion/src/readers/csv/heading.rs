@@ -81,9 +81,12 @@ impl<'a> Heading<'a> {
         let Some(wanted) = wanted else {
             let remedy = match self.separator {
                 Separator::Blanks => {
-                    "state the name of the column to read; between blanks, each name must be one word"
+                    "state the name of the column to read (on the command line --column); between blanks, \
+                     each name must be one word"
                 }
-                Separator::Comma | Separator::Semicolon => "state the name of the column to read",
+                Separator::Comma | Separator::Semicolon => {
+                    "state the name of the column to read (on the command line --column)"
+                }
             };
             return match self.names.len() {
                 2 => Ok(1),
