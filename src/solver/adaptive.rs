@@ -164,3 +164,33 @@ impl Piece for Series {
         self.polynomial.integral(time)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At the step found, before the share for what is left out, the larger of the last two terms meets its
+    /// tolerance, in u or in u̇: with coefficients rⁿ, |uₙ| hⁿ and n |uₙ| hⁿ⁻¹.
+    #[test]
+    fn the_longest_step_meets_the_tolerance() {
+        for growth in [0.2_f64, 0.9, 3.0] {
+            for [displacement, velocity] in [[1e-12, 1.0], [1.0, 1e-12], [3e-10, 7e-9]] {
+                let tolerances = Tolerances { displacement, velocity };
+                // the terms of odd order larger, those of even order larger
+                for last in [0.5, 2.0] {
+                    let mut coefficients: [f64; HIGHEST_ORDER + 1] =
+                        std::array::from_fn(|order| growth.powi(i32::try_from(order).unwrap()));
+                    coefficients[HIGHEST_ORDER] *= -last;
+                    let step = longest_step(&coefficients, tolerances) / 0.9;
+                    let share = |order: usize| {
+                        let (n, size) = (order as f64, coefficients[order].abs());
+                        let rate = size * step.powf(n - 1.0);
+                        (rate * step / displacement).max(n * rate / velocity)
+                    };
+                    let largest = share(HIGHEST_ORDER - 1).max(share(HIGHEST_ORDER));
+                    assert!((largest - 1.0).abs() < 1e-12, "{growth}, {tolerances:?}: {largest}");
+                }
+            }
+        }
+    }
+}

@@ -4,6 +4,9 @@ use oscillator::KinematicState;
 
 use super::state::Peaks;
 
+#[cfg(test)]
+mod tests;
+
 /// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {
     /// The motion at the start of the piece.

@@ -65,3 +65,33 @@ pub fn giannini_masiani(restitution: f64) -> f64 {
 pub fn housner_period(frequency: f64, rotation_ratio: f64) -> f64 {
     4.0 / frequency * (1.0 / (1.0 - rotation_ratio)).acosh()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Equations (14), (17) and (20)–(23) at ln e = −1, where Eqs. (20)–(22) are c a₁ᵖ.
+    #[test]
+    fn damping_of_a_restitution_is_that_of_its_equation() {
+        let e = (-1.0_f64).exp();
+        for (model, coefficient, power) in [
+            (DampingModel::None, 0.0, 0.0),
+            (DampingModel::ConstantCoefficient, 0.667, 0.450),
+            (DampingModel::FreeStandingBlock, 1.55, 0.0),
+            (DampingModel::ConstantRatio, 0.350, 0.074),
+            (DampingModel::StiffnessProportional, 0.218, -0.195),
+        ] {
+            for (a1, decades) in [(1.0, 0.0), (0.01, -2.0)] {
+                let expected = coefficient * (std::f64::consts::LN_10 * power * decades).exp();
+                let found = predicted(model, a1, e);
+                assert!((found - expected).abs() <= 1e-15, "{model:?}, {a1}: {found} for {expected}");
+            }
+            // in proportion to ln e, and none without loss
+            assert!((predicted(model, 0.03, e * e) - 2.0 * predicted(model, 0.03, e)).abs() <= 1e-15);
+            assert_eq!(predicted(model, 0.03, 1.0), 0.0);
+        }
+        assert!((makris_konstantinidis(e) - 0.68).abs() <= 1e-15);
+        assert!((giannini_masiani(1.0 / 3.0) - 1.0 / std::f64::consts::PI).abs() <= 1e-15);
+        assert_eq!(giannini_masiani(1.0), 0.0);
+    }
+}

@@ -1,0 +1,166 @@
+//! Tests the search for events on motions whose exits and turning points are known, and pins its work: most
+//! errors of a first guess are mended by later steps, and only their number tells.
+
+use std::cell::Cell;
+
+use super::*;
+
+/// u = A sin(ωt + φ) + v t, which counts how often it is evaluated.
+struct Sway {
+    amplitude: f64,
+    rate: f64,
+    phase: f64,
+    drift: f64,
+    horizon: f64,
+    evaluations: Cell<u32>,
+}
+
+impl Piece for Sway {
+    fn start(&self) -> KinematicState {
+        let start = self.at(0.0);
+        self.evaluations.set(0);
+        start
+    }
+
+    fn horizon(&self) -> f64 {
+        self.horizon
+    }
+
+    fn at(&self, time: f64) -> KinematicState {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let Self { amplitude, rate, phase, drift, .. } = self;
+        let (sine, cosine) = (libm::sin(rate * time + phase), libm::cos(rate * time + phase));
+        KinematicState {
+            displacement: amplitude * sine + drift * time,
+            velocity: amplitude * rate * cosine + drift,
+            acceleration: -amplitude * rate * rate * sine,
+        }
+    }
+
+    fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
+        let acceleration = self.amplitude * self.rate * self.rate;
+        (acceleration, acceleration * self.rate)
+    }
+
+    fn snap(&self, (_, jerk): (f64, f64)) -> f64 {
+        jerk * self.rate
+    }
+
+    fn displacement_integral(&self, _time: f64) -> f64 {
+        unreachable!("no search asks for it")
+    }
+}
+
+fn sway(phase: f64, drift: f64, horizon: f64) -> Sway {
+    Sway { amplitude: 0.3, rate: 2.0, phase, drift, horizon, evaluations: Cell::new(0) }
+}
+
+/// Without drift the exit through b is at asin(b/A), and at π − asin(b/A) for a motion that comes down.
+#[test]
+fn exits_have_their_closed_form() {
+    let (mut evaluations, mut exits) = (0, 0);
+    for part in 1..60 {
+        let bound = 0.005 * f64::from(part);
+        let angle = libm::asin(bound / 0.3);
+        let down = [bound, f64::INFINITY];
+        for (phase, bounds, expected) in [
+            (0.0, [-bound, bound], angle),
+            (std::f64::consts::PI, [-bound, bound], angle),
+            (0.5 * std::f64::consts::PI, down, 0.5 * std::f64::consts::PI - angle),
+        ] {
+            let piece = sway(phase, 0.0, 3.0);
+            let mut peaks = Peaks::at(piece.at(0.0).displacement);
+            let Ok(Ending::Exit(exit)) = follow(&piece, bounds, &mut peaks) else {
+                panic!("no exit through {bound}")
+            };
+            // where u is steep a rounding of u is one of time, and near the turn more
+            let slope = 0.6 * (1.0 - (bound / 0.3).powi(2)).sqrt();
+            let error = (exit.time - 0.5 * expected).abs();
+            assert!(error <= 4.0 * f64::EPSILON * (1.0 + 0.3 / slope), "{bound}: off by {error:e}");
+            assert_eq!(exit.upwards, phase == 0.0);
+            assert!((exit.velocity.abs() - slope).abs() <= 1e-13 / slope, "{bound}: {}", exit.velocity);
+            evaluations += piece.evaluations.get();
+            exits += 1;
+        }
+    }
+    assert_eq!((exits, evaluations), (177, 1112));
+}
+
+/// The motion turns at cos(ωt) = −v/(Aω).
+#[test]
+fn turning_points_have_their_closed_form() {
+    let mut evaluations = 0;
+    for part in 0..50 {
+        let drift = 0.011 * f64::from(part);
+        let piece = sway(0.0, drift, 1.5);
+        let mut peaks = Peaks::at(0.0);
+        assert!(matches!(follow(&piece, [-9.0, 9.0], &mut peaks), Ok(Ending::Horizon(_))));
+        let turn = 0.5 * libm::acos(-drift / 0.6);
+        let highest = 0.3 * libm::sin(2.0 * turn) + drift * turn;
+        // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as jerk² δ⁴/(8 ü) is
+        // no more than ε u/4
+        let (jerk, acceleration) = (2.4, 1.2 * libm::sin(2.0 * turn));
+        let last = (2.0 * f64::EPSILON * highest * acceleration).sqrt().sqrt() / f64::sqrt(jerk);
+        let (error, allowed) = ((peaks.positive - highest).abs(), jerk * last.powi(3) / 6.0);
+        assert!(error <= allowed, "{drift}: {error:e} of {allowed:e}");
+        evaluations += piece.evaluations.get();
+    }
+    assert_eq!(evaluations, 280);
+}
+
+/// Searches for √`square` between 0 and `high` from a guess, with the steps of `step`, which takes the time
+/// and Newton's step. Returns what it finds, and the evaluations it takes.
+fn root_of(
+    square: f64,
+    high: f64,
+    guess: f64,
+    (sign, settled): (f64, bool),
+    step: impl Fn(f64, f64) -> f64,
+) -> (Node, u32) {
+    let count = Cell::new(0);
+    let found = root([0.0, high], guess, sign > 0.0, |time| {
+        count.set(count.get() + 1);
+        let value = sign * (time * time - square);
+        let motion = KinematicState {
+            displacement: value,
+            velocity: sign * 2.0 * time,
+            acceleration: sign * 2.0,
+        };
+        Trial {
+            value,
+            step: step(time, -value / (sign * 2.0 * time)),
+            settled,
+            node: Node { time, motion },
+        }
+    });
+    (found, count.get())
+}
+
+#[test]
+fn a_root_takes_few_steps() {
+    let newton = |_: f64, step: f64| step;
+    for sign in [1.0, -1.0] {
+        // a guess at an end or outside is replaced by the middle
+        for guess in [1.0, 0.0, 2.0, -1.0, 3.0] {
+            let (found, count) = root_of(2.0, 2.0, guess, (sign, false), newton);
+            assert!((found.time - 2.0_f64.sqrt()).abs() <= f64::EPSILON, "{guess}: {}", found.time);
+            assert_eq!(count, 7, "{guess}");
+        }
+        let (exact, count) = root_of(2.25, 2.0, 1.5, (sign, false), newton);
+        assert_eq!((exact.time, count), (1.5, 1));
+        // the last step is made along the motion
+        let (Node { time, motion }, count) = root_of(2.0, 2.0, 1.4, (sign, true), newton);
+        assert!((time - (1.4 + 0.04 / 2.8)).abs() <= 4.0 * f64::EPSILON && count == 1, "{time}, {count}");
+        assert!((motion.displacement - sign * (time * time - 2.0)).abs() <= 4.0 * f64::EPSILON, "{motion:?}");
+        assert!((motion.velocity - sign * 2.0 * time).abs() <= 4.0 * f64::EPSILON, "{motion:?}");
+        // steps away from the root, and steps that do not shrink
+        for (step, most) in [(-0.3, 53), (0.3, 64)] {
+            for settled in [false, true] {
+                let constant = |_: f64, newton: f64| step * newton.signum();
+                let (found, count) = root_of(3e7, 8e3, 3e3, (sign, settled && step < 0.0), constant);
+                assert!((found.time - 3e7_f64.sqrt()).abs() <= 1e-12, "{step}: {}", found.time);
+                assert_eq!(count, most, "{step}, {settled}");
+            }
+        }
+    }
+}
