@@ -1,7 +1,7 @@
 //! Closed forms from the theory, to 1e-12 of their scale.
 
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::Segment;
+use rocking_wall::solver::{Phase, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RestitutionSource};
 use rocking_wall::wall::{Parameters, Support, equivalence, restitution};
 
@@ -85,6 +85,90 @@ fn rigid_quarter_period() {
         let speed = rate * u_ins * (1.0 - (1.0 - start_ratio).powi(2)).sqrt();
         assert!(state.displacement.abs() / u_ins < TOLERANCE, "u0 = {ratio} u_ins: {}", state.displacement);
         assert!((state.velocity + speed).abs() / speed < TOLERANCE, "u0 = {ratio} u_ins: {}", state.velocity);
+    }
+}
+
+/// Moves a wall under a forcing linear between two values, as fractions of that at which it uplifts.
+fn force(simulation: &mut Simulation, duration: f64, ends: [f64; 2]) {
+    let body = simulation.wall().body();
+    let onset = body.strength.positive / body.effective_mass / body.forcing(Support::rigid(1.0));
+    let [from, to] = ends.map(|end| Support::rigid(onset * end));
+    simulation.advance(&Segment { duration, from, to }).expect("a bounded motion");
+}
+
+/// A rigid wall at rest that the forcing lifts: with τ from uplift on, r the rate and Δ the jump of the
+/// forcing there, and ω² = k₀/m_eff, u = Δ/ω² (cosh ωτ − 1) + r/ω³ (sinh ωτ − ωτ). Nothing but one piece of
+/// motion happens. It leaves rest at the start of a step, within one, or where e = 0 has stopped it before.
+#[test]
+fn rest_ends_where_the_forcing_leaves_its_band() {
+    let rigid = Parameters {
+        force_law: ForceLaw::RigidLinear,
+        impact: Impact::Restitution,
+        restitution: 0.0,
+        u_start: 0.0,
+        ..undamped()
+    };
+    let slender = Parameters { height: 10.0, thickness: 0.01, ..rigid.clone() };
+    let mut compared = 0;
+    for (wall, released) in [(&rigid, 0.0), (&slender, 0.0), (&rigid, 1e-4)] {
+        for index in 0..400_u32 {
+            let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
+            let spread = |factor: f64| (factor * f64::from(index)).fract();
+            // ramps within a step, and jumps at its start
+            let jumps = released == 0.0 && index % 4 > 1;
+            let (from, to) = if released > 0.0 {
+                (0.0, 1.02 + 0.5 * spread(0.377))
+            } else if jumps {
+                (1.02 + 0.2 * spread(0.618), 0.95 + spread(0.377))
+            } else {
+                (-0.95 + 1.8 * spread(0.618), 1.02 + 0.5 * spread(0.377))
+            };
+            let u_ins = start(wall).wall().body().instability.positive;
+            let mut simulation = start(&Parameters { u_start: released * u_ins, ..wall.clone() });
+            let rate = simulation.wall().rocking_rate();
+            let (onset, duration) = (u_ins * rate * rate, 0.5 / rate);
+            force(&mut simulation, duration, [from * sign, to * sign]);
+            let growth = onset * (to - from) / duration;
+            let (leaving, jump) =
+                if jumps { (0.0, onset * (from - 1.0)) } else { (onset * (1.0 - from) / growth, 0.0) };
+            let (after, scale) = (rate * (duration - leaving), onset / (rate * rate));
+            let expected =
+                jump / (rate * rate) * (after.cosh() - 1.0) + growth / rate.powi(3) * (after.sinh() - after);
+            let (state, work) = (simulation.progress().state, simulation.progress().work);
+            let error = (sign * state.displacement - expected).abs() / scale;
+            assert!(error < TOLERANCE, "{from} to {to}: off by {error:e}");
+            // the fall to u = 0 is another piece
+            let falls = u64::from(released > 0.0);
+            assert_eq!((work.pieces, work.corners), (falls + 1, falls), "{from} to {to}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 1200);
+}
+
+/// At the very edge of its band a wall rests: under a constant forcing, under one that goes back, and up to
+/// the other edge.
+#[test]
+fn rest_goes_on_at_the_edge_of_its_band() {
+    let rigid = Parameters { force_law: ForceLaw::RigidLinear, u_start: 0.0, ..undamped() };
+    for sign in [1.0, -1.0] {
+        let mut simulation = start(&rigid);
+        let band = simulation.wall().rest_band();
+        let body = simulation.wall().body();
+        let edge = band[usize::from(sign > 0.0)];
+        let support = Support::rigid(edge / body.forcing(Support::rigid(1.0)));
+        assert_eq!(body.forcing(support), edge, "the very edge");
+        let rest = Support::default();
+        for to in [support, rest] {
+            simulation.advance(&Segment { duration: 0.1, from: support, to }).expect("rest");
+            let progress = simulation.progress();
+            assert_eq!((progress.state.phase, progress.work.pieces), (Phase::Resting, 0), "{to:?}");
+        }
+        let beyond = rest.towards(support, -1.5);
+        simulation.advance(&Segment { duration: 0.1, from: support, to: beyond }).expect("uplift");
+        let progress = simulation.progress();
+        assert!(sign * progress.state.displacement < 0.0, "{}", progress.state.displacement);
+        assert_eq!((progress.work.pieces, progress.work.corners), (1, 0));
     }
 }
 

@@ -27,6 +27,7 @@ mod ida_command;
 mod imports;
 mod manifest;
 mod measure_command;
+mod model_exchange;
 mod notices;
 mod numerics;
 mod one_sided;

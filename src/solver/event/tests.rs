@@ -121,17 +121,9 @@ fn root_of(
     let found = root([0.0, high], guess, sign > 0.0, |time| {
         count.set(count.get() + 1);
         let value = sign * (time * time - square);
-        let motion = KinematicState {
-            displacement: value,
-            velocity: sign * 2.0 * time,
-            acceleration: sign * 2.0,
-        };
-        Trial {
-            value,
-            step: step(time, -value / (sign * 2.0 * time)),
-            settled,
-            node: Node { time, motion },
-        }
+        let motion =
+            KinematicState { displacement: value, velocity: sign * 2.0 * time, acceleration: sign * 2.0 };
+        Trial { value, step: step(time, -value / (sign * 2.0 * time)), settled, node: Node { time, motion } }
     });
     (found, count.get())
 }

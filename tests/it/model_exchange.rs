@@ -1,0 +1,220 @@
+//! Tests what an importer's solver meets: events with all that they did, the damping beyond a branch, the
+//! scene's own motion.
+
+use fmu_export::{Environment, Experiment, Interface, Log, Model as _, ModelExchange as _};
+use rocking_wall::scene::Scene;
+use rocking_wall::simulation::{Handled, Simulation};
+use rocking_wall::solver::{Event, Phase, Work};
+use rocking_wall::unit::Unit;
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Softening};
+use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
+
+/// A rigid parapet that starts at 0.02 m, with restitution 0.9.
+fn rigid() -> Parameters {
+    Parameters {
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        restitution: 0.9,
+        u_start: 0.02,
+        ..Parameters::default()
+    }
+}
+
+fn start(parameters: &Parameters) -> Simulation {
+    Simulation::new(parameters, None, 0.0, Support::default()).unwrap()
+}
+
+/// Sets the motion and handles the event there.
+fn event_at(simulation: &mut Simulation, displacement: f64, velocity: f64) -> Handled {
+    simulation.set_motion(displacement, velocity);
+    let before = simulation.progress().work;
+    let handled = simulation.handle_event(&mut false, Support::default());
+    let mut work = before;
+    work.add(handled.event.work);
+    assert_eq!(simulation.progress().work, work, "the simulation counts the event's work");
+    handled
+}
+
+/// Beyond u = 0 by δ the wall has gained p δ of energy on the old side, and lost as much on the new one.
+#[test]
+fn an_impact_reports_its_jump_and_impulse() {
+    let mut simulation = start(&rigid());
+    let body = simulation.wall().body();
+    let (mass, strength) = (body.mass, body.strength.positive / body.effective_mass);
+    let (late, speed) = (1e-6, 0.3);
+    let arriving: f64 = speed * speed - 2.0 * strength * late;
+    let after = -(0.81 * arriving - 2.0 * strength * late).sqrt();
+    let Handled { event, impulses, changed } = event_at(&mut simulation, -late, -speed);
+    let jump = event.velocity_jump;
+    assert!((jump - (after + speed)).abs() <= 1e-15, "{jump} for {}", after + speed);
+    let work = Work { pieces: 0, corners: 1, impacts: 1 };
+    assert_eq!(event, Event { velocity_jump: jump, work, ..Event::default() });
+    assert_eq!((impulses, changed), (Ends { bottom: mass * jump, top: 0.0 }, true));
+    assert_eq!(simulation.progress().state.velocity, -speed + jump);
+    // nothing more happens there
+    assert_eq!(event_at(&mut simulation, -late, -speed), Handled::default());
+}
+
+/// One update passes every corner on the way, and each mark is reported once.
+#[test]
+fn an_event_reports_every_corner_on_the_way() {
+    let bilinear = Parameters { force_law: ForceLaw::Bilinear, xi: 0.0, ..Parameters::default() };
+    let bilinear = Parameters { damping_model: DampingModel::ConstantCoefficient, ..bilinear };
+    let mut simulation = start(&Parameters { u_start: 0.1, ..bilinear });
+    let two = Event { work: Work { corners: 2, ..Work::default() }, ..Event::default() };
+    assert_eq!(event_at(&mut simulation, -0.1, -0.1).event, two);
+    let (u_ins, end) = (simulation.wall().body().instability.negative, simulation.wall().corners()[0]);
+    let overturned = event_at(&mut simulation, -1.01 * u_ins, -0.1).event;
+    assert!(overturned.overturned && !overturned.departed && !overturned.stopped, "{overturned:?}");
+    assert_eq!(simulation.progress().overturn_time, Some(0.0));
+    let landed = event_at(&mut simulation, end.displacement - 0.01, -0.1);
+    assert!(!landed.event.overturned && landed.event.departed && landed.event.stopped, "{landed:?}");
+    let state = simulation.progress().state;
+    assert_eq!((state.phase, state.displacement, state.velocity), (Phase::Landed, end.displacement, 0.0));
+    // all at once
+    let mut simulation = start(&rigid());
+    simulation.set_time(3.0);
+    let end = simulation.wall().corners().last().unwrap().displacement;
+    let fallen = event_at(&mut simulation, end + 0.01, 1.0).event;
+    let work = Work { corners: 3, ..Work::default() };
+    assert_eq!(fallen, Event { overturned: true, departed: true, stopped: true, velocity_jump: 0.0, work });
+    assert_eq!(simulation.progress().overturn_time, Some(3.0));
+}
+
+/// A drift counts from the first event or completed step on, and for good: its couple acts.
+#[test]
+fn a_drift_is_remembered() {
+    let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..Parameters::default() };
+    let drifting = Support { drift: 1e-3, ..Support::default() };
+    let complete: fn(&mut Simulation, Support) = |wall, support| wall.complete_step(false, support);
+    let event: fn(&mut Simulation, Support) = |wall, support| {
+        wall.handle_event(&mut false, support);
+    };
+    for accept in [complete, event] {
+        let mut simulation = start(&strip);
+        for (support, remembered) in
+            [(Support::default(), false), (drifting, true), (drifting, true), (Support::default(), true)]
+        {
+            accept(&mut simulation, support);
+            assert_eq!(simulation.progress().drift, remembered, "{support:?}");
+        }
+    }
+}
+
+/// Only steps outwards beyond the largest |u| so far raise it, and an event on the way back ends that.
+#[test]
+fn peaks_rise_with_completed_steps() {
+    let mut simulation = start(&Parameters { u_start: 0.1, u_dot_start: 0.1, ..Parameters::default() });
+    let mut rising = false;
+    let still = Support::default();
+    simulation.handle_event(&mut rising, still);
+    assert!(rising, "it moves outwards from its start");
+    for (displacement, rises, largest) in
+        [(0.11, true, 0.11), (0.12, true, 0.12), (0.115, true, 0.12), (0.13, false, 0.12)]
+    {
+        simulation.set_motion(displacement, 0.1);
+        simulation.complete_step(rises, still);
+        assert_eq!(simulation.progress().state.peaks.largest(), largest);
+    }
+    simulation.set_motion(0.12, -0.1);
+    simulation.handle_event(&mut rising, still);
+    assert!(!rising && simulation.progress().state.peaks.largest() == 0.12);
+}
+
+/// Beyond the inner end of a curved branch, C has the first two derivatives of the branch's own there, so
+/// that the two part with the third power of the distance; the slope that comes with C is its own.
+#[test]
+fn damping_goes_on_smoothly_beyond_a_branch() {
+    let mut compared = 0;
+    for damping_model in [DampingModel::ConstantRatio, DampingModel::StiffnessProportional] {
+        for softening in [Softening::Parallel, Softening::Rotated] {
+            let wall = Wall::new(&Parameters {
+                damping_model,
+                softening,
+                force_law: ForceLaw::Trilinear,
+                xi: 0.05,
+                ..Parameters::default()
+            });
+            let wall = wall.unwrap();
+            let curved = |damping| !matches!(damping, BranchDamping::Constant(_));
+            for branch in wall.branches().iter().filter(|branch| curved(branch.damping)) {
+                compared += 1;
+                let is_outside = branch.lower >= 0.0;
+                let (inner, outer) =
+                    if is_outside { (branch.lower, branch.upper) } else { (branch.upper, branch.lower) };
+                let (size, slope) = (branch.damping_at(inner), branch.damping_slope(inner).abs());
+                let apart = |inwards: f64| {
+                    let place = inner * (1.0 - inwards);
+                    (branch.continued_damping(place).0 - branch.damping_at(place)).abs() / size
+                };
+                let order = (apart(2e-3) / apart(1e-3)).log2();
+                assert!((order - 3.0).abs() < 0.02, "{damping_model:?}: order {order}");
+                // beyond the inner end, inside, and beyond the outer one
+                for share in [-3.0, -1.0, -0.5, 0.1, 0.9, 0.999] {
+                    slope_is_that_of_the_value(
+                        branch,
+                        inner * (1.0 + 0.3 * share),
+                        size + slope * inner.abs(),
+                    );
+                }
+                for share in [0.1, 0.5, 0.99, 1.1, 1.5] {
+                    let place = inner + share * (outer - inner);
+                    slope_is_that_of_the_value(branch, place, size + slope * inner.abs());
+                }
+                let (bounded, _) = branch.continued_damping(-1e3 * inner);
+                assert!(bounded.abs() <= 20.0 * (size + slope * inner.abs()), "{bounded} for {size}");
+            }
+        }
+    }
+    assert_eq!(compared, 16);
+}
+
+#[track_caller]
+fn slope_is_that_of_the_value(branch: &rocking_wall::wall::Branch, place: f64, size: f64) {
+    let step = 1e-5 * place.abs();
+    let (value, slope) = branch.continued_damping(place);
+    let [below, above] = [place - step, place + step].map(|place| branch.continued_damping(place).0);
+    let rounded = (above - below) / (2.0 * step);
+    // central differences err by step² of the third derivative, and by rounding over the step
+    let allowed = 1e-6 * size / place.abs();
+    assert!((slope - rounded).abs() <= allowed, "{value} at {place}: slope {slope} for {rounded}");
+}
+
+/// A rigid wall at rest shows the motion of its support in its reaction. The unit announces every sample as
+/// an event, and goes linearly between; time runs from the start of the simulation.
+#[test]
+fn the_scenes_own_motion_goes_on_from_sample_to_sample() {
+    const START: f64 = 5.0;
+    let text = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n\
+                [start]\nu_start = 0.0\n[motion]\nharmonic = { amplitude = 0.5, frequency = 20.0, duration = 0.02 }\n";
+    let scene = Scene::parse("scene", text, std::path::Path::new(".")).unwrap();
+    let motion = scene.support_motion().unwrap().unwrap();
+    let environment = Environment {
+        interface: Interface::ModelExchange,
+        instance_name: "wall",
+        resources: None,
+        payload: Some(text.as_bytes()),
+    };
+    let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+    unit.setup_experiment(Experiment { start: START, ..Experiment::default() });
+    unit.initialize(&mut Log::silent()).unwrap();
+    let mass = unit.real(RealVariable::Mass);
+    let (step, mut samples) = (motion.step(), 0);
+    let mut update = unit.update(&mut Log::silent()).unwrap();
+    while let Some(next) = update.next_event {
+        samples += 1;
+        let expected = START + f64::from(samples) * step;
+        assert!((next - expected).abs() <= 1e-14 * START, "{next} s for {expected} s");
+        for time in [next - 0.9 * step, next - 0.5 * step, next - 0.1 * step] {
+            unit.set_time(time);
+            let reaction = unit.real(RealVariable::ReactionBottom);
+            let expected = mass * motion.segment(time - START, 0.0).from.bottom;
+            assert!((reaction - expected).abs() <= 1e-9 * mass, "{time} s: {reaction} N for {expected} N");
+        }
+        unit.set_time(next);
+        update = unit.update(&mut Log::silent()).unwrap();
+        assert!(update.states_changed, "solvers restart at a sample");
+    }
+    assert_eq!(samples as usize + 1, motion.bottom().samples().len());
+}
