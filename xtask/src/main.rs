@@ -13,6 +13,7 @@ mod figures;
 mod fmu;
 mod fuzz;
 mod images;
+mod mutants;
 mod platform;
 mod playground;
 mod portable;
@@ -45,6 +46,9 @@ The jobs of the project.
                                    wheels for each platform, components, notices, checksums; TAG is checked
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
+  cargo xtask mutants [--count N] [--seed S] [PATH...]
+                                   change the code in N places of a sample, one at a time, and count what no
+                                   Rust test notices, by cargo-mutants
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
                                    write docs/accuracy.md, docs/validation.md, the pages, and the pictures of
                                    docs/images
@@ -80,6 +84,7 @@ fn main() -> ExitCode {
         ["release"] => release::run(None),
         ["release", tag] => release::run(Some(tag)),
         ["fuzz"] => fuzz::run(),
+        ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
         ["bench", "--peers"] => bench::peers(None).map(drop),
