@@ -47,7 +47,7 @@ The jobs of the project.
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask mutants [--count N] [--seed S] [PATH...]
-                                   change the code in N places of a sample, one at a time, and count what no
+                                   change the code in about N places, one at a time, and count what no
                                    Rust test notices, by cargo-mutants
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
                                    write docs/accuracy.md, docs/validation.md, the pages, and the pictures of
