@@ -64,10 +64,17 @@ fn an_event_reports_every_corner_on_the_way() {
     let mut simulation = start(&Parameters { u_start: 0.1, ..bilinear });
     let two = Event { work: Work { corners: 2, ..Work::default() }, ..Event::default() };
     assert_eq!(event_at(&mut simulation, -0.1, -0.1).event, two);
+    assert_eq!(simulation.progress().overturn_time, None);
+    simulation.set_time(2.0);
     let (u_ins, end) = (simulation.wall().body().instability.negative, simulation.wall().corners()[0]);
     let overturned = event_at(&mut simulation, -1.01 * u_ins, -0.1).event;
     assert!(overturned.overturned && !overturned.departed && !overturned.stopped, "{overturned:?}");
-    assert_eq!(simulation.progress().overturn_time, Some(0.0));
+    assert_eq!(simulation.progress().overturn_time, Some(2.0));
+    // the first time counts
+    assert!(!event_at(&mut simulation, -0.9 * u_ins, 0.1).event.overturned);
+    simulation.set_time(2.5);
+    assert!(!event_at(&mut simulation, -1.01 * u_ins, -0.1).event.overturned);
+    assert_eq!(simulation.progress().overturn_time, Some(2.0));
     let landed = event_at(&mut simulation, end.displacement - 0.01, -0.1);
     assert!(!landed.event.overturned && landed.event.departed && landed.event.stopped, "{landed:?}");
     let state = simulation.progress().state;

@@ -5,7 +5,7 @@ use crate::command::{Result, find, output, program, root, succeed, target};
 
 /// What is mutated unless paths are given: the rooms of the unit in which motion is computed.
 const ROOMS: [&str; 4] = ["src/wall", "src/solver", "src/simulation", "src/unit"];
-/// Whose tests are run.
+/// Whose tests are run, beside those of the crate that is mutated.
 const TESTED: [&str; 2] = ["rocking-wall", "rocking-wall-cli"];
 const COUNT: usize = 20;
 const SEED: usize = 1;
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<()> {
         &format!("{}/{samples}", seed % samples),
     ]);
     // some tests ask git for the files of the project
-    tests.args(["--copy-vcs", "true"]).args(TESTED.iter().flat_map(|name| ["--test-package", name]));
+    tests.args(["--copy-vcs", "true"]).args(TESTED.map(|name| format!("--cargo-arg=--package={name}")));
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     succeed(tests.arg("--output").arg(&folder), &format!("see {}", folder.join("mutants.out").display()))
 }

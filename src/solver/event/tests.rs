@@ -1,7 +1,7 @@
 //! Tests the search for events on motions whose exits and turning points are known, and pins its work: most
 //! errors of a first guess are mended by later steps, and only their number tells.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use super::*;
 
@@ -108,51 +108,73 @@ fn turning_points_have_their_closed_form() {
     assert_eq!(evaluations, 280);
 }
 
-/// Searches for √`square` between 0 and `high` from a guess, with the steps of `step`, which takes the time
-/// and Newton's step. Returns what it finds, and the evaluations it takes.
+/// Searches for √`square` in a bracket from a guess, by steps that `step` makes of Newton's. `sign` is that of
+/// the slope, and `settled` says of every step that it is the last. Returns what it finds, and the times at
+/// which it evaluates.
 fn root_of(
     square: f64,
-    high: f64,
+    bracket: [f64; 2],
     guess: f64,
     (sign, settled): (f64, bool),
-    step: impl Fn(f64, f64) -> f64,
-) -> (Node, u32) {
-    let count = Cell::new(0);
-    let found = root([0.0, high], guess, sign > 0.0, |time| {
-        count.set(count.get() + 1);
+    step: impl Fn(f64) -> f64,
+) -> (Node, Vec<f64>) {
+    let times = RefCell::new(vec![]);
+    let found = root(bracket, guess, sign > 0.0, |time| {
+        times.borrow_mut().push(time);
         let value = sign * (time * time - square);
         let motion =
             KinematicState { displacement: value, velocity: sign * 2.0 * time, acceleration: sign * 2.0 };
-        Trial { value, step: step(time, -value / (sign * 2.0 * time)), settled, node: Node { time, motion } }
+        Trial { value, step: step(-value / (sign * 2.0 * time)), settled, node: Node { time, motion } }
     });
-    (found, count.get())
+    (found, times.into_inner())
 }
 
 #[test]
 fn a_root_takes_few_steps() {
-    let newton = |_: f64, step: f64| step;
+    let newton = |step: f64| step;
     for sign in [1.0, -1.0] {
         // a guess at an end or outside is replaced by the middle
-        for guess in [1.0, 0.0, 2.0, -1.0, 3.0] {
-            let (found, count) = root_of(2.0, 2.0, guess, (sign, false), newton);
+        for (guess, first, count) in
+            [(1.0, 1.0, 7), (0.25, 8.0, 9), (15.75, 8.0, 9), (0.1, 8.0, 9), (16.0, 8.0, 9)]
+        {
+            let (found, times) = root_of(2.0, [0.25, 15.75], guess, (sign, false), newton);
             assert!((found.time - 2.0_f64.sqrt()).abs() <= f64::EPSILON, "{guess}: {}", found.time);
-            assert_eq!(count, 7, "{guess}");
+            assert_eq!((times[0], times.len()), (first, count), "{guess}: {times:?}");
         }
-        let (exact, count) = root_of(2.25, 2.0, 1.5, (sign, false), newton);
-        assert_eq!((exact.time, count), (1.5, 1));
+        let (exact, times) = root_of(2.25, [0.0, 2.0], 1.5, (sign, false), newton);
+        assert_eq!((exact.time, times), (1.5, vec![1.5]));
         // the last step is made along the motion
-        let (Node { time, motion }, count) = root_of(2.0, 2.0, 1.4, (sign, true), newton);
-        assert!((time - (1.4 + 0.04 / 2.8)).abs() <= 4.0 * f64::EPSILON && count == 1, "{time}, {count}");
+        let (Node { time, motion }, times) = root_of(2.0, [0.0, 2.0], 1.4, (sign, true), newton);
+        assert!((time - (1.4 + 0.04 / 2.8)).abs() <= 4.0 * f64::EPSILON && times == [1.4], "{time}");
         assert!((motion.displacement - sign * (time * time - 2.0)).abs() <= 4.0 * f64::EPSILON, "{motion:?}");
         assert!((motion.velocity - sign * 2.0 * time).abs() <= 4.0 * f64::EPSILON, "{motion:?}");
-        // steps away from the root, and steps that do not shrink
-        for (step, most) in [(-0.3, 53), (0.3, 64)] {
-            for settled in [false, true] {
-                let constant = |_: f64, newton: f64| step * newton.signum();
-                let (found, count) = root_of(3e7, 8e3, 3e3, (sign, settled && step < 0.0), constant);
-                assert!((found.time - 3e7_f64.sqrt()).abs() <= 1e-12, "{step}: {}", found.time);
-                assert_eq!(count, most, "{step}, {settled}");
-            }
+    }
+}
+
+/// A step must stay inside the bracket and be shorter than 3/4 of the last one, the bracket at first.
+#[test]
+fn bisection_takes_over_where_steps_fail() {
+    for sign in [1.0, -1.0] {
+        let search = |bracket: [f64; 2], guess: f64, settled: bool, length: f64| {
+            root_of(3e7, bracket, guess, (sign, settled), move |step: f64| length * step.signum())
+        };
+        let root = 3e7_f64.sqrt();
+        let from = |length: f64, settled: bool| search([0.0, 8e3], 3e3, settled, length);
+        // away from the root, settled or not, and without end
+        for (length, settled, second, count) in [
+            (-0.3, false, 5.5e3, 53),
+            (-0.3, true, 5.5e3, 53),
+            (0.3, false, 3000.3, 64),
+            (5100.0, false, 5.5e3, 53),
+        ] {
+            let (found, times) = from(length, settled);
+            assert!((found.time - root).abs() <= 1e-12, "{length}: {}", found.time);
+            assert_eq!((times[1], times.len()), (second, count), "{length}: {times:?}");
         }
+        // more than 3/4 of the bracket, though inside it
+        let (_, times) = search([4e3, 6e3], 4010.0, false, 1600.0);
+        assert_eq!(times[1], 5005.0);
+        let (_, times) = search([4e3, 6e3], 4010.0, false, 1400.0);
+        assert_eq!(times[1], 5410.0);
     }
 }
