@@ -44,6 +44,7 @@ mod study_parts;
 mod tidy;
 mod ties;
 mod trigonometric;
+mod unit;
 mod validation;
 mod warnings;
 mod wiring;

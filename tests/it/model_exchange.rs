@@ -193,8 +193,10 @@ fn slope_is_that_of_the_value(branch: &rocking_wall::wall::Branch, place: f64, s
 #[test]
 fn the_scenes_own_motion_goes_on_from_sample_to_sample() {
     const START: f64 = 5.0;
-    let text = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n\
-                [start]\nu_start = 0.0\n[motion]\nharmonic = { amplitude = 0.5, frequency = 20.0, duration = 0.02 }\n";
+    let text = "[force_law]\nforce_law = \"rigid_linear\"\n\
+                [damping]\ndamping_model = \"none\"\n\
+                [start]\nu_start = 0.0\n\
+                [motion]\nharmonic = { amplitude = 0.5, frequency = 20.0, duration = 0.02 }\n";
     let scene = Scene::parse("scene", text, std::path::Path::new(".")).unwrap();
     let motion = scene.support_motion().unwrap().unwrap();
     let environment = Environment {

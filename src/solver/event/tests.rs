@@ -108,9 +108,9 @@ fn turning_points_have_their_closed_form() {
     assert_eq!(evaluations, 280);
 }
 
-/// Searches for √`square` in a bracket from a guess, by steps that `step` makes of Newton's. `sign` is that of
-/// the slope, and `settled` says of every step that it is the last. Returns what it finds, and the times at
-/// which it evaluates.
+/// Searches for √`square` in a bracket from a guess, by steps that `step` makes of Newton's. `sign` is that
+/// of the slope, and `settled` says of every step that it is the last. Returns what it finds, and the times
+/// at which it evaluates.
 fn root_of(
     square: f64,
     bracket: [f64; 2],

@@ -1,0 +1,151 @@
+//! Tests the derivatives that the unit states, against differences of what it computes.
+
+use fmu_export::{Environment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _};
+use rocking_wall::unit::Unit;
+use rocking_wall::variables::{
+    DampingModel, ForceLaw, IntegerVariable as I, Mechanism, RealVariable as V, TieSide,
+};
+
+/// Outputs that depend on the present state and inputs.
+const OUTPUTS: [V; 9] = [
+    V::U,
+    V::UDot,
+    V::UDdot,
+    V::URatio,
+    V::RestoringForce,
+    V::DampingForce,
+    V::ReactionBottom,
+    V::ReactionTop,
+    V::TieForce,
+];
+/// Communication step [s].
+const STEP: f64 = 1e-5;
+const INPUTS: [V; 4] = [V::AG, V::ABottom, V::ATop, V::Drift];
+
+fn unit(interface: Interface, reals: &[(V, f64)], choices: &[(I, i32)]) -> Unit {
+    let environment = Environment { interface, instance_name: "wall", resources: None, payload: None };
+    let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+    for &(variable, value) in choices {
+        unit.set_integer(variable, value);
+    }
+    for &(variable, value) in reals {
+        unit.set_real(variable, value);
+    }
+    unit.initialize(&mut Log::silent()).unwrap();
+    unit
+}
+
+/// Walls with all that outputs depend on, and a displacement on each of their branches \[m\].
+fn walls() -> impl Iterator<Item = (Unit, Vec<f64>)> {
+    let tied = [(V::TieStiffness, 3e5), (V::TieSlack, 2e-3), (V::TieHeight, 2.0)];
+    let models = [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio];
+    let damping = models.into_iter().chain([DampingModel::StiffnessProportional]);
+    damping.flat_map(move |model| {
+        [Mechanism::Parapet, Mechanism::VerticalSpanning].map(|mechanism| {
+            let choices = [
+                (I::Mechanism, mechanism.value()),
+                (I::DampingModel, model.value()),
+                (I::ForceLaw, ForceLaw::Trilinear.value()),
+                (I::TieSide, TieSide::Positive.value()),
+            ];
+            let parapet = mechanism == Mechanism::Parapet;
+            let mut reals = vec![(V::Xi, 0.05), (V::UStart, 0.0), (V::Overburden, 2e3)];
+            reals.extend(parapet.then_some(tied).into_iter().flatten());
+            let unit = unit(Interface::ModelExchange, &reals, &choices);
+            let u_ins = unit.real(V::UIns);
+            let places = [-1.05, -0.6, -0.06, 1e-3, 0.02, 0.06, 0.6, 1.05].map(|share| share * u_ins);
+            (unit, places.to_vec())
+        })
+    })
+}
+
+#[test]
+fn directional_derivatives_are_those_of_the_outputs() {
+    let mut compared = 0;
+    for (unit, places) in walls() {
+        for place in places {
+            let mut at = unit.clone();
+            for (input, value) in INPUTS.into_iter().zip([0.2, -0.3, 0.4, 1e-3]) {
+                at.set_real(input, value);
+            }
+            at.set_real(V::U, place);
+            at.set_real(V::UDot, 0.07);
+            at.update(&mut Log::silent()).unwrap();
+            for known in [V::U, V::UDot].into_iter().chain(INPUTS) {
+                let step = if known == V::U { 1e-6 * unit.real(V::UIns) } else { 1e-6 };
+                let moved = |by: f64| {
+                    let mut moved = at.clone();
+                    match known {
+                        V::U => moved.set_states(&[place + by, 0.07]),
+                        V::UDot => moved.set_states(&[place, 0.07 + by]),
+                        _ => moved.set_real(known, at.real(known) + by),
+                    }
+                    OUTPUTS.map(|output| moved.real(output))
+                };
+                let (below, above) = (moved(-step), moved(step));
+                for (index, output) in OUTPUTS.into_iter().enumerate() {
+                    let found = at.directional_derivative(output, known).unwrap();
+                    let expected = (above[index] - below[index]) / (2.0 * step);
+                    // rounding of the outputs over the step, and its square times the third derivative
+                    let size = above[index].abs().max(1e-3);
+                    let allowed = 1e-9 * size / step + 1e-6 * expected.abs();
+                    let names = [output, known].map(|variable| variable.variable().name);
+                    assert!(
+                        (found - expected).abs() <= allowed,
+                        "d{names:?} at {place}: {found} for {expected}"
+                    );
+                    compared += usize::from(expected.abs() > 100.0 * allowed);
+                }
+                for memory in [V::ImpulseBottom, V::ImpulseTop, V::OverturnTime, V::UMax] {
+                    assert_eq!(at.directional_derivative(memory, known), Some(0.0));
+                }
+                assert_eq!(at.directional_derivative(V::Mass, known), None);
+            }
+            assert_eq!(at.directional_derivative(V::U, V::Height), None);
+        }
+    }
+    assert!(compared > 700, "{compared} derivatives are told from 0");
+}
+
+/// After a step along which the inputs rise linearly, the derivatives of the outputs go on along it.
+#[test]
+fn output_derivatives_go_on_along_the_last_step() {
+    let tied = [(V::TieStiffness, 3e5), (V::TieSlack, 2e-3), (V::TieHeight, 2.0), (V::UStart, 0.05)];
+    let tied = unit(Interface::CoSimulation, &tied, &[]);
+    let strip = [(V::UStart, 0.05), (V::Overburden, 2e3)];
+    let strip = unit(
+        Interface::CoSimulation,
+        &strip,
+        &[
+            (I::Mechanism, Mechanism::VerticalSpanning.value()),
+            (I::DampingModel, DampingModel::ConstantCoefficient.value()),
+        ],
+    );
+    let rates = [(V::ABottom, 3.0), (V::ATop, -2.0), (V::Drift, 0.05)];
+    for (mut unit, top) in [(tied, 0.0), (strip, 1.0)] {
+        let mut steps = 0;
+        let mut step = |unit: &mut Unit| {
+            for (input, rate) in rates {
+                unit.set_input_derivative(input, rate);
+            }
+            let from = STEP * f64::from(steps);
+            steps += 1;
+            unit.do_step(Step { from, duration: STEP, may_end_early: false }, &mut Log::silent()).unwrap();
+        };
+        step(&mut unit);
+        let before = unit.clone();
+        step(&mut unit);
+        let at = unit.clone();
+        step(&mut unit);
+        for output in [V::U, V::UDot, V::UDdot, V::ReactionBottom, V::ReactionTop, V::TieForce] {
+            let expected = (unit.real(output) - before.real(output)) / (2.0 * STEP);
+            let found = at.output_derivative(output).unwrap();
+            let allowed = 1e-6 * expected.abs() + 1e-9 * at.real(output).abs() / STEP;
+            let name = output.variable().name;
+            assert!((found - expected).abs() <= allowed, "{name}: {found} for {expected}");
+            let none = (output == V::ReactionTop && top == 0.0) || (output == V::TieForce && top == 1.0);
+            assert_eq!(expected == 0.0, none, "{name}: {expected}");
+        }
+        assert_eq!(at.output_derivative(V::Mass), None);
+    }
+}
