@@ -149,3 +149,32 @@ fn output_derivatives_go_on_along_the_last_step() {
         assert_eq!(at.output_derivative(V::Mass), None);
     }
 }
+
+/// A state that an importer sets chooses branch and phase as a start there does; peaks and marks stay.
+#[test]
+fn a_state_that_is_set_chooses_its_branch() {
+    let rigid = [(I::ForceLaw, ForceLaw::RigidLinear.value()), (I::DampingModel, DampingModel::None.value())];
+    for choices in [&[(I::ForceLaw, ForceLaw::Trilinear.value())][..], &rigid] {
+        let started = |displacement: f64, velocity: f64| {
+            let start = [(V::UStart, displacement), (V::UDotStart, velocity)];
+            unit(Interface::ModelExchange, &start, choices)
+        };
+        let mut unit = started(0.0, 0.0);
+        for (displacement, velocity) in
+            [(0.15, 0.0), (0.15, -0.2), (-0.002, 0.1), (-0.1, 0.0), (0.0, -0.1), (0.0, 0.0), (0.02, 0.0)]
+        {
+            unit.set_real(V::UDot, velocity);
+            unit.set_real(V::U, displacement);
+            let expected = started(displacement, velocity);
+            for output in OUTPUTS {
+                let name = output.variable().name;
+                assert_eq!(unit.real(output), expected.real(output), "{name} at {displacement}, {velocity}");
+            }
+            let mut indicators = [[0.0; Unit::EVENT_INDICATORS]; 2];
+            unit.event_indicators(&mut indicators[0]);
+            expected.event_indicators(&mut indicators[1]);
+            assert_eq!(indicators[0][..2], indicators[1][..2], "at {displacement}, {velocity}");
+            assert_eq!(unit.real(V::UMax), 0.0, "no event yet");
+        }
+    }
+}
