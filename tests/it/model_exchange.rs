@@ -169,6 +169,14 @@ fn damping_goes_on_smoothly_beyond_a_branch() {
                     let place = inner + share * (outer - inner);
                     slope_is_that_of_the_value(branch, place, size + slope * inner.abs());
                 }
+                // beyond u₃, where F/u changes its sign
+                let beyond = 1.2 * wall.force_end().of(inner).copysign(inner);
+                let expected = match branch.damping {
+                    BranchDamping::SecantStiffness(factor) => factor * branch.own.at(beyond) / beyond,
+                    _ => branch.damping_at(beyond),
+                };
+                assert!((branch.continued_damping(beyond).0 - expected).abs() <= 1e-15 * size);
+                assert!(branch.own.slope == 0.0 || expected <= 0.0, "{expected}");
                 let (bounded, _) = branch.continued_damping(-1e3 * inner);
                 assert!(bounded.abs() <= 20.0 * (size + slope * inner.abs()), "{bounded} for {size}");
             }

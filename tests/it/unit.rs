@@ -178,3 +178,28 @@ fn a_state_that_is_set_chooses_its_branch() {
         }
     }
 }
+
+/// A completed step asks for an event where the wall has left its branch or goes beyond its largest |u|, and
+/// not again after the update.
+#[test]
+fn a_completed_step_asks_for_the_event_it_passed() {
+    // a1 times u_ins
+    let elastic = 0.02 * 0.2;
+    let mut unit = unit(Interface::ModelExchange, &[(V::A1, 0.02), (V::UStart, 1.5 * elastic)], &[]);
+    assert!((unit.real(V::UIns) - 0.2).abs() < 1e-15);
+    for (displacement, event, jumps) in [
+        (1.2, false, false),
+        (0.9, true, true),
+        (0.5, false, false),
+        (-0.9, false, false),
+        (-1.1, true, true),
+        (-1.6, true, false),
+    ] {
+        unit.set_states(&[displacement * elastic, 0.0]);
+        assert_eq!(unit.complete_step(&mut Log::silent()).unwrap(), event, "{displacement} u1");
+        if event {
+            assert_eq!(unit.update(&mut Log::silent()).unwrap().states_changed, jumps, "{displacement} u1");
+            assert!(!unit.complete_step(&mut Log::silent()).unwrap());
+        }
+    }
+}
