@@ -401,7 +401,7 @@ STATES = [
     {"u_start": 0.08, "u_dot_start": 0.2},
     {"u_start": -0.12, "u_dot_start": 0.1},
     {"u_start": 0.03, "u_dot_start": -0.2, "force_law": "trilinear", "d1": 0.6},
-    {"u_start": 0.18, "u_dot_start": 0.1},
+    {"u_start": 0.17, "u_dot_start": 0.1},
 ]
 
 
