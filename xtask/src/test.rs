@@ -192,7 +192,8 @@ fn conformance() -> Result<()> {
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
         .env("ROCKING_WALL_FMU", absolute(&unit))
-        .env("ROCKING_FLOOR_FMU", absolute(&floor));
+        .env("ROCKING_FLOOR_FMU", absolute(&floor))
+        .env("ROCKING_WALL_BIN", absolute(&programs().join("wall")));
     run_tests(&mut test)
 }
 
