@@ -10,9 +10,11 @@
 use std::error::Error;
 
 use ground_motion::SyntheticMotion;
+use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::Parameters;
 use study::fragility::{ObservationKind, fit};
-use study::ida::{Damping, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, RatioSource, Study};
+use study::ida::{IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
+use study::model::{EnergyLoss, Model};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let parameters = Parameters { height: 3.0, thickness: 0.3, a1: 0.01, ..Parameters::default() };
@@ -25,10 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let records = (1..=20).map(record).collect::<Result<Vec<_>, _>>()?;
 
-    let models = vec![
-        Model::new(Damping::Restitution),
-        Model::new(Damping::ConstantCoefficient(RatioSource::Computed)),
-    ];
+    let models = vec![Model::new(EnergyLoss::Restitution), Model::new(DampingModel::ConstantCoefficient)];
     let levels = Levels::HuntAndFill { first: 1.0, increase: 0.5, top: 60.0, resolution: 0.02, gap: 0.25 };
     let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;
     let curves = study.run(2)?;

@@ -25,7 +25,7 @@ pub struct Response {
     pub samples: Vec<Sample>,
     /// Peaks and events.
     pub summary: Summary,
-    /// What the motion asks of the wall and of its supports, up to overturning.
+    /// Demands of the motion on the wall and on its supports, up to overturning.
     pub demands: Demands,
     /// u at the end of the run \[m\].
     pub residual: f64,
@@ -47,7 +47,7 @@ pub enum Fate {
     Falls {
         /// When |u| first exceeds `u_ins`.
         exceeds: f64,
-        /// When it does so for the last time.
+        /// When |u| exceeds `u_ins` for the last time.
         falls: f64,
     },
 }
@@ -80,7 +80,7 @@ impl Fate {
         }
     }
 
-    /// Whether the wall falls.
+    /// Returns whether the wall falls.
     pub fn falls(&self) -> bool {
         self.falling().is_some()
     }
@@ -95,15 +95,15 @@ pub struct Summary {
     pub u_ratio_max: f64,
     /// What becomes of the wall.
     pub fate: Fate,
-    /// Whether |u| exceeded `u_ins`.
+    /// |u| has exceeded `u_ins`.
     pub overturned: bool,
-    /// When it did \[s\].
+    /// When |u| first exceeded `u_ins` \[s\].
     pub overturn_time: Option<f64>,
     /// End of the run \[s\].
     pub end_time: f64,
     /// Work of the solver.
     pub work: Work,
-    /// The bound on impacts was reached and the wall put to rest.
+    /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
 }
 

@@ -20,7 +20,7 @@ use rocking_wall::variables::{
 use rocking_wall::wall::{Kinematics, Parameters, Support};
 
 #[allow(dead_code, reason = "the tests of the readers use more of it")]
-#[path = "it/ground_motion/specimen.rs"]
+#[path = "../crates/ground-motion/tests/it/specimen.rs"]
 mod specimen;
 
 struct Counting;

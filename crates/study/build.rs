@@ -6,14 +6,19 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// The solver and what it uses, the levels of a study, and the versions of the crates of others.
-const SOURCES: [&str; 6] = [
+/// The solvers and what they use, the levels and models of a study, and the versions of the crates of others.
+/// A module or crate that a run comes to depend on belongs here.
+const SOURCES: [&str; 10] = [
     "../../Cargo.lock",
     "../../modelDescription/modelDescription.xml",
     "../../src",
     "../ground-motion/src",
     "../oscillator/src",
+    "../record/src",
+    "src/free_motion.rs",
     "src/ida",
+    "src/model.rs",
+    "src/parallel.rs",
 ];
 
 fn main() -> io::Result<()> {

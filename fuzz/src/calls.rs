@@ -21,7 +21,6 @@ const BURST: u64 = 500;
 const SCENE: &str = "[force_law]\nforce_law = \"trilinear\"\n[motion]\nsynthetic = {}\n";
 
 fn main() -> ExitCode {
-    fmu_export::ffi::install_panic_hook();
     let number = |index, default| std::env::args().nth(index).map_or(Some(default), |text| text.parse().ok());
     let (Some(count), Some(seed)) = (number(1, 1_000_000), number(2, 1)) else {
         eprintln!("usage: calls [COUNT] [SEED]");

@@ -104,13 +104,14 @@ impl<M: ModelExchange> Importer<M> {
         // SAFETY: the texts and the array live until the call returns.
         let component = unsafe {
             if exchanges {
-                fmi3::instantiate_model_exchange::<M>(name, token, path, log, environment, hears)
+                fmi3::instantiate_model_exchange::<M>(name, token, path, false, log, environment, hears)
             } else {
                 let (inputs, count) = (inputs.as_ptr(), inputs.len());
                 fmi3::instantiate_co_simulation::<M>(
                     name,
                     token,
                     path,
+                    false,
                     log,
                     event_mode,
                     early_return,

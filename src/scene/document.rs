@@ -1,7 +1,5 @@
 //! The scene file as it is written: tables, keys, values, and where they stand.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use fmu_export::VariableId;
@@ -17,9 +15,9 @@ use super::parameter::{Group, input_names};
 use super::storeys::{StoreyTable, SupportsTable};
 
 /// Largest scene file that is read.
-const MAX_FILE_BYTES: u64 = 1 << 20;
+pub(super) const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// How much of a faulty line a message repeats.
+/// Most characters of a faulty line that a message repeats.
 const SHOWN_CHARACTERS: usize = 60;
 
 /// A scene file.
@@ -97,7 +95,7 @@ impl Document {
     }
 }
 
-/// Reads a TOML text; what is wrong with it is told with its line.
+/// Reads a TOML text. Errors name the line.
 ///
 /// # Errors
 /// [`SceneError::Line`] where the text is not such a document.
@@ -117,8 +115,8 @@ pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T
     })
 }
 
-/// Replaces the Rust type that a message of the TOML reader expects by the word of TOML.
-pub fn in_toml_words(message: &str) -> String {
+/// Replaces the Rust type in a message of the TOML reader with TOML's own word.
+fn in_toml_words(message: &str) -> String {
     let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
     let expected = match expected {
         "a map" => "a table",
@@ -132,27 +130,19 @@ pub fn in_toml_words(message: &str) -> String {
     format!("{found}, expected {expected}")
 }
 
-/// The text of a scene file.
-pub(super) fn read_bounded(path: &Path, name: &str) -> Result<String, SceneError> {
-    let fail = |reason: String| SceneError::File { file: name.to_owned(), reason };
-    let metadata = std::fs::metadata(path).map_err(|error| fail(format!("cannot be read: {error}")))?;
-    if !metadata.is_file() {
-        return Err(fail("not a regular file; give a scene file (TOML)".into()));
-    }
-    if metadata.len() > MAX_FILE_BYTES {
-        let size = metadata.len();
-        return Err(fail(format!("{size} bytes; a scene file has at most {MAX_FILE_BYTES}")));
-    }
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|error| fail(error.to_string()))?;
-    file.take(MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
+/// Reads a text file of at most `limit` bytes; `what` says in messages what it should be.
+///
+/// # Errors
+/// [`SceneError::File`], and [`SceneError::Line`] where the file is not UTF-8.
+pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneError> {
+    let file = path.display().to_string();
+    let bytes = match ground_motion::read_file(path, what, limit) {
+        Ok(bytes) => bytes,
+        Err(error) => return Err(SceneError::File { file, reason: format!("cannot be read: {error}") }),
+    };
     String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..at].split(|&byte| byte == b'\n').count();
-        SceneError::Line {
-            file: name.to_owned(),
-            line,
-            message: "not UTF-8 text; give a scene file (TOML)".into(),
-        }
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.split(|&byte| byte == b'\n').count();
+        SceneError::Line { file, line, message: format!("not UTF-8 text; give {what}") }
     })
 }

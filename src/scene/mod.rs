@@ -31,13 +31,13 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
-pub use document::{in_toml_words, parse_toml};
+pub use document::{parse_toml, read_text};
 pub use error::Place;
 pub use nearest::suggestion;
-pub use parameter::{apply_group, check_limits};
+pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;
 
-/// A wall, its motion, and how long it is watched.
+/// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Title, for people.
@@ -86,7 +86,8 @@ pub const DEFAULT_THRESHOLDS: [f64; 4] = [0.1, 0.4, 0.6, 1.0];
 /// Most limit states.
 pub const MOST_THRESHOLDS: usize = 100;
 
-/// Refuses limit states that are none: fractions of `u_ins`, above 0 and at most 1, in any order.
+/// Checks limit states: each must be a fraction of `u_ins`, above 0 and at most 1. Their order does not
+/// matter.
 ///
 /// # Errors
 /// [`SceneError::Value`] naming the value and the limit.
@@ -105,7 +106,7 @@ pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
 
 /// Output step of a scene without motion \[s\].
 const DEFAULT_OUTPUT_STEP: f64 = 0.01;
-/// Longest run and most output points, against a slip of the keyboard.
+/// Limits on a run's length \[s\] and its output points. They catch typing errors.
 const LONGEST_RUN: f64 = 1e7;
 const MOST_POINTS: f64 = 2e7;
 
@@ -116,7 +117,7 @@ impl Scene {
     /// [`SceneError`], with file, line, value and remedy.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let text = document::read_bounded(path, &name)?;
+        let text = read_text(path, "a scene file (TOML)", document::MAX_FILE_BYTES)?;
         Self::parse(&name, &text, path.parent().unwrap_or(Path::new(".")))
     }
 
@@ -207,12 +208,12 @@ impl Scene {
         self.parameters.u_start = 0.0;
     }
 
-    /// Returns the motion of the supports: that of the scene, or that of its floors under it, up to the end
-    /// of the run.
+    /// Returns the motion of the supports: the scene's own motion, or the motion of the floors that it
+    /// excites. It lasts to the end of the run.
     ///
     /// # Errors
-    /// [`SceneError::Value`] where a strip wall in full rotations has another motion at its top, or where the
-    /// wall does not go with its floors.
+    /// [`SceneError::Value`] where a strip wall in full rotations has a different motion at its top,
+    /// or where the floors cannot support this kind of wall.
     pub fn support_motion(&self) -> Result<Option<Cow<'_, Excitation>>, SceneError> {
         let refused = |message: &str| SceneError::Value { message: message.into() };
         let motion = match (&self.floors, &self.excitation) {
@@ -246,7 +247,7 @@ impl Scene {
     }
 }
 
-/// What is wrong where full rotations meet supports that move differently.
+/// Returns the message for full rotations on supports that move differently; `None` for every other wall.
 fn moved_apart(parameters: &Parameters, excitation: Option<&Excitation>) -> Option<&'static str> {
     let strip = parameters.mechanism == Mechanism::VerticalSpanning;
     let full = parameters.kinematics == Kinematics::Trigonometric;
@@ -264,7 +265,7 @@ fn name_of(file: &str) -> String {
         .map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
 }
 
-/// Writes a scene file that says the same as `scene`, its motion being `motion`, text of a `[motion]` table.
+/// Writes a scene file that reads as `scene`. `motion` is the text of its `[motion]` table, or empty.
 pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let mut text = String::new();
     // writing to a String cannot fail
@@ -276,7 +277,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
     let usages: Vec<_> = usage(&scene.parameters).collect();
-    // what has its start value, and does not matter or is computed
+    // a parameter at its start value that does not matter beside the others, or that is computed
     let is_left_out = |name: &str| {
         let is_computed = COMPUTABLE.contains(&name);
         usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))

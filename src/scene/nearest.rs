@@ -10,7 +10,7 @@ pub fn suggestion<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) 
     nearest(mistyped, names).map_or_else(String::new, |name| format!(" (did you mean {name:?}?)"))
 }
 
-/// Returns the name that takes the fewest changes of a letter, if these are few for its length.
+/// Returns the name that is the fewest letter changes away, if these are few for its length.
 fn nearest<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = mistyped.chars().take(LONGEST + 1).count();
     let names = names.into_iter().filter(|_| length <= LONGEST);

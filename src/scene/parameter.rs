@@ -158,8 +158,8 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// A number, whole or not.
-fn number(value: &Value) -> Option<f64> {
+/// Reads a number, whole or not.
+pub fn number(value: &Value) -> Option<f64> {
     #[allow(clippy::cast_precision_loss, reason = "a whole number beyond 2⁵³ is beyond every limit too")]
     match value {
         Value::Float(number) => Some(*number),
@@ -202,7 +202,7 @@ fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
     list.iter().map(|item| pair(item).ok_or_else(shape)).collect()
 }
 
-/// What to do about a parameter that there was.
+/// Returns the message for a parameter that an earlier version had; `None` for other names.
 fn gone(name: &str) -> Option<String> {
     (name == "damping_source").then(|| {
         "there is no damping_source: xi and c_bar count where they are given, and are computed where they \

@@ -18,7 +18,7 @@ use super::error::{Place, SceneError};
 
 /// Damping ratio of a storey that states none (-).
 const DAMPING: f64 = 0.05;
-/// Largest mass of a wall over that of its floor for which a warning is not needed.
+/// Largest ratio of a wall's mass to that of its floor that needs no warning.
 const LIGHT: f64 = 1.0 / 20.0;
 
 /// An item of `[[storeys]]`, the lowest first.
@@ -120,7 +120,8 @@ impl Floors {
     /// Computes the motion of a wall's supports under a motion of the ground, up to `end` \[s\].
     ///
     /// # Errors
-    /// [`SceneError::Value`] where the wall does not go with its floors or the motion takes too many samples.
+    /// [`SceneError::Value`] where the floors cannot support this kind of wall, or the motion takes
+    /// too many samples.
     pub fn motion(
         &self,
         mechanism: Mechanism,

@@ -2,13 +2,16 @@
 
 use fmu_export::VariableId;
 
-use crate::variables::{BooleanVariable, IntegerVariable, RealVariable, integer_parameter};
+use crate::variables::{
+    BooleanVariable, IntegerVariable, RealVariable, integer_parameter, real_calculated, real_output,
+    real_parameter,
+};
 use crate::wall::usage;
 
 use super::Scene;
 
 impl Scene {
-    /// Whether this scene's FMU lists the variable called `name`.
+    /// Returns whether this scene's FMU lists the variable called `name`.
     pub fn uses(&self, name: &str) -> bool {
         let boolean = |variable| match variable {
             BooleanVariable::Overturned => true,
@@ -22,17 +25,21 @@ impl Scene {
             || BooleanVariable::from_name(name).is_some_and(boolean)
     }
 
-    /// Whether a number plays a part in the scene's choices.
+    /// Returns whether a number matters with the scene's choices.
     fn uses_real(&self, variable: RealVariable) -> bool {
         use RealVariable as V;
         let p = &self.parameters;
+        // what is 0 for "none"
+        let is_none = match variable {
+            V::Overburden => p.overburden == 0.0,
+            V::TieStiffness => p.tie_stiffness == 0.0,
+            V::TieStrength => p.tie_strength == 0.0,
+            _ => false,
+        };
+        let matters = || usage(p).any(|usage| usage.name == variable.variable().name && usage.matters);
         match variable {
             V::AG | V::ABottom | V::ATop | V::Drift => self.inputs.contains(&variable),
-            // what is 0 for "none"
-            V::Overburden => p.overburden > 0.0,
-            V::TieStiffness => p.tie_stiffness > 0.0,
-            V::TieStrength if p.tie_strength == 0.0 => false,
-            _ => usage(p).any(|usage| usage.name == variable.variable().name && usage.matters),
+            real_parameter!() | real_output!() | real_calculated!() => !is_none && matters(),
         }
     }
 }

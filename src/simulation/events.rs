@@ -11,7 +11,7 @@ pub struct Handled {
     pub event: Event,
     /// Impulses of the impacts alone.
     pub impulses: Ends,
-    /// The derivatives have jumped: branch, phase, displacement or velocity is another.
+    /// The derivatives have jumped: branch, phase, displacement or velocity has changed.
     pub changed: bool,
 }
 
@@ -27,7 +27,7 @@ impl Simulation {
         self.progress.state = self.motion.placed(&self.progress.state, displacement, velocity, forcing);
     }
 
-    /// Returns the event indicators; `rising` as [`handle_event`](Self::handle_event) left it.
+    /// Returns the event indicators; `rising` is the value that [`handle_event`](Self::handle_event) has set.
     pub fn indicators(&self, rising: bool, support: Support) -> [f64; INDICATORS] {
         self.motion.indicators(&self.progress.state, rising, self.wall().body().forcing(support))
     }

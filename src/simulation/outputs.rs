@@ -34,7 +34,7 @@ impl Simulation {
         let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
         let damping = wall.branches()[branch].continued_damping(displacement).0 * velocity;
         let forcing = body.forcing(support);
-        // of the forcing, what is not support acceleration: W d/h
+        // the part of the forcing that is not acceleration of the supports: W d/h
         let pull = forcing - body.forcing(Support { drift: 0.0, ..support });
         let (acceleration, restoring, damping) = match phase {
             Phase::Moving => {

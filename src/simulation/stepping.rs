@@ -38,7 +38,7 @@ pub struct Step {
     pub overturned: bool,
     /// The wall left its supports in this step.
     pub departed: bool,
-    /// The bound on impacts was reached and the wall put to rest.
+    /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
 }
 
@@ -57,12 +57,12 @@ pub enum RunError {
     TooManyPieces { time: f64, limit: u64 },
 }
 
-/// Segments in one step.
+/// Most segments in one step.
 const MOST_SEGMENTS: usize = 2_000_000;
 
 impl Simulation {
-    /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. Of the
-    /// importer's `tolerance` and the parameter the tighter applies.
+    /// Places a wall at its start, at `time` \[s\], on supports that move as `support` says. The tighter of
+    /// the importer's `tolerance` and the parameter applies.
     ///
     /// # Errors
     /// [`ParameterError`].
@@ -92,12 +92,12 @@ impl Simulation {
         self.motion.method()
     }
 
-    /// What the simulation has come to.
+    /// Returns the progress of the simulation.
     pub fn progress(&self) -> &Progress {
         &self.progress
     }
 
-    /// Returns to what a simulation of the same wall has come to.
+    /// Restores the progress of a simulation of the same wall.
     ///
     /// # Panics
     /// If the branch is not one of the wall's.
@@ -112,22 +112,22 @@ impl Simulation {
     /// [`SolverError`]; the simulation is then as it was.
     pub fn advance(&mut self, segment: &Segment) -> Result<Step, SolverError> {
         let mut step = Step::default();
-        self.step(segment, None, &mut step).map(|()| step)
+        self.add_segment(segment, None, &mut step).map(|()| step)
     }
 
-    /// Moves the wall through a segment, and takes up its demands in `demands`.
+    /// Moves the wall through a segment, and adds its demands to `demands`.
     ///
     /// # Errors
     /// [`SolverError`]; the simulation is then as it was, and `demands` may hold the motion up to the
     /// failure.
     pub fn advance_watched(&mut self, segment: &Segment, demands: &mut Demands) -> Result<Step, SolverError> {
         let mut step = Step::default();
-        self.step(segment, Some(demands), &mut step).map(|()| step)
+        self.add_segment(segment, Some(demands), &mut step).map(|()| step)
     }
 
-    /// Moves the wall through the segments of a step, and takes up their demands in `demands`. `next`
-    /// receives the time and the part of the step that is done \[s\]. It returns the next segment and the
-    /// part that is left \[s\].
+    /// Moves the wall through the segments of a step, and adds their demands to `demands`. `next` receives
+    /// the time and the part of the step that is done \[s\]. It returns the next segment and the part that is
+    /// left \[s\].
     ///
     /// # Errors
     /// [`RunError`]; the simulation is then at the start of that segment.
@@ -147,7 +147,7 @@ impl Simulation {
             if remaining <= 0.0 {
                 return Ok(whole);
             }
-            let moved = self.step(&segment, demands.as_deref_mut(), &mut whole);
+            let moved = self.add_segment(&segment, demands.as_deref_mut(), &mut whole);
             moved.map_err(|source| RunError::Solver { time, source })?;
             done += segment.duration;
             if segment.duration >= remaining {
@@ -157,9 +157,9 @@ impl Simulation {
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
     }
 
-    /// Moves the wall through a segment, and adds what it does to `step`.
+    /// Moves the wall through a segment, and adds what happens in it to `step`.
     #[inline]
-    fn step(
+    fn add_segment(
         &mut self,
         segment: &Segment,
         demands: Option<&mut Demands>,
@@ -201,7 +201,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets the time \[s\], where the importer's and the sum of steps differ by rounding.
+    /// Sets the time \[s\] to the importer's, from which the sum of steps differs by rounding.
     pub fn set_time(&mut self, time: f64) {
         self.progress.time = time;
     }

@@ -1,19 +1,19 @@
 //! Taylor series of variable order, for motion that has no closed form.
 //!
 //! On a branch u is an analytic function of time, and its Taylor coefficients follow from the equation of
-//! motion by recurrence: for constant damping here, for full rotations in `trigonometric`, for secant damping
-//! in `secant`.
+//! motion by recurrence: for any damping here, for full rotations in `trigonometric`, and faster for secant
+//! damping in `secant`.
 //!
 //! The order grows until two consecutive terms fall below the tolerance at the end of the step. Where the
 //! highest order does not suffice the step shrinks instead (Jorba and Zou, Experimental Mathematics 14,
 //! 2005). The series is its own dense output, on which events are located.
 
-use crate::wall::Branch;
+use crate::wall::{Branch, DampingSeries};
 
 use oscillator::{HIGHEST_ORDER, KinematicState, Polynomial};
 
 use super::event::Piece;
-use super::secant::SecantBranch;
+use super::secant::Secant;
 use super::tolerances::Tolerances;
 
 /// A piece of motion by its Taylor series.
@@ -35,10 +35,10 @@ pub(super) trait Recurrence {
     fn sign(&self) -> f64;
 }
 
-/// The recurrence on a branch with constant damping.
+/// The recurrence on a branch with viscous damping.
 pub(super) struct Viscous<'a> {
     branch: &'a Branch,
-    damping: f64,
+    damping: DampingSeries<{ HIGHEST_ORDER + 1 }>,
     /// p₀ and p₁.
     forcing: [f64; 2],
     displacement: [f64; HIGHEST_ORDER + 1],
@@ -49,7 +49,7 @@ impl<'a> Viscous<'a> {
     pub(super) fn new(branch: &'a Branch, start: KinematicState, forcing: [f64; 2]) -> Self {
         let mut displacement = [0.0; HIGHEST_ORDER + 1];
         [displacement[0], displacement[1]] = [start.displacement, start.velocity];
-        Self { branch, damping: branch.damping_at(start.displacement), forcing, displacement }
+        Self { branch, damping: DampingSeries::new(branch.damping, branch.own), forcing, displacement }
     }
 }
 
@@ -62,7 +62,11 @@ impl Recurrence for Viscous<'_> {
         let Self { branch, damping, forcing, displacement: u } = self;
         let forcing = forcing.get(n).copied().unwrap_or(0.0);
         let restoring = if n == 0 { branch.restoring(u[0]) } else { branch.stiffness * u[n] };
-        forcing - restoring - *damping * ((n + 1) as f64 * u[n + 1])
+        damping.extend(u, n);
+        // (c u̇)ₙ = Σ cᵢ (n − i + 1) uₙ₋ᵢ₊₁
+        let terms = if branch.damping.constant().is_some() { 1 } else { n + 1 };
+        let slowing = |i: usize| damping.coefficients[i] * ((n - i + 1) as f64 * u[n - i + 1]);
+        forcing - restoring - (0..terms).map(slowing).sum::<f64>()
     }
 
     fn sign(&self) -> f64 {
@@ -71,8 +75,8 @@ impl Recurrence for Viscous<'_> {
 }
 
 impl Series {
-    /// The motion of a recurrence, over `remaining` or as much of it as the highest order reaches within the
-    /// tolerance.
+    /// Computes the motion from a recurrence, over `remaining` or as much of it as the highest order can
+    /// cover within the tolerance.
     pub(super) fn new(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
         let mut power = remaining;
         let mut small_before = false;
@@ -84,7 +88,7 @@ impl Series {
             let rate = coefficient.abs() * power;
             let small = rate * remaining <= tolerances.displacement
                 && order as f64 * rate <= tolerances.velocity
-                // forcing enters the first two terms, damping needs one more
+                // the forcing enters the first two terms, and damping one more
                 && order > 3;
             if small && small_before {
                 return Self { polynomial: polynomial(work, order), horizon: remaining };
@@ -96,9 +100,9 @@ impl Series {
         Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon }
     }
 
-    /// The motion on a branch with secant damping under a forcing from p₀ to p₁.
+    /// Computes the motion on a branch with secant damping under a forcing from p₀ to p₁.
     pub(super) fn secant(
-        branch: &SecantBranch,
+        branch: &Secant,
         now: [f64; 2],
         forcing: [f64; 2],
         remaining: f64,
@@ -134,7 +138,7 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
         step = step.min(libm::pow(tolerances.displacement / size, 1.0 / n));
         step = step.min(libm::pow(tolerances.velocity / (n * size), 1.0 / (n - 1.0)));
     }
-    // what is left out after the last term is a geometric series of about the same size
+    // the terms left out form a geometric series of about the size of the last term
     0.9 * step
 }
 
@@ -168,6 +172,38 @@ impl Piece for Series {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wall::{BranchDamping, Line};
+
+    /// The series of one law and the recurrence for any give the same motion, also with a tie.
+    #[test]
+    fn series_of_secant_damping_are_those_of_any() {
+        let tolerances = Tolerances { displacement: 1e-13, velocity: 1e-12 };
+        let own = Line { anchor: 0.3, force: 0.0, slope: -5.0 };
+        let mut compared = 0;
+        for damping in [BranchDamping::SecantRatio(0.1), BranchDamping::SecantStiffness(0.05)] {
+            for (displacement, velocity, stiffness) in
+                [(0.1, 0.3, -5.0), (0.25, -0.4, -5.0), (0.02, 0.1, 40.0)]
+            {
+                let force = stiffness * (0.02 - own.anchor);
+                let branch = Branch { lower: 0.01, upper: 0.3, anchor: 0.02, force, stiffness, own, damping };
+                let start = KinematicState { displacement, velocity, acceleration: 0.0 };
+                let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 0.01, tolerances);
+                let secant = Secant::new(&branch).expect("secant damping");
+                let ends = [0.4, 0.4 + 2.0 * 0.01];
+                let own = Series::secant(&secant, [displacement, velocity], ends, 0.01, tolerances);
+                let time = any.horizon().min(own.horizon());
+                let (any, own) = (any.at(time), own.at(time));
+                assert!((any.displacement - own.displacement).abs() < 1e-12, "{any:?} {own:?}");
+                assert!((any.velocity - own.velocity).abs() < 1e-11, "{any:?} {own:?}");
+                // damping matters by far more than the tolerance
+                let undamped = Branch { damping: BranchDamping::Constant(0.0), ..branch };
+                let free = Series::new(Viscous::new(&undamped, start, [0.4, 2.0]), time, tolerances).at(time);
+                assert!((free.velocity - own.velocity).abs() > 1e-4, "{free:?} {own:?}");
+                compared += 1;
+            }
+        }
+        assert_eq!(compared, 6);
+    }
 
     /// At the step found, before the share for what is left out, the larger of the last two terms meets its
     /// tolerance, in u or in u̇: with coefficients rⁿ, |uₙ| hⁿ and n |uₙ| hⁿ⁻¹.

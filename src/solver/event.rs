@@ -15,7 +15,7 @@ pub(super) trait Piece {
     /// Length of time over which the piece holds \[s\].
     fn horizon(&self) -> f64;
 
-    /// The motion `time` after the start of the piece.
+    /// Returns the motion `time` seconds after the start of the piece.
     fn at(&self, time: f64) -> KinematicState;
 
     /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
@@ -45,15 +45,15 @@ pub(super) enum Ending {
     Exit(Exit),
 }
 
-/// A search stopped short of its bound on intervals.
+/// A search that has reached its limit on intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SearchExhausted;
 
-/// Halvings of an interval before it counts as monotone: 2⁻⁴⁸ of a piece is below its rounding.
+/// Most halvings of an interval. After them it counts as monotone: 2⁻⁴⁸ of a piece is below rounding.
 const DEEPEST: u32 = 48;
-/// Intervals one search may visit.
+/// Most intervals of one search.
 const MOST_INTERVALS: u32 = 1 << 20;
-/// Newton steps and bisections of one root; 64 bisections alone exhaust a double.
+/// Most Newton steps and bisections of one root. 64 bisections alone reach the resolution of a double.
 const ROOT_STEPS: u32 = 128;
 
 #[derive(Clone, Copy)]
@@ -68,7 +68,7 @@ struct Node {
 /// Works through intervals from left to right. An interval is settled when it is too short for u to reach a
 /// bound or a peak, when u̇ keeps its sign, or when ü does, so that u̇ has at most one zero. Otherwise it is
 /// halved.
-pub(super) fn follow<P: Piece>(
+pub(super) fn find_ending<P: Piece>(
     piece: &P,
     bounds: [f64; 2],
     peaks: &mut Peaks,
@@ -122,7 +122,7 @@ pub(super) fn settle(
     }
     let (v0, v1) = (from.velocity, to.velocity);
     let apart = v0 * v1 < 0.0;
-    // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero between two values larger together than max|ü| L
+    // |u̇(t) − u̇(tᵢ)| ≤ max|ü| |t − tᵢ|: no zero where the two values add up to more than max|ü| L
     if !apart && v0.abs() + v1.abs() > most_acceleration * length {
         return Verdict::Monotone;
     }
@@ -213,7 +213,7 @@ impl<P: Piece> Search<'_, P> {
             let motion = self.piece.at(time);
             let KinematicState { velocity, acceleration, .. } = motion;
             let step = -velocity / acceleration;
-            // Newton leaves jerk δ²/(2ü) of time, and half its square times ü of u
+            // a Newton step leaves an error of jerk δ²/(2ü) in time, and of ü times half its square in u
             let left = 0.5 * jerk * step * step / acceleration.abs();
             let settled =
                 0.5 * acceleration.abs() * left * left <= 0.25 * f64::EPSILON * motion.displacement.abs();
@@ -242,7 +242,8 @@ impl<P: Piece> Search<'_, P> {
             let KinematicState { displacement, velocity, acceleration } = motion;
             let value = displacement - bound;
             let step = parabola([value, velocity, acceleration]);
-            // the parabola leaves jerk δ³/6 of u, that over u̇ of time, and jerk δ²/2 of u̇
+            // a step of the parabola leaves an error of jerk δ³/6 in u, of that over u̇ in time, and of jerk
+            // δ²/2 in u̇
             let speed = velocity.abs();
             let left = 0.5 * jerk * step * step / speed;
             let settled = left <= 0.25 * f64::EPSILON && left * step.abs() <= 0.75 * f64::EPSILON * time;
@@ -252,7 +253,7 @@ impl<P: Piece> Search<'_, P> {
     }
 }
 
-/// One evaluation in the search for a root.
+/// The result of one evaluation in the search for a root.
 struct Trial {
     value: f64,
     /// Step to the root.
@@ -267,7 +268,7 @@ struct Trial {
 fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     let discriminant = slope * slope - 2.0 * curvature * value;
     if discriminant > 0.0 {
-        // of the two forms of the root the one that does not cancel
+        // of the two forms of the root, take the one without cancellation
         -2.0 * value / (slope + slope.signum() * discriminant.sqrt())
     } else {
         -value / slope
@@ -280,7 +281,7 @@ pub(super) fn crossing([from, to]: [KinematicState; 2], length: f64, bound: f64,
     let (v0, v1) = (from.velocity * length, to.velocity * length);
     let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
     let start = from.displacement - bound;
-    // what the parabola from the left misses at the right: u, u̇ and half of ü
+    // error of the left end's parabola at the right end: u, u̇ and half of ü
     let (du, dv, da) = (to.displacement - from.displacement - v0 - a0, v1 - v0 - 2.0 * a0, a1 - a0);
     let (c3, c4, c5) =
         (10.0 * du - 4.0 * dv + da, -15.0 * du + 7.0 * dv - 2.0 * da, 6.0 * du - 3.0 * dv + da);
@@ -318,7 +319,7 @@ fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Tria
         if high - low <= f64::EPSILON * high {
             break;
         }
-        // a step must stay inside and shrink, else bisection
+        // bisect where a step leaves the bracket or does not shrink
         let next = if inside && now.step.abs() < 0.75 * last_step.abs() { ahead } else { 0.5 * (low + high) };
         last_step = next - time;
         if next == time {

@@ -22,7 +22,8 @@ const MARGIN: f64 = 1e-12;
 const REST_MARGINS: f64 = 4.0;
 
 impl Motion {
-    /// Returns the event indicators under the forcing p \[m/s²\]; `rising` as [`event`](Self::event) left it.
+    /// Returns the event indicators under the forcing p \[m/s²\]; `rising` is the value that
+    /// [`event`](Self::event) has set.
     pub fn indicators(&self, state: &State, rising: bool, forcing: f64) -> [f64; INDICATORS] {
         let State { displacement, velocity, branch, phase, .. } = *state;
         let scale = self.wall.displacement_scale();
@@ -45,7 +46,7 @@ impl Motion {
                 } else {
                     body.strength.of(self.wall.free_side().unwrap_or_default()) / body.effective_mass
                 };
-                // nothing ends the rest towards transverse walls
+                // towards transverse walls no forcing ends the rest
                 [forcing - lowest, highest - forcing]
                     .map(|gap| if gap.is_finite() { gap / width } else { 1.0 })
             }
@@ -58,7 +59,7 @@ impl Motion {
     /// says whether |u| is beyond its largest so far and grows.
     pub fn event(&self, state: &mut State, rising: &mut bool, forcing: f64) -> Event {
         let mut event = Event::default();
-        // each corner once, and once more for those at which the wall turns back
+        // the wall passes each corner at most once, and once more where it turns back
         for _ in 0..2 * self.wall.corners().len() {
             match state.phase {
                 Phase::Landed => break,
@@ -74,7 +75,7 @@ impl Motion {
                     Some(upwards) => {
                         let corner = (state.branch + usize::from(upwards), upwards);
                         let rebound = |state: &State| self.late_rebound(state, forcing);
-                        event.add(transition::pass(self, state, corner, [forcing, 0.0], rebound));
+                        event.add(transition::pass_corner(self, state, corner, [forcing, 0.0], rebound));
                     }
                 },
             }
@@ -88,7 +89,8 @@ impl Motion {
         event
     }
 
-    /// Returns whether the wall has left its branch upwards or downwards.
+    /// Returns the end at which the wall has left its branch: `true` for the upper one. `None` while it is on
+    /// the branch.
     fn exit(&self, state: &State) -> Option<bool> {
         let corners = self.wall.corners();
         let beyond = |index: usize, direction: f64| {
@@ -104,8 +106,9 @@ impl Motion {
     /// Returns the motion after an impact that is met a margin or more beyond u = 0. A rigid wall comes to
     /// rest once its bounces are too low to follow.
     ///
-    /// The force of the old side has acted all that way. Where it jumps, the velocity is corrected to that of
-    /// an impact at u = 0. Otherwise each bounce would gain energy, and never become low.
+    /// The force of the old side has acted on the way beyond u = 0. Where the force jumps, the velocity is
+    /// corrected to that of an impact at u = 0. Without the correction each bounce would gain energy, and
+    /// bounces would never become low.
     fn late_rebound(&self, state: &State, forcing: f64) -> Rebound {
         let factor = self.wall.passage_factor();
         if let Some(side) = self.wall.free_side() {

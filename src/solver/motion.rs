@@ -5,18 +5,18 @@ use std::fmt;
 use oscillator::Oscillator;
 
 use crate::choices::Solver;
-use crate::wall::{BranchDamping, ParameterError, Parameters, Wall};
+use crate::wall::{Branch, ParameterError, Parameters, Wall};
 
-use super::secant::SecantBranch;
+use super::secant::Secant;
 use super::tolerances::Tolerances;
 
-/// Part of the tolerance for the terms that a Taylor step leaves out. A run of 10⁴ steps then stays within
-/// it.
+/// Share of the tolerance that the truncation of one Taylor step may use. A run of 10⁴ steps then stays
+/// within the tolerance.
 const LOCAL_SHARE: f64 = 1e-4;
 
-/// Pieces of motion in one step: those of a usual computer in half a second.
+/// Most pieces of motion in one step. An ordinary computer evaluates them in about half a second.
 const MOST_PIECES: u64 = 200_000;
-/// Steps of Newmark in one step. They cost a tenth of other pieces.
+/// Most Newmark steps in one step. Each takes about a tenth of the time of another piece.
 const MOST_NEWMARK_STEPS: u64 = 2_000_000;
 
 /// How the motion between events is found.
@@ -63,22 +63,22 @@ impl Method {
     }
 }
 
-/// A wall and the method that moves it, with what they prepare once.
+/// A wall and the method that moves it, with the quantities that are computed once from both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     pub(super) wall: Wall,
     pub(super) method: Method,
     pub(super) oscillators: Vec<Oscillator>,
     /// Branches with secant damping.
-    pub(super) secants: Vec<Option<SecantBranch>>,
+    pub(super) secants: Vec<Option<Secant>>,
     pub(super) tolerances: Tolerances,
     pub(super) rest_band: [f64; 2],
     pub(super) rest_speed: f64,
 }
 
 impl Motion {
-    /// Prepares the motion of the wall and by the method that the parameters ask for. `tolerance` is theirs
-    /// or a tighter one.
+    /// Prepares the motion that the parameters ask for: their wall, moved by their method. `tolerance` is
+    /// that of the parameters or a tighter one.
     ///
     /// # Errors
     /// [`ParameterError`], of [`Wall::new`] or [`Method::new`].
@@ -88,19 +88,20 @@ impl Motion {
         Ok(Self::new(wall, method))
     }
 
-    /// Pieces of motion that one step may have.
+    /// Returns the most pieces of motion that one step may have.
     pub(crate) fn most_pieces(&self) -> u64 {
         if let Method::Newmark { .. } = self.method { MOST_NEWMARK_STEPS } else { MOST_PIECES }
     }
 
-    /// Whether the method takes the motion on a branch in closed form.
+    /// Returns whether the method computes the motion on a branch in closed form.
     #[inline]
     pub(super) fn takes_closed_form(&self, branch: usize) -> bool {
         match self.method {
             Method::Exact => true,
             Method::Adaptive { .. } => {
-                let linear = self.wall.rotations().is_none() && self.secants[branch].is_none();
-                linear && self.wall.branches()[branch].stiffness > 0.0
+                let linear = self.wall.rotations().is_none();
+                let branch = &self.wall.branches()[branch];
+                linear && branch.damping.constant().is_some() && branch.stiffness > 0.0
             }
             Method::Newmark { .. } => false,
         }
@@ -113,15 +114,11 @@ impl Motion {
     pub fn new(wall: Wall, method: Method) -> Self {
         let adaptive = matches!(method, Method::Adaptive { .. });
         assert!(adaptive || wall.rotations().is_none(), "full rotations need the adaptive method");
-        let constant = |damping| match damping {
-            BranchDamping::Constant(c) => c,
-            // unused: a curved branch has no closed form
-            BranchDamping::SecantRatio(_) | BranchDamping::SecantStiffness(_) => 0.0,
-        };
-        let oscillators =
-            wall.branches().iter().map(|b| Oscillator::new(constant(b.damping), b.stiffness)).collect();
+        // a branch with varying damping has no closed form and does not use its oscillator
+        let constant = |branch: &Branch| branch.damping.constant().unwrap_or(0.0);
+        let oscillators = wall.branches().iter().map(|b| Oscillator::new(constant(b), b.stiffness)).collect();
         let fully = wall.rotations().is_some();
-        let secant = |branch| if fully { None } else { SecantBranch::new(branch) };
+        let secant = |branch| if fully { None } else { Secant::new(branch) };
         let secants = wall.branches().iter().map(secant).collect();
         let local = match method {
             Method::Adaptive { tolerance } => LOCAL_SHARE * tolerance * wall.displacement_scale(),
@@ -130,6 +127,31 @@ impl Motion {
         let tolerances = Tolerances { displacement: local, velocity: local * wall.rocking_rate() };
         let (rest_band, rest_speed) = (wall.rest_band(), wall.rest_speed());
         Self { wall, method, oscillators, secants, tolerances, rest_band, rest_speed }
+    }
+
+    /// Returns the oscillator of each branch with constant damping.
+    pub fn oscillators(&self) -> &[Oscillator] {
+        &self.oscillators
+    }
+
+    /// Returns the secant damping law of each branch; `None` where its damping is constant.
+    pub fn secants(&self) -> &[Option<Secant>] {
+        &self.secants
+    }
+
+    /// Returns the largest truncation error of one Taylor series.
+    pub fn tolerances(&self) -> Tolerances {
+        self.tolerances
+    }
+
+    /// Returns the lower and upper forcing between which a wall at rest stays at rest \[m/s²\].
+    pub fn rest_band(&self) -> [f64; 2] {
+        self.rest_band
+    }
+
+    /// Returns the |u̇| after an impact below which a wall that can rest comes to rest \[m/s\].
+    pub fn rest_speed(&self) -> f64 {
+        self.rest_speed
     }
 
     /// The wall.

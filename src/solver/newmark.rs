@@ -11,7 +11,7 @@ use crate::wall::Branch;
 
 use super::adaptive::Series;
 
-/// Makes one step of `duration` \[s\] from `start`, in equilibrium, while the forcing grows by
+/// Computes one step of `duration` \[s\] from `start`, which is in equilibrium, while the forcing grows by
 /// `forcing_change` \[m/s²\].
 pub(super) fn step(branch: &Branch, start: KinematicState, forcing_change: f64, duration: f64) -> Series {
     let KinematicState { displacement, velocity, acceleration } = start;

@@ -13,11 +13,12 @@ use super::transition::{self, Rebound};
 use super::trigonometric::Rotation;
 use super::watch::{Followed, Watch};
 
-/// Impacts in one segment after which a wall that could rest is put to rest.
+/// Most impacts in one segment. A wall that can rest is put to rest when it reaches them.
 const MOST_IMPACTS: u64 = 100_000;
 
 impl Motion {
-    /// Moves `state` through a segment. `integral` asks for ∫u dt, and `memo` keeps the propagator of a step.
+    /// Moves `state` through a segment. With `integral`, the report contains ∫u dt. `memo` keeps the
+    /// propagator of the last whole step.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was.
@@ -31,8 +32,8 @@ impl Motion {
         self.advance_watched(state, segment, integral, memo, None)
     }
 
-    /// Moves `state` through a segment and takes up its demands. `watch` holds those so far, the time at the
-    /// start of the segment \[s\], and whether the couple of a drift acts.
+    /// Moves `state` through a segment and collects its demands. `watch` holds the demands so far, the time
+    /// at the start of the segment \[s\], and whether the couple of a drift acts.
     ///
     /// # Errors
     /// [`SolverError`]; `state` is then as it was, and the demands are those up to the failure.
@@ -62,8 +63,25 @@ impl Motion {
         Ok(run.report)
     }
 
-    /// Returns the end of a segment that is one step in closed form and keeps away from corners and within
-    /// the peaks so far, `None` for every other segment. It gives the bits of a [`Run`].
+    /// Moves `state` through a time \[s\] in which the forcing p goes from one value to another \[m/s²\].
+    ///
+    /// # Errors
+    /// [`SolverError`]; `state` is then as it was.
+    pub fn advance_under(
+        &self,
+        state: &mut State,
+        duration: f64,
+        forcing: [f64; 2],
+        memo: &mut Memo,
+    ) -> Result<Report, SolverError> {
+        let mut run = Run::new(self, *state, duration, forcing, false, memo);
+        run.finish()?;
+        *state = run.state;
+        Ok(run.report)
+    }
+
+    /// Returns the end of a segment without events: one piece in closed form that reaches no corner and no
+    /// new peak. `None` for every other segment. The result is bit for bit that of a [`Run`].
     #[inline]
     fn quiet_end(
         &self,
@@ -88,7 +106,7 @@ impl Motion {
         let most = oscillator.bounds(start, rate, duration);
         let corners = [branch.lower, branch.upper];
         let is_quiet = matches!(event::settle([start, end], duration, most, corners, peaks), Verdict::Quiet);
-        // a run tells what has overflown
+        // if the motion has overflowed, a run reports where
         (is_quiet && end.displacement.is_finite() && end.velocity.is_finite()).then_some(end)
     }
 }
@@ -104,8 +122,6 @@ pub(super) struct Run<'a> {
     rate: f64,
     integral: bool,
     memo: &'a mut Memo,
-    /// The motion at the end of the segment if nothing happens before, where it is known.
-    pub(super) first_end: Option<KinematicState>,
     watch: Option<Watch<'a>>,
     pub(super) report: Report,
 }
@@ -131,7 +147,6 @@ impl<'a> Run<'a> {
             rate,
             integral,
             memo,
-            first_end: None,
             watch: None,
             report: Report::default(),
         }
@@ -163,7 +178,8 @@ impl<'a> Run<'a> {
     fn rest(&mut self) {
         let [lowest, highest] = self.motion.rest_band;
         let now = self.forcing_now();
-        // later than the edge of the band by the rounding of the forcing, so that there it has left the band
+        // The time at which the forcing reaches an edge of the band, plus a margin for the rounding of the
+        // forcing: by then the computed forcing is outside the band.
         let largest = self.forcing.abs() + self.rate.abs() * self.duration;
         let until = |edge: f64| ((edge - now).abs() + 2.0 * f64::EPSILON * largest) / self.rate.abs();
         let mut leaving = f64::INFINITY;
@@ -186,7 +202,7 @@ impl<'a> Run<'a> {
         transition::leave_rest(self.motion, &mut self.state, upwards);
     }
 
-    /// Makes the next piece of motion from the current state, and follows it.
+    /// Computes the next piece of motion from the current state, and moves the wall along it.
     fn move_on(&mut self) -> Result<(), SolverError> {
         let motion = self.motion;
         let State { displacement, velocity, branch: index, .. } = self.state;
@@ -200,24 +216,24 @@ impl<'a> Run<'a> {
         let remaining = self.duration - self.time;
         if motion.takes_closed_form(index) {
             let piece = self.closed_form(index, start, remaining);
-            return self.follow(&piece);
+            return self.follow_piece(&piece);
         }
         if let Method::Newmark { step } = motion.method {
-            // equal steps, none longer than asked for
+            // equal steps, none longer than `step`
             let steps = (remaining / step - 1e-9).ceil().max(1.0);
             let step = remaining / steps;
-            return self.follow(&newmark::step(branch, start, self.rate * step, step));
+            return self.follow_piece(&newmark::step(branch, start, self.rate * step, step));
         }
         if let Some(rotations) = motion.wall.rotations() {
             let rotation = Rotation::new(rotations, branch.side(), start, [forcing, self.rate]);
-            return self.follow(&Series::new(rotation, remaining, motion.tolerances));
+            return self.follow_piece(&Series::new(rotation, remaining, motion.tolerances));
         }
         if let Some(secant) = &motion.secants[index] {
             let (now, ends) = ([displacement, velocity], [forcing, forcing + self.rate * remaining]);
-            return self.follow(&Series::secant(secant, now, ends, remaining, motion.tolerances));
+            return self.follow_piece(&Series::secant(secant, now, ends, remaining, motion.tolerances));
         }
         let viscous = Viscous::new(branch, start, [forcing, self.rate]);
-        self.follow(&Series::new(viscous, remaining, motion.tolerances))
+        self.follow_piece(&Series::new(viscous, remaining, motion.tolerances))
     }
 
     fn closed_form(&mut self, index: usize, start: KinematicState, remaining: f64) -> ClosedForm<'a> {
@@ -226,25 +242,21 @@ impl<'a> Run<'a> {
         let (oscillator, rate, peaks) = (&motion.oscillators[index], self.rate, &self.state.peaks);
         let bounds = [branch.lower, branch.upper];
         let mut piece = ClosedForm::new(oscillator, start, rate, remaining, bounds, peaks);
-        // that of the first branch: a corner at the very start leads to another
-        let known = self.first_end.take();
-        // only whole segments come again
-        if self.time == 0.0 && piece.horizon() == self.duration {
-            match known {
-                Some(end) => piece.end_at(end),
-                None if oscillator.is_spread(self.duration) => {}
-                None => piece.end_at(self.memo.end(index, oscillator, start, rate, remaining)),
-            }
+        // Only the propagator of a whole segment goes into the memo: the next segment usually has the same
+        // length, a part of one does not.
+        let whole = self.time == 0.0 && piece.horizon() == self.duration;
+        if whole && !oscillator.is_spread(self.duration) {
+            piece.end_at(self.memo.end(index, oscillator, start, rate, remaining));
         }
         piece
     }
 
-    /// Follows a piece to its end or to the first corner.
-    fn follow<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
+    /// Moves the wall along a piece, to its end or to the first corner.
+    fn follow_piece<P: Piece>(&mut self, piece: &P) -> Result<(), SolverError> {
         let bounds = self.bounds();
         let mut peaks = self.state.peaks;
         let places = bounds.map(|index| self.motion.wall.corners()[index].displacement);
-        let ending = event::follow(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
+        let ending = event::find_ending(piece, places, &mut peaks).map_err(|_| self.exhausted())?;
         self.state.peaks = peaks;
         let (length, displacement, velocity, exit) = match ending {
             Ending::Horizon(end) => (piece.horizon(), end.displacement, end.velocity, None),
@@ -266,7 +278,7 @@ impl<'a> Run<'a> {
         (self.state.displacement, self.state.velocity) = (displacement, velocity);
         if let Some(upwards) = exit {
             self.time += length;
-            self.reach(bounds[usize::from(upwards)], upwards);
+            self.pass_corner(bounds[usize::from(upwards)], upwards);
         } else {
             let finished = self.time + length >= self.duration || length >= self.duration - self.time;
             self.time = if finished { self.duration } else { self.time + length };
@@ -280,7 +292,8 @@ impl<'a> Run<'a> {
         self.check()
     }
 
-    /// Returns the corners that end a piece: those of the branch, for Newmark the next marked ones.
+    /// Returns the lower and upper corner that end a piece: the ends of the branch, or for Newmark the
+    /// nearest corners at which more happens than a change of branch.
     fn bounds(&self) -> [usize; 2] {
         let (mut lower, mut upper) = (self.state.branch, self.state.branch + 1);
         if let Method::Newmark { .. } = self.motion.method {
@@ -295,8 +308,8 @@ impl<'a> Run<'a> {
         [lower, upper]
     }
 
-    /// Passes the corner reached.
-    fn reach(&mut self, corner: usize, upwards: bool) {
+    /// Passes the corner that the wall has reached, and reports what happens there.
+    fn pass_corner(&mut self, corner: usize, upwards: bool) {
         let (motion, forcing) = (self.motion, self.forcing_now());
         self.state.peaks.include(self.state.displacement);
         let velocity = self.state.velocity;
@@ -309,7 +322,7 @@ impl<'a> Run<'a> {
             Rebound { velocity, rests: too_many || velocity.abs() < motion.rest_speed }
         };
         let forcing = [forcing, self.rate];
-        let event = transition::pass(motion, &mut self.state, (corner, upwards), forcing, rebound);
+        let event = transition::pass_corner(motion, &mut self.state, (corner, upwards), forcing, rebound);
         self.report.work.add(event.work);
         self.report.put_to_rest |= too_many && event.work.impacts > 0;
         if event.overturned {

@@ -9,17 +9,17 @@
 //! (n+1)(n+2) xₙ₊₂ = L² pₙ/u₀ − k L² xₙ − (zₙ + Σ wᵢ zₙ₋ᵢ + wₙ z₀)        sums over 0 < i < n
 //! ```
 //! Nothing divides but the first term, and each sum ends with what is known last: a step is one piece of
-//! straight code. The same code serves numbers and vectors of them.
+//! straight code. The same code serves a number and a vector of them.
 
 #![allow(
     clippy::inline_always,
     reason = "measured: a series is one piece of straight code, its numbers in registers"
 )]
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Highest order of these series.
-pub(super) const ORDER: usize = 16;
+pub const ORDER: usize = 16;
 
 /// 1/((n+1)(n+2)).
 const INVERSE: [f64; ORDER] = {
@@ -32,18 +32,95 @@ const INVERSE: [f64; ORDER] = {
     inverse
 };
 
-/// A number, or a vector of them.
-pub(super) trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+/// A number, or a vector of them: what a recurrence needs.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Mul<f64, Output = Self>
 {
+    /// Returns a value in all places of a vector like this one.
+    fn like(self, value: f64) -> Self;
+    /// Returns |x|.
+    fn abs(self) -> Self;
+    /// Returns √x.
+    fn sqrt(self) -> Self;
+    /// Returns the larger of two, neither of which is NaN.
+    fn max(self, other: Self) -> Self;
 }
 
-impl Number for f64 {}
+impl Number for f64 {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        value
+    }
 
-/// The coefficients, of time in lengths of the step.
-#[derive(Clone, Copy)]
-pub(super) struct Scaled<T> {
-    pub(super) x: [T; ORDER + 1],
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+}
+
+/// How damping follows the secant stiffness.
+pub trait SecantLaw {
+    /// Returns c over its factor, of ω² \[1/s²\]: ω or ω².
+    fn damping<T: Number>(square: T) -> T;
+
+    /// Returns wₙ for n = N, of sₙ/2 and the terms of w before.
+    fn term<T: Number, const N: usize>(half_s: T, w: &[T; ORDER + 1]) -> T;
+}
+
+/// c = 2ξ ω.
+#[derive(Debug)]
+pub struct ByRatio;
+
+impl SecantLaw for ByRatio {
+    #[inline(always)]
+    fn damping<T: Number>(square: T) -> T {
+        square.sqrt()
+    }
+
+    #[inline(always)]
+    fn term<T: Number, const N: usize>(half_s: T, w: &[T; ORDER + 1]) -> T {
+        if N > 1 { half_s - half_square::<T, N>(w) } else { half_s }
+    }
+}
+
+/// c = (2ξ₁/ω₁) ω².
+#[derive(Debug)]
+pub struct ByStiffness;
+
+impl SecantLaw for ByStiffness {
+    #[inline(always)]
+    fn damping<T: Number>(square: T) -> T {
+        square
+    }
+
+    #[inline(always)]
+    fn term<T: Number, const N: usize>(half_s: T, _: &[T; ORDER + 1]) -> T {
+        half_s + half_s
+    }
+}
+
+/// The coefficients of u/u₀, of time in lengths of the step. All are numbers without units.
+#[derive(Clone, Copy, Debug)]
+pub struct Scaled<T> {
+    /// xₙ, those known so far.
+    pub x: [T; ORDER + 1],
     z: [T; ORDER + 1],
     s: [T; ORDER + 1],
     w: [T; ORDER + 1],
@@ -54,26 +131,26 @@ pub(super) struct Scaled<T> {
     rate: T,
 }
 
-/// What a series starts from.
-#[derive(Clone, Copy)]
-pub(super) struct Start<T> {
+/// What a series starts from, without units: u₀ and the length L of the step are its measures.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<T> {
     /// L u̇₀/u₀.
-    pub(super) velocity: T,
+    pub velocity: T,
     /// L² (p₀ − f(u₀))/u₀.
-    pub(super) driving: T,
+    pub driving: T,
     /// L² p₁/u₀, p being p₀ + p₁ t with t in lengths L.
-    pub(super) rate: T,
+    pub rate: T,
     /// κ/2.
-    pub(super) half_kappa: T,
+    pub half_kappa: T,
     /// k L².
-    pub(super) stiffness: T,
+    pub stiffness: T,
     /// c₀ L.
-    pub(super) damping: T,
+    pub damping: T,
 }
 
 /// Computes Σ aᵢ bₙ₋ᵢ for 0 < i < N.
 #[inline(always)]
-pub(super) fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
+pub fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER + 1]) -> T {
     let middle = N / 2;
     let mut sum = a[middle] * b[N - middle];
     for i in (1..middle).rev() {
@@ -87,7 +164,7 @@ pub(super) fn inner<T: Number, const N: usize>(a: &[T; ORDER + 1], b: &[T; ORDER
 
 /// Computes half of Σ aᵢ aₙ₋ᵢ for 0 < i < N.
 #[inline(always)]
-pub(super) fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
+pub fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
     let middle = a[N / 2] * a[N - N / 2];
     let mut sum = if N.is_multiple_of(2) { middle * 0.5 } else { middle };
     for i in (1..N / 2).rev() {
@@ -96,17 +173,17 @@ pub(super) fn half_square<T: Number, const N: usize>(a: &[T; ORDER + 1]) -> T {
     sum
 }
 
-/// Adds the terms n of a series; `RATIO` tells c = 2ξ ω.
+/// Adds the terms n of a series.
 macro_rules! terms {
-    ($series:ident: $($n:literal)*) => { $($series.term::<$n, RATIO>();)* };
+    ($series:ident: $($n:literal)*) => { $($series.term::<$n, L>();)* };
 }
 
 impl<T: Number> Scaled<T> {
     /// Starts a series: coefficients up to x₂.
     #[inline(always)]
-    pub(super) fn new(start: Start<T>, one: T) -> Self {
+    pub fn new(start: Start<T>) -> Self {
         let Start { velocity, driving, rate, half_kappa, stiffness, damping } = start;
-        let ones = [one; ORDER + 1];
+        let ones = [velocity.like(1.0); ORDER + 1];
         let mut series = Self { x: ones, z: ones, s: ones, w: ones, half_kappa, stiffness, damping, rate };
         series.x[1] = velocity;
         series.z[0] = damping * velocity;
@@ -118,20 +195,14 @@ impl<T: Number> Scaled<T> {
 
     /// Adds sₙ, wₙ, zₙ₊₁ and xₙ₊₂.
     #[inline(always)]
-    fn term<const N: usize, const RATIO: bool>(&mut self) {
+    fn term<const N: usize, L: SecantLaw>(&mut self) {
         let x = self.x[N];
         let mut half_s = self.half_kappa * x;
         if N > 1 {
             half_s = half_s - inner::<T, N>(&self.x, &self.s) * 0.5;
         }
         self.s[N] = half_s + half_s;
-        self.w[N] = if !RATIO {
-            self.s[N]
-        } else if N > 1 {
-            half_s - half_square::<T, N>(&self.w)
-        } else {
-            half_s
-        };
+        self.w[N] = L::term::<T, N>(half_s, &self.w);
         let mut rest = self.stiffness * x;
         if N == 1 {
             rest = rest - self.rate;
@@ -145,31 +216,31 @@ impl<T: Number> Scaled<T> {
 
     /// Adds the terms up to x₈.
     #[inline(always)]
-    pub(super) fn extend_to_8<const RATIO: bool>(&mut self) {
+    pub fn extend_to_8<L: SecantLaw>(&mut self) {
         terms!(self: 1 2 3 4 5 6);
     }
 
     /// Adds the terms up to x₁₀.
     #[inline(always)]
-    pub(super) fn extend_to_10<const RATIO: bool>(&mut self) {
+    pub fn extend_to_10<L: SecantLaw>(&mut self) {
         terms!(self: 7 8);
     }
 
     /// Adds the terms up to x₁₂.
     #[inline(always)]
-    pub(super) fn extend_to_12<const RATIO: bool>(&mut self) {
+    pub fn extend_to_12<L: SecantLaw>(&mut self) {
         terms!(self: 9 10);
     }
 
     /// Adds the terms up to x₁₆.
     #[inline(always)]
-    pub(super) fn extend_to_16<const RATIO: bool>(&mut self) {
+    pub fn extend_to_16<L: SecantLaw>(&mut self) {
         terms!(self: 11 12 13 14);
     }
 
-    /// Returns what x and ẋ have come to at the end of the step, by the terms up to N.
+    /// Returns u/u₀ − 1 and L u̇/u₀ at the end of the step, by the terms up to N, which were added before.
     #[inline(always)]
-    pub(super) fn end<const N: usize>(&self) -> [T; 2] {
+    pub fn end<const N: usize>(&self) -> [T; 2] {
         let (mut x, mut velocity) = (self.x[1], self.x[1]);
         for n in 2..=N {
             x = x + self.x[n];
@@ -178,9 +249,9 @@ impl<T: Number> Scaled<T> {
         [x, velocity]
     }
 
-    /// Returns the coefficients of order N − 3 to N.
+    /// Returns the coefficients of order N − 3 to N, for [`excess`](super::secant::excess).
     #[inline(always)]
-    pub(super) fn last<const N: usize>(&self) -> [T; 4] {
+    pub fn last<const N: usize>(&self) -> [T; 4] {
         [self.x[N - 3], self.x[N - 2], self.x[N - 1], self.x[N]]
     }
 }

@@ -56,12 +56,13 @@ impl Peaks {
         self.positive.max(self.negative)
     }
 
-    pub(super) fn include(&mut self, displacement: f64) {
+    /// Raises the peaks to a displacement \[m\].
+    pub fn include(&mut self, displacement: f64) {
         self.positive = self.positive.max(displacement);
         self.negative = self.negative.max(-displacement);
     }
 
-    /// Whether the peaks cover a range of u.
+    /// Returns whether the peaks cover a range of u.
     pub(super) fn cover(&self, lowest: f64, highest: f64) -> bool {
         highest <= self.positive && -lowest <= self.negative
     }
@@ -74,7 +75,7 @@ pub struct State {
     pub displacement: f64,
     /// Velocity u̇ \[m/s\].
     pub velocity: f64,
-    /// Index of the branch the wall is on; it tells the side at a corner.
+    /// Index of the branch that the wall is on. At a corner it determines the side.
     pub branch: usize,
     /// Whether the wall moves.
     pub phase: Phase,
@@ -94,9 +95,9 @@ impl State {
     }
 }
 
-/// Returns the largest |u| and |u|/`u_ins` as results report them \[m, -\], from those of the motion: a wall
-/// that falls counts up to `u_ins` of its side, since how far it goes beyond says nothing of the motion
-/// (docs/model.md, Overturning).
+/// Returns the largest |u| and |u|/`u_ins` as results report them \[m, -\], from those of the motion: for a
+/// wall that falls they are `u_ins` of its side and 1, because the displacement beyond does not measure the
+/// motion (docs/model.md, Overturning).
 pub fn reported_peak(peak: [f64; 2], u_ins: f64, falls: bool) -> [f64; 2] {
     if falls { [u_ins, 1.0] } else { peak }
 }
@@ -108,9 +109,9 @@ pub struct Report {
     pub overturning: Option<f64>,
     /// Time and velocity at which the wall left its supports in this segment \[s, m/s\].
     pub departure: Option<[f64; 2]>,
-    /// ∫u dt while on the supports \[m s\]; only where asked for.
+    /// ∫u dt while the wall is on its supports \[m s\]; 0 unless requested.
     pub displacement_integral: f64,
-    /// The bound on impacts was reached and the wall put to rest.
+    /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
     /// Work done.
     pub work: Work,

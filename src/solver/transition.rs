@@ -1,4 +1,4 @@
-//! Transitions: how branch, phase and marks of a state follow from its motion, at the start and at corners.
+//! Transitions: how the motion determines branch, phase and marks of a state, at the start and at corners.
 //!
 //! | corner | transition |
 //! |---|---|
@@ -51,7 +51,7 @@ impl Motion {
         let mut state = self.located(displacement, velocity, forcing);
         let behind = self.wall.free_side().is_some_and(|side| displacement == 0.0 && velocity * side < 0.0);
         if behind {
-            // it starts with an impact
+            // the wall moves towards the transverse walls, so it starts with an impact
             state.velocity *= self.wall.passage_factor();
             if state.velocity.abs() < self.rest_speed {
                 settle(self, &mut state, [forcing, 0.0]);
@@ -60,7 +60,7 @@ impl Motion {
         state
     }
 
-    /// Returns the state of a wall on the branch that its motion belongs to.
+    /// Returns the state of a wall, with the branch and phase that belong to its motion.
     fn located(&self, displacement: f64, velocity: f64, forcing: f64) -> State {
         let wall = &self.wall;
         let overturned = displacement.abs() > wall.body().instability.of(displacement);
@@ -77,8 +77,8 @@ impl Motion {
         if wall.can_rest() && displacement == 0.0 && velocity == 0.0 {
             settle(self, &mut state, [forcing, 0.0]);
         } else {
-            // At a corner the motion chooses the side; the force is continuous there, but for the rigid one
-            // at u = 0.
+            // At a corner, the velocity or else the acceleration decides the side. The force is continuous
+            // there, except for the jump of a rigid wall's force at u = 0.
             let outer = wall.branch_of(displacement, 0.0);
             let acceleration = wall.acceleration(outer, displacement, velocity, forcing);
             state.branch =
@@ -112,7 +112,7 @@ pub(super) fn branch_beyond(corner: usize, upwards: bool) -> usize {
 
 /// Takes `state` through the corner it has reached, upwards or downwards, under the forcing p and its rate
 /// \[m/s², m/s³\]. `rebound` gives the motion after an impact there.
-pub(super) fn pass(
+pub(super) fn pass_corner(
     motion: &Motion,
     state: &mut State,
     (corner, upwards): (usize, bool),
@@ -136,7 +136,7 @@ pub(super) fn pass(
         return event;
     }
     if stop {
-        // an importer's solver is a little beyond
+        // an importer's solver meets the corner a little beyond it
         state.displacement = displacement;
     } else {
         state.branch = branch_beyond(corner, upwards);
@@ -152,7 +152,7 @@ pub(super) fn pass(
     event
 }
 
-/// Goes on from u = 0 after an impact.
+/// Sets the velocity after an impact at u = 0, and the branch or rest that follows from it.
 fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forcing, rate]: [f64; 2]) {
     state.velocity = rebound.velocity;
     if motion.wall.can_rest() {
@@ -160,15 +160,15 @@ fn rebound_from_zero(motion: &Motion, state: &mut State, rebound: Rebound, [forc
             settle(motion, state, [forcing, rate]);
         }
     } else if state.velocity == 0.0 {
-        // stopped by e = 0: it follows the forcing
+        // e = 0 has stopped the wall; it now moves in the direction of the forcing
         let direction = if forcing == 0.0 { rate } else { forcing };
         state.displacement = 0.0;
         state.branch = motion.wall.branch_of(0.0, direction);
     }
 }
 
-/// Stops a wall that can rest at u = 0. It rests while the forcing keeps within its band, and else follows
-/// the forcing.
+/// Stops a wall that can rest at u = 0. It rests while the forcing stays within the band of rest, and
+/// otherwise moves in the direction of the forcing.
 pub(super) fn settle(motion: &Motion, state: &mut State, [forcing, rate]: [f64; 2]) {
     let [lowest, highest] = motion.rest_band;
     let leaves_up = forcing > highest || (forcing == highest && rate > 0.0);

@@ -62,7 +62,7 @@ impl Turning {
         body
     }
 
-    /// From the terms up to n to those of t, 1 + t² and r at n + 1.
+    /// Extends t, 1 + t² and r from the terms up to n to those at n + 1.
     fn extend(&mut self, speed: &Terms, n: usize) {
         let next = (n + 1) as f64;
         self.rate[n] = product(&self.reciprocal, speed, n);

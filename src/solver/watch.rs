@@ -1,8 +1,8 @@
 //! Collects demands on each piece of a motion.
 //!
-//! They are found on the pieces, not at samples. On a piece every quantity g watched has a bound M on |g̈|,
-//! so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed the
-//! extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
+//! Demands are found on the pieces, not at samples. On a piece every watched quantity g has a bound M on
+//! |g̈|, so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed
+//! the extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
 
 use oscillator::KinematicState;
 
@@ -12,15 +12,15 @@ use super::demand::{Demands, Extremes, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
-/// Error of an extreme, relative to the terms it is the sum of. Its time is then good to about 1e-6 of the
-/// time scale of the motion around it.
+/// Error of an extreme, relative to the terms it is the sum of. Its time is then accurate to about 1e-6 of
+/// the time scale of the motion around it.
 pub const ACCURACY: f64 = 1e-12;
-/// Intervals of one search after which its tolerance doubles, time and again: hundreds of undamped
-/// oscillations of one height in one step are not worth twelve digits each.
+/// Number of intervals after which the tolerance of a search doubles, again and again. Hundreds of undamped
+/// oscillations of the same height in one step would take too long with twelve digits each.
 const PATIENCE: u32 = 1 << 14;
-/// Intervals of one search: by then the tolerance is a million times the value.
+/// Most intervals of one search. By then the tolerance is a million times the value.
 const MOST_INTERVALS: u32 = 60 * PATIENCE;
-/// Intervals pending at once.
+/// Most intervals pending at once.
 const DEEPEST: usize = 64;
 
 /// Demands being collected over one segment.
@@ -43,7 +43,7 @@ pub(super) struct Followed<'a, P> {
     pub(super) from: f64,
     /// How far it was followed \[s\].
     pub(super) length: f64,
-    /// u there, at a corner that of the corner \[m\].
+    /// u at its end; where that is a corner, the corner's own displacement \[m\].
     pub(super) displacement: f64,
 }
 
@@ -56,7 +56,7 @@ struct Quantity<F> {
 }
 
 impl Watch<'_> {
-    /// Takes in rest from one time within the segment to another: forces are linear in between.
+    /// Includes a rest between two times within the segment. Forces are linear in between.
     pub(super) fn rest(&mut self, from: f64, to: f64) {
         for offset in [from, to] {
             let (support, time) = (self.segment.support(offset), self.time + offset);
@@ -67,7 +67,7 @@ impl Watch<'_> {
         }
     }
 
-    /// Takes in a piece of motion.
+    /// Includes a piece of motion.
     #[inline(never)]
     pub(super) fn piece<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let &Followed { piece, length, from, .. } = followed;
@@ -90,7 +90,7 @@ impl Watch<'_> {
         self.count(followed)
     }
 
-    /// Takes in the reactions over a piece, on which the accelerations of the supports are linear.
+    /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
     fn forces<P: Piece>(
         &mut self,
         search: &ExtremeSearch<'_, P>,
@@ -119,7 +119,7 @@ impl Watch<'_> {
         Ok(())
     }
 
-    /// Takes in the force of the tie over a piece, on which it is linear in u.
+    /// Includes the force of the tie over a piece, on which it is linear in u.
     #[inline(never)]
     pub(super) fn tie<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let &Followed { piece, branch, from, length, .. } = followed;
@@ -138,7 +138,7 @@ impl Watch<'_> {
         *force = largest;
         let (Some(reach), Some(limit)) = (tie.strength_displacement(), tie.strength) else { return Ok(()) };
         if strength.is_none() && largest.value >= limit {
-            let time = match event::follow(piece, [-reach, reach], &mut Peaks::at(0.0))? {
+            let time = match event::find_ending(piece, [-reach, reach], &mut Peaks::at(0.0))? {
                 Ending::Exit(exit) if exit.time <= length => self.time + (from + exit.time),
                 // at the turning point itself, within rounding
                 _ => largest.time,
@@ -148,7 +148,7 @@ impl Watch<'_> {
         Ok(())
     }
 
-    /// Takes in first crossings on a piece.
+    /// Includes the first crossings of limit states on a piece.
     fn cross<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let start = self.time;
         let u_ins = self.wall.body().instability;
@@ -161,7 +161,7 @@ impl Watch<'_> {
                 continue;
             }
             let mut peaks = Peaks::at(followed.piece.start().displacement);
-            let ending = event::follow(followed.piece, limits, &mut peaks)?;
+            let ending = event::find_ending(followed.piece, limits, &mut peaks)?;
             let (offset, upwards) = match ending {
                 Ending::Exit(exit) if exit.time <= followed.length => (exit.time, exit.upwards),
                 // at the end itself, within rounding
@@ -199,7 +199,7 @@ impl Watch<'_> {
         // there and back within one piece
         let limits = if sign > 0.0 { [0.0, f64::INFINITY] } else { [f64::NEG_INFINITY, 0.0] };
         let mut peaks = Peaks::at(start.displacement);
-        if let Ending::Exit(exit) = event::follow(followed.piece, limits, &mut peaks)?
+        if let Ending::Exit(exit) = event::find_ending(followed.piece, limits, &mut peaks)?
             && exit.time <= followed.length
         {
             demands.excursion = None;
@@ -270,7 +270,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         };
         let mut found = Node { offset: f64::NAN, value: best };
         let mut left = node(0.0, &self.seen[0].1);
-        // from right to left: the first interval is the last in
+        // from right to left, because the last interval added is searched first
         let mut pending = [left; DEEPEST];
         for (place, (offset, motion)) in pending.iter_mut().zip(self.seen[1..].iter().rev()) {
             *place = node(*offset, motion);
@@ -289,7 +289,7 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             let right = pending[index];
             let width = right.offset - left.offset;
             let most = left.value.max(right.value) + 0.125 * width * width * quantity.curvature;
-            // a sum that cancels has no more digits than its terms
+            // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
             if most <= found.value + tolerance || count == DEEPEST {

@@ -3,7 +3,7 @@
 use crate::simulation::Excitation;
 use crate::wall::Support;
 
-/// What an instance for Model Exchange remembers besides.
+/// What an instance for Model Exchange stores in addition.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Exchange {
     /// |u| is beyond its largest so far, and grows.

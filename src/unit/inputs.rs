@@ -27,8 +27,8 @@ impl Input {
         *self = Self { value, ..Self::default() };
     }
 
-    /// Extrapolates the input to the end of a step.
-    pub(super) fn pass(&mut self, duration: f64) {
+    /// Extrapolates the input to the end of a step of `duration` \[s\].
+    pub(super) fn extrapolate(&mut self, duration: f64) {
         *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
     }
 }

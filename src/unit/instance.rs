@@ -21,7 +21,7 @@ pub struct Unit {
     pub(super) excitation: Option<Arc<Excitation>>,
     pub(super) inputs: Inputs,
     pub(super) experiment: Experiment,
-    /// The wall. While parameters may change, it is at its start.
+    /// The simulation of the wall. While parameters may change, it is at its start.
     pub(super) simulation: Simulation,
     /// Initialisation is over.
     pub(super) running: bool,
@@ -30,9 +30,9 @@ pub struct Unit {
     pub(super) exchange: Option<Exchange>,
     /// The outputs at the present state and inputs, once needed.
     outputs: Cell<Option<Outputs>>,
-    /// What has been warned of: an unused `a_top`, and a start that was forgotten.
+    /// Warnings given or ruled out: of an unused `a_top`, and of a start that was forgotten.
     pub(super) warned: [bool; 2],
-    /// Its scene says where it starts.
+    /// The scene of the unit states where the wall starts.
     pub(super) has_scene: bool,
 }
 
@@ -42,7 +42,7 @@ impl Unit {
         excitation: Option<Arc<Excitation>>,
         exchange: Option<Exchange>,
     ) -> Result<Self, Failure> {
-        let simulation = start(&parameters, Experiment::default(), Support::default())?;
+        let simulation = start_simulation(&parameters, Experiment::default(), Support::default())?;
         let mut unit = Self {
             parameters,
             excitation,
@@ -67,7 +67,7 @@ impl Unit {
         }
         let own = segment_of(self.excitation.as_deref(), 0.0, 0.0).from;
         let support = self.inputs.support(own, 0.0);
-        self.simulation = start(&self.parameters, self.experiment, support)?;
+        self.simulation = start_simulation(&self.parameters, self.experiment, support)?;
         self.refresh();
         Ok(())
     }
@@ -112,24 +112,24 @@ impl Unit {
     }
 
     /// Makes one communication step, through the samples of the scene's own motion. A step that may end early
-    /// does so just after overturning, and its end is returned. On an error the unit is as it was.
+    /// ends just after overturning; the time of its end is then returned. On an error the unit is as it was.
     pub(super) fn advance(
         &mut self,
         mut step: CommunicationStep,
         log: &mut Log<'_>,
     ) -> Result<Option<f64>, Failure> {
         let before = *self.simulation.progress();
-        let mut done = self.follow(step);
+        let mut done = self.move_wall(step);
         let mut event = None;
         if let (true, Some(duration)) = (step.may_end_early, self.duration_to_overturning(before, step)) {
             self.simulation.restore(before);
-            let early = self.follow(CommunicationStep { duration, ..step });
+            let early = self.move_wall(CommunicationStep { duration, ..step });
             if early.as_ref().is_ok_and(|done| done.overturned) {
                 (step.duration, event) = (duration, Some(step.from + duration));
                 done = early;
             } else {
                 self.simulation.restore(before);
-                done = self.follow(step);
+                done = self.move_wall(step);
             }
         }
         let done = done.inspect_err(|_| self.simulation.restore(before))?;
@@ -137,15 +137,15 @@ impl Unit {
         let end = step.from + step.duration;
         self.simulation.set_time(end);
         for input in [&mut self.inputs.bottom, &mut self.inputs.top, &mut self.inputs.drift] {
-            input.pass(step.duration);
+            input.extrapolate(step.duration);
         }
         self.refresh();
-        self.tell(&done, end, log);
+        self.log_events(&done, end, log);
         Ok(event)
     }
 
     /// Moves the wall through a step.
-    fn follow(&mut self, step: CommunicationStep) -> Result<Step, Failure> {
+    fn move_wall(&mut self, step: CommunicationStep) -> Result<Step, Failure> {
         self.simulation.set_time(step.from);
         let (inputs, motion, start) = (self.inputs, self.excitation.as_deref(), self.experiment.start);
         let next = |time: f64, done: f64| {
@@ -157,7 +157,8 @@ impl Unit {
         self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
     }
 
-    /// How long the step from the progress `before` takes to just after overturning, if that is inside it.
+    /// Returns the length of the step up to just after overturning \[s\]; `None` where the wall does not
+    /// overturn inside the step. `before` is the progress at its start.
     fn duration_to_overturning(&self, before: Progress, step: CommunicationStep) -> Option<f64> {
         let overturning =
             self.simulation.progress().overturn_time.filter(|_| before.overturn_time.is_none())?;
@@ -166,7 +167,7 @@ impl Unit {
     }
 
     /// Logs what happened in a step.
-    fn tell(&self, done: &Step, end: f64, log: &mut Log<'_>) {
+    fn log_events(&self, done: &Step, end: f64, log: &mut Log<'_>) {
         if done.put_to_rest {
             log.warning(format_args!("impacts accumulate: the wall was put to rest at u = 0 by t = {end} s"));
         }
@@ -181,35 +182,44 @@ impl Unit {
         }
     }
 
+    /// Marks warnings that do not apply to these parameters and scene as given.
+    pub(super) fn choose_warnings(&mut self) {
+        let is_parapet = self.parameters.mechanism == Mechanism::Parapet;
+        let is_start_value = self.parameters.u_start == Parameters::default().u_start;
+        self.warned = [!is_parapet, self.has_scene || !is_start_value];
+    }
+
     /// Warns once where `a_top` is given to a wall without a top support, and once where an input shakes a
     /// wall that the start value of `u_start` has displaced.
     pub(super) fn warn_of_inputs(&mut self, log: &mut Log<'_>) {
-        if self.inputs == Inputs::default() {
-            return;
-        }
         let [top_warned, start_warned] = &mut self.warned;
-        let is_parapet = self.parameters.mechanism == Mechanism::Parapet;
-        if self.inputs.top != Input::default() && is_parapet && !std::mem::replace(top_warned, true) {
+        if !*top_warned && self.inputs.top != Input::default() {
+            *top_warned = true;
             log.warning(format_args!(
                 "a_top is ignored: a parapet has no top support; give its base motion in a_bottom or a_g"
             ));
         }
-        let start = self.parameters.u_start;
-        let by_default = !self.has_scene && start == Parameters::default().u_start;
-        if by_default && !std::mem::replace(start_warned, true) {
+        if !*start_warned && self.inputs != Inputs::default() {
+            *start_warned = true;
             log.warning(format_args!(
                 "the wall is shaken and was released from u_start = {start} m, the start value: for a wall \
-                 that is at rest until then, set u_start = 0"
+                 that is at rest until then, set u_start = 0",
+                start = self.parameters.u_start
             ));
         }
     }
 }
 
-/// How long after overturning a step ends that ends early \[s\]: rounding cannot hide it there.
+/// Time from overturning to the end of a step that ends early \[s\]: long enough that rounding cannot hide
+/// the overturning.
 const OVERTURNED_SINCE: f64 = 1e-10;
 
-fn start(parameters: &Parameters, experiment: Experiment, support: Support) -> Result<Simulation, Failure> {
-    // an importer may ask for less than rounding, which no step would reach
+fn start_simulation(
+    parameters: &Parameters,
+    experiment: Experiment,
+    support: Support,
+) -> Result<Simulation, Failure> {
+    // an importer may ask for a tolerance below rounding, which no step would meet
     let tolerance = experiment.tolerance.map(|given| match RealVariable::Tolerance.variable().kind {
         Kind::Real { min: Some(least), .. } => given.max(least),
         _ => given,

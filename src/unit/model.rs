@@ -176,7 +176,7 @@ impl Model for Unit {
             V::ReactionBottom => Some(along.reactions.bottom),
             V::ReactionTop => Some(along.reactions.top),
             V::TieForce => Some(along.tie_force),
-            // memories of the past: not functions of the present state and inputs
+            // these depend on the past, not on the present state and inputs alone
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => Some(0.0),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
@@ -199,6 +199,7 @@ impl Model for Unit {
         for warning in self.wall().warnings() {
             log.warning(format_args!("{warning}"));
         }
+        self.choose_warnings();
         self.warn_of_inputs(log);
         if self.parameters.u_start != 0.0 {
             log.info(format_args!("released from u_start = {} m", self.parameters.u_start));

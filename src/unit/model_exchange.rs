@@ -16,7 +16,7 @@ impl Unit {
         self.simulation.progress().time - self.experiment.start
     }
 
-    /// Takes up the scene's own motion from now to the next sample.
+    /// Stores the scene's own motion from now to the next sample.
     pub(super) fn begin_own_motion(&mut self) {
         let elapsed = self.elapsed();
         let own_motion = self.excitation.as_ref().map(|motion| OwnMotion::new(motion, elapsed));
@@ -37,7 +37,7 @@ impl Unit {
     /// Warns about parameters of the solver that are set: the importer's solver integrates.
     pub(super) fn warn_of_solver(&self, log: &mut Log<'_>) {
         let (_, names) = GROUPS.iter().find(|(group, _)| *group == "solver").unwrap_or(&("", &[]));
-        // those without effect in co-simulation either have their warning already
+        // parameters without effect in either interface have had their warning already
         let is_set = |usage: &Usage| usage.matters && !usage.is_start && names.contains(&usage.name);
         for Usage { name, .. } in usage(&self.parameters).filter(is_set) {
             log.warning(format_args!(
@@ -123,5 +123,6 @@ impl ModelExchange for Unit {
     }
 }
 
-/// How early importers may be at an event announced to them, relative to the larger of the time and 1 s.
+/// How early an importer may stop at an event whose time it was given, relative to the larger of that time
+/// and 1 s.
 const TIME_ROUNDING: f64 = 1e-9;

@@ -11,7 +11,7 @@ use super::inputs::{Input, Inputs};
 use super::instance::Unit;
 
 impl Unit {
-    /// Writes the state or reads it; a unit that has read one stands where the other stood.
+    /// Writes or reads the state. A unit that has read a state continues exactly like the unit that wrote it.
     ///
     /// # Errors
     /// If the bytes are not a state of such a unit.
@@ -48,7 +48,7 @@ impl Unit {
         let Some(branch) = self.wall().branches().get(branch) else {
             return Err("the state has a branch that the wall does not have".into());
         };
-        // an importer's solver may go beyond the ends of a branch, a step does not
+        // an importer's solver may go beyond the ends of a branch; a communication step may not
         if self.exchange.is_none() && !(branch.lower..=branch.upper).contains(&displacement) {
             return Err(Failure(format!(
                 "the state has u = {displacement} m on the branch from {} to {} m",

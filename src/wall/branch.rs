@@ -35,21 +35,12 @@ impl Branch {
 
     /// C/`m_eff` \[1/s\].
     pub fn damping_at(&self, displacement: f64) -> f64 {
-        match self.damping {
-            BranchDamping::Constant(c) => c,
-            // ω² = F/(u m_eff); the branch through u = 0 has constant damping
-            secant => secant.coefficient(self.own.at(displacement) / displacement),
-        }
+        self.damping.derivatives(&self.own, displacement)[0]
     }
 
     /// d(C/`m_eff`)/du \[1/(m s)\].
     pub fn damping_slope(&self, displacement: f64) -> f64 {
-        if let BranchDamping::Constant(_) = self.damping {
-            return 0.0;
-        }
-        let omega_squared = self.own.at(displacement) / displacement;
-        // d(F/u)/du = (k − F/u)/u
-        self.damping.sensitivity(omega_squared) * (self.own.slope - omega_squared) / displacement
+        self.damping.derivatives(&self.own, displacement)[1]
     }
 
     /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
@@ -77,7 +68,7 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// Whether anything but a change of branch happens here.
+    /// Returns whether anything but a change of branch happens here.
     pub fn is_marked(&self) -> bool {
         self.passage || self.overturning || self.departure || self.landing
     }

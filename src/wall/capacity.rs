@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::equation::Wall;
 use super::tie::Tie;
 
-/// Part of F₀ below which a force is 0: a softening line ends there but for rounding.
+/// Share of F₀ below which a force counts as 0: at the end of a softening line only rounding is left of it.
 const ROUNDING: f64 = 1e-12;
 
 /// A point of the capacity curve of one side, with the displacement and the force as positive numbers.
@@ -19,7 +19,8 @@ pub struct CapacityPoint {
     pub displacement_ratio: f64,
     /// F/F₀ \[-\].
     pub force_ratio: f64,
-    /// d* = |u|/λ of the oscillator d̈* + a*(d*) = −`a_g` that Eq. (12) is, to be laid over a spectrum \[m\].
+    /// d* = |u|/λ in the oscillator form of Eq. (12), d̈* + a*(d*) = −`a_g`; the curve a*(d*) can be drawn
+    /// over a response spectrum \[m\].
     pub spectral_displacement: f64,
     /// a* = F/(λ `m_eff`) \[m/s²\].
     pub spectral_acceleration: f64,
@@ -31,14 +32,14 @@ pub struct CapacityPoint {
 }
 
 impl Wall {
-    /// The capacity curve of the side of `sign` at a fraction of its `u_ins`.
+    /// Returns the point of the capacity curve of the side of `sign` at a fraction of its `u_ins`.
     pub fn capacity_at(&self, sign: f64, fraction: f64) -> CapacityPoint {
         let point = self.capacity_point(sign, fraction * self.body().instability.of(sign));
-        // not its quotient, which may differ in the last digit
+        // keep the fraction itself: the quotient u/u_ins may differ from it in the last digit
         CapacityPoint { displacement_ratio: fraction, ..point }
     }
 
-    /// The corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
+    /// Returns the corners of the capacity curve of the side of `sign`, from u = 0 to `u_ins`.
     pub fn capacity_corners(&self, sign: f64) -> Vec<CapacityPoint> {
         let u_ins = self.body().instability.of(sign);
         let side = self.force.side(sign);
@@ -51,8 +52,8 @@ impl Wall {
         corners.into_iter().map(|corner| self.capacity_point(sign, corner)).collect()
     }
 
-    /// Acceleration of the supports at which the wall leaves the vertical for good, by its static curve
-    /// without a tie: the largest a* of the force law, on the weaker side to which it can rock \[m/s²\].
+    /// Returns the acceleration of the supports at which rocking starts, by the static curve without a tie:
+    /// the largest a* of the force law, on the weaker of the sides to which the wall can rock \[m/s²\].
     pub fn rocking_onset(&self) -> f64 {
         let body = self.body();
         let largest = |sign: f64| {

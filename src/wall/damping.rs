@@ -4,9 +4,116 @@ use crate::choices::DampingModel;
 
 use super::equivalence;
 use super::error::ParameterError;
-use super::force_law::RestoringForce;
+use super::force_law::{Line, RestoringForce};
 use super::mechanism::Body;
-use super::parameters::{Parameters, given};
+use super::parameters::{COMPUTED, Parameters, given};
+
+impl DampingModel {
+    /// Returns the name of the parameter with the model's ratio: `xi`, `c_bar`, or none without damping.
+    pub fn ratio_name(self) -> Option<&'static str> {
+        match self {
+            Self::None => None,
+            Self::FreeStandingBlock => Some("c_bar"),
+            Self::ConstantCoefficient | Self::ConstantRatio | Self::StiffnessProportional => Some("xi"),
+        }
+    }
+
+    /// Returns whether the model's ratio ξ refers to the elastic branch. A wall must then have one.
+    pub fn needs_elastic_branch(self) -> bool {
+        self.ratio_name() == Some("xi")
+    }
+
+    /// Returns the ratio \[-\] that a₁ and e predict, Eqs. (20)–(23): ξ, ξ₁ or c̄; 0 without damping.
+    pub fn predicted_ratio(self, a1: f64, restitution: f64) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::ConstantCoefficient => equivalence::constant_coefficient(a1, restitution),
+            Self::FreeStandingBlock => equivalence::free_standing_block(restitution),
+            Self::ConstantRatio => equivalence::constant_ratio(a1, restitution),
+            Self::StiffnessProportional => equivalence::stiffness_proportional(a1, restitution),
+        }
+    }
+}
+
+/// The viscous damping that is asked for: a model with its ratio.
+///
+/// ```
+/// use rocking_wall::{variables::DampingModel, wall::{Damping, Parameters, Wall}};
+///
+/// let mut parameters = Parameters::default();
+/// parameters.set_damping(Damping::given(DampingModel::ConstantCoefficient, 0.05));
+/// assert_eq!(Wall::new(&parameters)?.damping_ratio(), 0.05);
+/// # Ok::<(), rocking_wall::wall::ParameterError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// The model.
+    pub model: DampingModel,
+    /// ξ, ξ₁ or c̄ \[-\]; computed from a₁ and e where `None`, Eqs. (20)–(23).
+    pub ratio: Option<f64>,
+}
+
+impl Damping {
+    /// No damping.
+    pub const NONE: Self = Self::computed(DampingModel::None);
+
+    /// A model with the ratio that a₁ and e predict.
+    pub const fn computed(model: DampingModel) -> Self {
+        Self { model, ratio: None }
+    }
+
+    /// A model with a given ratio \[-\].
+    pub const fn given(model: DampingModel, ratio: f64) -> Self {
+        Self { model, ratio: Some(ratio) }
+    }
+
+    /// Makes the damping of a model from its ratio as a parameter states it: 0 or more, or [`COMPUTED`].
+    ///
+    /// # Errors
+    /// [`ParameterError::NotGiven`] for another negative number.
+    pub fn new(model: DampingModel, ratio: f64) -> Result<Self, ParameterError> {
+        Ok(Self { model, ratio: given(model.ratio_name().unwrap_or_default(), ratio)? })
+    }
+
+    /// Checks the numbers of both ratios, and returns the damping that the parameters ask for.
+    pub(super) fn of(parameters: &Parameters) -> Result<Self, ParameterError> {
+        given("xi", parameters.xi)?;
+        given("c_bar", parameters.c_bar)?;
+        Ok(parameters.damping())
+    }
+
+    /// Returns the name of the parameter whose ratio is computed; `None` where it is given or there is none.
+    pub fn computed_name(self) -> Option<&'static str> {
+        self.model.ratio_name().filter(|_| self.ratio.is_none())
+    }
+}
+
+impl Parameters {
+    /// Returns the damping that the parameters ask for. A negative ratio counts as not given; [`Wall::new`]
+    /// refuses negative ratios other than [`COMPUTED`].
+    ///
+    /// [`Wall::new`]: super::Wall::new
+    pub fn damping(&self) -> Damping {
+        let model = self.damping_model;
+        let number = if model.ratio_name() == Some("c_bar") { self.c_bar } else { self.xi };
+        Damping { model, ratio: model.ratio_name().map(|_| number).filter(|number| *number >= 0.0) }
+    }
+
+    /// Sets the damping model and its ratio, `xi` or `c_bar`. The parameter that the model does not use is
+    /// set to [`COMPUTED`].
+    pub fn set_damping(&mut self, Damping { model, ratio }: Damping) {
+        let [xi, c_bar] = ["xi", "c_bar"].map(|name| ratio.filter(|_| model.ratio_name() == Some(name)));
+        self.damping_model = model;
+        self.xi = xi.unwrap_or(COMPUTED);
+        self.c_bar = c_bar.unwrap_or(COMPUTED);
+    }
+}
+
+/// Distance before u₃, as a fraction of it, from which a constant damping ratio no longer acts. So no solver
+/// reaches the zero of √(u₃ − u), where its slope is infinite.
+///
+/// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
+pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,100 +127,161 @@ pub enum BranchDamping {
 }
 
 impl BranchDamping {
-    /// c \[1/s\] where the secant stiffness per unit mass is ω² \[1/s²\]; none for ω² ≤ 0.
-    pub fn coefficient(self, omega_squared: f64) -> f64 {
+    /// Returns c \[1/s\] where it is constant.
+    pub fn constant(self) -> Option<f64> {
         match self {
-            Self::Constant(c) => c,
-            Self::SecantRatio(twice_xi) => twice_xi * omega_squared.max(0.0).sqrt(),
-            Self::SecantStiffness(factor) => factor * omega_squared.max(0.0),
+            Self::Constant(c) => Some(c),
+            Self::SecantRatio(_) | Self::SecantStiffness(_) => None,
         }
     }
 
-    /// dc/d(ω²) \[s\]; zero for a constant coefficient and where there is no damping.
-    pub fn sensitivity(self, omega_squared: f64) -> f64 {
+    /// Returns c \[1/s\], dc/du and d²c/du² at u \[m\], where `own` is the force of the wall without a tie.
+    #[inline]
+    pub(super) fn derivatives(self, own: &Line, u: f64) -> [f64; 3] {
+        // the branch through u = 0, where ω² = F/(u m_eff) is not defined, has constant damping
+        if let Self::Constant(c) = self {
+            return [c, 0.0, 0.0];
+        }
+        // w = ω² = F/(u m_eff)
+        let w = own.at(u) / u;
+        let [c, by_w, by_w2] = match self {
+            Self::Constant(c) => [c, 0.0, 0.0],
+            Self::SecantRatio(twice_xi) if w > 0.0 => {
+                let slope = 0.5 * twice_xi / w.sqrt();
+                [twice_xi * w.sqrt(), slope, -0.5 * slope / w]
+            }
+            Self::SecantRatio(_) => [0.0; 3],
+            Self::SecantStiffness(factor) => [factor * w, factor, 0.0],
+        };
+        // dw/du = (k − w)/u, d²w/du² = −2 (dw/du)/u
+        let slope = (own.slope - w) / u;
+        [c, by_w * slope, by_w2 * slope * slope - 2.0 * by_w * slope / u]
+    }
+
+    /// Returns the fraction of u₃, the end of the softening branch, up to which it acts.
+    pub(super) fn end(self) -> f64 {
         match self {
-            Self::Constant(_) => 0.0,
-            _ if omega_squared <= 0.0 => 0.0,
-            Self::SecantRatio(twice_xi) => 0.5 * twice_xi / omega_squared.sqrt(),
-            Self::SecantStiffness(factor) => factor,
+            Self::SecantRatio(_) => 1.0 - RATIO_CUTOFF,
+            Self::Constant(_) | Self::SecantStiffness(_) => 1.0,
         }
     }
 }
 
-/// The damping of a wall: the model and the numbers in use.
+/// Taylor coefficients of c over time along a motion, for any damping law. Each is computed once the
+/// coefficients of u up to its order are known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DampingSeries<const N: usize> {
+    law: BranchDamping,
+    own: Line,
+    /// Of ω² and of ω.
+    omega_squared: [f64; N],
+    omega: [f64; N],
+    /// Of c: \[1/s\], \[1/s²\] …
+    pub(crate) coefficients: [f64; N],
+}
+
+impl<const N: usize> DampingSeries<N> {
+    pub(crate) fn new(law: BranchDamping, own: Line) -> Self {
+        let zeros = [0.0; N];
+        Self { law, own, omega_squared: zeros, omega: zeros, coefficients: zeros }
+    }
+
+    /// Adds the n-th coefficient from those of u, known up to n.
+    pub(crate) fn extend(&mut self, u: &[f64; N], n: usize) {
+        if let BranchDamping::Constant(c) = self.law {
+            self.coefficients[0] = c;
+            return;
+        }
+        let product = |a: &[f64; N], b: &[f64; N], first: usize, end: usize| -> f64 {
+            (first..end).map(|i| a[i] * b[n - i]).sum()
+        };
+        // u ω² = F/m_eff, ω ω = ω²
+        let force = if n == 0 { self.own.at(u[0]) } else { self.own.slope * u[n] };
+        self.omega_squared[n] = (force - product(u, &self.omega_squared, 1, n + 1)) / u[0];
+        self.omega[n] = if n == 0 {
+            self.omega_squared[0].max(0.0).sqrt()
+        } else {
+            0.5 * (self.omega_squared[n] - product(&self.omega, &self.omega, 1, n)) / self.omega[0]
+        };
+        self.coefficients[n] = match self.law {
+            BranchDamping::Constant(_) => 0.0,
+            BranchDamping::SecantRatio(twice_xi) => twice_xi * self.omega[n],
+            BranchDamping::SecantStiffness(factor) => factor * self.omega_squared[n],
+        };
+    }
+}
+
+/// The damping of a wall with the numbers in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Damping {
-    pub(super) model: DampingModel,
+pub(super) struct DampingInUse {
+    pub(super) asked: Damping,
     /// ξ in use \[-\]: for a free-standing block its equivalent at ω₁, and 0 where there is none.
     pub(super) ratio: f64,
-    /// C/`m_eff` on the elastic branch, and everywhere for a constant coefficient \[1/s\].
+    /// C/`m_eff` on the elastic branch \[1/s\].
     pub(super) elastic: f64,
-    /// ξ or c̄ is computed from e, Eqs. (20)–(23).
-    pub(super) is_computed: bool,
-    omega1: f64,
+    /// The damping on the other branches, before the force falls to zero.
+    pub(super) rocking: BranchDamping,
 }
 
-impl Damping {
+impl DampingInUse {
     /// # Errors
-    /// [`ParameterError::NoElasticBranch`] where CDC, CDR or SDR meets the rigid-linear law;
-    /// [`ParameterError::Computed`] where e = 0 leaves none to compute; [`ParameterError::NotGiven`].
+    /// [`ParameterError::NoElasticBranch`] where a ratio ξ meets the rigid-linear law;
+    /// [`ParameterError::Computed`] where e = 0 leaves none to compute.
     pub(super) fn new(
+        asked: Damping,
         parameters: &Parameters,
         body: &Body,
         force: &RestoringForce,
         restitution: f64,
     ) -> Result<Self, ParameterError> {
-        let model = parameters.damping_model;
-        let omega1 = force.omega1(body.effective_mass);
-        let needs_none = matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
-        if force.elastic_stiffness.is_none() && !needs_none {
+        let model = asked.model;
+        if force.elastic_stiffness.is_none() && model.needs_elastic_branch() {
             return Err(ParameterError::NoElasticBranch { model: model.name() });
         }
-        let (xi, c_bar) = (given("xi", parameters.xi)?, given("c_bar", parameters.c_bar)?);
-        let (name, number) = match model {
-            DampingModel::FreeStandingBlock => ("c_bar", c_bar),
-            _ => ("xi", xi),
-        };
-        let value = match number {
-            Some(number) => number,
-            None if model != DampingModel::None && restitution <= 0.0 => {
+        let value = match (asked.ratio, asked.computed_name()) {
+            (Some(number), _) => number,
+            (None, Some(name)) if restitution <= 0.0 => {
                 return Err(ParameterError::Computed { name, restitution });
             }
-            None => equivalence::predicted(model, force.elastic_fraction, restitution),
+            (None, _) => model.predicted_ratio(force.elastic_fraction, restitution),
         };
-        let (ratio, elastic) = match model {
-            DampingModel::None => (0.0, 0.0),
+        let omega1 = force.omega1(body.effective_mass);
+        // C = 2 m_eff ω₁ ξ on the elastic branch
+        let elastic = 2.0 * omega1 * value;
+        let (ratio, elastic, rocking) = match model {
+            DampingModel::None => (0.0, 0.0, BranchDamping::Constant(0.0)),
+            DampingModel::ConstantCoefficient => (value, elastic, BranchDamping::Constant(elastic)),
             DampingModel::FreeStandingBlock => {
                 // C = m_eff √(g/(h/2)) c̄
                 let c = (parameters.gravity / (body.height / 2.0)).sqrt() * value;
-                (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c)
+                (if omega1 > 0.0 { c / (2.0 * omega1) } else { 0.0 }, c, BranchDamping::Constant(c))
             }
-            // C = 2 m_eff ω₁ ξ on the elastic branch, for all three
-            _ => (value, 2.0 * omega1 * value),
-        };
-        let is_computed = model != DampingModel::None && number.is_none();
-        Ok(Self { model, ratio, elastic, is_computed, omega1 })
-    }
-
-    /// Whether C is constant on every branch.
-    pub(super) fn is_constant(&self) -> bool {
-        !matches!(self.model, DampingModel::ConstantRatio | DampingModel::StiffnessProportional)
-    }
-
-    /// The damping on a branch off the elastic one, before the force falls to zero.
-    pub(super) fn on_curved_branch(&self) -> BranchDamping {
-        match self.model {
-            DampingModel::ConstantRatio => BranchDamping::SecantRatio(2.0 * self.ratio),
+            DampingModel::ConstantRatio => (value, elastic, BranchDamping::SecantRatio(2.0 * value)),
             DampingModel::StiffnessProportional => {
-                // no division by zero even where the compiler computes this ahead, for the rigid-linear law
-                BranchDamping::SecantStiffness(2.0 * self.ratio / self.omega1.max(f64::MIN_POSITIVE))
+                // ω₁ is 0 for the rigid-linear law, and the compiler may compute the quotient before it knows
+                // the model; it must not divide by zero
+                let factor = 2.0 * value / omega1.max(f64::MIN_POSITIVE);
+                (value, elastic, BranchDamping::SecantStiffness(factor))
             }
-            _ => BranchDamping::Constant(self.elastic),
-        }
+        };
+        Ok(Self { asked, ratio, elastic, rocking })
     }
 
-    /// The damping beyond u₃, where the secant stiffness is negative.
-    pub(super) fn beyond_end(&self) -> BranchDamping {
-        BranchDamping::Constant(if self.is_constant() { self.elastic } else { 0.0 })
+    /// Returns whether C is constant on every branch.
+    pub(super) fn is_constant(&self) -> bool {
+        self.rocking.constant().is_some()
+    }
+
+    /// Returns the damping on a branch: on the elastic branch, on another one before the force falls to zero,
+    /// or beyond that (`is_beyond`).
+    pub(super) fn on_branch(&self, is_elastic: bool, is_beyond: bool) -> BranchDamping {
+        if is_elastic {
+            BranchDamping::Constant(self.elastic)
+        } else if is_beyond {
+            // where the secant stiffness is negative
+            BranchDamping::Constant(self.rocking.constant().unwrap_or(0.0))
+        } else {
+            self.rocking
+        }
     }
 }

@@ -3,10 +3,10 @@
 use crate::choices::{Impact, Rocking};
 
 use super::branch::{Branch, Corner};
-use super::damping::Damping;
+use super::damping::{Damping, DampingInUse, RATIO_CUTOFF};
 use super::error::ParameterError;
 use super::force_law::RestoringForce;
-use super::layout::{self, RATIO_CUTOFF};
+use super::layout;
 use super::mechanism::Body;
 use super::parameters::{Kinematics, Parameters};
 use super::restitution;
@@ -22,7 +22,7 @@ pub struct Wall {
     pub(super) force: RestoringForce,
     rotations: Option<FullRotations>,
     tie: Option<Tie>,
-    damping: Damping,
+    damping: DampingInUse,
     restitution: f64,
     impact: bool,
     rocking: Rocking,
@@ -31,7 +31,7 @@ pub struct Wall {
     warnings: Vec<Warning>,
 }
 
-/// Parts in which a curved force is drawn between two corners.
+/// Number of straight parts that draw a curved force between two corners.
 const DRAWN_PARTS: u32 = 8;
 
 impl Wall {
@@ -46,8 +46,9 @@ impl Wall {
             Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
         };
         let force = RestoringForce::new(parameters, &body)?;
-        let restitution = restitution::coefficient(parameters, &body)?;
-        let damping = Damping::new(parameters, &body, &force, restitution)?;
+        let asked = Damping::of(parameters)?;
+        let restitution = restitution::coefficient(parameters, asked, &body)?;
+        let damping = DampingInUse::new(asked, parameters, &body, &force, restitution)?;
         let impact = parameters.impact == Impact::Restitution;
         if let Some(rotations) = &rotations {
             body.turn_fully(rotations);
@@ -95,17 +96,17 @@ impl Wall {
         &self.warnings
     }
 
-    /// Whether the force is rigid-linear: it jumps at u = 0.
+    /// Returns whether the force is rigid-linear: it jumps at u = 0.
     pub fn is_rigid(&self) -> bool {
         self.force.elastic_stiffness.is_none()
     }
 
-    /// Whether the wall can rest at u = 0: by the jump of its force, or against transverse walls.
+    /// Returns whether the wall can rest at u = 0: by the jump of its force, or against transverse walls.
     pub fn can_rest(&self) -> bool {
         self.is_rigid() || self.free_side().is_some()
     }
 
-    /// The sign of u to which a wall can rock that rocks to one side only.
+    /// Returns the sign of u to which the wall can rock, if it can rock to one side only.
     pub fn free_side(&self) -> Option<f64> {
         free_side(self.rocking)
     }
@@ -128,7 +129,8 @@ impl Wall {
         [1.0, -1.0].into_iter().filter(move |sign| free.is_none_or(|free| free == *sign))
     }
 
-    /// Whether both sides are alike, so that a motion and its reverse ask the same of the wall.
+    /// Returns whether both sides are alike. A motion and its reverse then place the same demands on the
+    /// wall.
     pub fn has_equal_sides(&self) -> bool {
         let one_tied = self.tie().is_some_and(|tie| tie.holds(1.0) != tie.holds(-1.0));
         self.body.strength.positive == self.body.strength.negative && self.sides().count() == 2 && !one_tied
@@ -139,12 +141,13 @@ impl Wall {
         self.rotations.as_ref()
     }
 
-    /// Whether C is constant on every branch.
+    /// Returns whether C is constant on every branch.
     pub fn has_constant_damping(&self) -> bool {
         self.damping.is_constant()
     }
 
-    /// Whether the motion on each branch has a closed form: C is constant there, and rotations are small.
+    /// Returns whether the motion on each branch has a closed form: C is constant there, and rotations are
+    /// small.
     pub fn has_closed_form(&self) -> bool {
         self.rotations.is_none() && self.has_constant_damping()
     }
@@ -225,7 +228,8 @@ impl Wall {
             if self.free_side() == Some(-direction) {
                 return f64::INFINITY * direction;
             }
-            // from the branches, so that a wall beyond the band is accelerated away from it bit for bit
+            // computed from the branches: with the same rounding as the acceleration, a wall just outside the
+            // band does accelerate away
             self.restoring(self.branch_of(0.0, direction), 0.0)
         })
     }

@@ -2,8 +2,6 @@
 //!
 //! Eqs. (20)–(22) were fitted over 0.005 < a₁ < 0.1.
 
-use crate::choices::DampingModel;
-
 /// Range of a₁ over which Eqs. (20)–(22) were fitted \[-\].
 pub const FITTED_A1: std::ops::RangeInclusive<f64> = 0.005..=0.1;
 
@@ -25,17 +23,6 @@ pub fn stiffness_proportional(a1: f64, restitution: f64) -> f64 {
 /// Damping coefficient ratio of an unloaded free-standing parapet, c̄ = −1.55 ln e. Eq. (23).
 pub fn free_standing_block(restitution: f64) -> f64 {
     -1.55 * restitution.ln()
-}
-
-/// ξ, ξ₁ or c̄ of a damping model; 0 without one. Eqs. (20)–(23).
-pub fn predicted(model: DampingModel, a1: f64, restitution: f64) -> f64 {
-    match model {
-        DampingModel::None => 0.0,
-        DampingModel::ConstantCoefficient => constant_coefficient(a1, restitution),
-        DampingModel::FreeStandingBlock => free_standing_block(restitution),
-        DampingModel::ConstantRatio => constant_ratio(a1, restitution),
-        DampingModel::StiffnessProportional => stiffness_proportional(a1, restitution),
-    }
 }
 
 /// Damping ratio of an elastic oscillator that decays like a rocking block over `impacts` impacts from the
@@ -69,6 +56,7 @@ pub fn housner_period(frequency: f64, rotation_ratio: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::choices::DampingModel;
 
     /// Equations (14), (17) and (20)–(23) at ln e = −1, where Eqs. (20)–(22) are c a₁ᵖ.
     #[test]
@@ -83,12 +71,14 @@ mod tests {
         ] {
             for (a1, decades) in [(1.0, 0.0), (0.01, -2.0)] {
                 let expected = coefficient * (std::f64::consts::LN_10 * power * decades).exp();
-                let found = predicted(model, a1, e);
+                let found = model.predicted_ratio(a1, e);
                 assert!((found - expected).abs() <= 1e-15, "{model:?}, {a1}: {found} for {expected}");
             }
             // in proportion to ln e, and none without loss
-            assert!((predicted(model, 0.03, e * e) - 2.0 * predicted(model, 0.03, e)).abs() <= 1e-15);
-            assert_eq!(predicted(model, 0.03, 1.0), 0.0);
+            assert!(
+                (model.predicted_ratio(0.03, e * e) - 2.0 * model.predicted_ratio(0.03, e)).abs() <= 1e-15
+            );
+            assert_eq!(model.predicted_ratio(0.03, 1.0), 0.0);
         }
         assert!((makris_konstantinidis(e) - 0.68).abs() <= 1e-15);
         assert!((giannini_masiani(1.0 / 3.0) - 1.0 / std::f64::consts::PI).abs() <= 1e-15);

@@ -63,9 +63,9 @@ pub enum ParameterError {
          the tie above the base"
     )]
     TieHeight { tie_height: f64, height: f64 },
-    /// What does not go with one-sided rocking.
+    /// A parameter that one-sided rocking does not allow.
     #[error("rocking = {rocking} does not go with {name} = {value}; set {remedy}, or rocking = two_sided")]
-    OneSided { rocking: &'static str, name: &'static str, value: String, remedy: &'static str },
+    OneSided { rocking: &'static str, name: &'static str, value: String, remedy: String },
     /// A start behind the transverse walls.
     #[error(
         "u_start = {u_start} m is behind the transverse walls of rocking = {rocking}; start the wall on the \

@@ -20,12 +20,12 @@ pub struct Line {
 }
 
 impl Line {
-    /// Force at a displacement \[N\].
+    /// Returns the force at a displacement \[N\].
     pub fn at(&self, displacement: f64) -> f64 {
         self.force + self.slope * (displacement - self.anchor)
     }
 
-    /// The same line seen from the other side, F(u) → −F(−u).
+    /// Returns the same line seen from the other side, F(u) → −F(−u).
     fn mirrored(self) -> Self {
         Self { anchor: -self.anchor, force: -self.force, slope: self.slope }
     }

@@ -1,26 +1,18 @@
 //! Lays out the branches and corners of a wall.
 
-use crate::choices::DampingModel;
-
 use super::branch::{Branch, Corner};
-use super::damping::{BranchDamping, Damping};
-use super::force_law::{Line, RestoringForce, Side};
+use super::damping::DampingInUse;
+use super::force_law::{Line, RestoringForce};
 use super::mechanism::Body;
 use super::sides::Sides;
 use super::tie::Tie;
-
-/// Fraction of u₃ before which a constant damping ratio is dropped, so that no solver meets the zero of √(u₃
-/// − u).
-///
-/// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
-pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations
 /// are full; on the one free side, if it is only one, the corner at u = 0 is the other end.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,
-    damping: &Damping,
+    damping: &DampingInUse,
     tie: Option<&Tie>,
     impact: bool,
     fully: bool,
@@ -42,12 +34,10 @@ pub(super) fn corners(
                 place(corner, |_| {});
             }
             place(side.end, |_| {});
+            place(side.end * damping.rocking.end(), |_| {});
         }
         if let Some(tie) = tie.filter(|tie| tie.holds(sign) && tie.onset() < of(body.departure)) {
             place(tie.onset(), |_| {});
-        }
-        if damping.model == DampingModel::ConstantRatio {
-            place(damped_end(side, damping), |_| {});
         }
         place(of(body.instability), |corner| corner.overturning = true);
         place(of(body.departure), |corner| corner.departure = true);
@@ -65,7 +55,7 @@ pub(super) fn corners(
 pub(super) fn branches(
     corners: &[Corner],
     force: &RestoringForce,
-    damping: &Damping,
+    damping: &DampingInUse,
     tie: Option<&Tie>,
     m: f64,
 ) -> Vec<Branch> {
@@ -76,27 +66,14 @@ pub(super) fn branches(
         let reach = middle.abs();
         let index = side.corners.partition_point(|&corner| corner <= reach);
         let line = side.lines[index];
-        let damping = if index == 0 && force.elastic_stiffness.is_some() {
-            BranchDamping::Constant(damping.elastic)
-        } else if reach > damped_end(side, damping) {
-            damping.beyond_end()
-        } else {
-            damping.on_curved_branch()
-        };
+        let is_elastic = index == 0 && force.elastic_stiffness.is_some();
+        let damping = damping.on_branch(is_elastic, reach > side.end * damping.rocking.end());
         let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
         let tie = tie.filter(|tie| tie.pulls(lower, upper));
         let Line { anchor, force, slope: stiffness } = tie.map_or(own, |tie| tie.added_to(own, middle, m));
         Branch { lower, upper, anchor, force, stiffness, own, damping }
     };
     corners.windows(2).map(between).collect()
-}
-
-/// The |u| up to which the damping of the softening branch holds \[m\].
-fn damped_end(side: &Side, damping: &Damping) -> f64 {
-    match damping.model {
-        DampingModel::ConstantRatio => side.end * (1.0 - RATIO_CUTOFF),
-        _ => side.end,
-    }
 }
 
 fn insert(corners: &mut Vec<Corner>, displacement: f64, mark: fn(&mut Corner)) {

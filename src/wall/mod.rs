@@ -30,13 +30,14 @@ mod warning;
 
 pub use branch::{Branch, Corner};
 pub use capacity::CapacityPoint;
-pub use damping::BranchDamping;
+pub(crate) use damping::DampingSeries;
+pub use damping::{BranchDamping, Damping};
 pub use equation::Wall;
 pub use error::ParameterError;
 pub use facts::Fact;
 pub use force_law::Line;
 pub use mechanism::Body;
-pub use parameters::{COMPUTABLE, COMPUTED, Kinematics, Parameters, given};
+pub use parameters::{COMPUTABLE, COMPUTED, Kinematics, Parameters};
 pub use sides::Sides;
 pub use supports::{Ends, Support};
 pub use tie::Tie;

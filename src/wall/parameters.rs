@@ -74,32 +74,11 @@ pub const COMPUTED: f64 = -1.0;
 ///
 /// # Errors
 /// [`ParameterError::NotGiven`] for a negative number other than [`COMPUTED`].
-pub fn given(name: &'static str, value: f64) -> Result<Option<f64>, ParameterError> {
+pub(super) fn given(name: &'static str, value: f64) -> Result<Option<f64>, ParameterError> {
     match value {
         COMPUTED => Ok(None),
         0.0.. => Ok(Some(value)),
         _ => Err(ParameterError::NotGiven { name, value }),
-    }
-}
-
-impl Parameters {
-    /// Sets a damping model and its number: c̄ of a free-standing block, ξ of the others, or [`COMPUTED`].
-    ///
-    /// ```
-    /// use rocking_wall::{variables::DampingModel, wall::{Parameters, Wall}};
-    ///
-    /// let mut parameters = Parameters::default();
-    /// parameters.set_damping(DampingModel::ConstantCoefficient, 0.05);
-    /// assert_eq!(Wall::new(&parameters)?.damping_ratio(), 0.05);
-    /// # Ok::<(), rocking_wall::wall::ParameterError>(())
-    /// ```
-    pub fn set_damping(&mut self, model: DampingModel, number: f64) {
-        self.damping_model = model;
-        (self.xi, self.c_bar) = match model {
-            DampingModel::None => (COMPUTED, COMPUTED),
-            DampingModel::FreeStandingBlock => (COMPUTED, number),
-            _ => (number, COMPUTED),
-        };
     }
 }
 

@@ -1,7 +1,8 @@
 //! The coefficient of restitution, Eqs. (2)–(4).
 
-use crate::choices::{DampingModel, Impact, Mechanism, RestitutionSource, Rocking};
+use crate::choices::{Impact, Mechanism, RestitutionSource, Rocking};
 
+use super::damping::Damping;
 use super::error::ParameterError;
 use super::mechanism::Body;
 use super::parameters::{Parameters, given};
@@ -57,10 +58,14 @@ pub fn analytic_one_sided(slenderness: f64) -> f64 {
 /// # Errors
 /// [`ParameterError::Restitution`] where a squat wall makes the formula leave 0…1,
 /// [`ParameterError::OneSided`] for what does not go with one-sided rocking, [`ParameterError::NotGiven`].
-pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, ParameterError> {
+pub(super) fn coefficient(
+    parameters: &Parameters,
+    damping: Damping,
+    body: &Body,
+) -> Result<f64, ParameterError> {
     let number = given("restitution", parameters.restitution)?;
     if parameters.rocking != Rocking::TwoSided {
-        return one_sided(parameters, body, number);
+        return one_sided(parameters, damping, body, number);
     }
     if let Some(number) = number {
         return Ok(number);
@@ -84,18 +89,21 @@ pub(super) fn coefficient(parameters: &Parameters, body: &Body) -> Result<f64, P
 }
 
 /// e₁ of one-sided rocking \[-\].
-fn one_sided(parameters: &Parameters, body: &Body, number: Option<f64>) -> Result<f64, ParameterError> {
+fn one_sided(
+    parameters: &Parameters,
+    damping: Damping,
+    body: &Body,
+    number: Option<f64>,
+) -> Result<f64, ParameterError> {
     let rocking = parameters.rocking.name();
-    let refuse = |name, value: String, remedy| Err(ParameterError::OneSided { rocking, name, value, remedy });
+    let refuse = |name, value: String, remedy: &str| {
+        Err(ParameterError::OneSided { rocking, name, value, remedy: remedy.into() })
+    };
     if parameters.impact != Impact::Restitution {
         return refuse("impact", parameters.impact.name().into(), "impact = restitution");
     }
-    let (name, ratio, remedy) = match parameters.damping_model {
-        DampingModel::FreeStandingBlock => ("c_bar", parameters.c_bar, "c_bar, or damping_model = none"),
-        _ => ("xi", parameters.xi, "xi, or damping_model = none"),
-    };
-    if parameters.damping_model != DampingModel::None && given(name, ratio)?.is_none() {
-        return refuse(name, "-1 (computed)".into(), remedy);
+    if let Some(name) = damping.computed_name() {
+        return refuse(name, "-1 (computed)".into(), &format!("{name}, or damping_model = none"));
     }
     let source = parameters.restitution_source;
     let value = match (number, source, body.mechanism) {

@@ -36,7 +36,7 @@ impl Support {
         }
     }
 
-    /// Whether every component is a finite number.
+    /// Returns whether every component is a finite number.
     pub fn is_finite(self) -> bool {
         self.bottom.is_finite() && self.top.is_finite() && self.drift.is_finite()
     }

@@ -65,7 +65,7 @@ impl Tie {
         }))
     }
 
-    /// Whether it resists displacements of a sign.
+    /// Returns whether the tie resists displacements of a sign.
     pub fn holds(&self, sign: f64) -> bool {
         match self.side {
             TieSide::Positive => sign > 0.0,
@@ -103,15 +103,15 @@ impl Tie {
         (self.stiffness * (self.lever * displacement.abs() - self.slack)).max(0.0)
     }
 
-    /// Whether it pulls between two displacements that no corner separates.
+    /// Returns whether the tie pulls between two displacements that no corner separates.
     pub(super) fn pulls(&self, lower: f64, upper: f64) -> bool {
         let middle = 0.5 * (lower + upper);
         let within = middle.abs() > self.onset() && middle.abs() < self.departure.of(middle);
         within && self.holds(middle)
     }
 
-    /// Whether it pulls the wall back even where that leaves its supports, so that no equilibrium is unstable
-    /// beyond the wall's own.
+    /// Returns whether the tie pulls the wall back even where the wall leaves its supports, so that no
+    /// equilibrium is unstable beyond the wall's own.
     pub(super) fn steadies(&self, force: &RestoringForce, sign: f64) -> bool {
         let end = self.departure.of(sign);
         let reaches = |line: &Line| {

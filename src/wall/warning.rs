@@ -1,8 +1,8 @@
 //! What a user should know about valid parameters.
 
-use crate::choices::{DampingModel, Mechanism, Solver};
+use crate::choices::{Mechanism, Solver};
 
-use super::damping::Damping;
+use super::damping::DampingInUse;
 use super::equivalence;
 use super::force_law::RestoringForce;
 use super::mechanism::Body;
@@ -110,21 +110,21 @@ impl Warning {
         body: &Body,
         force: &RestoringForce,
         tie: Option<&Tie>,
-        damping: &Damping,
+        damping: &DampingInUse,
         restitution: Option<f64>,
     ) -> Vec<Self> {
         let unused = usage(parameters).filter(|usage| !usage.is_start && !usage.matters);
         let mut warnings: Vec<_> =
             unused.map(|Usage { name, condition, .. }| Self::NoEffect { name, condition }).collect();
-        let computed = damping.is_computed;
-        let free_standing = damping.model == DampingModel::FreeStandingBlock;
-        if computed && free_standing && (body.mechanism != Mechanism::Parapet || body.overburden > 0.0) {
+        let computed = damping.asked.computed_name();
+        let is_plain_parapet = body.mechanism == Mechanism::Parapet && body.overburden <= 0.0;
+        if computed == Some("c_bar") && !is_plain_parapet {
             warnings.push(Self::ComputedFreeStanding);
         }
-        if computed && restitution.is_some() {
+        if computed.is_some() && restitution.is_some() {
             warnings.push(Self::CountedTwice);
         }
-        if computed && !free_standing && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
+        if computed == Some("xi") && !equivalence::FITTED_A1.contains(&force.elastic_fraction) {
             warnings.push(Self::OutsideFit { a1: force.elastic_fraction });
         }
         if damping.elastic == 0.0 && restitution == Some(1.0) {
@@ -146,7 +146,7 @@ impl Warning {
         warnings
     }
 
-    /// Whether it says that runs take long.
+    /// Returns whether the warning says that runs take long.
     pub fn is_about_work(&self) -> bool {
         matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
     }

@@ -22,39 +22,45 @@ PROBE = 1e-7
 # flights shorter than this are those of a constant acceleration
 SHORT = 1e-5
 
-TIE = {"y": 3.0, "K": 2.0e5, "g0": 0.03, "side": "positive"}
+CDC = {"damping_model": "constant_coefficient"}
+CDR = {"damping_model": "constant_ratio"}
+SDR = {"damping_model": "stiffness_proportional"}
+NONE = {"damping_model": "none"}
 CASES = {
     "t01_tie_stiff_free": {
-        "law": "bilinear", "damping": {"kind": "CDC", "xi": 0.02}, "u0": -0.8, "t_end": 12.0,
-        "tie": {"y": 4.0, "K": 2.25e7, "g0": 0.05, "side": "positive"},
+        "law": "bilinear", "damping": CDC | {"xi": 0.02}, "u0": -0.8, "t_end": 12.0,
+        "tie": {"tie_height": 4.0, "tie_stiffness": 2.25e7, "tie_slack": 0.05, "tie_side": "positive"},
     },
     "t02_tie_sdr_record": {
-        "law": "bilinear", "damping": {"kind": "SDR", "xi": 0.05}, "record": 0.6, "t_end": 20.0,
-        "tie": {"y": 3.0, "K": 2.0e5, "g0": 0.0, "side": "both"},
+        "law": "bilinear", "damping": SDR | {"xi": 0.05}, "record": 0.6, "t_end": 20.0,
+        "tie": {"tie_height": 3.0, "tie_stiffness": 2.0e5, "tie_slack": 0.0, "tie_side": "both"},
     },
     "t03_tie_rigid_record": {
-        "law": "rigid", "damping": {"kind": "none", "e": 0.93}, "record": 0.6, "t_end": 6.0, "tie": TIE,
+        "law": "rigid_linear", "damping": NONE, "restitution": 0.93, "record": 0.6, "t_end": 6.0,
+        "tie": {"tie_height": 3.0, "tie_stiffness": 2.0e5, "tie_slack": 0.03, "tie_side": "positive"},
     },
     "t04_tie_cdr_free": {
-        "law": "bilinear", "damping": {"kind": "CDR", "xi": 0.03}, "u0": 0.9, "t_end": 15.0,
-        "tie": {"y": 2.0, "K": 3.0e4, "g0": 0.05, "side": "both"},
+        "law": "bilinear", "damping": CDR | {"xi": 0.03}, "u0": 0.9, "t_end": 15.0,
+        "tie": {"tie_height": 2.0, "tie_stiffness": 3.0e4, "tie_slack": 0.05, "tie_side": "both"},
     },
     "o01_one_sided_free": {
-        "law": "rigid", "damping": {"kind": "none", "e": 0.47}, "u0": 0.9, "t_end": 8.0, "side": 1.0,
+        "law": "rigid_linear", "damping": NONE, "restitution": 0.47, "u0": 0.9, "t_end": 8.0, "side": 1.0,
     },
     "o02_one_sided_pulse": {
-        "law": "bilinear", "damping": {"kind": "CDC", "xi": 0.02, "e": 0.4}, "ricker": [3.0, 0.9, 1.5],
+        "law": "bilinear", "damping": CDC | {"xi": 0.02}, "restitution": 0.4, "ricker": [3.0, 0.9, 1.5],
         "t_end": 8.0, "side": 1.0,
     },
     "o03_one_sided_record": {
-        "law": "rigid", "damping": {"kind": "none", "e": 0.48}, "record": 0.9, "t_end": 20.0, "side": -1.0,
+        "law": "rigid_linear", "damping": NONE, "restitution": 0.48, "record": 0.9, "t_end": 20.0,
+        "side": -1.0,
     },
     "o04_one_sided_elastic_record": {
-        "law": "bilinear", "damping": {"kind": "none", "e": 0.35}, "record": 0.7, "t_end": 20.0, "side": 1.0,
+        "law": "bilinear", "damping": NONE, "restitution": 0.35, "record": 0.7, "t_end": 20.0, "side": 1.0,
     },
     "o05_one_sided_tie_record": {
-        "law": "bilinear", "damping": {"kind": "CDC", "xi": 0.03, "e": 0.45}, "record": 0.7, "t_end": 15.0,
-        "side": 1.0, "tie": {"y": 3.5, "K": 5.0e4, "g0": 0.01, "side": "positive"},
+        "law": "bilinear", "damping": CDC | {"xi": 0.03}, "restitution": 0.45, "record": 0.7, "t_end": 15.0,
+        "side": 1.0,
+        "tie": {"tie_height": 3.5, "tie_stiffness": 5.0e4, "tie_slack": 0.01, "tie_side": "positive"},
     },
 }
 
@@ -67,10 +73,11 @@ class Block:
         self.inertia = self.mass * H**2 / 3
         self.strength, self.slope = WEIGHT * B / H, 2 * WEIGHT / H
         self.u_ins = self.strength / self.slope
-        self.rigid = case["law"] == "rigid"
+        self.rigid = case["law"] == "rigid_linear"
         self.end = 0.0 if self.rigid else 0.03 * self.u_ins
         self.elastic = None if self.rigid else self.slope * (self.u_ins - self.end) / self.end
-        self.damping, self.tie, self.side = case["damping"], case.get("tie"), case.get("side")
+        self.damping, self.restitution = case["damping"], case.get("restitution")
+        self.tie, self.side = case.get("tie"), case.get("side")
         effective = self.inertia / (H / 2) ** 2
         self.omega = None if self.rigid else math.sqrt(self.elastic / effective)
         self.effective, self.rate = effective, math.sqrt(self.slope / effective)
@@ -88,8 +95,8 @@ class Block:
     def onsets(self):
         if self.tie is None:
             return []
-        u = self.tie["g0"] * H / (2 * self.tie["y"])
-        return {"positive": [u], "negative": [-u], "both": [-u, u]}[self.tie["side"]]
+        u = self.tie["tie_slack"] * H / (2 * self.tie["tie_height"])
+        return {"positive": [u], "negative": [-u], "both": [-u, u]}[self.tie["tie_side"]]
 
     def ground(self, t):
         if self.samples is not None:
@@ -112,25 +119,29 @@ class Block:
         """Force of the tie."""
         if self.tie is None:
             return 0.0
-        w = 2 * u * self.tie["y"] / H
-        reach = {"positive": w, "negative": -w, "both": abs(w)}[self.tie["side"]] - self.tie["g0"]
-        return math.copysign(self.tie["K"] * max(0.0, reach), u)
+        w = 2 * u * self.tie["tie_height"] / H
+        reach = {"positive": w, "negative": -w, "both": abs(w)}[self.tie["tie_side"]] - self.tie["tie_slack"]
+        return math.copysign(self.tie["tie_stiffness"] * max(0.0, reach), u)
 
     def coefficient(self, u):
-        kind = self.damping["kind"]
-        if kind == "none":
+        if self.damping == NONE:
             return 0.0
         inside = abs(u) <= self.end
         secant = self.elastic if inside else max(0.0, self.own(abs(u), 1.0) / abs(u))
         omega = math.sqrt(secant / self.effective)
-        share = {"CDC": self.omega, "CDR": omega, "SDR": omega**2 / self.omega}[kind]
+        shares = {
+            "constant_coefficient": self.omega,
+            "constant_ratio": omega,
+            "stiffness_proportional": omega**2 / self.omega,
+        }
+        share = shares[self.damping["damping_model"]]
         return 2 * self.effective * self.damping["xi"] * share
 
     def acceleration(self, t, u, v, sign):
         """u is the displacement at mid-height, u = angle h/2."""
         moment = (self.own(u, sign) + self.coefficient(u) * v + self.mass * self.ground(t)) * H / 2
         if self.tie is not None:
-            moment += self.pull(u) * self.tie["y"]
+            moment += self.pull(u) * self.tie["tie_height"]
         return -moment / self.inertia * H / 2
 
 
@@ -237,8 +248,8 @@ class Run:
 
     def pass_zero(self, sign):
         block = self.block
-        e = block.damping.get("e", 1.0)
-        if "e" in block.damping:
+        e = 1.0 if block.restitution is None else block.restitution
+        if block.restitution is not None:
             self.impacts += 1
         self.v *= e if block.side is None else -e
         self.heading = sign if block.side is not None else -sign
@@ -272,6 +283,44 @@ def history(case, factor=1.0):
     return np.array(rows), run
 
 
+def scene(case, block):
+    """Returns the case as the text of a scene file."""
+    geometry = {
+        "mechanism": "parapet", "height": H, "thickness": B, "density": WEIGHT / (G * H * B), "gravity": G,
+    }
+    law = {"force_law": case["law"]}
+    if not block.rigid:
+        law |= {"a1": 0.03, "a3": 1.0, "softening": "parallel"}
+    impact = {}
+    if block.restitution is not None:
+        impact = {"impact": "restitution", "restitution": block.restitution}
+    if block.side is not None:
+        impact["rocking"] = "one_sided_positive" if block.side > 0.0 else "one_sided_negative"
+    motion = {}
+    if block.samples is not None:
+        record = "records/R1_dt005.csv"
+        motion = {"record": record, "unit": "m/s2", "step": 0.005, "scale": case["record"]}
+    elif block.ricker is not None:
+        amplitude, frequency, centre = block.ricker
+        motion = {"ricker": {"amplitude": amplitude, "frequency": frequency, "centre": centre}}
+    tables = {
+        "geometry": geometry, "force_law": law, "damping": case["damping"], "impact": impact,
+        "tie": case.get("tie"), "start": {"u_start": case.get("u0", 0.0) * block.u_ins, "u_dot_start": 0.0},
+        "solver": {"tolerance": 1e-12}, "motion": motion,
+    }
+    lines = [f"stop_time = {case['t_end']}"] if motion else ["inputs = []", f"stop_time = {case['t_end']}"]
+    for name, table in tables.items():
+        if table:
+            lines += ["", f"[{name}]", *(f"{key} = {toml(value)}" for key, value in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def toml(value):
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(item)}" for key, item in value.items()) + " }"
+    return json.dumps(value)
+
+
 def write(name):
     case = CASES[name]
     rows, run = history(case)
@@ -283,28 +332,12 @@ def write(name):
         sensitivity = np.maximum(sensitivity, np.maximum.accumulate(apart))
     beyond = np.nonzero(sensitivity > 1e5)[0]
     horizon = float(rows[beyond[0], 0]) if len(beyond) else case["t_end"]
-    law = {"typ": case["law"]} | ({} if block.rigid else {"a1": 0.03, "a3": 1.0, "soften": "parallel"})
-    excitation = {"kind": "none"}
-    if block.samples is not None:
-        excitation = {"kind": "record", "dt": 0.005, "scale": case["record"], "file": "records/R1_dt005.csv"}
-    elif block.ricker is not None:
-        amplitude, frequency, centre = block.ricker
-        excitation = {"kind": "ricker", "A": amplitude, "f": frequency, "t0": centre}
-    result = {
-        "name": name, "g": G, "wall": {"kind": "PW", "b": B, "h": H, "W": WEIGHT}, "c_mode": "mirrored",
-        "derived": {"uinsp": block.u_ins, "uinsm": block.u_ins}, "law": law, "damping": block.damping,
-        "excitation": excitation, "u0": case.get("u0", 0.0) * block.u_ins, "v0": 0.0,
-        "t_end": case["t_end"], "dt_out": 0.01,
-        "result": {"overturned": bool(run.peak > block.u_ins), "t_overturn": None, "umax": run.peak,
-                   "n_impacts": run.impacts},
-        "accuracy": {"double_vs_quad_over_uins": 0.0, "sensitivity_max": float(sensitivity.max()),
-                     "horizon_S_below_1e5": horizon},
+    (FOLDER / f"{name}.toml").write_text(scene(case, block))
+    reference = {
+        "u_ins": block.u_ins, "u_max": run.peak, "overturn_time": None, "horizon": horizon,
+        "error_in_double": 0.0,
     }
-    if block.side is not None:
-        result["rocking"] = "one_sided_positive" if block.side > 0.0 else "one_sided_negative"
-    if block.tie is not None:
-        result["tie"] = block.tie
-    (FOLDER / f"{name}.json").write_text(json.dumps(result, indent=1) + "\n")
+    (FOLDER / f"{name}.json").write_text(json.dumps(reference, indent=1) + "\n")
     lines = [f"{t:.6f},{u!r},{v!r},{s:.6g}" for (t, u, v), s in zip(rows.tolist(), sensitivity)]
     (FOLDER / f"{name}.csv").write_text("\n".join(["t,u,v,sensitivity", *lines]) + "\n")
     print(name, "peak", run.peak / block.u_ins, "impacts", run.impacts, "S", sensitivity.max(), horizon)

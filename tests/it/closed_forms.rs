@@ -209,6 +209,27 @@ fn decay_by_restitution() {
     );
 }
 
+/// A rigid wall that keeps nearly all of its velocity is put to rest at the 100,000th impact of a segment.
+/// The step says so.
+#[test]
+fn too_many_impacts_end_at_rest() {
+    let mut simulation = start(&Parameters {
+        force_law: ForceLaw::RigidLinear,
+        impact: Impact::Restitution,
+        restitution: 0.9999,
+        u_start: 1e-6,
+        ..undamped()
+    });
+    let still = Support::default();
+    let step =
+        simulation.advance(&Segment { duration: 1e3, from: still, to: still }).expect("it ends at rest");
+    let progress = simulation.progress();
+    assert!(step.put_to_rest);
+    assert_eq!((progress.state.phase, progress.work.impacts), (Phase::Resting, 100_000));
+    let step = simulation.advance(&Segment { duration: 1e3, from: still, to: still }).expect("it rests");
+    assert!(!step.put_to_rest);
+}
+
 /// Table 5 of the paper: the analytic and calibrated e of the nine walls, to the last printed digit.
 #[test]
 fn restitution_of_table_5() {

@@ -5,12 +5,12 @@ use proptest::prelude::*;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::{Demands, Extremes, Segment};
-use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
-use rocking_wall::wall::{Parameters, Support};
+use rocking_wall::solver::{Demands, Extremes, Instant, Segment};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
+use rocking_wall::wall::{Ends, Parameters, Support};
 
-use crate::command_line::{folder, refused, text, wall};
-use crate::properties::{configuration, walls};
+use crate::configuration::{configuration, mostly};
+use crate::properties::walls;
 
 const FREE: Segment = Segment {
     duration: 0.01,
@@ -35,9 +35,17 @@ fn free(parameters: &Parameters, steps: u32, fractions: &[f64]) -> (Simulation, 
 /// 1e-11 of the value is ten times the stated accuracy, which allows for rounding of the motion. Times are
 /// accurate to 1e-6 of the time scale.
 #[track_caller]
-fn assert_instant(found: rocking_wall::solver::Instant, value: f64, time: f64, scale: f64) {
+fn assert_instant(found: Instant, value: f64, time: f64, scale: f64) {
     assert!((found.value - value).abs() <= 1e-11 * value.abs(), "{} for {value}", found.value);
     assert!((found.time - time).abs() <= 1e-5 * scale, "{} s for {time} s", found.time);
+}
+
+#[test]
+fn of_extremes_of_one_size_the_highest_is_the_largest() {
+    let [low, high] = [-0.2, 0.2].map(|value| Instant { value, time: 1.0 - value });
+    let larger = Instant { value: -0.3, time: 0.7 };
+    assert_eq!(Extremes { highest: high, lowest: low }.largest(), high);
+    assert_eq!(Extremes { highest: high, lowest: larger }.largest(), larger);
 }
 
 /// u = u₀ cos ωt; no extreme falls on a sample at 10 ms.
@@ -116,6 +124,52 @@ fn half_cycles_are_excursions() {
     assert_eq!(2 * demands.half_cycles, corners + 1, "{corners} corners");
 }
 
+/// The impulses of a step are the integrals of the reactions, here by Simpson's rule on 200 parts of one
+/// branch. A wall that leaves its supports within the step has those up to there, as in parts.
+#[test]
+fn impulses_are_integrals_of_the_reactions() {
+    let supports =
+        [[0.4, -0.3, 1e-3], [-0.2, 0.5, -2e-3]].map(|[bottom, top, drift]| Support { bottom, top, drift });
+    let at = |part: u32| supports[0].towards(supports[1], f64::from(part) / 200.0);
+    for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
+        for (start, duration, departs) in [(0.5, 0.1, false), (0.97, 1.5, true)] {
+            let wall =
+                Parameters { mechanism, xi: 0.05, overburden: 2e3, u_start: 0.0, ..Parameters::default() };
+            let upright = Simulation::new(&wall, None, 0.0, supports[0]).unwrap();
+            let u_ins = upright.wall().body().instability.positive;
+            // pushed outwards where it is to leave its supports
+            let u_dot_start = if departs { 2.0 * u_ins } else { 0.0 };
+            let wall = Parameters { u_start: start * u_ins, u_dot_start, ..wall };
+            let mut whole = Simulation::new(&wall, None, 0.0, supports[0]).unwrap();
+            let mut parts = whole.clone();
+            let (mut sum, mut integral) = (Ends::default(), Ends::default());
+            for part in 0..200 {
+                let weight =
+                    duration / 200.0 / 3.0 * if part == 0 { 1.0 } else { f64::from(2 + 2 * (part % 2)) };
+                let reactions = parts.outputs(at(part)).reactions;
+                integral.bottom += weight * reactions.bottom;
+                integral.top += weight * reactions.top;
+                let segment = Segment { duration: duration / 200.0, from: at(part), to: at(part + 1) };
+                let impulses = parts.advance(&segment).unwrap().impulses;
+                sum.bottom += impulses.bottom;
+                sum.top += impulses.top;
+            }
+            let last = parts.outputs(supports[1]).reactions;
+            integral.bottom += duration / 600.0 * last.bottom;
+            integral.top += duration / 600.0 * last.top;
+            let [from, to] = supports;
+            let done = whole.advance(&Segment { duration, from, to }).unwrap();
+            assert_eq!(done.departed, departs, "{mechanism:?}");
+            let size = upright.wall().body().weight * duration;
+            let apart = |other: Ends| {
+                (done.impulses.bottom - other.bottom).abs().max((done.impulses.top - other.top).abs()) / size
+            };
+            assert!(apart(sum) < 1e-12, "{mechanism:?}, departs {departs}: {:e}", apart(sum));
+            assert!(departs || apart(integral) < 1e-10, "{mechanism:?}: {:e}", apart(integral));
+        }
+    }
+}
+
 /// The least and most of a quantity.
 fn widen(range: &mut [f64; 2], value: f64) {
     *range = [range[0].min(value), range[1].max(value)];
@@ -151,14 +205,15 @@ proptest! {
             prop_assert_eq!(bits(&alone), bits(&watched));
         }
     }
+}
 
-    /// No dense sample exceeds the extremes, and the extremes exceed the dense samples by no more than
-    /// sampling misses.
-    #[test]
-    fn extremes_hold_between_samples(
-        parameters in walls(),
-        motion in prop::collection::vec((-1.5_f64..1.5, -1.5_f64..1.5, -1e-3_f64..1e-3), 8..20),
-    ) {
+/// No dense sample exceeds the extremes, and the extremes exceed the dense samples by no more than sampling
+/// misses, which only a smooth u̇ bounds.
+#[test]
+fn extremes_hold_between_samples() {
+    let motions = prop::collection::vec((-1.5_f64..1.5, -1.5_f64..1.5, -1e-3_f64..1e-3), 8..20);
+    // smooth were 0.31
+    mostly(0.2, (walls(), motions), |(parameters, motion)| {
         const PARTS: u32 = 400;
         let step = 0.04;
         let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
@@ -215,45 +270,20 @@ proptest! {
             prop_assert!(highest.value >= high - 1e-6 * most, "{index}: {} for {high}", highest.value);
             prop_assert!(lowest.value <= low + 1e-6 * most, "{index}: {} for {low}", lowest.value);
         }
-        // between samples δ apart, a smooth u̇ exceeds them by at most its size times (ωδ)²/8; that of a
-        // rigid wall has a kink at u = 0
+        // Between samples δ apart, a smooth u̇ exceeds them by at most its size times (ωδ)²/8. That of a
+        // rigid wall has a kink at u = 0, and one that ends at overturning ends between samples.
         let turn = stiffest.sqrt() * step / f64::from(PARTS);
-        if turn < 0.1 && !simulation.wall().is_rigid() && simulation.wall().passage_factor() == 1.0 {
+        let wall = simulation.wall();
+        let is_smooth = turn < 0.1 && !wall.is_rigid() && wall.passage_factor() == 1.0;
+        let is_smooth = is_smooth && !dense.progress().state.overturned;
+        if is_smooth {
             let [low, high] = ranges[1];
             let missed = (0.125 * turn * turn + 1e-3) * most[1];
             prop_assert!(demands.velocity.highest.value <= high.max(0.0) + missed);
             prop_assert!(demands.velocity.lowest.value >= low.min(0.0) - missed);
         }
-    }
-}
-
-#[test]
-fn the_program_reports_demands() {
-    let folder = folder("demands");
-    let output = wall(&folder, &["simulate", "--synthetic", "--json", "--thresholds", "0.5,1"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let demands = &summary["demands"];
-    assert_eq!(demands["thresholds"][1]["time"], summary["overturn_time"]);
-    assert_eq!(demands["thresholds"][0]["fraction"], 0.5);
-    assert!(demands["reaction_bottom"]["lowest"]["value"].as_f64().unwrap() < 0.0);
-    let output = text(&wall(&folder, &["simulate", "--synthetic", "--html", "page.html"]).stdout);
-    for words in
-        ["base force", "first reached  0.1 u_ins at", "half cycles", "residual u", "up to overturning"]
-    {
-        assert!(output.contains(words), "no {words:?} in {output}");
-    }
-    assert!(std::fs::read_to_string(folder.join("page.html")).unwrap().contains("0.1 u_ins at"));
-    let refused_folder = crate::command_line::folder("demands_refused");
-    for bad in ["0", "1.5", "nan", "-0.1"] {
-        refused(
-            &refused_folder,
-            &["simulate", &format!("--thresholds={bad}")],
-            &["thresholds", "above 0 and at most 1"],
-        );
-    }
-    std::fs::write(refused_folder.join("bad.toml"), "thresholds = [0.4, 2]\n").unwrap();
-    refused(&refused_folder, &["simulate", "bad.toml"], &["bad.toml", "line 1", "thresholds", "2"]);
+        Ok([usize::from(is_smooth), 1])
+    });
 }
 
 /// The limit states of a scene are used, and are kept when the scene is written.

@@ -4,7 +4,7 @@
 use fmu_export::{Environment, Experiment, Interface, Log, Model as _, ModelExchange as _};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Handled, Simulation};
-use rocking_wall::solver::{Event, Phase, Work};
+use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
@@ -89,6 +89,39 @@ fn an_event_reports_every_corner_on_the_way() {
     assert_eq!(simulation.progress().overturn_time, Some(3.0));
 }
 
+/// Each indicator is the distance to its corner or to the edge of the band of rest, over its scale, and 1e-12
+/// more: positive on the branch, and zero that much beyond.
+#[test]
+fn indicators_are_distances_to_the_next_event() {
+    let near = |found: [f64; INDICATORS], expected: [f64; INDICATORS]| {
+        let apart = found.iter().zip(expected).map(|(a, b)| (a - b - 1e-12).abs()).fold(0.0, f64::max);
+        assert!(apart <= 1e-15, "{found:?} for {expected:?}");
+    };
+    let still = Support::default();
+    let damping_model = DampingModel::None;
+    let mut simulation =
+        start(&Parameters { a1: 0.05, u_start: 0.15, damping_model, ..Parameters::default() });
+    let body = simulation.wall().body().clone();
+    let (u_ins, rate) = (body.instability.positive, simulation.wall().rocking_rate());
+    // between u₁ = 0.01 m and the end of the force at u_ins
+    near(simulation.indicators(false, still), [0.14 / u_ins, (u_ins - 0.15) / u_ins, 0.0]);
+    simulation.set_motion(0.005, -0.3);
+    near(simulation.indicators(false, still), [-0.005 / u_ins, (u_ins - 0.005) / u_ins, 0.145 / u_ins]);
+    // beyond its largest |u|, u̇ outwards counts
+    near(
+        simulation.indicators(true, still),
+        [-0.005 / u_ins, (u_ins - 0.005) / u_ins, -0.3 / (u_ins * rate)],
+    );
+    let simulation = start(&Parameters { u_start: 0.0, ..rigid() });
+    let onset = body.strength.positive / body.effective_mass;
+    let pushed = Support::rigid(0.25 * onset / body.forcing(Support::rigid(1.0)));
+    near(simulation.indicators(false, pushed), [0.625, 0.375, 0.0]);
+    let end = simulation.wall().corners().last().unwrap().displacement;
+    let mut simulation = start(&rigid());
+    event_at(&mut simulation, end + 0.01, 1.0);
+    assert_eq!(simulation.indicators(false, still), [1.0; INDICATORS], "it has landed");
+}
+
 /// A drift counts from the first event or completed step on, and for good: its couple acts.
 #[test]
 fn a_drift_is_remembered() {
@@ -105,6 +138,13 @@ fn a_drift_is_remembered() {
         {
             accept(&mut simulation, support);
             assert_eq!(simulation.progress().drift, remembered, "{support:?}");
+            // a drift that is given now acts before it is remembered
+            for (given, acts) in [(Support::default(), remembered), (drifting, true)] {
+                let outputs = simulation.outputs(given);
+                let body = simulation.wall().body();
+                let wanted = body.reactions(given, outputs.acceleration, outputs.displacement, acts);
+                assert_eq!(outputs.reactions, wanted, "{given:?} after {support:?}");
+            }
         }
     }
 }

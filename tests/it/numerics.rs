@@ -1,16 +1,16 @@
 //! Orders, energy, dimensionless groups, work.
 
 use proptest::prelude::*;
+use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Support, Wall};
-use study::accuracy::{Setting, defaults, measure_at};
 
-use crate::properties::{configuration, motions};
+use crate::configuration::mostly;
+use crate::properties::{COMPARED, motions};
 
 fn parapet() -> Parameters {
     Parameters {
@@ -84,7 +84,8 @@ fn observed(
         let error = (end_of_run(parameters, tolerance, forced, count, corrected) - reference).abs();
         (forced.duration / f64::from(count), error)
     };
-    order(&(0..7).map(error).collect::<Vec<_>>())
+    // smaller errors are the rounding of the 65,536 steps of the reference
+    order(&(0..7).map(error).filter(|(_, error)| *error > 1e-13).collect::<Vec<_>>())
 }
 
 /// Newmark's linear acceleration is of order 2 inside a branch; a corner it does not locate costs h³ once, an
@@ -169,47 +170,65 @@ fn work_is_stored_or_dissipated() {
     assert!(peak > 0.1 && lost > 0.1 * largest, "the wall rocks and loses: {peak}, {lost}");
 }
 
-proptest! {
-    #![proptest_config(configuration())]
-
-    /// A parapet and a strip with equal dimensionless groups move alike (physics of the model: u/u_ins over t
-    /// √(k₀/m_eff) depends on a₁, a₃, d₁, softening, ξ, e and λ m_eff a_g/F₀ alone).
-    #[test]
-    fn equal_groups_move_alike(
-        law in 0..3_i32, model in 1..5_i32, a1 in 0.005_f64..0.1, a3 in 0.85_f64..1.0, d1 in 0.5_f64..0.7,
-        xi in 0.0_f64..0.1, e in 0.7_f64..0.99, impact in any::<bool>(), softening in 0..3_i32,
-        heights in (0.3_f64..20.0, 0.3_f64..20.0), hinge_ratio in 0.2_f64..0.8, motion in motions(),
-    ) {
+/// A parapet and a strip with equal dimensionless groups move alike (physics of the model: u/u_ins over
+/// t √(k₀/m_eff) depends on a₁, a₃, d₁, softening, ξ, e and λ m_eff a_g/F₀ alone).
+#[test]
+fn equal_groups_move_alike() {
+    let law = (0..3_i32, 0.005_f64..0.1, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
+    let damping = (1..5_i32, 0.0_f64..0.1, 0.7_f64..0.99, any::<bool>());
+    let shape = (0.3_f64..20.0, 0.3_f64..20.0, 0.2_f64..0.8);
+    mostly(COMPARED, (law, damping, shape, motions()), |(law, damping, shape, motion)| {
+        let (law, a1, a3, d1, softening) = law;
+        let (model, xi, e, impact) = damping;
+        let (parapet_height, strip_height, hinge_ratio) = shape;
         let force_law = ForceLaw::ALL[usize::try_from(law).unwrap()];
         let model = DampingModel::ALL[usize::try_from(model).unwrap()];
         let rigid = force_law == ForceLaw::RigidLinear;
         prop_assume!(model != DampingModel::FreeStandingBlock);
         let damping_model = if rigid { DampingModel::None } else { model };
         let common = Parameters {
-            force_law, a1, a3, d1, xi, damping_model,
+            force_law,
+            a1,
+            a3,
+            d1,
+            xi,
+            damping_model,
             softening: Softening::ALL[usize::try_from(softening).unwrap()],
             impact: if impact { Impact::Restitution } else { Impact::None },
-            restitution: e, tolerance: 1e-13, ..parapet()
+            restitution: e,
+            tolerance: 1e-13,
+            ..parapet()
         };
-        let parapet = Parameters { height: heights.0, thickness: 0.1 * heights.0, ..common.clone() };
+        let parapet =
+            Parameters { height: parapet_height, thickness: 0.1 * parapet_height, ..common.clone() };
         let strip = Parameters {
-            mechanism: Mechanism::VerticalSpanning, height: heights.1,
-            thickness: 0.05 * heights.1 * hinge_ratio, hinge_ratio, ..common
+            mechanism: Mechanism::VerticalSpanning,
+            height: strip_height,
+            thickness: 0.05 * strip_height * hinge_ratio,
+            hinge_ratio,
+            ..common
         };
         let one = normalised(&parapet, &motion, 1.0);
         let changed = normalised(&parapet, &motion, 1.0 + 1e-8);
         let other = normalised(&strip, &motion, 1.0);
-        let standing = one.iter().zip(&changed).zip(&other)
-            .take_while(|((a, b), c)| a.abs() <= 1.0 && b.abs() <= 1.0 && c.abs() <= 1.0).count();
+        let standing = one
+            .iter()
+            .zip(&changed)
+            .zip(&other)
+            .take_while(|((a, b), c)| a.abs() <= 1.0 && b.abs() <= 1.0 && c.abs() <= 1.0)
+            .count();
         let apart = |a: &[f64], b: &[f64]| {
             a.iter().zip(b).take(standing).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
         let amplification = 1.0 + apart(&one, &changed) / 1e-8;
-        prop_assume!(amplification < 1e5);
+        if amplification >= 1e5 {
+            return Ok([0, one.len()]);
+        }
         let allowed = 1e-11_f64.max(100.0 * f64::EPSILON * amplification);
         let difference = apart(&one, &other);
         prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
-    }
+        Ok([standing, one.len()])
+    });
 }
 
 /// Returns u/u_ins under a piecewise linear motion, in units of F₀/m_eff and of the wall's own time scale.
@@ -227,31 +246,6 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let mut observe = |_, u: f64, _| history.push(u / scale);
     solver.run_observed(start, Forcing::Samples(&forcing), false, &mut observe).unwrap();
     history
-}
-
-/// For mild to very stiff walls and any step, the exact solver agrees with the adaptive one at 1e-13 to
-/// max(1e-10, 100 ε S). With secant damping the adaptive solver keeps its tolerance of 1e-8, or ten times its
-/// local share of it (1e-12), amplified.
-#[test]
-fn default_problems_stay_within_rounding() {
-    let mut compared = 0;
-    for problem in defaults(None).unwrap() {
-        let exact = Wall::new(&problem.parameters).unwrap().has_constant_damping();
-        let settings: &[Setting] =
-            if exact { &[Setting::Exact(1), Setting::Exact(4)] } else { &[Setting::Adaptive(1e-8)] };
-        let study = measure_at(&problem, settings, 0.0).unwrap();
-        // beyond 1e6 histories cannot be compared
-        if study.amplification > 1e6 {
-            continue;
-        }
-        compared += 1;
-        let floor = if exact { 1e-10 } else { 1e-8_f64.max(1e-11 * study.amplification) };
-        for row in &study.measurements {
-            let (error, allowed) = (row.error_max, study.rounding().max(floor));
-            assert!(error <= allowed, "{}, {:?}: {error:e} of {allowed:e}", study.name, row.setting);
-        }
-    }
-    assert!(compared >= 10, "only {compared} of the problems could be compared");
 }
 
 /// Pins the work of the committed scenes: a change that costs more shows here first.

@@ -2,13 +2,14 @@
 //! solvers.
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Softening, Solver,
 };
 use rocking_wall::wall::{Parameters, Support, Wall};
+
+use crate::configuration::{configuration, mostly};
 
 /// A random valid wall at rest.
 pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
@@ -98,25 +99,18 @@ impl Run {
     }
 }
 
-/// Largest |Δu|/u_ins between two histories while the wall stands: beyond, differences grow without bound.
-fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> f64 {
+/// Largest |Δu|/u_ins between two histories while the wall stands, and the number of samples until then:
+/// beyond, differences grow without bound.
+fn apart(a: &[Progress], b: &[Progress], scale: f64, sign: f64) -> (f64, usize) {
     let standing = a.iter().zip(b).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
     standing
         .map(|(a, b)| (a.state.displacement - sign * b.state.displacement).abs() / scale)
-        .fold(0.0, f64::max)
+        .fold((0.0, 0), |(most, count), difference| (most.max(difference), count + 1))
 }
 
-/// The same cases every time, unless PROPTEST_RNG_SEED names others (or `random` ones) and PROPTEST_CASES how
-/// many.
-pub(crate) fn configuration() -> ProptestConfig {
-    let mut configuration = ProptestConfig { cases: 200, ..ProptestConfig::default() };
-    match std::env::var("PROPTEST_RNG_SEED") {
-        Ok(_) => configuration.cases = ProptestConfig::default().cases,
-        Err(_) => configuration.rng_seed = RngSeed::Fixed(1),
-    }
-    configuration.max_global_rejects = 10 * configuration.cases;
-    configuration
-}
+/// Least share of the samples that a property compares: the others lie beyond overturning, or belong to
+/// motions that amplify rounding too much. Found were 0.77 and more.
+pub(crate) const COMPARED: f64 = 0.65;
 
 /// Relative change of the motion that shows how much the wall amplifies.
 const PROBE: f64 = 1e-8;
@@ -130,7 +124,7 @@ fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     let changes: [fn(usize) -> f64; 2] = [|_| PROBE, |index| if index % 2 == 0 { PROBE } else { -PROBE }];
     let difference = |change: &fn(usize) -> f64| {
         let probed: Vec<_> = motion.iter().enumerate().map(|(index, a)| a * (1.0 + change(index))).collect();
-        apart(&history, &Run::new(run.parameters.clone(), &probed).history(0.0, 1), run.scale(), 1.0)
+        apart(&history, &Run::new(run.parameters.clone(), &probed).history(0.0, 1), run.scale(), 1.0).0
     };
     let amplification = 1.0 + changes.iter().map(difference).sum::<f64>() / PROBE;
     let pieces =
@@ -139,62 +133,97 @@ fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
 }
 
 /// Compares a motion with the same one in parts.
-pub(crate) fn splits(parameters: Parameters, motion: &[f64], parts: u32) -> Result<(), TestCaseError> {
-    let run = Run::new(parameters, motion);
-    let allowed = allowed(&run, motion, parts);
-    prop_assume!(allowed.is_some());
-    let difference = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
-    prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
-    Ok(())
+pub(crate) fn splits(
+    (parameters, motion, parts): (Parameters, Vec<f64>, u32),
+) -> Result<[usize; 2], TestCaseError> {
+    let run = Run::new(parameters, &motion);
+    let Some(allowed) = allowed(&run, &motion, parts) else { return Ok([0, motion.len()]) };
+    let (difference, count) = apart(&run.history(0.0, 1), &run.history(0.0, parts), run.scale(), 1.0);
+    prop_assert!(difference < allowed, "differs by {difference:e}, allowed {allowed:e}");
+    Ok([count, motion.len()])
 }
 
 /// Compares the adaptive solver with the exact one.
-pub(crate) fn solvers_agree(parameters: &Parameters, motion: &[f64]) -> Result<(), TestCaseError> {
-    let wall = Wall::new(parameters).expect("a valid wall");
+pub(crate) fn solvers_agree(
+    (parameters, motion): (Parameters, Vec<f64>),
+) -> Result<[usize; 2], TestCaseError> {
+    let wall = Wall::new(&parameters).expect("a valid wall");
     prop_assume!(wall.has_constant_damping());
-    let by = |solver: Solver| Run::new(Parameters { solver, ..parameters.clone() }, motion);
+    let by = |solver: Solver| Run::new(Parameters { solver, ..parameters.clone() }, &motion);
     let exact = by(Solver::Exact);
-    let allowed = allowed(&exact, motion, 1);
-    prop_assume!(allowed.is_some());
+    let Some(allowed) = allowed(&exact, &motion, 1) else { return Ok([0, motion.len()]) };
     let adaptive = by(Solver::Adaptive);
-    let difference = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
-    prop_assert!(Some(difference) < allowed, "differs by {difference:e}, allowed {allowed:?}");
-    Ok(())
+    let (difference, count) = apart(&exact.history(0.0, 1), &adaptive.history(0.0, 1), exact.scale(), 1.0);
+    prop_assert!(difference < allowed, "differs by {difference:e}, allowed {allowed:e}");
+    Ok([count, motion.len()])
 }
 
-proptest! {
-    #![proptest_config(configuration())]
-
-    /// Mirrored motion moves a symmetric wall to the mirrored displacements.
-    #[test]
-    fn mirror(parameters in walls(), motion in motions()) {
+/// Mirrored motion moves a symmetric wall to the mirrored displacements.
+#[test]
+fn mirror() {
+    mostly(COMPARED, (walls(), motions()), |(parameters, motion)| {
         let parameters = Parameters { eccentricity_mode: EccentricityMode::FollowsPivot, ..parameters };
         let run = Run::new(parameters.clone(), &motion);
         let mirrored: Vec<_> = motion.iter().map(|a| -a).collect();
         let other = Run::new(parameters, &mirrored);
-        let difference = apart(&run.history(0.0, 1), &other.history(0.0, 1), run.scale(), -1.0);
+        let (difference, count) = apart(&run.history(0.0, 1), &other.history(0.0, 1), run.scale(), -1.0);
         prop_assert!(difference == 0.0, "differs by {difference}");
-    }
+        Ok([count, motion.len()])
+    });
+}
 
-    /// Shifting time changes nothing.
-    #[test]
-    fn time_shift(parameters in walls(), motion in motions()) {
+/// Shifting time changes nothing.
+#[test]
+fn time_shift() {
+    mostly(COMPARED, (walls(), motions()), |(parameters, motion)| {
         let run = Run::new(parameters, &motion);
-        let difference = apart(&run.history(0.0, 1), &run.history(1234.5, 1), run.scale(), 1.0);
+        let (difference, count) = apart(&run.history(0.0, 1), &run.history(1234.5, 1), run.scale(), 1.0);
         prop_assert!(difference == 0.0, "differs by {difference}");
-    }
+        Ok([count, motion.len()])
+    });
+}
 
-    /// Splitting a segment changes nothing.
-    #[test]
-    fn splitting(parameters in walls(), motion in motions(), parts in 2_u32..7) {
-        splits(parameters, &motion, parts)?;
-    }
+/// Splitting a segment changes nothing.
+#[test]
+fn splitting() {
+    mostly(COMPARED, (walls(), motions(), 2_u32..7), splits);
+}
 
-    /// The adaptive solver agrees with the exact one wherever that applies.
-    #[test]
-    fn exact_and_adaptive_agree(parameters in walls(), motion in motions()) {
-        solvers_agree(&parameters, &motion)?;
-    }
+/// The adaptive solver agrees with the exact one wherever that applies.
+#[test]
+fn exact_and_adaptive_agree() {
+    mostly(COMPARED, (walls(), motions()), solvers_agree);
+}
+
+/// Free motion never gains energy, ½ m u̇² + ∫F du.
+#[test]
+fn energy_never_grows() {
+    mostly(0.9, (walls(), -0.95_f64..0.95, 1e-3_f64..0.5), |(parameters, start, step)| {
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
+        let still = Support::default();
+        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
+        let scale = wall.energy(wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
+        let mut before = wall.energy(parameters.u_start, 0.0);
+        let mut pieces = 0;
+        for step_count in 0..200 {
+            simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
+            let Progress { state, work, .. } = *simulation.progress();
+            if state.overturned {
+                return Ok([step_count, 200]);
+            }
+            let now = wall.energy(state.displacement, state.velocity);
+            // each piece of motion, and the potential's parts, round some dozen quantities of this size
+            let rounding = 32.0 * f64::EPSILON * (1 + work.pieces - pieces) as f64 * scale;
+            prop_assert!(now <= before + rounding, "grew by {:e}", (now - before) / rounding);
+            (before, pieces) = (now, work.pieces);
+        }
+        Ok([200, 200])
+    });
+}
+
+proptest! {
+    #![proptest_config(configuration())]
 
     /// A wall at rest stays at rest without motion of its supports.
     #[test]
@@ -204,28 +233,5 @@ proptest! {
         simulation.advance(&Segment { duration, from: still, to: still }).expect("rest");
         prop_assert_eq!(simulation.progress().state.displacement, 0.0);
         prop_assert_eq!(simulation.progress().state.velocity, 0.0);
-    }
-
-    /// Free motion never gains energy, ½ m u̇² + ∫F du.
-    #[test]
-    fn energy_never_grows(parameters in walls(), start in -0.95_f64..0.95, step in 1e-3_f64..0.5) {
-        let wall = Wall::new(&parameters).expect("a valid wall");
-        let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
-        let still = Support::default();
-        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
-        let scale = wall.energy(wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
-        let (mut before, mut pieces) = (f64::INFINITY, 0);
-        for _ in 0..200 {
-            simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
-            let Progress { state, work, .. } = *simulation.progress();
-            if state.overturned {
-                break;
-            }
-            let now = wall.energy(state.displacement, state.velocity);
-            // each piece of motion, and the potential's parts, round some dozen quantities of this size
-            let rounding = 32.0 * f64::EPSILON * (1 + work.pieces - pieces) as f64 * scale;
-            prop_assert!(now <= before + rounding, "grew by {:e}", (now - before) / rounding);
-            (before, pieces) = (now, work.pieces);
-        }
     }
 }

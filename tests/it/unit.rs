@@ -179,6 +179,17 @@ fn a_state_that_is_set_chooses_its_branch() {
     }
 }
 
+/// Solvers relate their tolerances to u_ins and to the speed of a wall that falls from there.
+#[test]
+fn nominal_values_are_those_of_a_falling_wall() {
+    let unit = unit(Interface::ModelExchange, &[(V::Height, 6.0), (V::Overburden, 2e3)], &[]);
+    let (u_ins, f0, mass) = (unit.real(V::UIns), unit.real(V::F0), unit.real(V::EffectiveMass));
+    assert_eq!(unit.nominal(V::U), u_ins);
+    // k₀ = F₀/u_ins
+    let expected = u_ins * (f0 / u_ins / mass).sqrt();
+    assert!((unit.nominal(V::UDot) / expected - 1.0).abs() < 1e-15, "{}", unit.nominal(V::UDot));
+}
+
 /// A completed step asks for an event where the wall has left its branch or goes beyond its largest |u|, and
 /// not again after the update.
 #[test]

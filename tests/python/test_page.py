@@ -68,7 +68,7 @@ def test_the_slider_moves_the_wall_and_the_cursors(browser, parapet):
         cursor = browser.find_element(By.CSS_SELECTOR, "#history .cursor")
         plot = browser.find_element(By.ID, "history")
         seen.add(transform(browser, "lower"))
-        shown = float(browser.find_element(By.ID, "now_t").text)
+        shown = float(browser.find_element(By.ID, "now_0").text)
         # the plot area of the figure, and the time axis from 0 to 40 s
         left, right, _, _ = browser.execute_script("return JSON.parse(arguments[0].dataset.area)", plot)
         expected = plot.rect["x"] + plot.rect["width"] * (left + (right - left) * shown / 40.0)
@@ -91,14 +91,14 @@ def test_play_moves_on_and_pauses(browser, parapet):
     button.click()
     assert button.text == "Pause"
     deadline = time.monotonic() + 20
-    while float(browser.find_element(By.ID, "now_t").text) < 0.3:
+    while float(browser.find_element(By.ID, "now_0").text) < 0.3:
         assert time.monotonic() < deadline, "nothing moves"
         time.sleep(0.05)
     button.click()
     assert button.text == "Play"
-    now = browser.find_element(By.ID, "now_t").text
+    now = browser.find_element(By.ID, "now_0").text
     time.sleep(0.3)
-    assert browser.find_element(By.ID, "now_t").text == now
+    assert browser.find_element(By.ID, "now_0").text == now
 
 
 @pytest.mark.parametrize("width", [420, 1600])

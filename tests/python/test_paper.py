@@ -54,7 +54,7 @@ def page(request, browser, wall, tmp_path_factory):
     path = folder / ("out/study.html" if request.param == "study" else "page.html")
     if arguments is None:
         if "ROCKING_WALL_PLAYGROUND" not in os.environ:
-            pytest.skip("not run: no page that computes; run `cargo xtask playground` and name the page in "
+            pytest.skip("not run: no playground; run `cargo xtask playground` and name the page in "
                         "ROCKING_WALL_PLAYGROUND")  # fmt: skip
         path = Path(os.environ["ROCKING_WALL_PLAYGROUND"]).absolute()
     else:

@@ -1,4 +1,4 @@
-"""Tests the page that computes, in a browser.
+"""Tests the playground in a browser.
 
 Its numbers are those of the command line, it asks nobody, and every field answers.
 """
@@ -25,7 +25,7 @@ LARGEST = 1_500_000
 def page():
     path = os.environ.get("ROCKING_WALL_PLAYGROUND")
     if path is None:
-        pytest.skip("not run: no page that computes; run `cargo xtask playground` and name the page in "
+        pytest.skip("not run: no playground; run `cargo xtask playground` and name the page in "
                     "ROCKING_WALL_PLAYGROUND")  # fmt: skip
     return Path(path)
 

@@ -1,4 +1,4 @@
-"""Packs the page that computes into one file.
+"""Packs the playground into one file.
 
     python pack.py LIBRARY.wasm PAGE.html
 
@@ -15,19 +15,20 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "crates/playground/src/page"
 # Marks of the template, and the files that take their place. Texts are escaped.
 PARTS = {"style": "page.css", "fields": "fields.js", "wall": "wall.js", "script": "page.js"}
-PAPER = ROOT / "crates/figures/src/paper.css"
+# What the pages of the program begin with, and how they print.
+HEAD, PAPER = (ROOT / "crates/figures/src" / name for name in ("page.html", "paper.css"))
 TEXTS = {"notices": PAGE / "notices.txt", "mit": ROOT / "LICENSE-MIT", "apache": ROOT / "LICENSE-APACHE"}
 
 
 def main():
     library, page = map(Path, sys.argv[1:])
     parts = {mark: read(PAGE / name) for mark, name in PARTS.items()}
-    # pages of the playground and of the program print alike
+    parts["title"] = "Rocking wall: playground"
     parts["style"] += read(PAPER)
     parts |= {mark: escape(read(path)) for mark, path in TEXTS.items()}
     # no time in the archive: the same library makes the same page with one version of zlib
     parts["library"] = b64encode(gzip.compress(library.read_bytes(), mtime=0)).decode()
-    html = read(PAGE / "page.html")
+    html = read(HEAD) + read(PAGE / "page.html")
     for mark, text in parts.items():
         before, after = html.split("{{" + mark + "}}")
         html = before + text + after

@@ -12,7 +12,7 @@ const OURS: &str = "rocking-wall";
 const OPENSEES: &str = "OpenSeesPy";
 const BATCH: &str = "exact 64 at once";
 
-/// Error over `u_ins` that a setting must reach to be called good.
+/// Largest error over `u_ins` of a good setting.
 const GOOD: f64 = 1e-4;
 
 /// An environment, its lock, and the tools that run in it by their names for the script and in the table.
@@ -36,7 +36,7 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     let remedy = "see its message above";
     succeed(cargo().args(["bench", "--locked", "--bench", "step"]), remedy)?;
     let mut bench = cargo();
-    bench.args(["bench", "--locked", "--bench", "record", "--"]);
+    bench.args(["bench", "--locked", "--package", "rocking-record", "--bench", "record", "--"]);
     if let Some(record) = record {
         bench.arg(std::path::absolute(record).map_err(|error| format!("{record}: {error}"))?);
     }
@@ -46,7 +46,17 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
         return Ok(());
     }
     let built = output(
-        cargo().args(["bench", "--locked", "--bench", "record", "--no-run", "--message-format", "json"]),
+        cargo().args([
+            "bench",
+            "--locked",
+            "--package",
+            "rocking-record",
+            "--bench",
+            "record",
+            "--no-run",
+            "--message-format",
+            "json",
+        ]),
         remedy,
     )?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
@@ -222,7 +232,7 @@ fn own_run<'a>(rows: &[&'a Row<'a>]) -> Option<&'a Row<'a>> {
     exact.or_else(|| cheapest(own.by_ref().filter(|row| row.setting.starts_with("adaptive"))))
 }
 
-/// Returns the fastest single run with a good error; the time of a run in a batch is a share.
+/// Returns the fastest single run with a good error. Runs in a batch are left out: their time is a share.
 fn cheapest<'a>(rows: impl Iterator<Item = &'a Row<'a>>) -> Option<&'a Row<'a>> {
     let good = rows.filter(|row| row.error <= GOOD && !row.setting.ends_with("at once"));
     good.min_by(|one, other| one.seconds.total_cmp(&other.seconds))

@@ -11,7 +11,7 @@ use crate::python::Environment;
 /// # Errors
 /// If a step of it fails.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
-    // one of the three waits for a linker, one for the network
+    // side by side: one of the three waits for a linker, one for the network
     let (library, programs, python) = std::thread::scope(|scope| {
         let library = scope.spawn(|| fmu::library(fmu::WALL, Linker::System));
         let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));

@@ -7,7 +7,7 @@ use crate::command::{Result, cargo, output, program, succeed, target};
 
 /// The readers, and folders of texts to start from.
 const READERS: [(&str, &[&str]); 5] = [
-    ("records", &["tests/it/ground_motion"]),
+    ("records", &["crates/ground-motion/tests/it"]),
     ("scenes", &["scenes", "tests/data/cases"]),
     ("studies", &["studies", "scenes/building"]),
     ("descriptions", &["modelDescription", "crates/floor/modelDescription"]),

@@ -18,7 +18,7 @@ pub(crate) fn run() -> Result<()> {
     wall(&[&["accuracy", "scenes/parapet_on_a_roof.toml"], &plot[..]].concat())?;
     let results = root().join("target/images");
     if results.exists() {
-        // a study of another build is refused
+        // the folder of a study by another build would be refused
         std::fs::remove_dir_all(&results).map_err(|error| format!("{}: {error}", results.display()))?;
     }
     wall(&["ida", "studies/stripes.toml", "-o", "target/images"])?;

@@ -3,10 +3,10 @@
 
 use crate::command::{Result, find, output, program, root, succeed, target};
 
-/// What is mutated unless paths are given: the rooms of the unit in which motion is computed.
-const ROOMS: [&str; 4] = ["src/wall", "src/solver", "src/simulation", "src/unit"];
+/// What is mutated unless paths are given: the rooms in which motion is computed.
+const ROOMS: [&str; 5] = ["src/wall", "src/solver", "src/simulation", "src/unit", "crates/record"];
 /// Whose tests are run, beside those of the crate that is mutated.
-const TESTED: [&str; 2] = ["rocking-wall", "rocking-wall-cli"];
+const TESTED: [&str; 4] = ["rocking-wall", "rocking-record", "rocking-study", "rocking-wall-cli"];
 const COUNT: usize = 20;
 const SEED: usize = 1;
 

@@ -19,7 +19,7 @@ pub(crate) struct Platform {
     pub(crate) fmi3: &'static str,
     /// Beginning and ending of the name of a library.
     pub(crate) library: (&'static str, &'static str),
-    /// What the linker is told, so that the bytes depend on no folder and no clock.
+    /// Options of the linker, so that the bytes depend on no folder and no clock.
     link: &'static [&'static str],
 }
 
@@ -104,7 +104,7 @@ impl Platform {
         Ok(build)
     }
 
-    /// Lets a job of cargo or maturin find zig, and give the same bytes in every folder.
+    /// Lets a job of cargo or maturin find zig, and makes its bytes independent of the folder.
     ///
     /// # Errors
     /// If zig cannot be installed.
@@ -144,7 +144,7 @@ fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>
     ))
 }
 
-/// Tells whether this machine has the Rust library for a target.
+/// Returns whether this machine has the Rust library for a target.
 ///
 /// # Errors
 /// If there is no rustc.

@@ -1,4 +1,4 @@
-//! `cargo xtask portable`: the FMUs of every platform, and what this machine can tell of them.
+//! `cargo xtask portable`: builds the FMUs of every platform, and tests them as far as this machine can.
 
 use std::path::Path;
 

@@ -36,8 +36,8 @@ pub(crate) fn run() -> Result<()> {
         ("systems in other masters", masters),
         ("the C boundary", conformance),
     ];
-    // the network and the linker take their time beside the Rust tests; who needs this asks again, and
-    // hears of errors
+    // the network and the linker work beside the Rust tests; a part that needs the result prepares it
+    // again, and gets the errors
     let mut prepared = Some(std::thread::spawn(prepare));
     let mut lines = Vec::new();
     let (mut passed, mut failed) = (0, 0);
@@ -45,7 +45,7 @@ pub(crate) fn run() -> Result<()> {
         println!("\n== {name}");
         let start = Instant::now();
         let outcome = part();
-        // only the Rust tests need nothing of it
+        // only the Rust tests need none of what is prepared
         if let Some(prepared) = prepared.take() {
             let _ = prepared.join();
         }
@@ -82,7 +82,7 @@ fn not_run() -> Vec<String> {
         lines.push("the page in a browser: install chromium and chromium-driver".to_owned());
     }
     if let Err(message) = playground::check_target() {
-        lines.push(format!("the page that computes: {message}"));
+        lines.push(format!("the playground: {message}"));
     }
     lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
     lines

@@ -1,8 +1,8 @@
 //! A building under a record: its units run together, in process.
 //!
-//! The units are those of the SSP. At each communication point accelerations and reactions are made to agree:
-//! they depend on each other without delay, and Newton's method on the directional derivatives closes the
-//! loop (docs/coupling.md). Inputs are then linear over the step, by the derivatives of the outputs.
+//! The units are those of the SSP. Accelerations and reactions depend on each other without delay: an
+//! algebraic loop. At each communication point Newton's method closes it, by the directional derivatives of
+//! the units (docs/coupling.md). Over a step, inputs are then linear, by the derivatives of the outputs.
 
 use fmu_export::Step;
 use ground_motion::GroundMotion;
@@ -20,12 +20,12 @@ use crate::units::{Plan, Unit, reference};
 const LONGEST_STEP: f64 = 2e-3;
 /// Most steps of all units in one run.
 const MOST_UNIT_STEPS: f64 = 1e8;
-/// Most sweeps of Newton's method: an unchanged building needs one, a wall that comes to rest a few.
+/// Most iterations of Newton's method. Usually one suffices; a wall that comes to rest takes a few.
 const MOST_SWEEPS: usize = 60;
-/// Mismatch of an input over the largest of its kind so far at which the loop is closed.
+/// Mismatch of an input, over the largest input of its kind so far, below which the loop counts as closed.
 const CLOSED: f64 = 1e-10;
 
-/// How far and how well a building is followed.
+/// End and tolerance of a building's run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// End of the run \[s\].
@@ -51,7 +51,7 @@ impl Peak {
     }
 }
 
-/// A quantity over time, and its peak between the communication points too.
+/// A quantity over time, and its peak at all communication points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Values at the times of the [`Coupled`] run.
@@ -113,7 +113,7 @@ pub struct Coupled {
 }
 
 impl WallHistory {
-    /// Returns what becomes of the wall, from its history at the times of the run \[s\].
+    /// Returns the wall's overturning and whether it falls, from its history at the times of the run \[s\].
     pub fn fate(&self, times: &[f64]) -> Fate {
         Fate::of(self.overturn_time, times.iter().copied().zip(self.ratio.values.iter().copied()))
     }
@@ -144,10 +144,10 @@ impl Coupled {
         Self::run_while(building, parts, ground, settings, &|| true)
     }
 
-    /// Runs a building as [`run`](Self::run) does, as long as it is wanted.
+    /// Runs a building as [`run`](Self::run) does, and stops once `is_wanted` returns `false`.
     ///
     /// # Errors
-    /// As those of [`run`](Self::run), and [`BuildingError::Stopped`].
+    /// As [`run`](Self::run), and [`BuildingError::Stopped`].
     pub fn run_while(
         building: &Building,
         parts: &Parts,
@@ -169,7 +169,7 @@ impl Coupled {
                 );
                 return Err(BuildingError::Run { time: settings.end, reason });
             }
-            let mut run = Loop::new(plan, &references, ground)?.follow(parts, settings.end, is_wanted)?;
+            let mut run = Loop::new(plan, &references, ground)?.run_to_end(parts, settings.end, is_wanted)?;
             if let Some(before) = &before {
                 run.change = run.change_from(before);
                 if run.change <= settings.tolerance {
@@ -181,7 +181,7 @@ impl Coupled {
         }
     }
 
-    /// Compares the peaks of two runs: the largest difference over the peak.
+    /// Returns the largest difference between the peaks of two runs, each over the peak.
     fn change_from(&self, other: &Self) -> f64 {
         self.peaks().zip(other.peaks()).fold(0.0, |most: f64, (own, other)| {
             let apart = (own - other).abs();
@@ -189,8 +189,8 @@ impl Coupled {
         })
     }
 
-    /// Peaks of floors and walls; that of a wall that overturns counts as 1, since beyond it any difference
-    /// grows.
+    /// Returns the peaks of floors and walls. That of a wall that overturns is taken as 1, since any
+    /// difference grows once the wall falls.
     fn peaks(&self) -> impl Iterator<Item = f64> {
         let floors = self.floors.iter().flat_map(|floor| [&floor.acceleration, &floor.drift]);
         let floors = floors.map(|history| history.peak.value.abs());
@@ -226,7 +226,7 @@ impl References {
     }
 }
 
-/// The units on their way.
+/// The units of a building during a run.
 struct Loop<'a> {
     plan: &'a Plan,
     references: &'a References,
@@ -235,7 +235,7 @@ struct Loop<'a> {
     /// Present inputs, one for each connection, and the largest of each so far.
     values: DVector<f64>,
     largest: DVector<f64>,
-    /// I − ∂outputs/∂inputs, factorised, as long as it holds.
+    /// I − ∂outputs/∂inputs, factorised, as long as it is valid.
     factors: Option<LU<f64, Dyn, Dyn>>,
 }
 
@@ -250,8 +250,8 @@ impl<'a> Loop<'a> {
         Ok(Self { plan, references, ground, units, largest: values.clone(), values, factors: None })
     }
 
-    /// Runs to the end with a number of steps for each of the record.
-    fn follow(
+    /// Runs to the end, with `parts` communication steps for each step of the record.
+    fn run_to_end(
         mut self,
         parts: f64,
         end: f64,
@@ -319,7 +319,7 @@ impl<'a> Loop<'a> {
             if mismatch.iter().zip(&self.largest).all(|(apart, largest)| apart.abs() <= CLOSED * largest) {
                 return Ok(());
             }
-            // what held at the last point holds here, unless a wall has changed its phase
+            // the factors of the last point are still valid, unless a wall has changed its phase
             if sweep > 0 {
                 self.factors = None;
             }

@@ -1,15 +1,12 @@
 //! Reads the file of a building: storeys and walls, by their names.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use fmu_export::{Causality, Kind, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
-use rocking_wall::scene::in_toml_words;
+use rocking_wall::scene::{Group, Place, SceneError, check_limits, number, parse_toml, read_text};
 use serde::Deserialize;
 use toml::{Spanned, Value};
-
-use crate::error::BuildingError;
 
 /// The name that stands for the ground where a storey's would.
 const GROUND: &str = "ground";
@@ -18,6 +15,8 @@ const MAX_FILE_BYTES: u64 = 1 << 20;
 /// Bounds against mistyped numbers.
 const MOST_MEMBERS: usize = 10_000;
 const LONGEST_RUN: f64 = 1e7;
+/// Length of the run where the file states none [s].
+const DEFAULT_STOP_TIME: f64 = 10.0;
 
 /// What something stands on or leans on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +34,7 @@ pub struct Floor {
     pub name: String,
     /// What it stands on.
     pub base: Support,
-    /// In the order of the floor's description.
+    /// Start values, in the order of the floor's model description.
     pub parameters: Vec<Parameter>,
 }
 
@@ -87,14 +86,13 @@ pub struct Building {
 #[serde(deny_unknown_fields)]
 struct Document {
     title: Option<String>,
-    #[serde(default = "default_stop_time")]
-    stop_time: f64,
-    step: Option<f64>,
-    /// By default off: not every tool knows inputs of a system.
+    stop_time: Option<Spanned<f64>>,
+    step: Option<Spanned<f64>>,
+    /// Off by default: not every tool supports inputs of a system.
     #[serde(default)]
     expose_ground: bool,
     #[serde(default)]
-    floor: Vec<BTreeMap<Spanned<String>, Spanned<Value>>>,
+    floor: Vec<Group>,
     #[serde(default)]
     wall: Vec<WallTable>,
 }
@@ -106,91 +104,60 @@ struct WallTable {
     scene: PathBuf,
     bottom: Spanned<String>,
     top: Option<Spanned<String>>,
-    /// By default wherever a storey's own displacement is the drift.
+    /// By default, on wherever the drift is a storey's own displacement.
     drift: Option<Spanned<bool>>,
 }
 
-fn default_stop_time() -> f64 {
-    10.0
-}
-
-type Result<T> = std::result::Result<T, BuildingError>;
-
-/// A file's text, to name lines in messages.
-struct Source<'a> {
-    file: String,
-    text: &'a str,
-}
-
-impl Source<'_> {
-    /// An error of the whole file.
-    fn whole(&self, reason: String) -> BuildingError {
-        BuildingError::File { file: self.file.clone(), reason }
-    }
-
-    fn error(&self, span: std::ops::Range<usize>, message: impl Into<String>) -> BuildingError {
-        let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        let line = before.split(|&byte| byte == b'\n').count();
-        BuildingError::Line { file: self.file.clone(), line, message: message.into() }
-    }
-}
+type Result<T> = std::result::Result<T, SceneError>;
 
 impl Building {
-    /// Reads the file of a building. A pipe is refused before it is opened, which would wait for its writer.
+    /// Reads the file of a building.
     ///
     /// # Errors
-    /// [`BuildingError`] with file, line and remedy.
+    /// [`SceneError`] with file, line and remedy.
     pub fn read(path: &Path) -> Result<Self> {
-        let file = path.display().to_string();
-        let fail = |reason: String| BuildingError::File { file: file.clone(), reason };
-        let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
-        let metadata = std::fs::metadata(path).map_err(unreadable)?;
-        if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-            return Err(fail(format!("expected a building (TOML) of at most {MAX_FILE_BYTES} bytes")));
-        }
-        Self::parse(path, &std::fs::read_to_string(path).map_err(unreadable)?)
+        Self::parse(path, &read_text(path, "a building (TOML)", MAX_FILE_BYTES)?)
     }
 
     /// Reads a building from the text of a file; scenes are looked up beside `path`.
     ///
     /// # Errors
-    /// [`BuildingError`] with file, line and remedy.
+    /// [`SceneError`] with file, line and remedy.
     pub fn parse(path: &Path, text: &str) -> Result<Self> {
-        let source = Source { file: path.display().to_string(), text };
-        let document: Document = toml::from_str(text).map_err(|error| {
-            let message = in_toml_words(&error.message().replace('\n', " "));
-            source.error(error.span().unwrap_or(0..0), message)
-        })?;
-        Self::from_document(document, &source, path)
+        let file = path.display().to_string();
+        let place = Place::new(&file, text);
+        Self::from_document(parse_toml(&place)?, &place, path)
     }
 
-    fn from_document(document: Document, source: &Source<'_>, path: &Path) -> Result<Self> {
+    fn from_document(document: Document, place: &Place<'_>, path: &Path) -> Result<Self> {
         let Document { title, stop_time, step, expose_ground, floor, wall } = document;
-        if !(stop_time > 0.0 && stop_time <= LONGEST_RUN) {
-            return Err(
-                source.whole(format!("stop_time = {stop_time} s; expected 0 < stop_time <= {LONGEST_RUN} s"))
-            );
-        }
-        if let Some(step) = step.filter(|&step| !(step > 0.0 && step <= stop_time)) {
-            return Err(source.whole(format!(
-                "step = {step} s; expected 0 < step <= stop_time = {stop_time} s, or leave it out"
-            )));
-        }
+        let stop_time = place.within("stop_time", stop_time.as_ref(), DEFAULT_STOP_TIME, LONGEST_RUN)?;
+        let step = match &step {
+            None => None,
+            Some(given) if *given.get_ref() > 0.0 && *given.get_ref() <= stop_time => Some(*given.get_ref()),
+            Some(given) => {
+                let step = given.get_ref();
+                let message = format!(
+                    "step = {step} s must be above 0 and at most stop_time = {stop_time} s, or leave it out"
+                );
+                return Err(place.error(given.span(), message));
+            }
+        };
         if floor.is_empty() || floor.len() + wall.len() > MOST_MEMBERS {
-            return Err(source
-                .whole(format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members")));
+            let reason = format!("a building has at least one [[floor]] and at most {MOST_MEMBERS} members");
+            return Err(SceneError::File { file: place.name().to_owned(), reason });
         }
         let mut names = Vec::new();
         let mut floors: Vec<Floor> = Vec::new();
         for table in &floor {
-            let (name, floor) = read_floor(table, &floors, source)?;
-            check_name(&name, &mut names, source)?;
+            let (name, floor) = read_floor(table, &floors, place)?;
+            check_name(&name, &mut names, place)?;
             floors.push(floor);
         }
         let mut walls = Vec::new();
         for table in wall {
-            check_name(&table.name, &mut names, source)?;
-            walls.push(read_wall(table, &floors, source)?);
+            check_name(&table.name, &mut names, place)?;
+            walls.push(read_wall(table, &floors, place)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or(Path::new("."));
@@ -210,54 +177,50 @@ pub fn fmu_path(name: &str) -> String {
 const LONGEST_NAME: usize = 100;
 
 /// Checks that FMUs, connectors and files can have a name, and that no other member has it.
-fn check_name(name: &Spanned<String>, names: &mut Vec<String>, source: &Source<'_>) -> Result<()> {
+fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>) -> Result<()> {
     let text = name.get_ref();
     let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if !plain || !text.starts_with(|c: char| c.is_ascii_alphabetic()) || text == GROUND {
         let message = format!(
             "name = {text:?}: use letters, digits and _, a letter first, and not {GROUND:?}, which is taken"
         );
-        return Err(source.error(name.span(), message));
+        return Err(place.error(name.span(), message));
     }
     if text.len() > LONGEST_NAME {
         let message = format!("name has {} letters; use at most {LONGEST_NAME}", text.len());
-        return Err(source.error(name.span(), message));
+        return Err(place.error(name.span(), message));
     }
     // Strip.fmu and strip.fmu are one file on many machines
     if let Some(other) = names.iter().find(|other| other.eq_ignore_ascii_case(text)) {
         let message = format!("name = {text:?}: {other:?} exists already; choose another");
-        return Err(source.error(name.span(), message));
+        return Err(place.error(name.span(), message));
     }
     names.push(text.clone());
     Ok(())
 }
 
-fn read_floor(
-    table: &BTreeMap<Spanned<String>, Spanned<Value>>,
-    before: &[Floor],
-    source: &Source<'_>,
-) -> Result<(Spanned<String>, Floor)> {
+fn read_floor(table: &Group, before: &[Floor], place: &Place<'_>) -> Result<(Spanned<String>, Floor)> {
     let mut name = None;
     let mut base = Support::Ground;
     let mut parameters = Vec::new();
     for (key, value) in table {
         let text = || match value.get_ref() {
             Value::String(text) => Ok(Spanned::new(value.span(), text.clone())),
-            _ => Err(source.error(value.span(), format!("{} is a name in quotes", key.get_ref()))),
+            _ => Err(place.error(value.span(), format!("{} is a name in quotes", key.get_ref()))),
         };
         match key.get_ref().as_str() {
             "name" => name = Some(text()?),
-            "on" => base = support("on", &text()?, before, source)?,
+            "on" => base = support("on", &text()?, before, place)?,
             other => {
                 let parameter =
-                    parameter(other, value.get_ref()).map_err(|message| source.error(key.span(), message))?;
+                    parameter(other, value.get_ref()).map_err(|message| place.error(key.span(), message))?;
                 parameters.push(parameter);
             }
         }
     }
     let Some(name) = name else {
         let span = table.keys().next().map_or(0..0, Spanned::span);
-        return Err(source.error(span, "a [[floor]] needs a name"));
+        return Err(place.error(span, "a [[floor]] needs a name"));
     };
     Ok((name.clone(), Floor { name: name.into_inner(), base, parameters }))
 }
@@ -277,23 +240,9 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
         ));
     };
     let (text, start) = match (variable.kind, value) {
-        (Kind::Real { min, max, .. }, Value::Float(_) | Value::Integer(_)) => {
-            #[allow(
-                clippy::cast_precision_loss,
-                reason = "a whole number beyond 2⁵³ is beyond every limit too"
-            )]
-            let number = value.as_float().unwrap_or_else(|| value.as_integer().unwrap_or_default() as f64);
-            if !number.is_finite()
-                || min.is_some_and(|min| number < min)
-                || max.is_some_and(|max| number > max)
-            {
-                let limit = |limit: Option<f64>| limit.map_or("any".to_owned(), |limit| limit.to_string());
-                return Err(format!(
-                    "{name} = {number} is outside its limits, {} to {}",
-                    limit(min),
-                    limit(max)
-                ));
-            }
+        (Kind::Real { .. }, value) => {
+            let number = number(value).ok_or_else(|| format!("{name} must be a number"))?;
+            check_limits(variable, number)?;
             let text = format!("{number:?}");
             (text.clone(), text)
         }
@@ -303,13 +252,12 @@ fn parameter(name: &str, value: &Value) -> std::result::Result<Parameter, String
             let item = item.ok_or_else(|| format!("{name} = {text:?} is not one of {}", names.join(", ")))?;
             (format!("{text:?}"), item.value.to_string())
         }
-        (Kind::Real { .. }, _) => return Err(format!("{name} must be a number")),
         _ => return Err(format!("{name} must be the name of a choice in quotes")),
     };
     Ok(Parameter { name: variable.name, text, start })
 }
 
-fn support(key: &str, name: &Spanned<String>, floors: &[Floor], source: &Source<'_>) -> Result<Support> {
+fn support(key: &str, name: &Spanned<String>, floors: &[Floor], place: &Place<'_>) -> Result<Support> {
     if name.get_ref() == GROUND {
         return Ok(Support::Ground);
     }
@@ -322,13 +270,13 @@ fn support(key: &str, name: &Spanned<String>, floors: &[Floor], source: &Source<
             name.get_ref(),
             known.join(", ")
         );
-        source.error(name.span(), message)
+        place.error(name.span(), message)
     })
 }
 
-fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<Member> {
-    let bottom = support("bottom", &table.bottom, floors, source)?;
-    let top = table.top.as_ref().map(|top| support("top", top, floors, source)).transpose()?;
+fn read_wall(table: WallTable, floors: &[Floor], place: &Place<'_>) -> Result<Member> {
+    let bottom = support("bottom", &table.bottom, floors, place)?;
+    let top = table.top.as_ref().map(|top| support("top", top, floors, place)).transpose()?;
     // a storey's displacement is relative to its base
     let drift = match top {
         Some(Support::Floor(index)) if floors[index].base == bottom => Some(index),
@@ -340,7 +288,7 @@ fn read_wall(table: WallTable, floors: &[Floor], source: &Source<'_>) -> Result<
     {
         let message = "drift = true needs a top on the storey just above the bottom: only its displacement \
                        is the drift";
-        return Err(source.error(wanted.span(), message));
+        return Err(place.error(wanted.span(), message));
     }
     let drift = drift.filter(|_| wanted);
     Ok(Member { name: table.name.into_inner(), scene: table.scene, bottom, top, drift })

@@ -1,15 +1,14 @@
 //! What can be wrong with a building.
 
+use rocking_wall::scene::SceneError;
+
 /// Why a building cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum BuildingError {
-    /// The file.
-    #[error("{file}: {reason}")]
-    File { file: String, reason: String },
-    /// A line of the file.
-    #[error("{file}, line {line}: {message}")]
-    Line { file: String, line: usize, message: String },
+    /// The file of the building.
+    #[error(transparent)]
+    Document(#[from] SceneError),
     /// A wall, or its scene.
     #[error("wall {wall:?}: {reason}")]
     Wall { wall: String, reason: String },

@@ -1,4 +1,5 @@
-//! The contents of a building's units: scenes of walls, values of storeys; and the system as an SSP archive.
+//! The contents of a building's units, scenes of walls and values of storeys; and their system as an SSP
+//! archive.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -27,7 +28,7 @@ pub struct Parts {
     pub(crate) system: System,
     /// The units for a run in process.
     pub(crate) plan: Plan,
-    /// What the user should know.
+    /// Warnings and remarks for the user.
     pub warnings: Vec<String>,
 }
 

@@ -167,7 +167,7 @@ mod tests {
         }
     }
 
-    /// `OMSimulator` accepts identifiers alone, and takes a system for one with a master by this annotation.
+    /// `OMSimulator` accepts only identifiers as names. The annotation tells it that a system has a master.
     #[test]
     fn names_are_identifiers_and_the_system_states_its_step() {
         let (title, components, connections) = ("A \"tall\" house".to_owned(), Vec::new(), Vec::new());

@@ -35,21 +35,21 @@ pub struct Trial {
     pub least: f64,
     /// Length of the run \[s\].
     pub duration: f64,
-    /// Whether a pulse of the ground moves the building, which is at rest otherwise.
+    /// Whether a pulse of the ground moves the building, which would otherwise stay at rest.
     pub is_shaken: bool,
 }
 
 impl Trial {
     /// Returns the communication step that the building's SSP states \[s\].
     ///
-    /// It is the file's own, or else the one that masters need that hold their inputs, as most do. If none
-    /// that was tried suffices, it is the smallest.
+    /// It is the file's own, or else the one for masters that hold their inputs, as most do. If no step that
+    /// was tried suffices, it is the smallest.
     pub fn step(&self, building: &Building) -> f64 {
         building.step.unwrap_or_else(|| self.held.unwrap_or(self.least).min(building.stop_time))
     }
 }
 
-/// A building and what is watched of it.
+/// A building, and the outputs that are compared.
 struct Trials<'a> {
     plan: &'a Plan,
     /// Outputs that are compared.
@@ -67,7 +67,7 @@ pub fn trial(building: &Building, parts: &Parts) -> Result<Trial, BuildingError>
     let Trials { duration, is_shaken, .. } = plan;
     let steps: Vec<f64> = STEPS.into_iter().filter(|step| plan.count(*step) <= MOST_STEPS).collect();
     let mut linear: Vec<(f64, Option<History>)> = Vec::new();
-    // the reference is the first run that the one before it agrees with
+    // the reference is the first run that agrees with the one before it
     let mut reference = None;
     for &step in &steps {
         let history = plan.run(step, true).ok();
@@ -87,7 +87,7 @@ pub fn trial(building: &Building, parts: &Parts) -> Result<Trial, BuildingError>
         return Ok(Trial { held: None, linear: None, least, duration, is_shaken });
     };
     let suits = |history: &Option<History>| history.as_ref().is_some_and(|h| error(h, &reference) <= ERROR);
-    // the largest step below which every one suits
+    // the largest step such that it and every smaller one suffice
     let good = linear.iter().rev().take_while(|(_, history)| suits(history)).last();
     let good = good.map(|(step, _)| *step);
     let held = steps.iter().copied().find(|&step| suits(&plan.run(step, false).ok()));
@@ -105,7 +105,7 @@ fn error(history: &History, reference: &History) -> f64 {
         let apart = |(row, other): (&Vec<f64>, &Vec<f64>)| (row[index] - other[index]).abs();
         let apart = history.iter().zip(reference).map(apart);
         let apart = apart.fold(0.0, |most: f64, apart| if apart <= most { most } else { apart });
-        // what stands still has no error of its own
+        // an output that stays 0 has no error
         if peak > 0.0 {
             largest = if apart / peak <= largest { largest } else { apart / peak };
         }

@@ -20,7 +20,7 @@ pub(crate) trait Unit {
     fn set(&mut self, reference: u32, value: f64, rate: Option<f64>);
     fn start(&mut self) -> Result<()>;
     fn step(&mut self, step: Step) -> Result<()>;
-    /// ∂output/∂input within the unit.
+    /// Returns ∂output/∂input within the unit.
     fn derivative(&self, output: u32, input: u32) -> f64;
 }
 

@@ -1,4 +1,4 @@
-//! From a building to components and connections: what moves a member, and what it loads.
+//! Makes components and connections of a building: what moves each member, and what the member loads.
 
 use fmu_export::{Kind, Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
@@ -51,7 +51,7 @@ pub(crate) struct Connector {
     pub(crate) kind: ConnectorKind,
 }
 
-/// The type of what passes.
+/// The type of the connector's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ConnectorKind {
     Real(Option<&'static str>),
@@ -122,17 +122,17 @@ impl System {
         self.connections.push(Connection { from, output, to, input });
     }
 
-    /// A support's acceleration to an input.
+    /// Connects a support's acceleration to an input.
     fn move_by(&mut self, support: Support, to: usize, input: &'static str) {
         match support {
             Support::Ground if self.expose_ground => self.connect(None, GROUND_MOTION, to, input),
-            // an input connector without a connection is more than FMPy can read
+            // FMPy cannot read an input connector without a connection
             Support::Ground => {}
             Support::Floor(index) => self.connect(Some(index), "acceleration_absolute", to, input),
         }
     }
 
-    /// A wall between its supports.
+    /// Connects a wall with its supports.
     fn place(&mut self, index: usize, wall: &Member, loads: &mut Loads<'_>) -> Result<()> {
         let ends = [(Some(wall.bottom), "a_bottom", "reaction_bottom"), (wall.top, "a_top", "reaction_top")];
         for (support, input, reaction) in ends {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// Writes a number as people do: with so many digits or less, and with a power of ten where it is far from 1.
+/// Writes a number as people do, with at most `digits` digits. Far from 1 it has a power of ten.
 ///
 /// ```
 /// assert_eq!(figures::number(100.0 * 0.07, 6), "7");

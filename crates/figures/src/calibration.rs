@@ -10,9 +10,9 @@
 //! ```
 
 use study::calibration::{Calibration, Coefficient, DampingModel, Fit};
-use study::chart::{Axis, Chart, Series, model_color};
+use study::chart::{Axis, Chart, Series};
+use study::model::{Label, label};
 use study::reproduce::printed::{FREE_STANDING, REGRESSIONS};
-use study::reproduce::tables::abbreviation;
 
 /// Series that a chart holds without repeating a colour.
 const MOST_SERIES: usize = 6;
@@ -36,11 +36,6 @@ pub fn printed(model: DampingModel, a1: f64) -> Option<f64> {
     }
 }
 
-/// The number of the colour that a model has in all figures.
-fn color(model: DampingModel) -> usize {
-    model_color(if model == DampingModel::FreeStandingBlock { "block" } else { abbreviation(model) })
-}
-
 /// Draws ξ over e for some of the a₁ and u₀.
 fn over_restitution(found: &Calibration) -> Chart {
     let every = found.coefficients.len().div_ceil(MOST_SERIES);
@@ -59,9 +54,9 @@ fn over_restitution(found: &Calibration) -> Chart {
         series.push(Series::marks(&format!("a₁ = {a1}, u₀ = {start} u_ins"), color, points));
     }
     Chart {
-        title: format!("{}: best fits and −x ln e", abbreviation(found.model)),
+        title: format!("{}: best fits and −x ln e", label(found.model).name),
         x: Axis::new("e"),
-        y: Axis::new(if found.model == DampingModel::FreeStandingBlock { "c_bar" } else { "damping ratio" }),
+        y: Axis::new(if found.model.needs_elastic_branch() { "damping ratio" } else { "c_bar" }),
         series,
     }
 }
@@ -75,8 +70,8 @@ fn least_errors(found: &[Calibration]) -> Chart {
         title = format!("least error, a₁ = {}, u₀ = {} u_ins", middle.a1, middle.start);
         let fits = calibration.fits.iter().filter(|fit| (fit.a1, fit.start) == (middle.a1, middle.start));
         let points = fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect();
-        let color = color(calibration.model);
-        series.push(Series::marks(abbreviation(calibration.model), color, points));
+        let Label { name, color, .. } = label(calibration.model);
+        series.push(Series::marks(name, color, points));
     }
     Chart { title, x: Axis::new("e"), y: Axis::new("√Err"), series }
 }
@@ -92,7 +87,7 @@ fn over_stiffness(found: &[Calibration]) -> Chart {
         let [low, high] =
             points.iter().fold([1.0_f64, 0.0], |[low, high], point| [low.min(point.0), high.max(point.0)]);
         let a1 = |part: i32| low + (high - low) * f64::from(part) / 100.0;
-        let (name, color) = (abbreviation(calibration.model), color(calibration.model));
+        let Label { name, color, .. } = label(calibration.model);
         let paper: Vec<_> = (0..=100)
             .filter_map(|part| printed(calibration.model, a1(part)).map(|x| (a1(part), x)))
             .collect();

@@ -47,12 +47,12 @@ pub fn figure(chart: &Chart) -> String {
     )
 }
 
-/// Draws a chart with its legend at the top right and without its title, for a file that phones show too.
+/// Draws a chart with its legend at the top right, for a file. It has no title, so that it fits on a phone.
 pub fn picture(chart: &Chart) -> Picture {
     plot(chart, [460.0, 400.0], true).picture()
 }
 
-/// Whether a line carries marks too: it is one of several that have none of their own.
+/// Returns whether a line carries marks too: the chart has lines of several colours, and no marks of its own.
 fn is_marked(chart: &Chart, line: &Series) -> bool {
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
     !marks && chart.series.iter().any(|series| series.color != line.color)

@@ -31,7 +31,7 @@ const HALF_CHARACTER: f64 = 4.5;
 
 /// A map of cells, the first row at the bottom.
 pub struct HeatMap<'a> {
-    /// What it shows, for those who cannot see it.
+    /// What the map shows, in words for screen readers.
     pub label: String,
     /// The horizontal axis.
     pub columns: Axis,
@@ -55,11 +55,11 @@ pub struct Axis {
     pub ticks: Vec<(f64, String)>,
 }
 
-/// How a cell looks and what it says when pointed at.
+/// How a cell looks, and the text shown when it is pointed at.
 pub struct Cell {
     /// Colour.
     pub fill: String,
-    /// What it says, as markup; nothing if empty.
+    /// Text shown when the cell is pointed at, as markup; none if empty.
     pub title: String,
     /// Whether it is crossed out.
     pub crossed: bool,

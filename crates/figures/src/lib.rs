@@ -20,7 +20,7 @@
 //! | [`mod@calibration`] | calibrations as charts |
 //! | [`tie`] | force and displacement over the stiffness of a tie |
 //! | [`sheet`] | drawings side by side in a file |
-//! | [`template`] | no chart: fills the gaps of a page |
+//! | [`template`] | no chart; it fills the gaps of a page |
 //! | [`palette`] | the colours and marks of all of them |
 
 mod axes;

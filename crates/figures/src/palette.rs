@@ -30,9 +30,9 @@ pub const GREY: &str = "#777777";
 pub const PALE: &str = "#b5b5b5";
 pub const BLACK: &str = "#000000";
 
-/// Colour and mark of the series of a chart in turn. Damping models have those of their place among
-/// [`study::chart::MODELS`].
-pub const SERIES: [(&str, Mark); study::chart::MODELS.len()] = [
+/// Colour and mark of the series of a chart in turn, and of damping models by their
+/// [numbers](study::model::Label::color).
+pub const SERIES: [(&str, Mark); study::model::COLORS] = [
     (BLUE, Mark::Circle),
     (RED, Mark::Square),
     (GREEN, Mark::Triangle),

@@ -49,7 +49,7 @@ pub struct Series {
     pub width: f64,
     /// Name in the legend of a [picture](Plot::picture); empty for none.
     pub name: String,
-    /// For marks: what each one says when pointed at.
+    /// For marks: the text shown when each one is pointed at.
     pub titles: Vec<String>,
 }
 
@@ -130,7 +130,7 @@ impl Plot {
     /// pixels.
     ///
     /// # Panics
-    /// If kuva writes the size of a drawing in another way.
+    /// If kuva does not write the size of a drawing as expected.
     pub fn svg(&self) -> String {
         let [left, right, top, bottom] = MARGINS;
         let plots = self.drawn();
@@ -159,7 +159,7 @@ impl Plot {
         [left / width, 1.0 - right / width, top / height, 1.0 - bottom / height]
     }
 
-    /// Returns the ranges of the axes: x from, to, y from, to; NaN for those of the data.
+    /// Returns the ends of the axes, of x and then of y; NaN where an axis takes its range from the data.
     pub fn ranges(&self) -> [f64; 4] {
         let [[x0, x1], [y0, y1]] = self.axes.each_ref().map(|axis| axis.range.unwrap_or([f64::NAN; 2]));
         [x0, x1, y0, y1]
@@ -232,7 +232,7 @@ impl Picture {
     /// Writes it as PNG, two pixels for one of the SVG.
     ///
     /// # Errors
-    /// The reason why kuva could not.
+    /// Kuva's reason for failing.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn png(&self) -> Result<Vec<u8>, String> {
         PngBackend::new().render_scene(&self.0)

@@ -8,7 +8,7 @@ const COLUMNS: usize = 532;
 /// A line may leave out points no further from it than this \[px\].
 const TOLERANCE: f64 = 0.3;
 
-/// Keeps the extremes of each pixel column, in order of time: what a line of all points would look like.
+/// Keeps the extremes of each pixel column, in order of time. The line looks as one of all points would.
 pub(crate) fn decimated(points: &[(f64, f64)], end: f64) -> Points {
     if points.len() <= 2 * COLUMNS {
         return points.to_vec();
@@ -81,7 +81,8 @@ fn edge(from: (f64, f64), to: (f64, f64), [x, y]: [[f64; 2]; 2]) -> (f64, f64) {
     (from.0 + t * (to.0 - from.0), from.1 + t * (to.1 - from.1))
 }
 
-/// Leaves out points that nobody would miss (Douglas and Peucker, 1973); `scale` turns data into pixels.
+/// Leaves out points that make no visible difference (Douglas and Peucker, 1973). `scale` turns data into
+/// pixels.
 pub(crate) fn simplified(points: &[(f64, f64)], scale: [f64; 2]) -> Points {
     if points.len() < 3 {
         return points.to_vec();

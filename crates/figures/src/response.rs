@@ -53,8 +53,8 @@ pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Pl
     histories(&lines, [0.0, end], "a (m/s²)", &[])
 }
 
-/// Draws lines in their colours over the times \[s\]. The values `shown` lie within the vertical axis, which
-/// has the label.
+/// Draws lines in their colours over the times \[s\]. The vertical axis has the label, and its range includes
+/// the values `shown`.
 pub fn histories(
     lines: &[(&[(f64, f64)], &'static str)],
     times: [f64; 2],
@@ -68,8 +68,8 @@ pub fn histories(
     Plot::new([WIDTH, 190.0], axes, series.collect())
 }
 
-/// Draws the part of the backbone that a history of u/`u_ins` went through, on the backbone to both sides: F
-/// \[kN\] over u/`u_ins`. The history is [`cut`].
+/// Draws the backbone, F \[kN\] over u/`u_ins`, and on it the part that a history of u/`u_ins` went through.
+/// The history is [`cut`].
 pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot {
     let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
     let [lowest, highest] = [of(f64::min), of(f64::max)];

@@ -34,7 +34,7 @@ pub struct Shown {
     pub spectrum: RockingSpectrum,
     /// Title.
     pub title: String,
-    /// Facts about it; the last is left out of a file, which has no room.
+    /// Facts about the spectrum. A file has no room for the last one.
     pub notes: Vec<String>,
     /// Labels of the columns and the rows.
     pub labels: [String; 2],
@@ -67,7 +67,7 @@ pub fn own_words(shown: &Shown, ([x, y], point): &([f64; 2], Point)) -> String {
     format!("{size} = {}, {slenderness} = {}: {}{outside}", number(*x, 4), number(*y, 4), words_of(*point))
 }
 
-/// Says the result of a wall.
+/// Describes the result of a wall.
 fn words_of(point: Point) -> String {
     match point {
         Point { overturning: Some(time), .. } => format!("overturns at {time:.3} s"),
@@ -76,7 +76,8 @@ fn words_of(point: Point) -> String {
     }
 }
 
-/// Draws the map over an area \[px\], with its width and height; its cells say what they are if `named`.
+/// Draws the map over an area \[px\], with its width and height. If `named`, cells show their results when
+/// pointed at.
 pub fn map(shown: &Shown, area: [f64; 2], named: bool) -> (String, [f64; 2]) {
     let RockingSpectrum { columns, rows, points } = &shown.spectrum;
     let paint = |row: usize, column: usize| {
@@ -123,7 +124,7 @@ pub fn legend() -> String {
 /// Draws the map as an SVG file of its own.
 pub fn svg(shown: &Shown) -> String {
     let (drawing, size) = map(shown, FILE_AREA, false);
-    // the last note, the force law, has no room
+    // there is no room for the last note, the force law
     let caption = shown.notes[..shown.notes.len().saturating_sub(1)].join("; ");
     let pale = mixed(&ROCKING, 0.1);
     let dark = mixed(&ROCKING, 1.0);

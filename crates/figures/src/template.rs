@@ -14,7 +14,8 @@ pub fn page(template: &str, parts: &[(&str, &str)]) -> String {
     filled(&[HEAD, template, "<style>\n", PAPER, "</style>\n</html>\n"].concat(), parts)
 }
 
-/// Fills the gaps of a template with what is named so, in one pass: braces in a title stay what they are.
+/// Fills each gap of a template with the content of its name. One pass fills all gaps, so that braces inside
+/// the contents stay as they are.
 ///
 /// # Panics
 /// If a gap has no content, or content no gap.

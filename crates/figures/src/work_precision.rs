@@ -24,7 +24,7 @@ pub const TOOLS: [(&str, &str, Mark); 6] = [
     ("OpenSeesPy", RED, Mark::Triangle),
     ("SciPy", DARK_GREY, Mark::Plus),
 ];
-/// Below this no error is told from rounding; also keeps logarithms finite.
+/// Smallest error that is drawn: smaller ones are rounding, and the logarithm stays finite.
 const FLOOR: f64 = 1e-17;
 
 /// The measurements of one solver or tool.
@@ -38,7 +38,7 @@ pub struct Tool {
     pub mark: Mark,
     /// Run time \[ms\] and error over `u_ins`.
     pub points: Vec<(f64, f64)>,
-    /// What each point says when pointed at.
+    /// The text shown when each point is pointed at.
     pub titles: Vec<String>,
     /// Points that follow from one another are joined by a line.
     pub joined: bool,

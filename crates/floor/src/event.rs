@@ -37,7 +37,7 @@ impl State {
         }
     }
 
-    /// Updates branch, plastic displacement and hysteretic energy. Returns whether the branch is another.
+    /// Updates branch, plastic displacement and hysteretic energy. Returns whether the branch has changed.
     pub(crate) fn event(&mut self, floor: &Floor, load: Load) -> bool {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return false };
         let before = self.branch;

@@ -60,8 +60,8 @@ impl Input {
         *self = Self { value, ..Self::default() };
     }
 
-    /// After a step the input counts as extrapolated to its end.
-    fn pass(&mut self, duration: f64) {
+    /// Extrapolates the input to the end of a step of `duration` \[s\].
+    fn extrapolate(&mut self, duration: f64) {
         *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
     }
 }
@@ -108,7 +108,8 @@ impl Inputs {
         }
     }
 
-    /// Returns by how much the force of the walls grows with an input of `coupling`, where `used` is used.
+    /// Returns the derivative of the walls' force by an input of `coupling`, where the coupling in use is
+    /// `used`.
     pub(crate) fn weight(&self, coupling: Coupling, used: Coupling) -> f64 {
         match coupling {
             _ if coupling != used => 0.0,
@@ -162,10 +163,10 @@ impl Inputs {
         }
     }
 
-    /// After a step.
-    pub(crate) fn pass(&mut self, duration: f64) {
+    /// Extrapolates the inputs to the end of a step of `duration` \[s\].
+    pub(crate) fn extrapolate(&mut self, duration: f64) {
         for input in self.reactions.iter_mut().chain([&mut self.ground]) {
-            input.pass(duration);
+            input.extrapolate(duration);
         }
         self.last_duration = duration;
     }

@@ -48,7 +48,7 @@ pub struct Load {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the words of the message")]
 pub enum MotionError {
-    /// More corners in one step than are followed.
+    /// More corners in one step than the solver follows.
     #[error(
         "more than {MOST_CORNERS} corners of the hysteresis in one step of {duration} s; use smaller steps"
     )]
@@ -79,7 +79,8 @@ impl State {
     }
 
     /// Computes the acceleration relative to the base \[m/s²\].
-    // not inlined: beside another division a compiler adds an empty lane, 0/0, which some hosts trap
+    // Not inlined: with a neighbouring division the compiler would form a vector division whose unused lane
+    // is 0/0, and some hosts trap that.
     #[inline(never)]
     pub fn acceleration(&self, floor: &Floor, load: f64) -> f64 {
         load - (self.spring_force(floor) + floor.damping * self.velocity) / floor.mass
@@ -110,13 +111,13 @@ impl State {
             let piece = self.piece(floor, now);
             let corner = self.corner(floor, &piece, remaining)?;
             let length = corner.map_or(remaining, |corner| corner.after);
-            self.follow(floor, &piece, length);
+            self.move_along(floor, &piece, length);
             let Some(Corner { branch, .. }) = corner else {
                 let finite = self.displacement.is_finite() && self.velocity.is_finite();
                 return if finite { Ok(corners) } else { Err(MotionError::NotFinite { mass: floor.mass }) };
             };
             if branch == Branch::Elastic {
-                // unloading starts where the velocity is zero, here up to rounding
+                // unloading starts at zero velocity; remove the rounding error of the crossing
                 self.velocity = 0.0;
             }
             self.branch = branch;
@@ -131,8 +132,8 @@ impl State {
         Piece { oscillator: floor.oscillator(self.branch), start, rate: load.rate }
     }
 
-    /// Moves along one branch.
-    fn follow(&mut self, floor: &Floor, piece: &Piece, length: f64) {
+    /// Moves along a piece of motion on one branch for `length` \[s\], and adds up the energy lost.
+    fn move_along(&mut self, floor: &Floor, piece: &Piece, length: f64) {
         let (point, loss) = piece.with_loss(length);
         self.displacement += point.displacement;
         self.velocity = point.velocity;
@@ -143,7 +144,8 @@ impl State {
         }
     }
 
-    /// Finds the branch on which the motion continues: at the yield force that depends on its direction.
+    /// Finds the branch on which the motion continues. At the yield force that depends on the direction of
+    /// motion.
     pub(crate) fn branch_ahead(&self, floor: &Floor, load: Load) -> Branch {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return Branch::Elastic };
         let deformation = self.displacement - self.plastic;
@@ -153,8 +155,8 @@ impl State {
             Branch::Elastic => return Branch::Elastic,
             yielding => yielding.sign(),
         };
-        // the first of velocity, acceleration, jerk that is not zero; the branches agree on them where the
-        // velocity is zero
+        // The first of velocity, acceleration and jerk that is not zero gives the direction. Where the
+        // velocity is zero, both branches give the same acceleration and jerk.
         let heading = [self.velocity, self.acceleration(floor, load.value), self.jerk(floor, load)];
         match heading.into_iter().map(|rate| sign * rate).find(|rate| *rate != 0.0) {
             Some(outward) if outward > 0.0 && sign > 0.0 => Branch::YieldingUp,

@@ -120,11 +120,11 @@ impl Unit {
         // momentum: what the floor has gained and handed to the walls came from the base
         self.base.impulse = self.floor.mass * (self.state.velocity - velocity + gained)
             + self.inputs.impulse(coupling, duration);
-        self.inputs.pass(duration);
+        self.inputs.extrapolate(duration);
         Ok(())
     }
 
-    /// Inputs of the other coupling are set, and do nothing.
+    /// Inputs of the other coupling are set but have no effect.
     pub(crate) fn tell_about_ignored_inputs(&mut self, log: &mut Log<'_>) {
         let (name, other, ignored) = match self.parameters.coupling {
             Coupling::Reactions => {
@@ -311,7 +311,7 @@ impl Model for Unit {
             V::SpringForce => Some(along.spring),
             V::DampingForce => Some(along.damping),
             V::ReactionBottom => Some(-(along.spring + along.damping)),
-            // a memory of the past: not a function of the present state and inputs
+            // this depends on the past, not on the present state and inputs alone
             V::ImpulseBottom => Some(0.0),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }

@@ -44,9 +44,6 @@ pub enum ArchiveError {
     /// The content is larger than any FMU's.
     #[error("{}: unpacks to more than {MAX_CONTENT} bytes", path.display())]
     TooLarge { path: PathBuf },
-    /// The archive cannot be written.
-    #[error("{}: cannot be written: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
 }
 
 impl Archive {
@@ -58,7 +55,7 @@ impl Archive {
     pub fn open(path: &Path) -> Result<Self, ArchiveError> {
         let read = |source| ArchiveError::Read { path: path.to_path_buf(), source };
         let damaged = |source| ArchiveError::Damaged { path: path.to_path_buf(), source };
-        // to open a pipe in its place would wait for its writer
+        // opening a pipe would block until something writes to it
         if !fs::metadata(path).map_err(read)?.is_file() {
             return Err(read(std::io::Error::other("not a regular file")));
         }
@@ -75,7 +72,8 @@ impl Archive {
                 return Err(ArchiveError::BadName { path: path.to_path_buf(), name });
             }
             let mut content = Vec::new();
-            // One byte more than is allowed tells too much from just enough; the size in the header may lie.
+            // Reads one byte more than is left, so that content above the limit is noticed. The size in the
+            // header is not trusted.
             let size =
                 file.take(left + 1).read_to_end(&mut content).map_err(|error| damaged(error.into()))?;
             left = left
@@ -111,29 +109,6 @@ impl Archive {
         self.files.keys().map(String::as_str)
     }
 
-    /// Writes the archive to `path`, whole or not at all.
-    ///
-    /// # Errors
-    /// A folder that is not there or not writable; what was at `path` then stays as it was.
-    pub fn write(&self, path: &Path) -> Result<(), ArchiveError> {
-        let write = |source| ArchiveError::Write { path: path.to_path_buf(), source };
-        let bytes = self.to_bytes().map_err(write)?;
-        let name = path.file_name().ok_or_else(|| write(std::io::ErrorKind::InvalidInput.into()))?;
-        // In the same folder, so that renaming does not copy.
-        let mut part = std::ffi::OsString::from(".");
-        part.push(name);
-        part.push(format!(".{}.part", std::process::id()));
-        let part = path.with_file_name(part);
-        let written = File::create(&part)
-            .and_then(|mut file| file.write_all(&bytes).and_then(|()| file.sync_all()))
-            .and_then(|()| std::fs::rename(&part, path));
-        written.map_err(|error| {
-            // The first error is the one to report; there may be nothing to remove.
-            let _ = std::fs::remove_file(&part);
-            write(error)
-        })
-    }
-
     /// The archive's bytes: sorted paths, deflate, no dates, equal permissions.
     ///
     /// # Errors
@@ -153,7 +128,7 @@ impl Archive {
     }
 }
 
-/// Whether `name` is a relative path with `/` between its parts and none of them `..`.
+/// Returns whether `name` is a relative path with `/` between its parts and none of them `..`.
 fn is_inside(name: &str) -> bool {
     let plain = |part: &str| !matches!(part, "" | "." | "..") && !part.contains(['\\', ':', '\0']);
     name.split('/').all(plain)
@@ -163,7 +138,7 @@ fn is_inside(name: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// A folder of its own below the system's temporary one, gone at the end of the test.
+    /// A folder of its own below the system's temporary one, removed at the end of the test.
     struct Folder(PathBuf);
 
     impl Folder {
@@ -193,16 +168,13 @@ mod tests {
         let folder = Folder::new("same");
         let names = ["resources/scene.toml", "modelDescription.xml", "binaries/linux64/wall.so"];
         let archive = sample(names);
-        let (first, second) = (folder.0.join("a.fmu"), folder.0.join("b.fmu"));
-        archive.write(&first).unwrap();
-        sample([names[2], names[0], names[1]]).write(&second).unwrap();
-        assert_eq!(std::fs::read(&first).unwrap(), std::fs::read(&second).unwrap());
-        let read = Archive::open(&first).unwrap();
+        let bytes = archive.to_bytes().unwrap();
+        assert_eq!(sample([names[2], names[0], names[1]]).to_bytes().unwrap(), bytes);
+        let path = folder.0.join("a.fmu");
+        std::fs::write(&path, bytes).unwrap();
+        let read = Archive::open(&path).unwrap();
         assert_eq!(read, archive);
         assert!(read.names().is_sorted());
-        // Writing over an archive replaces it, and nothing else is left in the folder.
-        read.write(&second).unwrap();
-        assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 2);
     }
 
     #[test]
@@ -226,8 +198,7 @@ mod tests {
         // Content that does not compress is stored as it is, so that a flipped byte is the content's.
         let noise = (0..4000_u32).map(|n| (n.wrapping_mul(2_654_435_761) >> 13).to_le_bytes()[0]);
         archive.insert("a", noise.collect::<Vec<u8>>());
-        archive.write(&path).unwrap();
-        let mut bytes = std::fs::read(&path).unwrap();
+        let mut bytes = archive.to_bytes().unwrap();
         bytes[1000] ^= 1;
         std::fs::write(&path, &bytes).unwrap();
         assert!(matches!(Archive::open(&path), Err(ArchiveError::Damaged { .. })));
@@ -244,17 +215,5 @@ mod tests {
             let error = Archive::open(&path).unwrap_err();
             assert!(matches!(error, ArchiveError::BadName { .. }), "{name}: {error}");
         }
-    }
-
-    #[test]
-    fn a_failed_write_leaves_nothing() {
-        let folder = Folder::new("failed");
-        let path = folder.0.join("missing").join("a.fmu");
-        assert!(matches!(sample(["a", "b", "c"]).write(&path), Err(ArchiveError::Write { .. })));
-        // A folder cannot be replaced by a file.
-        let taken = folder.0.join("taken");
-        std::fs::create_dir(&taken).unwrap();
-        assert!(sample(["a", "b", "c"]).write(&taken).is_err());
-        assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 1);
     }
 }

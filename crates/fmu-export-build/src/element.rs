@@ -27,10 +27,10 @@ impl Element {
         // Bounded by the text: each event consumes some of it.
         loop {
             // A tag's line is the one its `<` is on: text before it is an event of its own.
-            let line = lines.at(reader.buffer_position());
+            let line = lines.line_at(reader.buffer_position());
             let malformed = |message: String| Fault { line, problem: Problem::Malformed { message } };
             let event = reader.read_event().map_err(|error| {
-                let line = LineCounter { text, offset: 0, line: 1 }.at(reader.error_position());
+                let line = LineCounter { text, offset: 0, line: 1 }.line_at(reader.error_position());
                 Fault { line, problem: Problem::Malformed { message: error.to_string() } }
             })?;
             let closed = match event {
@@ -123,7 +123,7 @@ impl Element {
         text.trim().parse().map(Some).map_err(|_| self.fault(bad()))
     }
 
-    /// Gives the attribute `name` a value, in its place if it is there, else at the end.
+    /// Sets the attribute `name` to a value. A new attribute goes to the end.
     pub(crate) fn set_attribute(&mut self, name: &str, value: String) {
         match self.attributes.iter_mut().find(|(key, _)| key == name) {
             Some((_, old)) => *old = value,
@@ -165,7 +165,7 @@ struct LineCounter<'a> {
 }
 
 impl LineCounter<'_> {
-    fn at(&mut self, offset: u64) -> usize {
+    fn line_at(&mut self, offset: u64) -> usize {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.text.len());
         // Only a position inside a character gives no text, and the reader has none.
         self.line += self.text.get(self.offset..offset).unwrap_or_default().matches('\n').count();

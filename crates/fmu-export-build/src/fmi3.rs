@@ -27,7 +27,7 @@ use crate::types3::{Types, is_of_type, type_name};
 use crate::variable::{Causality, Variable};
 use fmu_export::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE};
 
-/// What an FMI 3.0 unit says beyond its FMI 2.0 description: an element `<fmi3>` with attributes of
+/// What an FMI 3.0 unit states beyond its FMI 2.0 description: an element `<fmi3>` with attributes of
 /// `<CoSimulation>` and with `<Terminals>`.
 #[derive(Clone, Debug)]
 pub struct Additions {
@@ -120,7 +120,7 @@ impl Description {
         1..=u32::try_from(count).unwrap_or_default()
     }
 
-    /// Whether continuous inputs may change inside a step.
+    /// Returns whether continuous inputs may change inside a step.
     fn interpolates(&self) -> bool {
         let steps = self.root.child("CoSimulation");
         steps.is_some_and(|steps| matches!(steps.attribute("canInterpolateInputs"), Some("true" | "1")))

@@ -14,7 +14,7 @@ pub struct Reduction<'a> {
     pub description: &'a str,
     /// The guid, braces included.
     pub guid: &'a str,
-    /// Whether the variable of this name stays.
+    /// Returns whether the variable of this name is kept.
     pub keep: &'a dyn Fn(&str) -> bool,
     /// New start values by name, as they are written in the XML: numbers, `true` or `false`, item numbers.
     pub starts: &'a [(String, String)],
@@ -51,8 +51,8 @@ pub enum ReductionError {
 impl Description {
     /// The description with the variables, start values, guid, names and experiment of `reduction`.
     ///
-    /// Value references stay; indices count anew. Model Exchange goes if a state or derivative does. Units,
-    /// types and dependencies that nothing uses any more are gone.
+    /// Value references are kept, and indices are renumbered. Model Exchange is removed if a state or
+    /// derivative is. Units, types and dependencies that are no longer used are removed, too.
     ///
     /// # Errors
     /// A start value for a variable that is not kept, or one its limits or its type refuse.
@@ -128,7 +128,7 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
         let Some(typed) = variable.children.first_mut() else { continue };
         match indices.of(typed, "derivative") {
             Some(state) => typed.set_attribute("derivative", state.to_string()),
-            // The state is gone, and so is the relation.
+            // The state is not kept, so this is no longer a derivative of it.
             None => typed.attributes.retain(|(attribute, _)| attribute != "derivative"),
         }
         if let Some((_, start)) = starts.iter().find(|(of, _)| *of == name) {
@@ -139,7 +139,7 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
 
 fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Variable]) {
     let kept = |old: usize| variables.get(old.checked_sub(1)?).filter(|_| indices.get(old).is_some());
-    // A derivative whose state is gone is one no more, nor is a state without its derivative a state.
+    // A derivative counts only while its state is kept, and a state only while its derivative is kept.
     let is_derivative =
         |old: usize| kept(old).and_then(|variable| variable.derivative).is_some_and(|of| kept(of).is_some());
     let states: HashSet<usize> = (1..=variables.len())
@@ -236,7 +236,7 @@ fn set_experiment(root: &mut Element, experiment: DefaultExperiment) {
             ("stepSize", experiment.step),
             ("tolerance", experiment.tolerance),
         ] {
-            // As Rust prints a number it reads back to the same bits; a whole number needs no fraction.
+            // A number as Rust prints it reads back to the same bits. A whole number needs no fraction.
             let text = format!("{value:?}");
             element.set_attribute(attribute, text.strip_suffix(".0").unwrap_or(&text).to_owned());
         }

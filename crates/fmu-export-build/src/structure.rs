@@ -69,7 +69,7 @@ pub(crate) fn check(variables: &[Variable], structure: &Element) -> Result<(), F
     for list in &lists {
         match structure.child(list.name) {
             Some(element) => list.check(variables, element)?,
-            // A co-simulation unit need not tell its states.
+            // A co-simulation unit need not list its states.
             None if list.name == "Derivatives" => {}
             None => list.complete(variables, &HashSet::new(), structure.line)?,
         }

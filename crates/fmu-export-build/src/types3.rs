@@ -124,7 +124,7 @@ pub(crate) fn type_name(name: &str) -> &str {
     }
 }
 
-/// Whether `attribute` of a Real stands in its type.
+/// Returns whether `attribute` of a Real stands in its type.
 pub(crate) fn is_of_type(attribute: &str) -> bool {
     attribute == "declaredType" || OF_TYPES.contains(&attribute)
 }

@@ -14,8 +14,8 @@ pub(crate) fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
-/// Whether `variable` may be changed in `phase`, which is one that has sets. Where `event_mode` is used,
-/// inputs that are not continuous are changed there.
+/// Returns whether `variable` may be changed in `phase`, in which sets are allowed at all. With `event_mode`,
+/// inputs that are not continuous may change in Event Mode but not in Step Mode.
 pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -> bool {
     match (variable.causality, variable.variability) {
         (_, Variability::Constant) => false,
@@ -55,7 +55,7 @@ pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
     Failure(format!("{name} is {what} and cannot be set: only parameters and inputs can"))
 }
 
-/// Whether `variable` is one whose derivative can be set.
+/// Checks that `variable` is an input whose derivative can be set.
 pub(crate) fn check_derivable_input(variable: &Variable) -> Result<(), Failure> {
     let name = variable.name;
     match (variable.causality, variable.variability) {
@@ -65,7 +65,7 @@ pub(crate) fn check_derivable_input(variable: &Variable) -> Result<(), Failure> 
     }
 }
 
-/// Whether the derivative asked for is the first.
+/// Checks that the derivative requested is the first.
 pub(crate) fn check_order(variable: &Variable, order: i32) -> Result<(), Failure> {
     if order == 1 {
         return Ok(());

@@ -59,7 +59,7 @@ impl Phase {
         saved.into_iter().find(|phase| phase.number() == number)
     }
 
-    /// Whether parameters may still change, and values follow from them.
+    /// Returns whether parameters may still change, and with them the values that depend on them.
     pub(crate) const fn is_before_the_start(self) -> bool {
         matches!(self, Self::Instantiated | Self::InitializationMode)
     }
@@ -108,160 +108,183 @@ const GET: u16 = INIT | RUN | END;
 /// The continuous-time values of FMI 3.0 can be read from Initialization Mode on.
 const GET_CONTINUOUS: u16 = INIT | EVENT | TIME | END;
 
-/// Declares the calls, each with the names of its C functions and the phases in which these are allowed.
+/// What one version of FMI says about a call.
+struct Rule {
+    /// The C function.
+    name: &'static str,
+    /// The one kind of instance that the call is for; none if it is for both.
+    only_for: Option<Interface>,
+    /// The phases in which it is allowed.
+    phases: u16,
+    /// Why it is never served; none for the others.
+    why_never: Option<&'static str>,
+}
+
+/// A call for both kinds of instance.
+const fn any(name: &'static str, phases: u16) -> Rule {
+    Rule { name, only_for: None, phases, why_never: None }
+}
+
+/// A call of co-simulation.
+const fn cs(name: &'static str, phases: u16) -> Rule {
+    Rule { only_for: Some(Interface::CoSimulation), ..any(name, phases) }
+}
+
+/// A call of Model Exchange.
+const fn me(name: &'static str, phases: u16) -> Rule {
+    Rule { only_for: Some(Interface::ModelExchange), ..any(name, phases) }
+}
+
+/// A call that no FMU of this layer supports.
+const fn never(name: &'static str, why_never: Option<&'static str>) -> Rule {
+    Rule { why_never, ..any(name, NEVER) }
+}
+
+/// There is no such call in this version.
+const NONE: Rule = any("", NEVER);
+
+const NO_STEP: Option<&str> = Some("there is no step to cancel: fmi2DoStep returns when the step is done");
+const NO_CONFIGURATION: Option<&str> = Some("there are no structural parameters to configure");
+const IN_DESCRIPTION: Option<&str> =
+    Some("dependencies are in modelDescription.xml: providesPerElementDependencies is false");
+const UPDATE_INSTEAD: Option<&str> =
+    Some("use fmi3UpdateDiscreteStates: providesEvaluateDiscreteStates is false");
+const NO_CLOCKS: Option<&str> = Some("there are no clocks");
+
+/// Declares the calls, each with its rule in FMI 2.0 and in FMI 3.0.
 macro_rules! calls {
-    ($($call:ident $fmi2:literal $phases2:expr, $fmi3:literal $phases3:expr;)*) => {
-        /// The functions that the call order is about, with their like in the other version.
-        ///
-        /// Their order tells which kind of instance they are for: see [`Call::only_for`].
+    ($($call:ident: $fmi2:expr, $fmi3:expr;)*) => {
+        /// The functions whose order is checked, each with its counterpart in the other version.
         #[derive(Clone, Copy, PartialEq, Eq, Debug)]
         pub(crate) enum Call { $($call),* }
 
-        /// Name and phases of each call in FMI 2.0 and in FMI 3.0; without a name where there is none.
-        const TABLE: &[[(&str, u16); 2]] = &[$([($fmi2, $phases2), ($fmi3, $phases3)]),*];
+        /// The rules of each call in FMI 2.0 and in FMI 3.0.
+        const TABLE: &[[Rule; 2]] = &[$([$fmi2, $fmi3]),*];
     };
 }
 
 #[rustfmt::skip]
 calls! {
-    SetDebugLogging "fmi2SetDebugLogging" ALIVE, "fmi3SetDebugLogging" ALIVE;
-    SetupExperiment "fmi2SetupExperiment" INST, "" NEVER;
-    EnterInitializationMode "fmi2EnterInitializationMode" INST, "fmi3EnterInitializationMode" INST;
-    ExitInitializationMode "fmi2ExitInitializationMode" INIT, "fmi3ExitInitializationMode" INIT;
-    Terminate "fmi2Terminate" RUN, "fmi3Terminate" RUN;
-    Reset "fmi2Reset" ALIVE, "fmi3Reset" ALIVE;
-    GetReal "fmi2GetReal" GET, "fmi3GetFloat64" GET;
-    GetInteger "fmi2GetInteger" GET, "fmi3GetInt32" GET;
-    GetBoolean "fmi2GetBoolean" GET, "fmi3GetBoolean" GET;
-    GetString "fmi2GetString" GET, "fmi3GetString" GET;
-    SetReal "fmi2SetReal" SET, "fmi3SetFloat64" SET | UPDATE;
-    SetInteger "fmi2SetInteger" SET_DISCRETE, "fmi3SetInt32" SET_DISCRETE;
-    SetBoolean "fmi2SetBoolean" SET_DISCRETE, "fmi3SetBoolean" SET_DISCRETE;
-    SetString "fmi2SetString" SET_DISCRETE, "fmi3SetString" SET_DISCRETE;
-    GetFmuState "fmi2GetFMUstate" ALIVE, "fmi3GetFMUState" ALIVE;
-    SetFmuState "fmi2SetFMUstate" ALIVE, "fmi3SetFMUState" ALIVE;
-    FreeFmuState "fmi2FreeFMUstate" ALIVE, "fmi3FreeFMUState" ALIVE;
-    SerializedFmuStateSize "fmi2SerializedFMUstateSize" ALIVE, "fmi3SerializedFMUStateSize" ALIVE;
-    SerializeFmuState "fmi2SerializeFMUstate" ALIVE, "fmi3SerializeFMUState" ALIVE;
-    DeSerializeFmuState "fmi2DeSerializeFMUstate" ALIVE, "fmi3DeserializeFMUState" ALIVE;
-    GetDirectionalDerivative "fmi2GetDirectionalDerivative" GET, "fmi3GetDirectionalDerivative" GET;
+    SetDebugLogging: any("fmi2SetDebugLogging", ALIVE), any("fmi3SetDebugLogging", ALIVE);
+    SetupExperiment: any("fmi2SetupExperiment", INST), NONE;
+    EnterInitializationMode: any("fmi2EnterInitializationMode", INST),
+        any("fmi3EnterInitializationMode", INST);
+    ExitInitializationMode: any("fmi2ExitInitializationMode", INIT), any("fmi3ExitInitializationMode", INIT);
+    Terminate: any("fmi2Terminate", RUN), any("fmi3Terminate", RUN);
+    Reset: any("fmi2Reset", ALIVE), any("fmi3Reset", ALIVE);
+    GetReal: any("fmi2GetReal", GET), any("fmi3GetFloat64", GET);
+    GetInteger: any("fmi2GetInteger", GET), any("fmi3GetInt32", GET);
+    GetBoolean: any("fmi2GetBoolean", GET), any("fmi3GetBoolean", GET);
+    GetString: any("fmi2GetString", GET), any("fmi3GetString", GET);
+    SetReal: any("fmi2SetReal", SET), any("fmi3SetFloat64", SET | UPDATE);
+    SetInteger: any("fmi2SetInteger", SET_DISCRETE), any("fmi3SetInt32", SET_DISCRETE);
+    SetBoolean: any("fmi2SetBoolean", SET_DISCRETE), any("fmi3SetBoolean", SET_DISCRETE);
+    SetString: any("fmi2SetString", SET_DISCRETE), any("fmi3SetString", SET_DISCRETE);
+    GetFmuState: any("fmi2GetFMUstate", ALIVE), any("fmi3GetFMUState", ALIVE);
+    SetFmuState: any("fmi2SetFMUstate", ALIVE), any("fmi3SetFMUState", ALIVE);
+    FreeFmuState: any("fmi2FreeFMUstate", ALIVE), any("fmi3FreeFMUState", ALIVE);
+    SerializedFmuStateSize: any("fmi2SerializedFMUstateSize", ALIVE),
+        any("fmi3SerializedFMUStateSize", ALIVE);
+    SerializeFmuState: any("fmi2SerializeFMUstate", ALIVE), any("fmi3SerializeFMUState", ALIVE);
+    DeSerializeFmuState: any("fmi2DeSerializeFMUstate", ALIVE), any("fmi3DeserializeFMUState", ALIVE);
+    GetDirectionalDerivative: any("fmi2GetDirectionalDerivative", GET),
+        any("fmi3GetDirectionalDerivative", GET);
     // Values of types of FMI 3.0 alone. Enumerations are 64-bit integers there; the other types have none.
-    GetInt64 "" NEVER, "fmi3GetInt64" GET;
-    GetFloat32 "" NEVER, "fmi3GetFloat32" GET;
-    GetInt8 "" NEVER, "fmi3GetInt8" GET;
-    GetUInt8 "" NEVER, "fmi3GetUInt8" GET;
-    GetInt16 "" NEVER, "fmi3GetInt16" GET;
-    GetUInt16 "" NEVER, "fmi3GetUInt16" GET;
-    GetUInt32 "" NEVER, "fmi3GetUInt32" GET;
-    GetUInt64 "" NEVER, "fmi3GetUInt64" GET;
-    GetBinary "" NEVER, "fmi3GetBinary" GET;
-    SetInt64 "" NEVER, "fmi3SetInt64" SET_DISCRETE;
-    SetFloat32 "" NEVER, "fmi3SetFloat32" SET;
-    SetInt8 "" NEVER, "fmi3SetInt8" SET_DISCRETE;
-    SetUInt8 "" NEVER, "fmi3SetUInt8" SET_DISCRETE;
-    SetInt16 "" NEVER, "fmi3SetInt16" SET_DISCRETE;
-    SetUInt16 "" NEVER, "fmi3SetUInt16" SET_DISCRETE;
-    SetUInt32 "" NEVER, "fmi3SetUInt32" SET_DISCRETE;
-    SetUInt64 "" NEVER, "fmi3SetUInt64" SET_DISCRETE;
-    SetBinary "" NEVER, "fmi3SetBinary" SET_DISCRETE;
-    GetAdjointDerivative "" NEVER, "fmi3GetAdjointDerivative" GET;
-    // What no FMU of this layer supports.
-    EnterConfigurationMode "" NEVER, "fmi3EnterConfigurationMode" NEVER;
-    ExitConfigurationMode "" NEVER, "fmi3ExitConfigurationMode" NEVER;
-    GetNumberOfVariableDependencies "" NEVER, "fmi3GetNumberOfVariableDependencies" NEVER;
-    GetVariableDependencies "" NEVER, "fmi3GetVariableDependencies" NEVER;
-    EvaluateDiscreteStates "" NEVER, "fmi3EvaluateDiscreteStates" NEVER;
-    GetClock "" NEVER, "fmi3GetClock" NEVER;
-    SetClock "" NEVER, "fmi3SetClock" NEVER;
-    GetIntervalDecimal "" NEVER, "fmi3GetIntervalDecimal" NEVER;
-    GetIntervalFraction "" NEVER, "fmi3GetIntervalFraction" NEVER;
-    GetShiftDecimal "" NEVER, "fmi3GetShiftDecimal" NEVER;
-    GetShiftFraction "" NEVER, "fmi3GetShiftFraction" NEVER;
-    SetIntervalDecimal "" NEVER, "fmi3SetIntervalDecimal" NEVER;
-    SetIntervalFraction "" NEVER, "fmi3SetIntervalFraction" NEVER;
-    SetShiftDecimal "" NEVER, "fmi3SetShiftDecimal" NEVER;
-    SetShiftFraction "" NEVER, "fmi3SetShiftFraction" NEVER;
-    ActivateModelPartition "" NEVER, "fmi3ActivateModelPartition" NEVER;
-    // Of Model Exchange in FMI 2.0, of both kinds in FMI 3.0.
-    EnterEventMode "fmi2EnterEventMode" EVENT | TIME, "fmi3EnterEventMode" TIME | STEP;
-    NewDiscreteStates "fmi2NewDiscreteStates" EVENT, "fmi3UpdateDiscreteStates" EVENT;
-    // Of co-simulation.
-    SetRealInputDerivatives "fmi2SetRealInputDerivatives" INIT | STEP, "" NEVER;
-    GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" STEP | END, "fmi3GetOutputDerivatives" STEP | END;
-    EnterStepMode "" NEVER, "fmi3EnterStepMode" EVENT;
-    DoStep "fmi2DoStep" STEP, "fmi3DoStep" STEP;
-    FinishStep "" NEVER, "fmi3DoStep" STEP | UPDATE;
-    CancelStep "fmi2CancelStep" NEVER, "" NEVER;
-    GetStatus "fmi2GetStatus" STEP | END, "" NEVER;
-    GetRealStatus "fmi2GetRealStatus" STEP | END, "" NEVER;
-    GetIntegerStatus "fmi2GetIntegerStatus" STEP | END, "" NEVER;
-    GetBooleanStatus "fmi2GetBooleanStatus" STEP | END, "" NEVER;
-    GetStringStatus "fmi2GetStringStatus" STEP | END, "" NEVER;
-    // Of Model Exchange.
-    EnterContinuousTimeMode "fmi2EnterContinuousTimeMode" EVENT, "fmi3EnterContinuousTimeMode" EVENT;
-    CompletedIntegratorStep "fmi2CompletedIntegratorStep" TIME, "fmi3CompletedIntegratorStep" TIME;
-    SetTime "fmi2SetTime" EVENT | TIME, "fmi3SetTime" EVENT | TIME;
-    SetContinuousStates "fmi2SetContinuousStates" TIME, "fmi3SetContinuousStates" TIME;
-    GetDerivatives "fmi2GetDerivatives" EVENT | TIME | END,
-        "fmi3GetContinuousStateDerivatives" GET_CONTINUOUS;
-    GetEventIndicators "fmi2GetEventIndicators" GET_CONTINUOUS, "fmi3GetEventIndicators" GET_CONTINUOUS;
-    GetContinuousStates "fmi2GetContinuousStates" GET_CONTINUOUS, "fmi3GetContinuousStates" GET_CONTINUOUS;
-    GetNominalsOfContinuousStates "fmi2GetNominalsOfContinuousStates" INST | EVENT | TIME | END,
-        "fmi3GetNominalsOfContinuousStates" INST | EVENT | TIME | END;
-    GetNumberOfEventIndicators "" NEVER, "fmi3GetNumberOfEventIndicators" ALIVE;
-    GetNumberOfContinuousStates "" NEVER, "fmi3GetNumberOfContinuousStates" ALIVE;
+    GetInt64: NONE, any("fmi3GetInt64", GET);
+    GetFloat32: NONE, any("fmi3GetFloat32", GET);
+    GetInt8: NONE, any("fmi3GetInt8", GET);
+    GetUInt8: NONE, any("fmi3GetUInt8", GET);
+    GetInt16: NONE, any("fmi3GetInt16", GET);
+    GetUInt16: NONE, any("fmi3GetUInt16", GET);
+    GetUInt32: NONE, any("fmi3GetUInt32", GET);
+    GetUInt64: NONE, any("fmi3GetUInt64", GET);
+    GetBinary: NONE, any("fmi3GetBinary", GET);
+    SetInt64: NONE, any("fmi3SetInt64", SET_DISCRETE);
+    SetFloat32: NONE, any("fmi3SetFloat32", SET);
+    SetInt8: NONE, any("fmi3SetInt8", SET_DISCRETE);
+    SetUInt8: NONE, any("fmi3SetUInt8", SET_DISCRETE);
+    SetInt16: NONE, any("fmi3SetInt16", SET_DISCRETE);
+    SetUInt16: NONE, any("fmi3SetUInt16", SET_DISCRETE);
+    SetUInt32: NONE, any("fmi3SetUInt32", SET_DISCRETE);
+    SetUInt64: NONE, any("fmi3SetUInt64", SET_DISCRETE);
+    SetBinary: NONE, any("fmi3SetBinary", SET_DISCRETE);
+    GetAdjointDerivative: NONE, any("fmi3GetAdjointDerivative", GET);
+    EnterConfigurationMode: NONE, never("fmi3EnterConfigurationMode", NO_CONFIGURATION);
+    ExitConfigurationMode: NONE, never("fmi3ExitConfigurationMode", NO_CONFIGURATION);
+    GetNumberOfVariableDependencies: NONE, never("fmi3GetNumberOfVariableDependencies", IN_DESCRIPTION);
+    GetVariableDependencies: NONE, never("fmi3GetVariableDependencies", IN_DESCRIPTION);
+    EvaluateDiscreteStates: NONE, never("fmi3EvaluateDiscreteStates", UPDATE_INSTEAD);
+    GetClock: NONE, never("fmi3GetClock", NO_CLOCKS);
+    SetClock: NONE, never("fmi3SetClock", NO_CLOCKS);
+    GetIntervalDecimal: NONE, never("fmi3GetIntervalDecimal", NO_CLOCKS);
+    GetIntervalFraction: NONE, never("fmi3GetIntervalFraction", NO_CLOCKS);
+    GetShiftDecimal: NONE, never("fmi3GetShiftDecimal", NO_CLOCKS);
+    GetShiftFraction: NONE, never("fmi3GetShiftFraction", NO_CLOCKS);
+    SetIntervalDecimal: NONE, never("fmi3SetIntervalDecimal", NO_CLOCKS);
+    SetIntervalFraction: NONE, never("fmi3SetIntervalFraction", NO_CLOCKS);
+    SetShiftDecimal: NONE, never("fmi3SetShiftDecimal", NO_CLOCKS);
+    SetShiftFraction: NONE, never("fmi3SetShiftFraction", NO_CLOCKS);
+    ActivateModelPartition: NONE, never("fmi3ActivateModelPartition", NO_CLOCKS);
+    EnterEventMode: me("fmi2EnterEventMode", EVENT | TIME), any("fmi3EnterEventMode", TIME | STEP);
+    NewDiscreteStates: me("fmi2NewDiscreteStates", EVENT), any("fmi3UpdateDiscreteStates", EVENT);
+    SetRealInputDerivatives: cs("fmi2SetRealInputDerivatives", INIT | STEP), NONE;
+    GetRealOutputDerivatives: cs("fmi2GetRealOutputDerivatives", STEP | END),
+        cs("fmi3GetOutputDerivatives", STEP | END);
+    EnterStepMode: NONE, cs("fmi3EnterStepMode", EVENT);
+    DoStep: cs("fmi2DoStep", STEP), cs("fmi3DoStep", STEP);
+    FinishStep: NONE, cs("fmi3DoStep", STEP | UPDATE);
+    CancelStep: Rule { why_never: NO_STEP, ..cs("fmi2CancelStep", NEVER) }, NONE;
+    GetStatus: cs("fmi2GetStatus", STEP | END), NONE;
+    GetRealStatus: cs("fmi2GetRealStatus", STEP | END), NONE;
+    GetIntegerStatus: cs("fmi2GetIntegerStatus", STEP | END), NONE;
+    GetBooleanStatus: cs("fmi2GetBooleanStatus", STEP | END), NONE;
+    GetStringStatus: cs("fmi2GetStringStatus", STEP | END), NONE;
+    EnterContinuousTimeMode: me("fmi2EnterContinuousTimeMode", EVENT),
+        me("fmi3EnterContinuousTimeMode", EVENT);
+    CompletedIntegratorStep: me("fmi2CompletedIntegratorStep", TIME), me("fmi3CompletedIntegratorStep", TIME);
+    SetTime: me("fmi2SetTime", EVENT | TIME), me("fmi3SetTime", EVENT | TIME);
+    SetContinuousStates: me("fmi2SetContinuousStates", TIME), me("fmi3SetContinuousStates", TIME);
+    GetDerivatives: me("fmi2GetDerivatives", EVENT | TIME | END),
+        me("fmi3GetContinuousStateDerivatives", GET_CONTINUOUS);
+    GetEventIndicators: me("fmi2GetEventIndicators", GET_CONTINUOUS),
+        me("fmi3GetEventIndicators", GET_CONTINUOUS);
+    GetContinuousStates: me("fmi2GetContinuousStates", GET_CONTINUOUS),
+        me("fmi3GetContinuousStates", GET_CONTINUOUS);
+    GetNominalsOfContinuousStates: me("fmi2GetNominalsOfContinuousStates", INST | EVENT | TIME | END),
+        me("fmi3GetNominalsOfContinuousStates", INST | EVENT | TIME | END);
+    GetNumberOfEventIndicators: NONE, me("fmi3GetNumberOfEventIndicators", ALIVE);
+    GetNumberOfContinuousStates: NONE, me("fmi3GetNumberOfContinuousStates", ALIVE);
 }
 
 impl Call {
+    const fn rule(self, version: Version) -> &'static Rule {
+        &TABLE[self as usize][version as usize]
+    }
+
     /// The name of the C function.
     pub(crate) const fn name(self, version: Version) -> &'static str {
-        TABLE[self as usize][version as usize].0
+        self.rule(version).name
     }
 
     pub(crate) const fn is_allowed(self, version: Version, phase: Phase) -> bool {
-        TABLE[self as usize][version as usize].1 & phase.bit() != 0
+        self.rule(version).phases & phase.bit() != 0
     }
 
     /// The one kind of instance that this call is for; none if it is for both.
     pub(crate) const fn only_for(self, version: Version) -> Option<Interface> {
-        match self as usize {
-            call if call >= Self::EnterContinuousTimeMode as usize => Some(Interface::ModelExchange),
-            call if call >= Self::SetRealInputDerivatives as usize => Some(Interface::CoSimulation),
-            call if call >= Self::EnterEventMode as usize => match version {
-                Version::Fmi2 => Some(Interface::ModelExchange),
-                Version::Fmi3 => None,
-            },
-            _ => None,
-        }
+        self.rule(version).only_for
     }
 
     /// Why this call is never served; none for the others.
-    pub(crate) const fn why_never(self) -> Option<&'static str> {
-        match self {
-            Self::CancelStep => Some("there is no step to cancel: fmi2DoStep returns when the step is done"),
-            Self::EnterConfigurationMode | Self::ExitConfigurationMode => {
-                Some("there are no structural parameters to configure")
-            }
-            Self::GetNumberOfVariableDependencies | Self::GetVariableDependencies => {
-                Some("dependencies are in modelDescription.xml: providesPerElementDependencies is false")
-            }
-            Self::EvaluateDiscreteStates => {
-                Some("use fmi3UpdateDiscreteStates: providesEvaluateDiscreteStates is false")
-            }
-            call if call as usize >= Self::GetClock as usize
-                && call as usize <= Self::ActivateModelPartition as usize =>
-            {
-                Some("there are no clocks")
-            }
-            _ => None,
-        }
+    pub(crate) const fn why_never(self, version: Version) -> Option<&'static str> {
+        self.rule(version).why_never
     }
 
-    /// Whether a failure of this call ends the simulation.
+    /// Returns whether a failure of this call ends the simulation.
     ///
     /// A value that cannot be read or a state that is refused does not: the instance is as it was.
     pub(crate) fn failure_is_final(self, version: Version) -> bool {
-        // the standard calls fmi2Get… and fmi3Get… what only reads
+        // the standard names functions that only read fmi2Get… and fmi3Get…
         let reads = self.name(version).get(4..).is_some_and(|name| name.starts_with("Get"));
         !(reads
             || matches!(

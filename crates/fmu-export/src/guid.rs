@@ -1,4 +1,4 @@
-//! Whether description, library and payload belong together.
+//! Checks that description, library and payload belong together.
 
 use crate::failure::Failure;
 use crate::hash::fnv1a_128;
@@ -52,7 +52,7 @@ pub(crate) fn check<M: Model>(guid: &str, resources: Option<&Path>) -> Result<Op
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let read = fs::metadata(path).and_then(|found| {
-        // To open a pipe in its place would wait for its writer.
+        // Opening a pipe would block until something writes to it.
         if !found.is_file() {
             return Err(std::io::Error::other("it is not a regular file"));
         }

@@ -7,7 +7,7 @@ pub fn fnv1a_128(bytes: impl Iterator<Item = u8>) -> u128 {
     bytes.fold(OFFSET_BASIS, |hash, byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME))
 }
 
-/// FNV-1a, 64 bits. Each step is a bijection of the hash, so that no change of a single byte goes unseen.
+/// FNV-1a, 64 bits. Each step is a bijection of the hash, so every change of a single byte changes it.
 pub(crate) fn fnv1a_64(bytes: &[u8]) -> u64 {
     const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01b3;

@@ -13,7 +13,7 @@ fn not_finite(variable: &Variable, value: f64) -> Failure {
     Failure(format!("{} = {value:?} is not a finite number", variable.name))
 }
 
-/// Whether `value` is finite and within the limits of `variable`.
+/// Checks that `value` is finite and within the limits of `variable`.
 pub(crate) fn check_real(variable: &Variable, value: f64) -> Result<(), Failure> {
     finite(variable, value)?;
     match variable.kind {

@@ -2,14 +2,14 @@
 
 use std::fmt::Display;
 
-/// What a call comes to, and the weight of a message (`fmi2Status`).
+/// The status of a call, and the severity of a message (`fmi2Status`).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Status {
     /// All well.
     Ok,
-    /// Not quite right, but the computation can go on.
+    /// Something is wrong, but the computation can go on.
     Warning,
-    /// Not available; of the functions only those that inquire a status return it.
+    /// Not available. Only the functions that ask for a status return it.
     Discard,
     /// This simulation cannot go on; the instance can be reset.
     Error,
@@ -67,7 +67,7 @@ impl Filter {
     /// Everything.
     pub const EVERYTHING: Self = Self(u8::MAX);
 
-    /// This and `category`, or everything if that is [`Category::All`].
+    /// Returns this filter with `category` added, or with every category for [`Category::All`].
     pub const fn with(self, category: Category) -> Self {
         match category {
             Category::All => Self::EVERYTHING,
@@ -75,7 +75,7 @@ impl Filter {
         }
     }
 
-    /// Whether messages of `category` are wanted.
+    /// Returns whether messages of `category` are wanted.
     pub const fn wants(self, category: Category) -> bool {
         self.0 & 1 << category as u8 != 0
     }
@@ -101,17 +101,17 @@ impl<'a> Log<'a> {
         Self { sink: None, filter: Filter::ERRORS }
     }
 
-    /// Whether warnings are wanted.
+    /// Returns whether warnings are wanted.
     pub fn wants_warnings(&self) -> bool {
         self.wants(Category::Warning)
     }
 
-    /// Whether events are wanted.
+    /// Returns whether events are wanted.
     pub fn wants_events(&self) -> bool {
         self.wants(Category::Events)
     }
 
-    /// Whether information is wanted.
+    /// Returns whether information is wanted.
     pub fn wants_info(&self) -> bool {
         self.wants(Category::All)
     }
@@ -121,8 +121,7 @@ impl<'a> Log<'a> {
         self.write(Status::Error, Category::Error, message);
     }
 
-    /// Logs what is not quite right. The call returns `fmi2OK` all the same: some importers give up on
-    /// `fmi2Warning`.
+    /// Logs a warning. The call returns `fmi2OK` all the same: some importers give up on `fmi2Warning`.
     pub fn warning(&mut self, message: impl Display) {
         self.write(Status::Warning, Category::Warning, message);
     }
@@ -148,7 +147,7 @@ impl<'a> Log<'a> {
     }
 }
 
-/// The importer's logger and what it wants to hear.
+/// The importer's logger and the categories that it wants.
 pub(crate) struct Logger {
     sink: Option<Box<Sink>>,
     pub(crate) filter: Filter,

@@ -100,9 +100,9 @@ pub trait Model: Clone + Send + Sized + 'static {
 
 /// A model whose equations an importer's solver integrates: Model Exchange.
 ///
-/// The layer reads states and derivatives with [`Model::real`], and tells the modes apart. Between events the
-/// discrete state is frozen: what the model computes is smooth in time, states and continuous inputs, also
-/// where an event indicator has changed sign already, until [`update`](Self::update).
+/// The layer reads states and derivatives with [`Model::real`], and keeps track of the modes. Between events
+/// the discrete state is frozen: what the model computes is smooth in time, states and continuous inputs,
+/// also where an event indicator has changed sign already, until [`update`](Self::update).
 ///
 /// A state may also be set with [`Model::set_real`], in Event Mode and in Continuous-Time Mode, as some
 /// importers do who only evaluate the equations: the discrete state is then chosen anew. A discrete input may
@@ -135,7 +135,8 @@ pub trait ModelExchange: Model {
     /// When the model cannot go on.
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure>;
 
-    /// The solver has accepted a step to the present time and states. True asks for Event Mode.
+    /// Takes note that the solver has accepted a step to the present time and states. Returns `true` to ask
+    /// for Event Mode.
     ///
     /// # Errors
     /// When the model cannot go on.
@@ -182,7 +183,7 @@ pub struct Environment<'a> {
     pub interface: Interface,
     /// Name of the instance in the importer; the model identifier if that gave none.
     pub instance_name: &'a str,
-    /// The `resources` folder of the unpacked FMU, if the importer told of a usable one.
+    /// The `resources` folder of the unpacked FMU, if the importer stated a usable one.
     pub resources: Option<&'a Path>,
     /// The bytes of `resources/`[`Model::PAYLOAD`], whose hash agrees with the guid. None if the guid states
     /// none.

@@ -16,10 +16,10 @@ use crate::limits;
 use crate::variable::VariableId;
 
 const MAGIC: &[u8; 8] = b"FMI2stat";
-/// Changes with the format of the envelope and of what the layer writes into the payload.
+/// Version of the format: of the envelope and of what the layer writes into the payload.
 const VERSION: u64 = 2;
 
-/// Passes over the values of a state: writes each, or replaces it by what was written.
+/// Goes through the values of a state: writes each, or replaces it by the value that was written.
 ///
 /// One list of the values serves both directions, so that writer and reader cannot get out of step.
 #[derive(Debug)]
@@ -34,13 +34,13 @@ enum Bytes<'a> {
     Read(&'a [u8]),
 }
 
-/// Each method passes over one value, or several of a kind.
+/// Each method writes or reads one value, or several of a kind.
 ///
 /// # Errors
 /// When the bytes to read end before, or are not a value of the type that the state can have.
 #[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
 impl StateCodec<'_> {
-    /// Whether values are being read, so that what follows from them has to be computed.
+    /// Returns whether values are being read. The values that depend on them must then be computed.
     pub fn is_reading(&self) -> bool {
         matches!(self.bytes, Bytes::Read(_))
     }

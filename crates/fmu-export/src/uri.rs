@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// The folder a resource location means, without a trailing slash.
 ///
 /// Importers pass `file:///p`, `file:/p`, `file://localhost/p` or a plain path; percent escapes count in URIs
-/// only. None if it is empty, of another scheme, on another host, wrongly escaped, no UTF-8, or contains a
+/// only. None if it is empty, of another scheme, on another host, wrongly escaped, not UTF-8, or contains a
 /// NUL.
 pub fn path_from_location(location: &str) -> Option<PathBuf> {
     let text = match scheme(location) {

@@ -43,7 +43,7 @@ pub struct Check {
     pub peak_velocity: f64,
     /// Velocity of the ground at the end (m/s).
     pub final_velocity: f64,
-    /// What to look at before the record is used.
+    /// Warnings to look at before the record is used.
     pub warnings: Vec<Warning>,
 }
 
@@ -133,7 +133,7 @@ impl fmt::Display for Warning {
 }
 
 impl GroundMotion {
-    /// Warns about a peak above 3 g, as a PGA in gal gives that is taken for one in m/s².
+    /// Warns about a peak above 3 g. A PGA in gal that is read as if it were in m/s² has such a peak.
     ///
     /// ```
     /// use ground_motion::SyntheticMotion;
@@ -157,8 +157,8 @@ impl Warning {
 }
 
 impl Record {
-    /// Checks whether the ground comes to rest, whether the peak is credible and the one that the file
-    /// states, and whether the shaking has its start and its end.
+    /// Checks that the ground comes to rest, that the peak is credible and agrees with the one that the file
+    /// states, and that neither the start nor the end of the shaking is missing.
     pub fn check(&self) -> Check {
         let motion = &self.motion;
         let [peak_velocity, final_velocity] = velocities(motion);

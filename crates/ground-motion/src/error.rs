@@ -54,12 +54,9 @@ pub enum GroundMotionError {
     /// A record format that is not known.
     #[error("unknown record format `{found}`; use one of at2, esm, knet, cosmos, csmip, smc, csv")]
     Format { found: String },
-    /// The file could not be opened or read.
+    /// The file could not be opened or read, or is not a regular file, or larger than any record.
     #[error("{file}: cannot be read: {reason}")]
     Io { file: String, reason: io::Error },
-    /// A folder, pipe or device instead of a file.
-    #[error("{file}: expected a regular file, found {found}; save the record to a file first")]
-    NotAFile { file: String, found: &'static str },
     /// Several channels, and none was asked for.
     #[error(
         "{file}: expected one channel, found {found}; \
@@ -72,12 +69,6 @@ pub enum GroundMotionError {
          state one of these, or none if there is only one"
     )]
     Channel { file: String, wanted: String, found: String },
-    /// A file larger than any record.
-    #[error(
-        "{file}: expected a record of at most {limit} bytes, found {found}; \
-         check that this is a record, and trim or resample it"
-    )]
-    TooLarge { file: String, found: String, limit: u64 },
     /// Content that is not what the format requires.
     #[error("{file}, line {line}: expected {expected}, found {found}; {remedy}")]
     Content { file: String, line: usize, expected: String, found: String, remedy: String },

@@ -77,7 +77,8 @@ pub(crate) fn check_count(
     Err(Fault::new(last_line, expected, format!("{found} up to the end"), CUT_SHORT))
 }
 
-/// A Fortran format of numbers, `(8F10.6)`: so many a line, each so wide; neighbours may touch.
+/// A Fortran format of numbers, such as `(8F10.6)`: how many stand on a line, and how wide each is. They
+/// may touch.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Layout {
     pub(crate) per_line: usize,
@@ -94,7 +95,7 @@ impl Layout {
     fn of(format: &str) -> Option<Self> {
         const LARGEST: usize = 1000;
         let (count, rest) = format.trim().split_once(['E', 'e', 'F', 'f', 'I', 'i'])?;
-        // `1P8E10.3`: the scale does not change how a number with an exponent is read, but one without.
+        // The scale, as in `1P8E10.3`, changes the value of a number only if that has no exponent.
         let has_exponent = format.contains(['E', 'e']);
         let count = match count.rsplit_once(['P', 'p']) {
             Some((_, count)) if has_exponent => count,

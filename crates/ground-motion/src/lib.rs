@@ -24,6 +24,7 @@
 //! | item | gives |
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
+//! | [`read_file`] | the content of any regular file of a limited size |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
@@ -39,6 +40,7 @@
 mod check;
 mod error;
 mod fields;
+mod file;
 mod format;
 mod motion;
 mod options;
@@ -53,6 +55,7 @@ mod unit;
 
 pub use check::{Check, Warning};
 pub use error::GroundMotionError;
+pub use file::read_file;
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;

@@ -24,8 +24,8 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// Finds the unit of a file that writes `word` on `line`. The stated unit decides where the word says
-    /// nothing, and must not contradict one that does.
+    /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the
+    /// user states counts; where it is one, the user's must not contradict it.
     pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
         match (word.parse::<Unit>(), self.unit) {
             (Ok(unit), Some(stated)) if unit != stated => {

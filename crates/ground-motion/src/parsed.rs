@@ -27,7 +27,7 @@ pub(crate) struct Parsed {
     pub(crate) header: Vec<String>,
 }
 
-/// Tells whether a direction as files state it is vertical: one of its words says so.
+/// Returns whether one of the words of a direction, as files state it, means vertical.
 pub(crate) fn is_vertical(direction: &str) -> bool {
     const VERTICAL: [&str; 11] =
         ["UP", "DOWN", "DN", "DWN", "UD", "U-D", "V", "VER", "VERT", "VERTICAL", "Z"];
@@ -71,7 +71,7 @@ impl Parsed {
         layout.check_ended(lines.peek().copied(), count, stated)
     }
 
-    /// Refuses another number of samples than the one that `stated_by` says.
+    /// Refuses a number of samples other than the one that `stated_by` says.
     pub(crate) fn check_count(&self, stated: usize, stated_by: &str) -> Result<(), Fault> {
         check_count(self.samples.len(), stated, stated_by, self.last_line)
     }

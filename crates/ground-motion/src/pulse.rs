@@ -42,7 +42,7 @@ pub enum Shape {
     Harmonic {
         /// Phase φ at time zero (rad).
         phase: f64,
-        /// Time at which the motion stops at once (s).
+        /// Time at which the motion stops abruptly (s).
         end: Option<f64>,
     },
     /// One cycle a = A sin(2π f t), 0 ≤ t ≤ 1/f.
@@ -64,7 +64,7 @@ pub enum Shape {
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Pulse {
-    /// Its form.
+    /// Form of the motion.
     pub shape: Shape,
     /// Amplitude A (m/s²).
     pub amplitude: f64,

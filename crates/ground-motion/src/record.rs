@@ -1,10 +1,9 @@
 //! Record files: reads them within bounds and picks channels.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
 use std::path::Path;
 
 use crate::error::{Fault, GroundMotionError, excerpt};
+use crate::file::read_file;
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
@@ -154,26 +153,8 @@ fn listed(channels: &[String]) -> String {
 }
 
 fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
-    let failed = |reason: io::Error| GroundMotionError::Io { file: name.to_owned(), reason };
-    let too_large =
-        |found: String| GroundMotionError::TooLarge { file: name.to_owned(), found, limit: MAX_FILE_BYTES };
-    let metadata = fs::metadata(path).map_err(failed)?;
-    // Asked before opening: opening a pipe waits for its other end, and a device never ends.
-    if !metadata.is_file() {
-        let found = if metadata.is_dir() { "a folder" } else { "a pipe or device" };
-        return Err(GroundMotionError::NotAFile { file: name.to_owned(), found });
-    }
-    if metadata.len() > MAX_FILE_BYTES {
-        return Err(too_large(metadata.len().to_string()));
-    }
-    // The limit holds while reading too: a file may grow, or state no length.
-    let mut bytes = Vec::new();
-    let file = File::open(path).map_err(failed)?;
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(too_large("more".to_owned()));
-    }
-    Ok(bytes)
+    read_file(path, "a record", MAX_FILE_BYTES)
+        .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
 }
 
 /// The mark that DOS put at the end of texts.

@@ -25,10 +25,10 @@ pub const DAMPING: f64 = 0.05;
 /// Usual periods of AvgSA (s).
 pub const AVERAGE_PERIODS: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4];
 
-/// Shortest and longest period of an oscillator (s). Besides, 0 stands for the ground itself.
+/// Shortest and longest period of an oscillator (s). A period of 0 is allowed too: it stands for the ground.
 pub const PERIOD_LIMITS: [f64; 2] = [1e-3, 100.0];
 
-/// Pieces of a period, in each of which one turning point is searched.
+/// Pieces in a period; one turning point is searched in each.
 const PIECES_PER_PERIOD: f64 = 20.0;
 
 /// Largest number of pieces in a step.
@@ -123,14 +123,14 @@ impl Spectrum {
             let slope = (pair[1] - pair[0]) / pieces;
             let at = |index: usize| pair[0] + slope * index as f64;
             for index in 0..floor_index(pieces) {
-                search.pass(&piece, [at(index), at(index + 1)], self.maxima);
+                search.follow_piece(&piece, [at(index), at(index + 1)], self.maxima);
             }
             search.largest = search.largest.max(search.state[0].abs());
         }
         if self.maxima == Maxima::Everywhere {
             piece = Piece::new(oscillator, period / PIECES_PER_PERIOD);
             for _ in 0..floor_index(PIECES_PER_PERIOD) {
-                search.pass(&piece, [0.0; 2], self.maxima);
+                search.follow_piece(&piece, [0.0; 2], self.maxima);
             }
         }
         // ω times the pseudo-velocity
@@ -174,15 +174,16 @@ struct Search {
 }
 
 impl Search {
-    /// Goes through one piece whose ground acceleration (m/s²) is linear between the ends given.
-    fn pass(&mut self, piece: &Piece, ground: [f64; 2], maxima: Maxima) {
-        let (start, end) = (self.state, piece.advance(self.state, ground));
+    /// Follows the oscillator through one piece, in which the ground acceleration (m/s²) is linear between
+    /// the two values of `ground`.
+    fn follow_piece(&mut self, piece: &Piece, ground: [f64; 2], maxima: Maxima) {
+        let (start, end) = (self.state, piece.state_at_end(self.state, ground));
         self.state = end;
         if maxima == Maxima::AtSamples || start[1] * end[1] >= 0.0 {
             return;
         }
-        // Twice what a velocity that turns evenly would add: most turning points are lower than the largest
-        // by far.
+        // `reach` is twice what a velocity that changes linearly would add to u. Most turning points are far
+        // below the largest displacement, and need no search.
         let reach = piece.duration * (start[1].abs() + end[1].abs());
         if start[0].abs().max(end[0].abs()) + reach > self.largest {
             self.largest = self.largest.max(piece.turning_point(start, end, ground).abs());
@@ -211,12 +212,13 @@ impl Piece {
         Self { oscillator, duration, factors: [of_u, of_v] }
     }
 
-    fn advance(&self, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
+    /// Computes the state at the end of the piece.
+    fn state_at_end(&self, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         self.factors.map(|[from_u, from_v, from_a, from_b]| from_u * u + from_v * v + from_a * a + from_b * b)
     }
 
-    /// Computes the state after a time (s) within the piece.
-    fn after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
+    /// Computes the state at a time (s) within the piece.
+    fn state_after(&self, time: f64, [u, v]: [f64; 2], [a, b]: [f64; 2]) -> [f64; 2] {
         let (c, k) = (self.oscillator.damping(), self.oscillator.stiffness());
         let start = KinematicState { displacement: u, velocity: v, acceleration: -a - c * v - k * u };
         let rate = (a - b) / self.duration;
@@ -234,7 +236,7 @@ impl Piece {
             // The chord's zero, kept off the ends so that each step shortens the bracket.
             let (chord, room) = (low + (high - low) * (at_low / (at_low - at_high)), 0.01 * (high - low));
             let time = chord.clamp(low + room, high - room);
-            let [u, v] = self.after(time, start, ground);
+            let [u, v] = self.state_after(time, start, ground);
             displacement = u;
             if v.abs() <= still {
                 break;

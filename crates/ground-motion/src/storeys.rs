@@ -82,7 +82,7 @@ pub struct FloorMotion {
 }
 
 impl Storeys {
-    /// Makes the chain of some storeys, the lowest first.
+    /// Makes the chain of the storeys given, the lowest first.
     ///
     /// # Errors
     /// If there is no storey or more than 200, if a mass or stiffness is not positive, or if a damping ratio

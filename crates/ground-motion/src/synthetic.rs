@@ -53,7 +53,7 @@ const DECAY: f64 = std::f64::consts::LN_10 * 2.0;
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SyntheticMotion {
-    /// Start of the random numbers: another seed gives another motion of the same kind.
+    /// Seed of the random numbers: another seed gives another motion of the same kind.
     pub seed: u64,
     /// Duration (s), from 10 to 600; the nearest whole number of steps is taken.
     pub duration: f64,
@@ -93,15 +93,15 @@ impl SyntheticMotion {
         samples.push(0.0);
         for index in 1..=intervals {
             let rock = noise.next() * envelope(index as f64 / intervals as f64);
-            soil.advance(SOIL, -rock, step);
-            ground.advance(HIGH_PASS, soil.spring_and_damper(SOIL), step);
+            soil.step_to_load(SOIL, -rock, step);
+            ground.step_to_load(HIGH_PASS, soil.spring_and_damper(SOIL), step);
             samples.push(ground.acceleration);
         }
         GroundMotion::new(step, samples)?.scaled_to_peak(peak)
     }
 }
 
-/// Computes the envelope at a part of the duration.
+/// Computes the envelope at a time, given as a part of the duration.
 fn envelope(part: f64) -> f64 {
     if part < FULL_FROM {
         (part / FULL_FROM) * (part / FULL_FROM)
@@ -132,8 +132,8 @@ struct FilterState {
 }
 
 impl FilterState {
-    /// Advances by one step at whose end the load is p; the acceleration is linear in between.
-    fn advance(&mut self, filter: Filter, load: f64, step: f64) {
+    /// Advances the filter by one step, over which its acceleration is linear; `load` is p at the end.
+    fn step_to_load(&mut self, filter: Filter, load: f64, step: f64) {
         let Filter { angular_frequency: omega, damping_ratio: zeta } = filter;
         // v₁ = v₀ + Δt/2 (a₀ + a₁), x₁ = x₀ + Δt v₀ + Δt²/6 (2 a₀ + a₁)
         let velocity = self.velocity + step / 2.0 * self.acceleration;

@@ -105,7 +105,7 @@ impl FromStr for Acceleration {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let unknown = || GroundMotionError::Acceleration { found: text.chars().take(40).collect() };
-        // the exponent of a number is no unit
+        // the `e` of an exponent does not begin a unit
         let is_unit = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
         let (number, unit) = match text.find(is_unit) {
             Some(at) if text.parse::<f64>().is_err() => text.split_at(at),
@@ -124,7 +124,7 @@ impl fmt::Display for Unit {
 }
 
 /// Reads the usual spellings, in any case: `m/s2`, `m/s^2`, `m/s²`, `m/s**2`, `m/s/s`, `m/sec2`, `m/sec/sec`,
-/// `m s-2`, the same with `cm` and `mm`, `gal`, `g`.
+/// `m s-2`, each of them with `cm` or `mm` too, and `gal` and `g`.
 impl FromStr for Unit {
     type Err = GroundMotionError;
 

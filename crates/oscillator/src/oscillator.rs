@@ -36,7 +36,7 @@ const INVERSE_FACTORIALS: [f64; HIGHEST_ORDER] = {
     inverse
 };
 
-/// Difference of the exponents from which the two modes are followed on their own.
+/// Difference of the exponents from which the two modes are computed separately.
 const SEPARATE: f64 = 0.5;
 
 /// 1/n for n = 0 (unused), 1, 2, …
@@ -50,7 +50,7 @@ const RECIPROCALS: [f64; HIGHEST_ORDER + 1] = {
     reciprocals
 };
 
-/// c t + |k| t² up to which series serve.
+/// Largest c t + |k| t² for which the series are used.
 const SHORT: f64 = 1.0;
 
 /// Circular frequency \[rad/s\] below which a motion is one without stiffness.
@@ -69,20 +69,20 @@ impl Oscillator {
         let regime = if discriminant >= 0.0 {
             Regime::Oscillating(omega)
         } else {
-            // r₁ = −c/2 + √…, of the two the one that cancels comes from r₁ r₂ = k
-            // never 0, as compilers may divide ahead
+            // r₁ = −c/2 + √…, of the two the one that cancels comes from r₁ r₂ = k never 0, because compilers
+            // may divide before the branch is decided
             let fast = -(half + omega).max(f64::MIN_POSITIVE);
             Regime::Exponential(stiffness / fast, fast)
         };
         let longest_piece = match regime {
-            // a little more than a period; without stiffness and damping there is no limit
+            // a little more than one period; there is no limit without stiffness and damping
             Regime::Oscillating(omega) => 7.0 / omega.max(SLOWEST),
             // a softening branch grows by e³⁶ at most, 1/ε: no displacement lies closer to its equilibrium
             Regime::Exponential(slow, _) if slow > 0.0 => 36.0 / slow.max(SLOWEST),
             Regime::Exponential(..) => f64::INFINITY,
         };
         let root = stiffness.abs().sqrt();
-        // without stiffness nothing asks for the inverse; no division by zero, also for hosts that trap it
+        // without stiffness the inverse is not used; avoid the division by zero, which some hosts trap
         let inverse_root = 1.0 / root.max(f64::MIN_POSITIVE);
         Self { damping, stiffness, regime, root, inverse_root, longest_piece }
     }
@@ -303,8 +303,8 @@ impl Oscillator {
         displacement * time + (h + self.damping * j) * velocity + j * acceleration + k * rate
     }
 
-    /// Returns whether over `time` \[s\] the two modes part so far that [`Self::propagate`] follows each on
-    /// its own.
+    /// Returns whether over `time` \[s\] the two modes differ so much that [`Self::propagate`] computes each
+    /// separately.
     #[inline]
     pub fn is_spread(&self, time: f64) -> bool {
         matches!(self.regime, Regime::Exponential(slow, fast) if (slow - fast) * time >= SEPARATE)
@@ -340,30 +340,4 @@ impl Oscillator {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rounding of the closed forms.
-    const ROUNDING: f64 = 2e-14;
-
-    fn close(found: f64, wanted: f64, scale: f64) -> bool {
-        (found - wanted).abs() <= ROUNDING * scale.max(wanted.abs())
-    }
-
-    #[test]
-    fn known_responses() {
-        for t in [1e-6_f64, 1e-3, 0.3, 0.9, 1.1, 2.0, 30.0] {
-            let free = Oscillator::new(0.0, 0.0).green(t);
-            assert!(close(free.g, t, 0.0) && close(free.k, t.powi(4) / 24.0, 0.0));
-            let undamped = Oscillator::new(0.0, 9.0).green(t);
-            assert!(close(undamped.g, (3.0 * t).sin() / 3.0, 1.0));
-            assert!(close(undamped.h, 2.0 * (1.5 * t).sin().powi(2) / 9.0, 1.0), "{t}");
-            let critical = Oscillator::new(6.0, 9.0).green(t);
-            assert!(close(critical.g, t * (-3.0 * t).exp(), t));
-            let dashpot = Oscillator::new(3.0, 0.0).green(t);
-            assert!(close(dashpot.g, -(-3.0 * t).exp_m1() / 3.0, 0.0));
-            let over = Oscillator::new(10.0, 9.0).green(t);
-            assert!(close(over.g, -(-t).exp() * (-8.0 * t).exp_m1() / 8.0, t));
-        }
-    }
-}
+mod tests;

@@ -88,3 +88,50 @@ impl Polynomial {
         sum * time
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Σ n (n − 1) … (n − d + 1) |uₙ| tⁿ⁻ᵈ, term by term.
+    fn term_by_term(coefficients: &[f64], derivative: i32, time: f64) -> f64 {
+        let term = |(n, u): (i32, &f64)| {
+            let factor: f64 = (0..derivative).map(|step| f64::from(n - step)).product();
+            if n < derivative { 0.0 } else { factor * u * time.powi(n - derivative) }
+        };
+        (0..).zip(coefficients).map(term).sum()
+    }
+
+    /// Terms beyond the order in use do not count. Ten operations round to 1e-14 of positive sums.
+    #[test]
+    fn values_and_bounds_are_sums_of_terms() {
+        let used = [0.3, 1.1, 0.7, 2.3, 0.4, 1.9, 0.6];
+        let mut coefficients = [1e6; HIGHEST_ORDER + 1];
+        coefficients[..used.len()].copy_from_slice(&used);
+        let motion = Polynomial { coefficients, order: used.len() - 1 };
+        let time = 0.83;
+        let near =
+            |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-14, "{found} for {wanted}");
+        let wanted = [0, 1, 2, 3, 4].map(|derivative| term_by_term(&used, derivative, time));
+        for (found, wanted) in motion.derivatives(time).into_iter().zip(wanted) {
+            near(found, wanted);
+        }
+        let at = motion.at(time);
+        for (found, wanted) in [at.displacement, at.velocity, at.acceleration].into_iter().zip(wanted) {
+            near(found, wanted);
+        }
+        let start = motion.start();
+        assert_eq!([start.displacement, start.velocity, start.acceleration], [0.3, 1.1, 1.4]);
+        let integral: f64 = (1..).zip(used).map(|(n, u)| u * time.powi(n) / f64::from(n)).sum();
+        near(motion.integral(time), integral);
+        // signs do not count in a bound
+        let mut signed = motion;
+        signed.coefficients.iter_mut().skip(1).step_by(2).for_each(|u| *u = -*u);
+        for bounded in [motion, signed] {
+            let (acceleration, jerk) = bounded.bounds(time);
+            near(acceleration, wanted[2]);
+            near(jerk, wanted[3]);
+            near(bounded.snap(time), wanted[4]);
+        }
+    }
+}

@@ -5,12 +5,11 @@ use figures::palette::{AMBER, BLUE, GREY, Mark};
 use figures::plot::{Axis, Look, Plot, Series};
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
 use rocking_wall::variables::{DampingModel, Impact};
-use rocking_wall::wall::{COMPUTED, Parameters};
+use rocking_wall::wall::{Damping, Parameters};
 use serde_json::{Value, json};
 use study::fragility::{Bootstrap, ObservationKind, Summary, compare, steps};
-use study::ida::{
-    Curve, Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, RatioSource, Study,
-};
+use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
+use study::model::{EnergyLoss, Model};
 
 /// Synthetic motions, with the seeds 1, 2, …
 const MOTIONS: u32 = 20;
@@ -23,7 +22,7 @@ const STATES: [(f64, &str, &str); 2] = [(0.4, "moderate damage, 0.4 u_ins", AMBE
 const RESAMPLES: usize = 400;
 const SEED: u64 = 1;
 
-/// A fragility in the making: motion after motion, so that the page can show how far it is.
+/// A fragility that is computed motion by motion, so that the page can show the progress.
 #[derive(Debug)]
 pub(crate) struct Fragility {
     study: Study,
@@ -39,7 +38,7 @@ impl Fragility {
     /// # Errors
     /// Why a study cannot have this wall.
     pub(crate) fn new(parameters: Parameters, width: f64, peak: Option<f64>) -> Result<Self, String> {
-        let model = Model::new(damping(&parameters)?);
+        let model = Model::new(energy_loss(&parameters)?);
         let walls = vec![NamedWall::new("the wall", parameters)];
         let record = |seed: u32| {
             let recipe = SyntheticMotion { seed: seed.into(), duration: DURATION, step: STEP, peak: 1.0 };
@@ -59,7 +58,7 @@ impl Fragility {
         Ok(Self { study, curves: Vec::new(), width, peak })
     }
 
-    /// Runs the next motion; says how many are done, and after the last one the result.
+    /// Runs the next motion. Returns how many are done, and after the last one the result too.
     ///
     /// # Errors
     /// Why a run failed.
@@ -126,19 +125,12 @@ impl Fragility {
 }
 
 /// The energy loss of a wall as a study knows it.
-fn damping(parameters: &Parameters) -> Result<Damping, String> {
-    let source =
-        |number: f64| if number == COMPUTED { RatioSource::Computed } else { RatioSource::Given(number) };
-    let (ratio, c_bar) = (source(parameters.xi), source(parameters.c_bar));
-    match (parameters.damping_model, parameters.impact) {
-        (DampingModel::None, Impact::None) => Ok(Damping::None),
-        (DampingModel::None, Impact::Restitution) => Ok(Damping::Restitution),
+fn energy_loss(parameters: &Parameters) -> Result<EnergyLoss, String> {
+    match (parameters.damping(), parameters.impact) {
+        (damping, Impact::None) => Ok(EnergyLoss::Viscous(damping)),
+        (Damping { model: DampingModel::None, .. }, Impact::Restitution) => Ok(EnergyLoss::Restitution),
         (_, Impact::Restitution) => Err("a fragility has viscous damping or restitution at impacts, not \
                                          both; set damping_model = none or impact = none"
             .to_owned()),
-        (DampingModel::ConstantCoefficient, _) => Ok(Damping::ConstantCoefficient(ratio)),
-        (DampingModel::FreeStandingBlock, _) => Ok(Damping::FreeStandingBlock(c_bar)),
-        (DampingModel::ConstantRatio, _) => Ok(Damping::ConstantRatio(ratio)),
-        (DampingModel::StiffnessProportional, _) => Ok(Damping::StiffnessProportional(ratio)),
     }
 }

@@ -1,8 +1,8 @@
 //! A page that computes rocking walls in the browser.
 //!
 //! The crate compiles to WebAssembly. The page sends a request as JSON and gets an answer as JSON: the
-//! library computes, `figures` draws, the page's script only shows. On other machines the crate is a library
-//! of the same answers, for tests. `cargo xtask playground` packs the page into one file.
+//! library computes, `figures` draws, and the page's script only shows. Compiled for other targets, the crate
+//! gives the same answers to tests. `cargo xtask playground` packs the page into one file.
 //!
 //! ```
 //! use playground::Session;

@@ -19,7 +19,7 @@ pub(crate) fn described() -> Value {
 pub(crate) fn unused(fields: &Fields) -> Value {
     let mut scene = Scene::default();
     for (name, text) in fields {
-        // the run says what is wrong with it
+        // the run reports what is wrong with it
         let _ = scene.set(name, text);
     }
     usage(&scene.parameters).filter(|usage| !usage.matters).map(|usage| usage.name).collect()

@@ -22,7 +22,7 @@ pub struct Session {
     fragility: Option<Fragility>,
 }
 
-/// An answer that is no `Value`.
+/// An answer in the form that the page reads.
 #[derive(Serialize)]
 struct Reply<T> {
     answer: T,

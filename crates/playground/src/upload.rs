@@ -25,7 +25,7 @@ impl Upload {
         &self.fingerprint
     }
 
-    /// Reads the record with the options of a request; again only if these have changed.
+    /// Returns the record, read with the options of a request. It is read again only if they have changed.
     ///
     /// # Errors
     /// What is wrong with the file, or with an option.

@@ -7,10 +7,10 @@ use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 
-/// Part of the static instability displacement below which the wall has not moved to speak of.
+/// Part of the static instability displacement below which the wall counts as not having moved.
 const STILL: f64 = 5e-3;
 
-/// Says whether the wall stands, how far it moves, and what that is measured by.
+/// Describes whether the wall stands and how far it moves, and what the movement is measured by.
 pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value {
     let summary = &response.summary;
     let peak = response.demands.displacement.largest();

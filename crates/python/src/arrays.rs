@@ -38,7 +38,7 @@ pub(crate) fn samples(given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     Ok(array.readonly().as_slice()?.to_vec())
 }
 
-/// Makes a motion of its values.
+/// Makes a motion from its values.
 pub(crate) fn motion((step, given): &Given<'_>) -> PyResult<GroundMotion> {
     GroundMotion::new(*step, samples(given)?).map_err(of_motion)
 }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::variables::DampingModel;
 use study::calibration::{
-    Calibration, CalibrationError, Coefficient, Fit, Grid, calibrate, calibrated_models,
+    Calibration, CalibrationError, Coefficient, Fit, Grid, calibrate, calibrated_models, model_named,
 };
 use study::parallel;
 
@@ -40,7 +40,7 @@ pub(crate) fn calibrate_wall<'py>(
     let parameters = &wall.scene.parameters;
     let models = match models {
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
-        None => calibrated_models(parameters).to_vec(),
+        None => calibrated_models(parameters),
     };
     let threads = parallel::threads(threads);
     let mut found = Vec::with_capacity(models.len());
@@ -65,12 +65,7 @@ pub(crate) fn calibrate_wall<'py>(
 }
 
 fn model(name: &str) -> PyResult<DampingModel> {
-    DampingModel::from_name(name).ok_or_else(|| {
-        refused(format!(
-            "models: {name:?} is not one of constant_coefficient, free_standing_block, constant_ratio, \
-             stiffness_proportional"
-        ))
-    })
+    model_named(name).map_err(|error| refused(format!("models: {error}")))
 }
 
 fn of_calibration(error: CalibrationError) -> PyErr {

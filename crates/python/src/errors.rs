@@ -25,7 +25,9 @@ pub(crate) fn of_motion(error: GroundMotionError) -> PyErr {
         GroundMotionError::Io { reason, .. } if reason.kind() == ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(error.to_string())
         }
-        GroundMotionError::Io { .. } => PyOSError::new_err(error.to_string()),
+        GroundMotionError::Io { reason, .. } if reason.kind() != ErrorKind::InvalidInput => {
+            PyOSError::new_err(error.to_string())
+        }
         _ => refused(error),
     }
 }

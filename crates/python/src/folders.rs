@@ -26,7 +26,7 @@ impl Folder {
         Ok(Self { folder: opened.map_err(of_folder)? })
     }
 
-    /// Lists the parts that are missing or damaged, and says which are damaged.
+    /// Lists the parts that are missing or damaged, and the damaged ones among them.
     fn missing(&self, py: Python<'_>) -> (Vec<usize>, Option<String>) {
         py.detach(|| {
             let missing = self.folder.missing(0..self.folder.contents().parts());

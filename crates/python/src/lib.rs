@@ -12,7 +12,7 @@
 //! | `watch` | work on another thread, while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the parameters of the model description |
-//! | `responses` | what a run has come to |
+//! | `responses` | results of a run |
 //! | `walls` | the class `Wall` |
 //! | `checks`, `spectra` | capacity against demand, rocking spectra |
 //! | `calibrations`, `ties` | damping that matches restitution, ties of any stiffness |

@@ -1,4 +1,4 @@
-//! What a run has come to.
+//! Results of a run.
 
 use figures::plot::Picture;
 use figures::response;

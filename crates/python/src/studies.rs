@@ -6,24 +6,22 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ground_motion::STANDARD_GRAVITY;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking_wall::scene::SceneError;
-use study::fragility::{Interval, Summary};
-use study::ida::{Curve, Exceedance, IdaError, NamedRecord, Run, Study as Ida};
+use study::ida::{Curve, IdaError, NamedRecord};
 use study::loaded::{LoadedStudy, Sent};
 use study::parallel;
 use study::results::{Fitting, WallResults};
+use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names, Table};
 use study_folder::{Contents, encode};
 
 use crate::arrays::{Given, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
-use crate::tables::Column::{self, Counts, Flags, Names, Numbers};
-use crate::tables::table;
+use crate::tables::{Column, table};
 use crate::watch::watched;
 
 /// A study ready to run.
@@ -66,7 +64,7 @@ impl Study {
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
         let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
         let mut loaded = made.map_err(|error| match error {
-            // the lines are those of a text that nobody has written
+            // the user has not written this text, so its line numbers say nothing
             SceneError::Line { message, .. } => refused(message),
             other => refused(other),
         })?;
@@ -166,11 +164,14 @@ impl Study {
             let Ok(results) = fitted;
             results
         });
-        Ok([
-            levels(py, study, &curves)?,
-            collapses(py, study, &curves)?,
-            fragilities(py, study, &results, &report.fractions)?,
-        ])
+        let names = Names {
+            walls: self.walls(),
+            models: self.models(),
+            records: self.records(),
+            fractions: &report.fractions,
+        };
+        let of = |made: Table| table_of(py, made, &names, &results);
+        Ok([of(LEVELS)?, of(COLLAPSES)?, of(FRAGILITIES)?])
     }
 }
 
@@ -206,117 +207,21 @@ impl Study {
     }
 }
 
-/// The first columns of a table: wall, model and record of each row, given by the number of its combination.
-fn names<'a>(study: &'a Ida, rows: &[usize]) -> Vec<(&'static str, Column<'a>)> {
-    let of =
-        |name: fn(&'a Ida, usize) -> &'a str| Names(rows.iter().map(|&index| name(study, index)).collect());
-    vec![
-        ("wall", of(|study, index| &study.walls()[study.case(index).wall].name)),
-        ("model", of(|study, index| &study.models()[study.case(index).model].name)),
-        ("record", of(|study, index| &study.records()[study.case(index).record].name)),
-    ]
-}
-
-/// Every run, as in `levels.csv`.
-fn levels<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound<'py, PyDict>> {
-    let curves = curves.iter().enumerate();
-    let runs: Vec<_> =
-        curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run))).collect();
-    let rows: Vec<_> = runs.iter().map(|(index, _)| *index).collect();
-    let numbers = |value: fn(&Run) -> f64| Numbers(runs.iter().map(|(_, run)| value(run)).collect());
-    let values = [
-        ("intensity_g", numbers(|run| in_g(run.intensity))),
-        ("u_max_over_u_ins", numbers(|run| run.demand)),
-        ("overturned", Flags(runs.iter().map(|(_, run)| run.overturning.is_some()).collect())),
-        ("overturn_time_s", numbers(|run| run.overturning.unwrap_or(f64::NAN))),
-    ];
-    table(py, names(study, &rows).into_iter().chain(values))
-}
-
-/// The collapse of every wall, model and record, as in `collapses.csv`.
-fn collapses<'py>(py: Python<'py>, study: &Ida, curves: &[Curve]) -> PyResult<Bound<'py, PyDict>> {
-    let rows: Vec<_> = (0..curves.len()).collect();
-    let of = |value: fn(&Curve) -> f64| Numbers(curves.iter().map(value).collect());
-    let count = |value: fn(&Curve) -> usize| Counts(curves.iter().map(value).collect());
-    let values = [
-        (
-            "collapse_g",
-            of(|curve| match curve.collapse() {
-                Exceedance::At(intensity) => in_g(intensity),
-                Exceedance::Above(_) => f64::NAN,
-            }),
-        ),
-        ("standing_below_g", of(|curve| in_g(curve.level_below_collapse()))),
-        ("highest_level_g", of(|curve| in_g(curve.top()))),
-        ("runs", count(|curve| curve.runs().len())),
-        ("resurrections", count(Curve::resurrections)),
-    ];
-    table(py, names(study, &rows).into_iter().chain(values))
-}
-
-/// The fragility of every wall, model and limit state, as in `fragilities.csv`.
-fn fragilities<'py>(
+/// Makes a table of the results of all walls.
+fn table_of<'py>(
     py: Python<'py>,
-    study: &Ida,
+    made: Table,
+    names: &Names<'_>,
     results: &[WallResults],
-    fractions: &[f64],
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut rows = Vec::new();
-    for (w, wall) in study.walls().iter().enumerate() {
-        for (m, model) in study.models().iter().enumerate() {
-            let row = |(f, fraction): (usize, &f64)| {
-                (wall.name.as_str(), model.name.as_str(), *fraction, &results[w].summaries(f)[m])
-            };
-            rows.extend(fractions.iter().enumerate().map(row));
-        }
+    let mut columns: Vec<Column<'_>> = Vec::new();
+    for (wall, results) in results.iter().enumerate() {
+        (made.rows)(names, wall, results, &mut |cells| {
+            if columns.is_empty() {
+                columns.extend(cells.iter().map(Column::of));
+            }
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        });
     }
-    let summaries = || rows.iter().map(|row| row.3);
-    let numbers = |value: fn(&Summary) -> f64| Numbers(summaries().map(value).collect());
-    let counts = |value: fn(&Summary) -> usize| Counts(summaries().map(value).collect());
-    let interval = |names: [&'static str; 3], of: fn(&Summary) -> &Interval, unit: f64| {
-        let [estimates, lows, highs] = [0, 1, 2]
-            .map(|part| Numbers(summaries().map(|summary| values(of(summary), unit)[part]).collect()));
-        [(names[0], estimates), (names[1], lows), (names[2], highs)]
-    };
-    let g = STANDARD_GRAVITY;
-    let first = [
-        ("wall", Names(rows.iter().map(|row| row.0).collect())),
-        ("model", Names(rows.iter().map(|row| row.1).collect())),
-        ("u_max_over_u_ins", Numbers(rows.iter().map(|row| row.2).collect())),
-        ("records", counts(|summary| summary.records)),
-        ("censored", counts(|summary| summary.censored)),
-    ];
-    let betas = [
-        ("beta", numbers(|summary| summary.fitted.map_or(f64::NAN, |fit| fit.dispersion))),
-        ("beta_alone", numbers(|summary| summary.alone.map_or(f64::NAN, |fit| fit.dispersion))),
-    ];
-    let columns = first
-        .into_iter()
-        .chain(interval(["median_g", "median_low_g", "median_high_g"], |summary| &summary.median, g))
-        .chain(interval(["theta_g", "theta_low_g", "theta_high_g"], |summary| &summary.theta, g))
-        .chain(betas)
-        .chain(interval(
-            ["median_ratio", "median_ratio_low", "median_ratio_high"],
-            |summary| &summary.median_ratio,
-            1.0,
-        ))
-        .chain(interval(
-            ["theta_ratio", "theta_ratio_low", "theta_ratio_high"],
-            |summary| &summary.theta_ratio,
-            1.0,
-        ));
-    table(py, columns)
-}
-
-/// Returns an estimate and the ends of its interval in a unit: infinite above the levels, NaN where only
-/// bounds are known.
-fn values(interval: &Interval, unit: f64) -> [f64; 3] {
-    let [low, high] = interval.range;
-    let [least, least_low, least_high] = interval.least;
-    [(least, interval.estimate), (least_low, low), (least_high, high)]
-        .map(|(least, most)| if least == most || most == f64::INFINITY { most / unit } else { f64::NAN })
-}
-
-fn in_g(acceleration: f64) -> f64 {
-    acceleration / STANDARD_GRAVITY
+    table(py, made.columns.split(',').zip(columns))
 }

@@ -42,7 +42,7 @@ pub(crate) fn named_walls(
     Ok(walls)
 }
 
-/// Lists what was given of a wall and is not that of a study.
+/// Lists the values given for a wall that a study does not use.
 fn unused_names(wall: &Wall) -> Vec<&'static str> {
     let default = Parameters::default();
     let given = |name: &&'static str| match *name {

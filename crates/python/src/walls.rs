@@ -8,13 +8,13 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use record::{Outcome, RecordSolver};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_thresholds, parameter_text,
     to_toml,
 };
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::record::{Outcome, RecordSolver};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::Wall as Equation;
 use scene_fmu::General;
@@ -24,7 +24,7 @@ use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
 use crate::errors::{failed, of_motion, of_scene, refused};
 use crate::responses;
 
-/// Runs of a batch between two looks at Ctrl-C: the time of a blink.
+/// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
 const RUNS_AT_ONCE: usize = 1024;
 /// Longest run and longest free vibration after a record \[s\].
 const LONGEST: f64 = 1e7;
@@ -99,7 +99,7 @@ impl Wall {
         (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone())
     }
 
-    /// Makes a wall of its values.
+    /// Makes a wall from its values.
     #[staticmethod]
     fn received(values: Values<Vec<f64>>) -> PyResult<Self> {
         let (text, parameters, start, motion, motion_notes) = values;
@@ -273,12 +273,13 @@ impl Wall {
     /// Writes the FMU of the scene, made from the general one at `base`; returns the number of its variables.
     fn package(&self, py: Python<'_>, path: PathBuf, base: PathBuf) -> PyResult<usize> {
         py.detach(|| {
-            let unit = scene_fmu::of_scene(&self.scene, General::open(&base)?)?;
-            unit.archive.write(&path)?;
+            let unit = General::open(&base).and_then(|general| scene_fmu::of_scene(&self.scene, general));
+            let unit = unit.map_err(|error| {
+                if base.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
+            })?;
+            study_folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
+                .map_err(refused)?;
             Ok(unit.variables)
-        })
-        .map_err(|error: scene_fmu::SceneFmuError| {
-            if base.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
         })
     }
 }

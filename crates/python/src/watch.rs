@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 /// Time between two looks at Ctrl-C and at the progress.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Works on another thread, which asks whether its work is still wanted, and returns what it has made. This
-/// thread looks at Ctrl-C and calls `report`.
+/// Does work on another thread and returns its result. That thread asks from time to time whether the result
+/// is still wanted. This thread looks at Ctrl-C and calls `report`.
 ///
 /// # Errors
 /// `KeyboardInterrupt`, or the error of `report`; the work has then ended.

@@ -31,7 +31,8 @@ pub enum SceneFmuError {
         "an FMU has small rotations only; set kinematics = linear, or use `wall simulate`, which needs no FMU"
     )]
     FullRotations,
-    /// The parameters make no wall, or one that cannot be moved or started so.
+    /// The parameters are not those of a valid wall, or the wall cannot be moved or started as the scene
+    /// asks.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
     /// The description cannot be reduced to the scene.

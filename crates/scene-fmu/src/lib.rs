@@ -10,7 +10,7 @@
 //!
 //! let scene = Scene::read("scenes/shaken_parapet.toml".as_ref())?;
 //! let unit = of_scene(&scene, General::open("fmu_out/wall.fmu".as_ref())?)?;
-//! unit.archive.write("parapet.fmu".as_ref())?;
+//! std::fs::write("parapet.fmu", unit.archive.to_bytes()?)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -1,4 +1,4 @@
-//! The walls of a study at one glance: their medians with intervals, damping models side by side.
+//! The section of a page that shows all walls together: medians with intervals, damping models side by side.
 
 use std::fmt::Write;
 
@@ -29,7 +29,7 @@ impl Comparison {
         self.0.extend(collapse.map(medians));
     }
 
-    /// Draws the section of the page; nothing for a single wall and model, or without the collapse.
+    /// Draws the section of the page; it is empty for a single wall and model, or without the collapse.
     pub(crate) fn section(&self, manifest: &Manifest) -> String {
         let all = || self.0.iter().flatten();
         if all().count() < 2 {
@@ -61,8 +61,8 @@ impl Comparison {
     }
 }
 
-/// The interval of a model as a line, its median as a mark, or the words of a median that the levels leave
-/// open.
+/// Draws the interval of a model as a line and its median as a mark, or writes a bound of a median that the
+/// levels leave open.
 fn lane(manifest: &Manifest, model: usize, median: &Interval, end: f64) -> String {
     if median.estimate.is_nan() {
         return String::new();

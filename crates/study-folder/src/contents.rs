@@ -1,11 +1,11 @@
-//! What a study's folder says of the study: two studies with equal contents have the same runs.
+//! The description of a study in its folder. Two studies with equal contents have the same runs.
 
 use std::ops::Range;
 
 use rocking_wall::scene::fingerprint;
 use serde::{Deserialize, Serialize};
 use study::document::{ReportOptions, wall_text};
-use study::ida::{Case, Model, Study};
+use study::ida::{Case, Study};
 
 /// What the runs of a study depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ pub struct Contents {
     pub walls: Vec<WallNote>,
 }
 
-/// What the contents say of a wall.
+/// A wall, as the contents describe it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WallNote {
     /// Name.
@@ -44,7 +44,7 @@ pub struct WallNote {
     pub xi: Vec<f64>,
 }
 
-/// What the contents say of a damping model.
+/// A damping model, as the contents describe it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelNote {
     /// Name.
@@ -53,7 +53,7 @@ pub struct ModelNote {
     pub damping: String,
 }
 
-/// What the contents say of a record.
+/// A record, as the contents describe it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordNote {
     /// Name.
@@ -77,7 +77,7 @@ pub struct Manifest {
     pub report: ReportOptions,
     /// What the runs depend on.
     pub contents: Contents,
-    /// Fingerprint of the rest.
+    /// Fingerprint of the other fields.
     pub(crate) checksum: String,
 }
 
@@ -88,7 +88,7 @@ impl Manifest {
         manifest
     }
 
-    /// Returns the fingerprint of all but the checksum.
+    /// Returns the fingerprint of all fields except the checksum.
     pub(crate) fn fingerprint(&self) -> String {
         let head = json(&(&self.title, &self.report, self.contents.fingerprint()));
         fingerprint(head.as_bytes())
@@ -131,7 +131,7 @@ impl Contents {
             walls: walls.collect(),
             models: models
                 .iter()
-                .map(|model| ModelNote { name: model.name.clone(), damping: Model::new(model.damping).name })
+                .map(|model| ModelNote { name: model.name.clone(), damping: model.loss.name() })
                 .collect(),
             records: records.collect(),
         }
@@ -165,7 +165,7 @@ impl Contents {
         fingerprint((self.head() + &fingerprints.concat()).as_bytes())
     }
 
-    /// Writes all but the walls.
+    /// Writes everything except the walls.
     fn head(&self) -> String {
         let Self { program, sources, measure, measure_details, levels, grid, .. } = self;
         let runs = (program, sources, measure, measure_details, levels, grid, self.tail_s, self.part_size);
@@ -206,7 +206,7 @@ impl Contents {
     }
 }
 
-/// Writes plain data, which cannot fail, as JSON.
+/// Writes plain data as JSON; with plain data this cannot fail.
 fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_else(|error| unreachable!("plain data: {error}"))
 }

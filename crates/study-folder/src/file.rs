@@ -10,37 +10,19 @@ use crate::error::FolderError;
 /// Most links that lead from one to the next.
 const MOST_LINKS: usize = 40;
 
-/// Writes a file completely or not at all, and waits until the disk has it. A link stays and its target is
-/// written, an existing file keeps its permissions, and a pipe or a device is written to.
+/// Writes a file completely or not at all, and waits until it is on the disk. A link stays, and its target is
+/// written. An existing file keeps its permissions. A pipe or a device gets the bytes directly.
 ///
 /// # Errors
 /// [`FolderError::File`].
 pub fn to_file(path: &Path, content: &[u8]) -> Result<(), FolderError> {
-    write(path, |file| file.write_all(content))
-}
-
-/// Writes a file like [`to_file`], with what `fill` writes.
-///
-/// # Errors
-/// [`FolderError::File`].
-pub fn write(
-    path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), FolderError> {
-    let failed = |source| FolderError::File { path: path.to_owned(), what: "written", source };
-    let mut draft = Draft::new(path).map_err(failed)?;
-    fill(&mut draft.file).and_then(|()| draft.commit(true)).map_err(failed)
+    Draft::new(path, content)?.commit(true).map(drop)
 }
 
 /// Writes a file like [`to_file`] without waiting for the disk: after a power failure its content may be
 /// damaged.
 pub(crate) fn to_file_unsynced(path: &Path, content: &[u8]) -> Result<(), FolderError> {
-    let failed = |source| FolderError::File { path: path.to_owned(), what: "written", source };
-    let written = Draft::new(path).and_then(|mut draft| {
-        draft.file.write_all(content)?;
-        draft.commit(false)
-    });
-    written.map_err(failed)
+    Draft::new(path, content)?.commit(false).map(drop)
 }
 
 /// Removes a file, if there is one.
@@ -56,38 +38,65 @@ pub(crate) fn remove(path: &Path) -> Result<(), FolderError> {
     }
 }
 
-/// A file that gets its name when it is complete.
+/// A file that is renamed to its final name once it is complete.
 pub(crate) struct Draft {
-    pub(crate) file: BufWriter<File>,
+    path: PathBuf,
+    file: BufWriter<File>,
     /// The incomplete file, and its later name; `None` for a pipe or a device.
     names: Option<[PathBuf; 2]>,
     permissions: Option<Permissions>,
 }
 
 impl Draft {
-    pub(crate) fn new(path: &Path) -> io::Result<Self> {
-        // whether the file may be written, and what it is
+    /// Begins a file with some content.
+    pub(crate) fn new(path: &Path, content: &[u8]) -> Result<Self, FolderError> {
+        let mut draft = Self::open(path).map_err(|source| unwritten(path, source))?;
+        draft.write(|file| file.write_all(content))?;
+        Ok(draft)
+    }
+
+    /// Writes what `fill` writes.
+    pub(crate) fn write<T>(
+        &mut self,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
+    ) -> Result<T, FolderError> {
+        fill(&mut self.file).map_err(|source| unwritten(&self.path, source))
+    }
+
+    /// Gives the file its name, and returns the path; waits for the disk where `sync` is set.
+    pub(crate) fn commit(mut self, sync: bool) -> Result<PathBuf, FolderError> {
+        let completed = self.complete(sync);
+        completed.map_err(|source| unwritten(&self.path, source))?;
+        Ok(std::mem::take(&mut self.path))
+    }
+
+    fn open(path: &Path) -> io::Result<Self> {
+        let draft = |file, names, permissions| Self {
+            path: path.to_owned(),
+            file: BufWriter::new(file),
+            names,
+            permissions,
+        };
+        // opening shows whether the file may be written, and what kind of file it is
         let permissions = match OpenOptions::new().write(true).open(path) {
             Ok(existing) => {
                 let metadata = existing.metadata()?;
                 if !metadata.is_file() {
-                    return Ok(Self { file: BufWriter::new(existing), names: None, permissions: None });
+                    return Ok(draft(existing, None, None));
                 }
                 Some(metadata.permissions())
             }
             Err(error) if error.kind() == ErrorKind::NotFound => None,
             Err(error) => return Err(error),
         };
-        let path = behind_links(path);
+        let target = behind_links(path);
         // unique, also among processes with the same number on other machines
         let own = RandomState::new().hash_one(std::process::id());
-        let part = folder(&path).join(format!(".{own:016x}.part"));
-        let file = BufWriter::new(File::create_new(&part)?);
-        Ok(Self { file, names: Some([part, path]), permissions })
+        let part = folder(&target).join(format!(".{own:016x}.part"));
+        Ok(draft(File::create_new(&part)?, Some([part, target]), permissions))
     }
 
-    /// Gives the file its name; waits for the disk where `sync` is set.
-    pub(crate) fn commit(mut self, sync: bool) -> io::Result<()> {
+    fn complete(&mut self, sync: bool) -> io::Result<()> {
         self.file.flush()?;
         let Some([part, path]) = &self.names else { return Ok(()) };
         let file = self.file.get_ref();
@@ -100,7 +109,7 @@ impl Draft {
         std::fs::rename(part, path)?;
         #[cfg(unix)]
         if sync {
-            // the new name; not every file system can
+            // make the new name durable; not every file system can
             let _ = File::open(folder(path)).and_then(|folder| folder.sync_all());
         }
         self.names = None;
@@ -115,6 +124,10 @@ impl Drop for Draft {
             let _ = std::fs::remove_file(part);
         }
     }
+}
+
+fn unwritten(path: &Path, source: io::Error) -> FolderError {
+    FolderError::File { path: path.to_owned(), what: "written", source }
 }
 
 /// Returns the folder of a file.

@@ -5,7 +5,7 @@
 //! results are made from the parts alone, so their bytes do not depend on which process computed what.
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use study::ida::Curve;
@@ -13,10 +13,12 @@ use study::loaded::LoadedStudy;
 
 use crate::contents::{Contents, Manifest};
 use crate::error::FolderError;
-use crate::file;
+use crate::file::{self, Draft};
 use crate::part;
 
 const STUDY: &str = "study.json";
+/// Largest description that is read; it has room for millions of walls.
+const MAX_STUDY_BYTES: u64 = 4 << 30;
 const RUNS: &str = "runs";
 /// Most missing combinations that a message names.
 const NAMED: usize = 3;
@@ -27,8 +29,8 @@ pub struct Folder {
     path: PathBuf,
     manifest: Manifest,
     fingerprint: String,
-    /// The folder of the runs, locked as long as this process works on it: shared with others, or alone to
-    /// remove what is incomplete. Systems that cannot lock a folder keep that.
+    /// The folder of the runs, locked as long as this process works on it. The lock is shared with other
+    /// processes, and exclusive to remove incomplete files. Where a folder cannot be locked, these stay.
     lock: Option<File>,
 }
 
@@ -67,10 +69,10 @@ impl Folder {
             what: "made",
             source,
         })?;
-        file::write(&path.join(STUDY), |file: &mut BufWriter<File>| {
-            serde_json::to_writer_pretty(&mut *file, &manifest)?;
-            file.write_all(b"\n")
-        })?;
+        let mut draft = Draft::new(&path.join(STUDY), b"")?;
+        draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
+        draft.write(|file| file.write_all(b"\n"))?;
+        draft.commit(true)?;
         Ok(Self::locked(path, manifest))
     }
 
@@ -116,7 +118,7 @@ impl Folder {
     }
 
     fn file(&self, part: usize) -> PathBuf {
-        // a thousand files to a folder: large folders are slow
+        // at most a thousand files in a folder, since large folders are slow
         self.path.join(RUNS).join(format!("{:04}", part / 1000)).join(format!("{part:07}.parquet"))
     }
 
@@ -153,16 +155,16 @@ impl Folder {
             what: "made",
             source,
         })?;
-        // a part that a power failure damages is computed again
+        // no need to wait for the disk: a part that a power failure damages is computed again
         file::to_file_unsynced(&file, bytes)
     }
 
-    /// Lists the missing ones of some parts.
+    /// Returns those of the parts given that are missing.
     pub fn missing(&self, parts: impl IntoIterator<Item = usize>) -> Vec<usize> {
         parts.into_iter().filter(|&part| self.part(part).is_none()).collect()
     }
 
-    /// Says which files are there although their parts are missing.
+    /// Lists the files of missing parts that exist, because they are damaged.
     pub fn damage(&self, missing: &[usize]) -> Option<String> {
         let files: Vec<_> =
             missing.iter().map(|&part| self.file(part)).filter(|file| file.exists()).collect();
@@ -223,13 +225,9 @@ impl Folder {
 /// Reads the description of the study in a folder.
 fn read(path: &Path) -> Result<Manifest, FolderError> {
     let path = path.join(STUDY);
-    // to open a pipe in its place would wait for its writer
-    let opened = std::fs::metadata(&path).and_then(|found| {
-        let refusal = || Err(std::io::Error::other("not a regular file"));
-        if found.is_file() { File::open(&path) } else { refusal() }
-    });
-    let file = opened.map_err(|source| FolderError::NoStudy { path: path.clone(), source })?;
-    let manifest: Manifest = serde_json::from_reader(BufReader::new(file))
+    let bytes = ground_motion::read_file(&path, "the description of a study", MAX_STUDY_BYTES)
+        .map_err(|source| FolderError::NoStudy { path: path.clone(), source })?;
+    let manifest: Manifest = serde_json::from_slice(&bytes)
         .map_err(|source| FolderError::Description { path: path.clone(), source })?;
     if manifest.checksum != manifest.fingerprint() {
         return Err(FolderError::Damaged { path });

@@ -5,14 +5,14 @@ use std::fmt::Write;
 use figures::escaped;
 use figures::palette::{Mark, SERIES, sign};
 use figures::sheet::sheet;
-use study::chart::model_colors;
+use study::model::{EnergyLoss, Label, colors};
 
 use crate::contents::Manifest;
 
 /// Returns the colour and the mark of each model.
 pub(crate) fn looks(manifest: &Manifest) -> Vec<(&'static str, Mark)> {
     let names: Vec<_> = manifest.contents.models.iter().map(|model| &*model.name).collect();
-    model_colors(&names).into_iter().map(|color| SERIES[color % SERIES.len()]).collect()
+    colors(&names).into_iter().map(|color| SERIES[color % SERIES.len()]).collect()
 }
 
 /// Puts drawings of the walls on a sheet with a legend, as an SVG file.
@@ -27,16 +27,6 @@ pub(crate) fn file(
     sheet(title, &legend, drawings, size)
 }
 
-/// What the short names of damping models stand for.
-const NAMES: [(&str, &str); 6] = [
-    ("CR", "coefficient of restitution, applied at each impact"),
-    ("CR rigid", "coefficient of restitution on the rigid-linear force law"),
-    ("CDC", "constant damping coefficient"),
-    ("CDR", "constant damping ratio"),
-    ("SDR", "stiffness-proportional damping ratio"),
-    ("block", "damping of a free-standing block, Eq. (7)"),
-];
-
 /// Spells out the damping models of a study, each once.
 pub(crate) fn spelled_out(manifest: &Manifest) -> String {
     let models = &manifest.contents.models;
@@ -45,8 +35,9 @@ pub(crate) fn spelled_out(manifest: &Manifest) -> String {
         // a ratio or an equation may follow the name
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' ') && rest != " rigid")
     };
-    let used = NAMES.iter().filter(|(short, _)| models.iter().any(|model| is(&model.damping, short)));
-    let words: Vec<_> = used.map(|(short, meaning)| format!("{short}: {meaning}")).collect();
+    let labels = EnergyLoss::models().map(EnergyLoss::label);
+    let used = labels.filter(|label| models.iter().any(|model| is(&model.damping, label.name)));
+    let words: Vec<_> = used.map(|Label { name, meaning, .. }| format!("{name}: {meaning}")).collect();
     words.join("; ")
 }
 

@@ -5,7 +5,7 @@ use study::ida::Curve;
 use crate::contents::Contents;
 use crate::error::FolderError;
 
-/// Refuses.
+/// Refuses to write a part.
 ///
 /// # Errors
 /// Always: there is no Parquet to write.

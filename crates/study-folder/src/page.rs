@@ -1,4 +1,4 @@
-//! The page of a study; of each wall its IDA curves and fragilities, damping models side by side.
+//! The page of a study: for each wall its IDA curves and fragilities, damping models side by side.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::legend::{key, looks, spelled_out};
 use crate::plots::{Shown, curves, fragility, top};
 use crate::tables::in_g;
 
-/// Points of single curves on the whole page, about 12 bytes each; beyond it, only every nth record is drawn.
+/// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;
 /// Most records whose collapse the page lists.
 const MOST_LISTED: usize = 200;
@@ -90,7 +90,7 @@ fn reading(manifest: &Manifest) -> String {
     )
 }
 
-/// Makes the section of a wall. Of a study of many runs, only every nth record is drawn.
+/// Makes the section of a wall. If the study has many runs, only every nth record is drawn.
 pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, runs: usize) -> String {
     let shown = Shown { manifest, wall, results };
     let every = runs.div_ceil(MOST_POINTS).max(1);

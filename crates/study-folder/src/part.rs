@@ -21,8 +21,8 @@ use study::ida::{Curve, Run};
 use crate::contents::Contents;
 use crate::error::FolderError;
 
-/// Columns with their types. The intensity is that of the study, in SI units, so that it is read back to the
-/// last bit; a wall that stood has no time of overturning.
+/// Columns with their types. The intensity has the SI unit of the study, so that it is read back to the last
+/// bit. A wall that did not overturn has no time of overturning.
 const COLUMNS: [(&str, Physical); 8] = [
     ("case", Physical::INT64),
     ("wall", Physical::BYTE_ARRAY),
@@ -105,7 +105,7 @@ fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Res
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true);
     for (name, _) in COLUMNS.iter().filter(|(_, physical)| *physical == Physical::DOUBLE) {
-        // numbers that hardly repeat
+        // these numbers hardly repeat, so that a dictionary would not help
         properties = properties.set_column_dictionary_enabled(ColumnPath::from(*name), false);
     }
     let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))?;
@@ -134,7 +134,7 @@ fn rows(
         |contents, index| &contents.records[contents.case(index).record].name,
     ];
     for name in names {
-        // one text a curve: its runs share it
+        // all runs of a curve have the same text
         let texts: Vec<_> = contents
             .part(part)
             .zip(curves)
@@ -154,7 +154,7 @@ fn rows(
     column::<DoubleType>(group, &times, Some(&present))
 }
 
-/// Writes the next column; `present` tells where there is a value.
+/// Writes the next column; `present` says which rows have a value.
 fn column<T: DataType>(
     group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
     values: &[T::T],
@@ -194,7 +194,7 @@ fn read(
     Ok(is_complete.then(|| runs.into_iter().map(Curve::new).collect()))
 }
 
-/// Reads a column: its values, and where there are some.
+/// Reads a column: its values, and which rows have one.
 fn values<T: DataType>(
     group: &dyn RowGroupReader,
     column: usize,

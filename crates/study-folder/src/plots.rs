@@ -9,7 +9,7 @@ use crate::contents::Manifest;
 use crate::legend::looks;
 use crate::tables::in_g;
 
-/// Size of every plot \[px\]: all have letters of one size.
+/// Size of every plot \[px\]; with one size, their letters have one size too.
 pub(crate) const SIZE: [f64; 2] = [340.0, 260.0];
 /// Demand at the right end of IDA curves, and that at which the runs of stripes that overturned are drawn.
 const DEMAND_END: f64 = 1.08;
@@ -41,13 +41,13 @@ pub(crate) fn top(shown: Shown<'_>, fraction: f64) -> f64 {
             .collect();
         intensities.sort_by(f64::total_cmp);
         let (most, all) = (fractile(&intensities, 0.9), intensities.last().copied());
-        // one stray record must not squeeze the others
+        // a single outlying record must not squeeze the others
         (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
     };
     1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
 }
 
-/// What was observed, as steps or as marks at the levels of stripes, and fitted curves of all models.
+/// Draws the observations, as steps or as marks at the levels of stripes, and the fit of each model.
 pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
     let fraction = manifest.report.fractions[place];
@@ -94,7 +94,7 @@ pub(crate) fn panel(manifest: &Manifest, wall: usize, results: &WallResults) -> 
     Some((format!("Wall {name}"), fragility(shown, collapse, top(shown, 1.0))))
 }
 
-/// Runs of one model: intensity up, demand across; a curve for each record, or the points of stripes.
+/// Draws the runs of one model, intensity over demand: a curve for each record, or the points of stripes.
 pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
     let Shown { manifest, wall, results } = shown;
     let all = results.curves(model);
@@ -115,7 +115,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
     plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", manifest.contents.measure)])
 }
 
-/// A curve up to its collapse, where it goes flat.
+/// Returns the points of a curve up to its collapse, where it becomes flat.
 fn path(curve: &Curve) -> Vec<[f64; 2]> {
     let mut points = vec![[0.0, 0.0]];
     for run in curve.runs() {

@@ -3,13 +3,13 @@
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use ground_motion::STANDARD_GRAVITY;
 use study::ida::{Curve, Exceedance};
 use study::parallel;
 use study::results::{Fitting, WallResults};
+use study::tables::{Names, Table};
 
 use crate::comparison::Comparison;
 use crate::contents::{Contents, Manifest};
@@ -21,11 +21,11 @@ use crate::page;
 use crate::plots::{SIZE, panel};
 use crate::population::Population;
 use crate::risk::Risk;
-use crate::tables::{Table, tables};
+use crate::tables::{names, tables, write};
 
 /// Most walls that the page and the summary show one by one.
 const MOST_WALLS: usize = 40;
-/// Walls that a thread fits before the tables are continued.
+/// Walls that each thread fits before their rows are written.
 const WALLS_AT_ONCE: usize = 4;
 /// Most fits that a warning names.
 const NAMED: usize = 3;
@@ -35,7 +35,7 @@ const NAMED: usize = 3;
 pub struct Report {
     /// The collapse of every wall and model, or of a large study its fractiles, as a table.
     pub summary: String,
-    /// What the fits warn of.
+    /// Warnings about the fits.
     pub warning: Option<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
@@ -58,7 +58,7 @@ pub fn finish(folder: &Folder, threads: usize, done: impl Fn() + Sync) -> Result
     let of_wall = models.len() * contents.records.len();
     for start in (0..contents.walls.len()).step_by(threads * WALLS_AT_ONCE) {
         let end = (start + threads * WALLS_AT_ONCE).min(contents.walls.len());
-        let walls = (start..end).map(|_| curves.take(of_wall)).collect::<Result<Vec<_>, _>>()?;
+        let walls = (start..end).map(|_| curves.next_curves(of_wall)).collect::<Result<Vec<_>, _>>()?;
         let fitted = parallel::map(walls.len(), threads, |place| {
             let results = fitting.results(walls[place].clone());
             done();
@@ -93,10 +93,11 @@ struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    fn take(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
+    /// Returns the next `count` curves, and reads as many parts as this takes.
+    fn next_curves(&mut self, count: usize) -> Result<Vec<Curve>, FolderError> {
         while self.read.len() < count {
             let curves = self.folder.part(self.part);
-            // it was there a moment ago
+            // it was found complete when the report began, and has been removed or damaged since
             self.read.extend(curves.ok_or_else(|| self.folder.incomplete(&[self.part]))?);
             self.part += 1;
         }
@@ -108,7 +109,8 @@ impl Curves<'_> {
 struct Output<'a> {
     folder: &'a Folder,
     runs: usize,
-    tables: Vec<(Table, PathBuf, Draft)>,
+    tables: Vec<(Table, Draft)>,
+    names: Names<'a>,
     risk: Risk<'a>,
     sections: String,
     comparison: Comparison,
@@ -123,20 +125,15 @@ struct Output<'a> {
 impl<'a> Output<'a> {
     fn new(folder: &'a Folder, runs: usize) -> Result<Self, FolderError> {
         let draft = |table: Table| {
-            let path = folder.path().join(table.name);
-            let begun = Draft::new(&path).and_then(|mut draft| {
-                writeln!(draft.file, "{}", table.header)?;
-                Ok(draft)
-            });
-            match begun {
-                Ok(draft) => Ok((table, path, draft)),
-                Err(source) => Err(FolderError::File { path, what: "written", source }),
-            }
+            let path = folder.path().join(format!("{}.csv", table.name));
+            let draft = Draft::new(&path, format!("{}\n", table.columns).as_bytes())?;
+            Ok::<_, FolderError>((table, draft))
         };
         Ok(Self {
             folder,
             runs,
             tables: tables(folder.contents()).into_iter().map(draft).collect::<Result<_, _>>()?,
+            names: names(folder.manifest()),
             risk: Risk::new(folder.path(), folder.manifest())?,
             sections: String::new(),
             comparison: Comparison::default(),
@@ -152,12 +149,8 @@ impl<'a> Output<'a> {
     /// Adds the results of a wall.
     fn add(&mut self, wall: usize, results: &WallResults) -> Result<(), FolderError> {
         let manifest = self.folder.manifest();
-        for (table, path, draft) in &mut self.tables {
-            (table.rows)(&mut draft.file, manifest, wall, results).map_err(|source| FolderError::File {
-                path: path.clone(),
-                what: "written",
-                source,
-            })?;
+        for (table, draft) in &mut self.tables {
+            draft.write(|file| write(file, table, &self.names, wall, results))?;
         }
         self.risk.add(wall, results)?;
         if manifest.contents.walls.len() <= MOST_WALLS {
@@ -189,14 +182,12 @@ impl<'a> Output<'a> {
         self.sections.insert_str(0, &together);
         let (summary, warning) = (self.summary(manifest, is_large), self.warning(&manifest.contents));
         let (mut files, about_risk) = self.risk.finish()?;
-        for (_, path, draft) in self.tables {
-            let written = draft.commit(true);
-            written.map_err(|source| FolderError::File { path: path.clone(), what: "written", source })?;
-            files.push(path);
+        for (_, draft) in self.tables {
+            files.push(draft.commit(true)?);
         }
         let path = self.folder.path().join("fragilities.svg");
         if self.panels.is_empty() {
-            // that of an earlier report
+            // one that an earlier report has left
             file::remove(&path)?;
         } else {
             let title = format!("{}: collapse fragilities", manifest.title);

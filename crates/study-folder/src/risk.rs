@@ -2,9 +2,10 @@
 //! every wall and of every class of walls.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use ground_motion::STANDARD_GRAVITY;
 use study::document::WallClass;
 use study::fragility::{FragilityFunction, Interval};
 use study::results::WallResults;
@@ -18,7 +19,7 @@ use crate::tables::in_g;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];
-/// Columns of the table; β is the root of the squares of those after it.
+/// Columns of the table; β is the square root of the sum of the squares of those after it.
 const COLUMNS: &str = "wall,geometry,model,measure,unit,limit_state,u_max_over_u_ins,theta,theta_low,\
                        theta_high,beta,beta_records,beta_walls,beta_modelling";
 
@@ -26,8 +27,8 @@ const COLUMNS: &str = "wall,geometry,model,measure,unit,limit_state,u_max_over_u
 pub(crate) struct Risk<'a> {
     manifest: &'a Manifest,
     states: Vec<(usize, String)>,
-    table: (PathBuf, Draft),
-    xml: Option<(PathBuf, Draft, nrml::Writer)>,
+    table: Draft,
+    xml: Option<(Draft, nrml::Writer)>,
     /// Numbers of the walls of each class.
     classes: Vec<(&'a WallClass, Vec<usize>)>,
     /// Functions of walls in classes, one for each model where it has all curves.
@@ -41,10 +42,9 @@ impl<'a> Risk<'a> {
     pub(crate) fn new(folder: &Path, manifest: &'a Manifest) -> Result<Self, FolderError> {
         let [table, xml] = FILES.map(|name| folder.join(name));
         let xml = if let Some((writer, text)) = nrml::Writer::new(manifest) {
-            let (path, draft) = begun(xml, &text)?;
-            Some((path, draft, writer))
+            Some((Draft::new(&xml, text.as_bytes())?, writer))
         } else {
-            // that of an earlier study
+            // one that an earlier study has left
             file::remove(&xml)?;
             None
         };
@@ -58,7 +58,7 @@ impl<'a> Risk<'a> {
         Ok(Self {
             manifest,
             states: nrml::limit_states(&manifest.report),
-            table: begun(table, &format!("{COLUMNS}\n"))?,
+            table: Draft::new(&table, format!("{COLUMNS}\n").as_bytes())?,
             xml,
             members: classes.iter().flat_map(|(_, walls)| walls).map(|&wall| (wall, Vec::new())).collect(),
             classes,
@@ -102,15 +102,12 @@ impl<'a> Risk<'a> {
         }
         told.push_str(&self.words());
         let mut drafts = vec![self.table];
-        if let Some((path, mut draft, _)) = self.xml {
-            nrml::Writer::finish(&mut draft.file).map_err(|source| unwritten(&path, source))?;
-            drafts.push((path, draft));
+        if let Some((mut draft, _)) = self.xml {
+            draft.write(|file| nrml::Writer::finish(file))?;
+            drafts.push(draft);
         }
-        let commit = |(path, draft): (PathBuf, Draft)| match draft.commit(true) {
-            Ok(()) => Ok(path),
-            Err(source) => Err(unwritten(&path, source)),
-        };
-        Ok((drafts.into_iter().map(commit).collect::<Result<_, _>>()?, told))
+        let paths = drafts.into_iter().map(|draft| draft.commit(true));
+        Ok((paths.collect::<Result<_, _>>()?, told))
     }
 
     /// Writes the function of a wall or a class, by its name and what it consists of, with one model.
@@ -123,7 +120,6 @@ impl<'a> Risk<'a> {
         intervals: &[[f64; 2]],
     ) -> Result<(), FolderError> {
         let Manifest { contents, report, .. } = self.manifest;
-        let (path, draft) = &mut self.table;
         let model = &contents.models[model].name;
         let first = [name, geometry, model, &contents.measure].map(quoted).join(",");
         let betas = function.map(|f| [f.dispersion(), f.beta_records, f.beta_walls, f.beta_modelling]);
@@ -132,21 +128,21 @@ impl<'a> Risk<'a> {
             let [low, high] = intervals.get(k).copied().unwrap_or([f64::NAN; 2]);
             let theta = [function.map(|function| in_g(function.medians[k])), Some(low), Some(high)];
             let theta = theta.map(|theta| optional(theta.filter(|theta| theta.is_finite()))).join(",");
-            writeln!(draft.file, "{first},g,{state},{},{theta},{betas}", report.fractions[*place])
-                .map_err(|source| unwritten(path, source))?;
+            let fraction = report.fractions[*place];
+            self.table.write(|file| writeln!(file, "{first},g,{state},{fraction},{theta},{betas}"))?;
         }
         let Some(function) = function else {
             self.left_out[0] += 1;
             return Ok(());
         };
-        let Some((path, draft, writer)) = &mut self.xml else { return Ok(()) };
+        let Some((draft, writer)) = &mut self.xml else { return Ok(()) };
         let id = if contents.models.len() == 1 { name.to_owned() } else { format!("{name} ({model})") };
-        let is_written = writer.function(&mut draft.file, &id, function);
-        self.left_out[1] += usize::from(!is_written.map_err(|source| unwritten(path, source))?);
+        let is_written = draft.write(|file| writer.function(file, &id, function))?;
+        self.left_out[1] += usize::from(!is_written);
         Ok(())
     }
 
-    /// Says what the NRML file lacks, and what would mend it.
+    /// Describes what the NRML file lacks, and the remedy.
     fn words(&self) -> String {
         let [_, file] = FILES;
         let measure = &self.manifest.contents.measure;
@@ -170,7 +166,7 @@ impl<'a> Risk<'a> {
     }
 }
 
-/// Says the result of a class.
+/// Describes the result of a class.
 fn line(class: &WallClass, model: &str, function: &FragilityFunction) -> String {
     let thetas: Vec<_> = function.medians.iter().map(|theta| format!("{:.3}", in_g(*theta))).collect();
     format!(
@@ -184,28 +180,10 @@ fn line(class: &WallClass, model: &str, function: &FragilityFunction) -> String 
     )
 }
 
-/// Begins a file with a text.
-fn begun(path: PathBuf, text: &str) -> Result<(PathBuf, Draft), FolderError> {
-    let begun = Draft::new(&path).and_then(|mut draft| {
-        draft.file.write_all(text.as_bytes())?;
-        Ok(draft)
-    });
-    match begun {
-        Ok(draft) => Ok((path, draft)),
-        Err(source) => Err(unwritten(&path, source)),
-    }
-}
-
-fn unwritten(path: &Path, source: io::Error) -> FolderError {
-    FolderError::File { path: path.to_owned(), what: "written", source }
-}
-
 /// Returns the ends of an interval \[g\], NaN where the levels leave one open.
 fn known(theta: &Interval) -> [f64; 2] {
-    let [_, low, high] = theta.least;
-    let [most_low, most_high] = theta.range;
-    [(low, most_low), (high, most_high)]
-        .map(|(least, most)| if least == most { in_g(most) } else { f64::NAN })
+    let [_, low, high] = theta.bounds(STANDARD_GRAVITY);
+    [low, high].map(|[least, most]| if least == most { most } else { f64::NAN })
 }
 
 /// Returns the geometry among the parameters of a wall, in one line.

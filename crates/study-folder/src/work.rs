@@ -34,7 +34,7 @@ pub fn work(
     done: impl Fn(Case, &Curve, Duration) + Sync,
 ) -> Result<(), WorkError> {
     let size = study.part_size();
-    // only the last part may have fewer, and stands last
+    // only the last part may have fewer combinations, and it comes last
     let short = parts.last().map_or(0, |&last| size - study.part(last).len());
     let open: Mutex<BTreeMap<usize, Vec<(usize, Curve)>>> = Mutex::default();
     parallel::each(parts.len() * size - short, threads, |place| {

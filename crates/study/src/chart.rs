@@ -8,40 +8,6 @@
 //! assert_eq!(chart.y.range, None);
 //! ```
 
-/// Damping models in the order of their colours: a model keeps its colour in every figure.
-pub const MODELS: [&str; 8] = ["CDC", "CDR", "SDR", "CDR Eq. 14", "block", "CR", "CR rigid", "none"];
-
-/// Returns the number of the colour of each damping model of a study.
-///
-/// A name such as `CDC 0.05` has the number of `CDC`, unless another model of the study has it already.
-///
-/// ```
-/// use study::chart::model_colors;
-///
-/// assert_eq!(model_colors(&["CR", "CDR 0.05", "CDR"]), [5, 0, 1]);
-/// assert_eq!(model_colors(&["mine", "CDC 0.05"]), [1, 0]);
-/// ```
-pub fn model_colors(names: &[&str]) -> Vec<usize> {
-    let number = |name: &str| MODELS.iter().position(|model| *model == name);
-    let is_free = |colors: &[Option<usize>], color: &usize| !colors.contains(&Some(*color));
-    // first the models themselves, then their variants, then what has another name
-    let mut colors: Vec<Option<usize>> = names.iter().map(|name| number(name)).collect();
-    for (index, name) in names.iter().enumerate() {
-        let model = name.split(' ').next().and_then(number);
-        colors[index] = colors[index].or(model.filter(|color| is_free(&colors, color)));
-    }
-    for index in 0..names.len() {
-        let free = || (0..=names.len()).find(|color| is_free(&colors, color));
-        colors[index] = colors[index].or_else(free);
-    }
-    colors.into_iter().flatten().collect()
-}
-
-/// Returns the number of the colour of a damping model.
-pub fn model_color(name: &str) -> usize {
-    model_colors(&[name])[0]
-}
-
 /// A pair of axes and the series on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {

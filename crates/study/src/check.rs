@@ -21,7 +21,7 @@ use rocking_wall::wall::{Tie, Wall};
 
 use crate::fragility::sample_median;
 
-/// Displacements of a check, as fractions; both are the user's choice.
+/// Displacements of a check, as fractions that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
     /// `d_u*` over the d* at which the force of the wall alone vanishes \[-\].
@@ -41,7 +41,7 @@ impl Default for Fractions {
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
 pub enum CheckError {
-    /// A fraction that is none.
+    /// A fraction outside its limits.
     #[error("{name} = {value} must be above 0 and at most 1")]
     Fraction { name: &'static str, value: f64 },
     /// The force at the secant displacement is not positive.
@@ -108,8 +108,8 @@ impl Demand {
     /// floors that a wall stands on; those of a strip wall count by their weights.
     ///
     /// # Errors
-    /// [`CheckError`] without records, for a damping ratio that is none, or where the wall does not go with
-    /// its floors.
+    /// [`CheckError`] without records, for a damping ratio outside its limits, or where the wall does not go
+    /// with its floors.
     pub fn of_records(
         records: Vec<GroundMotion>,
         floors: Option<&Floors>,
@@ -208,8 +208,8 @@ impl CapacityOverDemand {
 pub struct SideCheck {
     /// Sign of u.
     pub sign: f64,
-    /// a₀*, at which the wall leaves the vertical for good: the largest a* of the law, with a tie the largest
-    /// up to `d_u*` \[m/s²\].
+    /// a₀*, the acceleration of the onset of rocking: the largest a* of the law, with a tie the largest up to
+    /// `d_u*` \[m/s²\].
     pub onset_acceleration: f64,
     /// d* at which the force of the wall alone vanishes \[m\].
     pub zero_displacement: f64,
@@ -250,7 +250,7 @@ pub fn governing(sides: &[SideCheck]) -> &SideCheck {
 /// Checks each side to which a wall can rock against the `S_a(T)` of a demand \[m/s²\].
 ///
 /// # Errors
-/// [`CheckError`]: fractions that are none, no secant period, or what the demand cannot tell.
+/// [`CheckError`]: a fraction outside its limits, no secant period, or a period that the demand lacks.
 pub fn check(
     wall: &Wall,
     fractions: Fractions,

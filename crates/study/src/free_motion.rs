@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::{Memo, Motion, Report, Segment, SolverError, State};
 use rocking_wall::variables::{DampingModel, Impact};
-use rocking_wall::wall::{COMPUTED, Parameters, Support, Wall};
+use rocking_wall::wall::{COMPUTED, Damping, Parameters, Support, Wall};
 
 /// By how much rounding may raise the energy, relative to that at the peak.
 const ENERGY_ROUNDING: f64 = 1e-13;
@@ -18,8 +18,8 @@ pub(crate) fn advance(
     motion.advance(state, &segment, false, memo)
 }
 
-/// Whether free motion from `state` cannot raise `u_max/u_ins`: the wall is between its points of zero force,
-/// and its energy is at most that at the peak so far and that at either of these points.
+/// Returns whether free motion from `state` cannot raise `u_max/u_ins`. It cannot if the wall is between its
+/// points of zero force, and its energy exceeds neither that at the peak so far nor that at these points.
 pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
     let (u_ins, end) = (wall.body().instability, wall.force_end());
     let ratio = state.peaks.ratio(u_ins);
@@ -35,13 +35,13 @@ pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
 /// Returns a wall with restitution and no damping.
 pub(crate) fn with_restitution(parameters: &Parameters, restitution: f64) -> Parameters {
     let mut rocking = Parameters { impact: Impact::Restitution, restitution, ..parameters.clone() };
-    rocking.set_damping(DampingModel::None, COMPUTED);
+    rocking.set_damping(Damping::NONE);
     rocking
 }
 
 /// Returns a wall with a damping ratio, ξ or c̄, and no impacts.
-pub(crate) fn with_damping(parameters: &Parameters, damping_model: DampingModel, ratio: f64) -> Parameters {
+pub(crate) fn with_damping(parameters: &Parameters, model: DampingModel, ratio: f64) -> Parameters {
     let mut damped = Parameters { impact: Impact::None, restitution: COMPUTED, ..parameters.clone() };
-    damped.set_damping(damping_model, ratio);
+    damped.set_damping(Damping::given(model, ratio));
     damped
 }

@@ -1,4 +1,4 @@
-//! Studies of rocking walls: many runs, and the results they have together.
+//! Studies of rocking walls: many runs, and the results that they give together.
 //!
 //! Nothing here prints, and only [`loaded`] and `wall_table` open files. Each module uses only modules above
 //! it in this table:
@@ -9,12 +9,14 @@
 //! | [`chart`] | charts as plain data |
 //! | `random` | random numbers that are the same on every machine |
 //! | `free_motion` | free motion of a wall, with impacts or with viscous damping |
+//! | [`model`] | damping models: names, meanings and colours; walls that have them |
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
 //! | [`document`] | study files |
 //! | `wall_table` | tables of walls |
 //! | [`loaded`] | studies read from files, with their scenes and records |
 //! | [`results`] | the curves and the fragilities of each wall of a study |
+//! | [`tables`] | the rows of a study's tables, for CSV and Python |
 //! | [`spectrum`] | rocking spectra over walls or over pulses |
 //! | [`calibration`] | viscous damping that is equivalent to restitution |
 //! | [`polarity`] | motions with both signs |
@@ -37,6 +39,7 @@ pub mod fragility;
 mod free_motion;
 pub mod ida;
 pub mod loaded;
+pub mod model;
 pub mod parallel;
 pub mod polarity;
 mod random;
@@ -45,6 +48,7 @@ pub mod reproduce;
 pub mod results;
 pub mod spectrum;
 pub mod stability;
+pub mod tables;
 pub mod tie;
 pub mod validation;
 mod wall_table;

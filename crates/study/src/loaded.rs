@@ -4,19 +4,20 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ground_motion::{GroundMotion, GroundMotionError, read};
-use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::scene::{Scene, SceneError, read_text};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall, Warning};
 
 use crate::document::{
     RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text,
 };
-use crate::ida::{Model, NamedRecord, NamedWall, Study};
+use crate::ida::{NamedRecord, NamedWall, Study};
+use crate::model::Model;
 use crate::wall_table;
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
 
-/// A study ready to run, and what is to be made of it.
+/// A study ready to run, and the options of its report.
 #[derive(Clone, Debug)]
 pub struct LoadedStudy {
     /// Title.
@@ -27,7 +28,7 @@ pub struct LoadedStudy {
     pub report: ReportOptions,
     /// Files that it was read from.
     pub inputs: Vec<PathBuf>,
-    /// What the walls and a quick check of the records warn of.
+    /// Warnings of the walls and of a quick check of the records.
     pub warnings: Vec<String>,
     /// Text of the study file.
     text: String,
@@ -51,7 +52,7 @@ impl LoadedStudy {
     /// [`SceneError`], with file, line, value and remedy.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let text = text(path, &name)?;
+        let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
         let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
@@ -101,7 +102,7 @@ impl LoadedStudy {
         }
     }
 
-    /// Makes the study of plain values.
+    /// Makes the study from plain values.
     ///
     /// # Errors
     /// [`SceneError`] if they are not those of [`Self::sent`].
@@ -138,17 +139,6 @@ impl LoadedStudy {
             .map_err(|error| in_file(error.to_string()))?;
         Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text })
     }
-}
-
-/// Reads the text of a study file. A pipe is refused before it is opened, which would wait for its writer.
-fn text(path: &Path, name: &str) -> Result<String, SceneError> {
-    let fail = |reason: String| SceneError::File { file: name.to_owned(), reason };
-    let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err(fail(format!("expected a study file (TOML) of at most {MAX_FILE_BYTES} bytes")));
-    }
-    std::fs::read_to_string(path).map_err(unreadable)
 }
 
 /// Reads the walls of an entry.
@@ -209,7 +199,7 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
 }
 
-/// Adds what is improbable about a wall, and what has no effect.
+/// Adds warnings of improbable parameters of a wall, and of parameters without effect.
 fn warn(NamedWall { name, parameters, floors }: &NamedWall, models: &[Model], warnings: &mut Vec<String>) {
     let unused = unused(parameters, models);
     warnings.extend(unused.iter().map(|warning| format!("wall {name:?}: {warning}")));

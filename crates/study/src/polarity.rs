@@ -1,4 +1,4 @@
-//! Each motion as it is and with the other sign.
+//! Runs of each motion as it is and with the opposite sign.
 
 use rocking_wall::wall::{Parameters, Wall};
 
@@ -9,8 +9,8 @@ pub enum Polarities {
     Given,
     /// Both signs.
     Both,
-    /// Both were asked for, but the wall is alike on both sides and starts upright and at rest: one run is
-    /// both.
+    /// Both were asked for, but the wall is alike on both sides and starts upright and at rest, so that one
+    /// run stands for both.
     Alike,
 }
 
@@ -34,7 +34,7 @@ impl Polarities {
         }
     }
 
-    /// Returns what the user should know, as a line or nothing.
+    /// Returns a line for the user where one run stands for both signs; otherwise nothing.
     pub fn note(self) -> &'static str {
         match self {
             Self::Given | Self::Both => "",

@@ -26,8 +26,8 @@ pub struct WallResults {
 }
 
 impl Fitting {
-    /// Prepares the fits of a study with some records and damping models, by name. `grid` are the levels that
-    /// all records share, if they do.
+    /// Prepares the fits of a study from the names of its records and damping models. `grid` holds the levels
+    /// that all records share, if they share them.
     pub fn new(records: usize, models: &[&str], grid: Option<Vec<f64>>, report: &ReportOptions) -> Self {
         Self {
             records,
@@ -72,7 +72,7 @@ impl WallResults {
         self.curves(model).iter().map(|curve| curve.exceedance(fraction, self.at_levels)).collect()
     }
 
-    /// Returns the fragilities at the limit state of a place, one for each model.
+    /// Returns the fragilities at a limit state, given by its index: one for each model.
     pub fn summaries(&self, state: usize) -> &[Summary] {
         &self.summaries[state]
     }

@@ -58,7 +58,7 @@ pub struct TieStudy {
     tied: Wall,
 }
 
-/// What one motion asks of the tie, and of the wall with it.
+/// Outcome of one motion: its demands on the tie and on the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Peak force of the tie \[N\].
@@ -73,7 +73,7 @@ pub struct Outcome {
     pub reached: bool,
 }
 
-/// The outcomes for one stiffness \[N/m\].
+/// The outcomes for one stiffness of the tie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Stiffness of the tie; 0 for none \[N/m\].
@@ -215,8 +215,8 @@ impl Row {
         self.outcomes.iter().filter(|outcome| pick(outcome)).count()
     }
 
-    /// Returns median and largest force \[N\] and u/`u_ins`; walls that fall, those of them that fall away
-    /// from the tie, walls beyond `u_ins` and back, strengths reached.
+    /// Returns the median and the largest force \[N\] and u/`u_ins`. Four counts follow: walls that fall,
+    /// those of them that fall away from the tie, walls that return from beyond `u_ins`, strengths reached.
     pub fn values(&self) -> ([f64; 4], [usize; 4]) {
         let ([force, most], [ratio, largest]) = (self.of(|o| o.force), self.of(|o| o.u_ratio));
         let counts: [fn(&Outcome) -> bool; 4] = [

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::{KINEMATICS, Scene, SceneError};
+use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text};
 use rocking_wall::wall::Parameters;
 
 use crate::document::wall_parameters;
@@ -15,13 +15,7 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// Reads the walls of a table. An empty cell leaves its parameter at the default.
 pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
     let file = path.display().to_string();
-    let fail = |reason: String| SceneError::File { file: file.clone(), reason };
-    let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err(fail(format!("expected a table of walls (CSV) of at most {MAX_FILE_BYTES} bytes")));
-    }
-    parse(&file, &std::fs::read_to_string(path).map_err(unreadable)?)
+    parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
 }
 
 /// Reads the walls from the text of a table; `file` stands for it in messages.

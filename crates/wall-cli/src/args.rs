@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use ground_motion::{Acceleration, GroundMotion, RecordOptions, SyntheticMotion, read};
+use ground_motion::{Acceleration, GroundMotion, Record, RecordOptions, SyntheticMotion, read};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 
@@ -92,7 +92,7 @@ impl SceneArguments {
         self.scene.iter().chain(&scene.records)
     }
 
-    /// Puts the scene's file before what is wrong with its parameters together.
+    /// Names the scene's file in an error about its parameters.
     pub(crate) fn named<T, E: Into<anyhow::Error>>(&self, outcome: Result<T, E>) -> Result<T> {
         outcome.map_err(|error| match &self.scene {
             Some(path) => error.into().context(path.display().to_string()),
@@ -119,6 +119,15 @@ pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
     }
 }
 
+/// Reads a record, and warns about what its check finds.
+pub(crate) fn read_record(path: &Path, options: &RecordOptions) -> Result<Record> {
+    let record = read(path, options)?;
+    for warning in &record.check().warnings {
+        output::warn(&format!("{}: {warning}", path.display()));
+    }
+    Ok(record)
+}
+
 impl RecordArguments {
     /// The motion given, scaled, and a note on it.
     pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
@@ -135,12 +144,12 @@ impl RecordArguments {
         Ok(Some((self.scaled(motion)?, note)))
     }
 
-    /// Scales a motion as the arguments say, and warns about one that no record is.
+    /// Scales a motion as the arguments say, and warns about accelerations that no record has.
     pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
         let scaled = match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
             (None, Some(pga)) => motion.scaled_to_peak(pga.0)?,
-            // its reading has warned
+            // the reader has already warned
             (None, None) => return Ok(motion),
         };
         if let Some(warning) = scaled.warning() {
@@ -151,10 +160,7 @@ impl RecordArguments {
 
     /// Reads a record and describes it.
     pub(crate) fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
-        let record = read(path, &self.options.options()?)?;
-        for warning in &record.check().warnings {
-            output::warn(&format!("{}: {warning}", path.display()));
-        }
+        let record = read_record(path, &self.options.options()?)?;
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }

@@ -1,5 +1,5 @@
-//! Tests the search for events on motions whose exits and turning points are known, and pins its work: most
-//! errors of a first guess are mended by later steps, and only their number tells.
+//! Tests the search for events on motions whose exits and turning points are known. Pins its work, too: later
+//! steps mend most errors of a first guess, and only the number of steps shows them.
 
 use std::cell::{Cell, RefCell};
 
@@ -70,7 +70,7 @@ fn exits_have_their_closed_form() {
         ] {
             let piece = sway(phase, 0.0, 3.0);
             let mut peaks = Peaks::at(piece.at(0.0).displacement);
-            let Ok(Ending::Exit(exit)) = follow(&piece, bounds, &mut peaks) else {
+            let Ok(Ending::Exit(exit)) = find_ending(&piece, bounds, &mut peaks) else {
                 panic!("no exit through {bound}")
             };
             // where u is steep a rounding of u is one of time, and near the turn more
@@ -94,7 +94,7 @@ fn turning_points_have_their_closed_form() {
         let drift = 0.011 * f64::from(part);
         let piece = sway(0.0, drift, 1.5);
         let mut peaks = Peaks::at(0.0);
-        assert!(matches!(follow(&piece, [-9.0, 9.0], &mut peaks), Ok(Ending::Horizon(_))));
+        assert!(matches!(find_ending(&piece, [-9.0, 9.0], &mut peaks), Ok(Ending::Horizon(_))));
         let turn = 0.5 * libm::acos(-drift / 0.6);
         let highest = 0.3 * libm::sin(2.0 * turn) + drift * turn;
         // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as jerk² δ⁴/(8 ü) is

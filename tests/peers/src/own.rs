@@ -1,7 +1,7 @@
 //! The project's own solvers: over the whole record, several runs together, and step by step as in
 //! co-simulation.
 
-use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{ParameterError, Parameters, Support, Wall};

@@ -21,7 +21,7 @@ fmu-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR
                         leaves open: attributes of CoSimulation, and terminals
   --output FILE         the FMU to write
 
-Hidden files are left out. The exit code is 0, or 2 if nothing was written.";
+Hidden files are left out. The exit code is 0, or 2 after an error.";
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
@@ -41,7 +41,8 @@ fn main() -> ExitCode {
 fn run(arguments: Vec<OsString>) -> Result<(), String> {
     let (package, output) = parse(arguments)?;
     let archive = package.archive().map_err(|error| error.to_string())?;
-    archive.write(&output).map_err(|error| error.to_string())
+    let failed = |error| format!("{}: cannot be written: {error}", output.display());
+    archive.to_bytes().and_then(|bytes| std::fs::write(&output, bytes)).map_err(failed)
 }
 
 fn parse(arguments: Vec<OsString>) -> Result<(Package, PathBuf), String> {

@@ -15,7 +15,8 @@ pub(super) unsafe fn array<'a, T>(name: &str, start: *const T, count: usize) -> 
         return Ok(&[]);
     }
     check_array(name, start, count)?;
-    // SAFETY: neither NULL nor misaligned nor larger than an object can be; the rest as the caller promises.
+    // SAFETY: `check_array` has refused NULL, misaligned and oversized arrays; `start` points to `count`
+    // elements that nobody changes during `'a`.
     Ok(unsafe { slice::from_raw_parts(start, count) })
 }
 
@@ -32,7 +33,8 @@ pub(super) unsafe fn array_mut<'a, T>(
         return Ok(&mut []);
     }
     check_array(name, start, count)?;
-    // SAFETY: neither NULL nor misaligned nor larger than an object can be; the rest as the caller promises.
+    // SAFETY: `check_array` has refused NULL, misaligned and oversized arrays; `start` points to room for
+    // `count` elements that nobody else uses during `'a`.
     Ok(unsafe { slice::from_raw_parts_mut(start.cast(), count) })
 }
 
@@ -45,7 +47,8 @@ pub(super) unsafe fn to_get<'a, T>(
     values: *mut T,
     count: usize,
 ) -> Result<(&'a [ValueReference], &'a mut [MaybeUninit<T>]), Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `references` and `values` are NULL or point to `count` elements, those of `values` used by
+    // nobody else during `'a`.
     unsafe { Ok((array("vr", references, count)?, array_mut("value", values, count)?)) }
 }
 
@@ -58,7 +61,8 @@ pub(super) unsafe fn to_set<'a, T>(
     values: *const T,
     count: usize,
 ) -> Result<(&'a [ValueReference], &'a [T]), Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody changes during
+    // `'a`.
     unsafe { Ok((array("vr", references, count)?, array("value", values, count)?)) }
 }
 
@@ -67,7 +71,7 @@ pub(super) unsafe fn to_set<'a, T>(
 /// # Safety
 /// As for [`array_mut`].
 pub(super) unsafe fn zeroed<'a>(name: &str, start: *mut f64, count: usize) -> Result<&'a mut [f64], Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `start` is NULL or points to room for `count` numbers that nobody else uses during `'a`.
     let slots = unsafe { array_mut(name, start, count) }?;
     for slot in &mut *slots {
         slot.write(0.0);
@@ -82,7 +86,8 @@ pub(super) unsafe fn zeroed<'a>(name: &str, start: *mut f64, count: usize) -> Re
 /// As for [`array_mut`] with one element.
 pub(super) unsafe fn place<'a, T>(name: &str, target: *mut T) -> Result<&'a mut MaybeUninit<T>, Failure> {
     check_array(name, target, 1)?;
-    // SAFETY: neither NULL nor misaligned; the rest as the caller promises.
+    // SAFETY: `check_array` has refused NULL and misaligned places; `target` points to room for one value
+    // that nobody else uses during `'a`.
     Ok(unsafe { &mut *target.cast() })
 }
 
@@ -94,7 +99,8 @@ pub(super) unsafe fn text<'a>(name: &str, start: Text) -> Result<Option<&'a str>
     if start.is_null() {
         return Ok(None);
     }
-    // SAFETY: as the caller promises.
+    // SAFETY: `start` is not NULL and points to a text that ends with a NUL and that nobody changes during
+    // `'a`.
     let bytes = unsafe { CStr::from_ptr(start) }.to_bytes();
     str::from_utf8(bytes).map(Some).map_err(|_| Failure(format!("{name} is not UTF-8")))
 }
@@ -104,7 +110,7 @@ pub(super) unsafe fn text<'a>(name: &str, start: Text) -> Result<Option<&'a str>
 /// # Safety
 /// As for [`text`].
 pub(super) unsafe fn required_text<'a>(name: &str, start: Text) -> Result<&'a str, Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `start` is NULL or points to a text that ends with a NUL and that nobody changes during `'a`.
     unsafe { text(name, start) }?.ok_or_else(|| Failure(format!("{name} is NULL")))
 }
 

@@ -18,7 +18,8 @@ functions! {
     set_real_input_derivatives<Model>(
         references: *const ValueReference, count: usize, orders: *const Integer, values: *const Real
     ): SetRealInputDerivatives, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references`, `orders` and `values` are NULL or point to `count` elements that stay as
+        // they are during the call.
         let (orders, (references, values)) =
             unsafe { (array("order", orders, count)?, to_set(references, values, count)?) };
         instance.set_input_derivatives(references, orders, values)
@@ -27,7 +28,8 @@ functions! {
     get_real_output_derivatives<Model>(
         references: *const ValueReference, count: usize, orders: *const Integer, values: *mut Real
     ): GetRealOutputDerivatives, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references`, `orders` and `values` are NULL or point to `count` elements that nobody else
+        // changes during the call.
         let (orders, (references, values)) =
             unsafe { (array("order", orders, count)?, to_get(references, values, count)?) };
         instance.output_derivatives(references, orders, values)
@@ -55,10 +57,11 @@ macro_rules! status_functions {
         /// `component` is NULL or an instance; `value` is NULL or points to room for one value.
         pub unsafe fn $name<M: Model>(component: Component, kind: StatusKind, value: *mut $type) -> Status {
             let mut discarded = false;
-            // SAFETY: as the caller promises.
+            // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
             let instance = unsafe { guard::instance::<M>(component) };
             let status = guard::run(instance, Call::$call, |instance| {
-                // SAFETY: as the caller promises.
+                // SAFETY: `value` is NULL or points to room for one value that nobody else uses during the
+                // call.
                 let value = unsafe { place("value", value) }?;
                 let found: fn(&Instance<M>, StatusKind) -> Option<$type> = $found;
                 if let Some(found) = found(instance, kind) {

@@ -51,27 +51,29 @@ pub unsafe fn instantiate<M: Model>(
     let name = if instance_name.is_null() {
         CString::default()
     } else {
-        // SAFETY: not NULL; the rest as the caller promises.
+        // SAFETY: `instance_name` is not NULL and ends with a NUL.
         unsafe { CStr::from_ptr(instance_name) }.to_owned()
     };
-    // SAFETY: as the caller promises.
+    // SAFETY: `functions` is NULL or points to callbacks of the stated types, which are copied here.
     let callbacks = unsafe { array("functions", functions, 1) }.ok().and_then(<[_]>::first);
     let sink = || callbacks.and_then(|callbacks| sink(*callbacks, name.clone()));
     let logger = || Logger::new(sink(), logging_on != 0);
     make("fmi2Instantiate", logger, |logger| {
-        // SAFETY: as the caller promises.
+        // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (guid, location) =
             unsafe { (required_text("fmuGUID", guid)?, text("fmuResourceLocation", resource_location)?) };
         Instance::new(&name.to_string_lossy(), guid, location, kinds.purpose(fmu_type)?, logger)
     })
 }
 
-/// Makes an instance for the C function `function`; NULL, after a log, if it is refused.
+/// Makes an instance for the C function `function`; NULL, after a log, if it is refused. The first call also
+/// makes panics silent.
 pub(super) fn make<M: Model>(
     function: &str,
     logger: impl Fn() -> Logger,
     instantiate: impl FnOnce(Logger) -> Result<Instance<M>, Failure>,
 ) -> Component {
+    guard::install_panic_hook();
     let made = guard::catch(|| instantiate(logger()));
     let failure = match made {
         Ok(Ok(instance)) => return Slot::component(instance),
@@ -111,7 +113,7 @@ fn sink(callbacks: CallbackFunctions, name: CString) -> Option<Box<Sink>> {
 /// # Safety
 /// `component` is NULL or an instance of this model that was not freed; it is afterwards.
 pub unsafe fn free_instance<M: Model>(component: Component) {
-    // SAFETY: as the caller promises.
+    // SAFETY: `component` is NULL or an instance of this model that has not been freed.
     unsafe { guard::free::<M>(component) };
 }
 
@@ -122,10 +124,10 @@ functions! {
     set_debug_logging<Model>(
         logging_on: impl From<bool> + PartialEq, count: usize, categories: *const Text
     ): SetDebugLogging, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `categories` is NULL or points to `count` texts that stay as they are during the call.
         let categories = unsafe { array("categories", categories, count) }?;
         let names = categories.iter().map(|&category| {
-            // SAFETY: as the caller promises.
+            // SAFETY: `category` is NULL or a text that ends with a NUL.
             unsafe { text("categories", category) }?.ok_or_else(|| Failure::from("a category is NULL"))
         });
         instance.set_debug_logging(logging_on != false.into(), names)
@@ -163,7 +165,8 @@ functions! {
     get_string<Model>(
         references: *const ValueReference, count: usize, values: *mut Text
     ): GetString, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
+        // during the call.
         unsafe { get_texts(instance, references, values, count) }
     };
     /// `fmi2SetString`
@@ -172,7 +175,8 @@ functions! {
     set_string<Model>(
         references: *const ValueReference, count: usize, values: *const Text
     ): SetString, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are
+        // during the call.
         unsafe { set_texts(instance, references, values, count) }
     };
     /// `fmi2GetDirectionalDerivative`
@@ -181,11 +185,13 @@ functions! {
         knowns: *const ValueReference, known_count: usize,
         seeds: *const Real, values: *mut Real
     ): GetDirectionalDerivative, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `unknowns` and `values` are NULL or point to `unknown_count` elements that nobody else
+        // changes during the call.
         let (unknowns, values) = unsafe {
             (array("vUnknown_ref", unknowns, unknown_count)?, array_mut("dvUnknown", values, unknown_count)?)
         };
-        // SAFETY: as the caller promises.
+        // SAFETY: `knowns` and `seeds` are NULL or point to `known_count` elements that stay as they are
+        // during the call.
         let (knowns, seeds) =
             unsafe { (array("vKnown_ref", knowns, known_count)?, array("dvKnown", seeds, known_count)?) };
         instance.directional_derivative(unknowns, knowns, seeds, values)
@@ -202,7 +208,8 @@ pub(super) unsafe fn get_texts<M: Model>(
     values: *mut Text,
     count: usize,
 ) -> Result<(), Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
+    // during the call.
     let (references, values) = unsafe { to_get(references, values, count) }?;
     for (slot, text) in values.iter_mut().zip(instance.get_string(references)?) {
         slot.write(text.as_ptr());
@@ -220,10 +227,11 @@ pub(super) unsafe fn set_texts<M: Model>(
     values: *const Text,
     count: usize,
 ) -> Result<(), Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are during
+    // the call.
     let (references, values) = unsafe { to_set(references, values, count) }?;
     let texts = values.iter().map(|&value| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `value` is NULL or a text that ends with a NUL.
         unsafe { text("value", value) }?.ok_or_else(|| Failure::from("a value is NULL"))
     });
     instance.set_string(references, &texts.collect::<Result<Vec<_>, _>>()?)
@@ -240,7 +248,8 @@ macro_rules! values {
             $get<Model>(
                 references: *const ValueReference, count: usize, values: *mut $type
             ): $get_call, |instance| {
-                // SAFETY: as the caller promises.
+                // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else
+                // changes during the call.
                 let (references, values) = unsafe { to_get(references, values, count) }?;
                 instance.$get(references, values $(, $serves)?)
             };
@@ -250,7 +259,8 @@ macro_rules! values {
             $set<Model>(
                 references: *const ValueReference, count: usize, values: *const $type
             ): $set_call, |instance| {
-                // SAFETY: as the caller promises.
+                // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they
+                // are during the call.
                 let (references, values) = unsafe { to_set(references, values, count) }?;
                 instance.$set(references, values $(, $serves)?)
             };

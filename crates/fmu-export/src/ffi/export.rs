@@ -92,7 +92,7 @@ macro_rules! __fmi2_module {
                     c: Component, serializedState: *const Byte, size: usize, state: *mut FmuState) -> Status;
             }
 
-            #[doc = "`fmi2Instantiate` of FMI 2.0. The first call also makes panics silent."]
+            #[doc = "`fmi2Instantiate` of FMI 2.0."]
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2Instantiate(
                 instanceName: Text,
@@ -103,7 +103,6 @@ macro_rules! __fmi2_module {
                 visible: Boolean,
                 loggingOn: Boolean,
             ) -> Component {
-                $crate::ffi::install_panic_hook();
                 // SAFETY: C promises what the standard asks for.
                 unsafe {
                     $crate::ffi::common::instantiate::<Exported>(

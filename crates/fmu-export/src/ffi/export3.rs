@@ -57,84 +57,29 @@ macro_rules! __fmi3_module {
             }
 
             $crate::__fmi_functions! { Exported, fmi3,
+                fn fmi3GetVersion = get_version() -> Text;
+                fn fmi3InstantiateModelExchange = instantiate_model_exchange(
+                    instanceName: Text, instantiationToken: Text, resourcePath: Text, visible: Boolean,
+                    loggingOn: Boolean, instanceEnvironment: InstanceEnvironment,
+                    logMessage: LogMessageCallback) -> Instance;
+                fn fmi3InstantiateCoSimulation = instantiate_co_simulation(
+                    instanceName: Text, instantiationToken: Text, resourcePath: Text, visible: Boolean,
+                    loggingOn: Boolean, eventModeUsed: Boolean, earlyReturnAllowed: Boolean,
+                    requiredIntermediateVariables: *const ValueReference,
+                    nRequiredIntermediateVariables: usize, instanceEnvironment: InstanceEnvironment,
+                    logMessage: LogMessageCallback,
+                    intermediateUpdate: IntermediateUpdateCallback) -> Instance;
+                fn fmi3InstantiateScheduledExecution = instantiate_scheduled_execution(
+                    instanceName: Text, instantiationToken: Text, resourcePath: Text, visible: Boolean,
+                    loggingOn: Boolean, instanceEnvironment: InstanceEnvironment,
+                    logMessage: LogMessageCallback, clockUpdate: ClockUpdateCallback,
+                    lockPreemption: PreemptionCallback, unlockPreemption: PreemptionCallback) -> Instance;
                 fn fmi3EnterInitializationMode = start_initialization(
                     c: Instance, toleranceDefined: Boolean, tolerance: f64, startTime: f64,
                     stopTimeDefined: Boolean, stopTime: f64) -> Status;
-                fn fmi3GetFloat32 = get_float32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut f32,
-                    nValues: usize) -> Status;
-                fn fmi3GetFloat64 = get_float64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut f64,
-                    nValues: usize) -> Status;
-                fn fmi3GetInt8 = get_int8(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i8,
-                    nValues: usize) -> Status;
-                fn fmi3GetUInt8 = get_uint8(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u8,
-                    nValues: usize) -> Status;
-                fn fmi3GetInt16 = get_int16(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i16,
-                    nValues: usize) -> Status;
-                fn fmi3GetUInt16 = get_uint16(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u16,
-                    nValues: usize) -> Status;
-                fn fmi3GetInt32 = get_int32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i32,
-                    nValues: usize) -> Status;
-                fn fmi3GetUInt32 = get_uint32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u32,
-                    nValues: usize) -> Status;
-                fn fmi3GetInt64 = get_int64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut i64,
-                    nValues: usize) -> Status;
-                fn fmi3GetUInt64 = get_uint64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut u64,
-                    nValues: usize) -> Status;
-                fn fmi3GetBoolean = get_boolean(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Boolean,
-                    nValues: usize) -> Status;
-                fn fmi3GetString = get_string(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *mut Text,
-                    nValues: usize) -> Status;
                 fn fmi3GetBinary = get_binary(
                     c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *mut usize,
                     values: *mut Binary, nValues: usize) -> Status;
-                fn fmi3SetFloat32 = set_float32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const f32,
-                    nValues: usize) -> Status;
-                fn fmi3SetFloat64 = set_float64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const f64,
-                    nValues: usize) -> Status;
-                fn fmi3SetInt8 = set_int8(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i8,
-                    nValues: usize) -> Status;
-                fn fmi3SetUInt8 = set_uint8(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u8,
-                    nValues: usize) -> Status;
-                fn fmi3SetInt16 = set_int16(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i16,
-                    nValues: usize) -> Status;
-                fn fmi3SetUInt16 = set_uint16(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u16,
-                    nValues: usize) -> Status;
-                fn fmi3SetInt32 = set_int32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i32,
-                    nValues: usize) -> Status;
-                fn fmi3SetUInt32 = set_uint32(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u32,
-                    nValues: usize) -> Status;
-                fn fmi3SetInt64 = set_int64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const i64,
-                    nValues: usize) -> Status;
-                fn fmi3SetUInt64 = set_uint64(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const u64,
-                    nValues: usize) -> Status;
-                fn fmi3SetBoolean = set_boolean(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Boolean,
-                    nValues: usize) -> Status;
-                fn fmi3SetString = set_string(
-                    c: Instance, vr: *const ValueReference, nvr: usize, values: *const Text,
-                    nValues: usize) -> Status;
                 fn fmi3SetBinary = set_binary(
                     c: Instance, vr: *const ValueReference, nvr: usize, valueSizes: *const usize,
                     values: *const Binary, nValues: usize) -> Status;
@@ -164,6 +109,21 @@ macro_rules! __fmi3_module {
                     noSetFMUStatePriorToCurrentPoint: Boolean, eventHandlingNeeded: *mut Boolean,
                     terminateSimulation: *mut Boolean, earlyReturn: *mut Boolean,
                     lastSuccessfulTime: *mut f64) -> Status;
+            }
+
+            $crate::__fmi3_values! { Exported,
+                f32: fmi3GetFloat32 = get_float32, fmi3SetFloat32 = set_float32;
+                f64: fmi3GetFloat64 = get_float64, fmi3SetFloat64 = set_float64;
+                i8: fmi3GetInt8 = get_int8, fmi3SetInt8 = set_int8;
+                u8: fmi3GetUInt8 = get_uint8, fmi3SetUInt8 = set_uint8;
+                i16: fmi3GetInt16 = get_int16, fmi3SetInt16 = set_int16;
+                u16: fmi3GetUInt16 = get_uint16, fmi3SetUInt16 = set_uint16;
+                i32: fmi3GetInt32 = get_int32, fmi3SetInt32 = set_int32;
+                u32: fmi3GetUInt32 = get_uint32, fmi3SetUInt32 = set_uint32;
+                i64: fmi3GetInt64 = get_int64, fmi3SetInt64 = set_int64;
+                u64: fmi3GetUInt64 = get_uint64, fmi3SetUInt64 = set_uint64;
+                Boolean: fmi3GetBoolean = get_boolean, fmi3SetBoolean = set_boolean;
+                Text: fmi3GetString = get_string, fmi3SetString = set_string;
             }
 
             $crate::__fmi3_unsupported! { Exported,
@@ -204,101 +164,24 @@ macro_rules! __fmi3_module {
                 fn fmi3ActivateModelPartition = activate_model_partition(
                     c: Instance, clockReference: ValueReference, activationTime: f64);
             }
-
-            $crate::__fmi_functions! { Exported, fmi3,
-                fn fmi3GetVersion = get_version() -> Text;
-            }
-
-            #[doc = "`fmi3InstantiateModelExchange`. The first call also makes panics silent."]
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3InstantiateModelExchange(
-                instanceName: Text,
-                instantiationToken: Text,
-                resourcePath: Text,
-                visible: Boolean,
-                loggingOn: Boolean,
-                instanceEnvironment: InstanceEnvironment,
-                logMessage: LogMessageCallback,
-            ) -> Instance {
-                $crate::ffi::install_panic_hook();
-                let _ = visible;
-                // SAFETY: C promises what the standard asks for.
-                unsafe {
-                    $crate::ffi::fmi3::instantiate_model_exchange::<Exported>(
-                        instanceName,
-                        instantiationToken,
-                        resourcePath,
-                        loggingOn,
-                        instanceEnvironment,
-                        logMessage,
-                    )
-                }
-            }
-
-            #[doc = "`fmi3InstantiateCoSimulation`. The first call also makes panics silent."]
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
-                instanceName: Text,
-                instantiationToken: Text,
-                resourcePath: Text,
-                visible: Boolean,
-                loggingOn: Boolean,
-                eventModeUsed: Boolean,
-                earlyReturnAllowed: Boolean,
-                requiredIntermediateVariables: *const ValueReference,
-                nRequiredIntermediateVariables: usize,
-                instanceEnvironment: InstanceEnvironment,
-                logMessage: LogMessageCallback,
-                intermediateUpdate: IntermediateUpdateCallback,
-            ) -> Instance {
-                $crate::ffi::install_panic_hook();
-                let _ = visible;
-                // SAFETY: C promises what the standard asks for.
-                unsafe {
-                    $crate::ffi::fmi3::instantiate_co_simulation::<Exported>(
-                        instanceName,
-                        instantiationToken,
-                        resourcePath,
-                        loggingOn,
-                        eventModeUsed,
-                        earlyReturnAllowed,
-                        requiredIntermediateVariables,
-                        nRequiredIntermediateVariables,
-                        instanceEnvironment,
-                        logMessage,
-                        intermediateUpdate,
-                    )
-                }
-            }
-
-            #[doc = "`fmi3InstantiateScheduledExecution`: always NULL."]
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
-                instanceName: Text,
-                instantiationToken: Text,
-                resourcePath: Text,
-                visible: Boolean,
-                loggingOn: Boolean,
-                instanceEnvironment: InstanceEnvironment,
-                logMessage: LogMessageCallback,
-                clockUpdate: ClockUpdateCallback,
-                lockPreemption: PreemptionCallback,
-                unlockPreemption: PreemptionCallback,
-            ) -> Instance {
-                $crate::ffi::install_panic_hook();
-                let _ = (instanceName, instantiationToken, resourcePath, visible);
-                let _ = (clockUpdate, lockPreemption, unlockPreemption);
-                // SAFETY: C promises what the standard asks for.
-                unsafe {
-                    $crate::ffi::fmi3::instantiate_scheduled_execution::<Exported>(
-                        loggingOn,
-                        instanceEnvironment,
-                        logMessage,
-                    )
-                }
-            }
         }
     };
+}
+
+/// Defines the getters and setters of the values of some types.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __fmi3_values {
+    (
+        $model:ident,
+        $($type:ty: $get:ident = $get_generic:ident, $set:ident = $set_generic:ident;)*
+    ) => { $crate::__fmi_functions! { $model, fmi3, $(
+        fn $get = $get_generic(
+            c: Instance, vr: *const ValueReference, nvr: usize, values: *mut $type, nValues: usize) -> Status;
+        fn $set = $set_generic(
+            c: Instance, vr: *const ValueReference, nvr: usize, values: *const $type,
+            nValues: usize) -> Status;
+    )* } };
 }
 
 /// Defines C functions that refuse, whatever their arguments after the instance.

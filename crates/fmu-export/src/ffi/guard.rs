@@ -20,8 +20,8 @@ thread_local! {
 }
 
 /// Makes panics inside calls from C silent, in the copy of the standard library that this code is linked
-/// with. Elsewhere the hook that was there before goes on.
-pub fn install_panic_hook() {
+/// with. Other panics go to the hook that was installed before.
+pub(super) fn install_panic_hook() {
     static INSTALLED: Once = Once::new();
     INSTALLED.call_once(|| {
         let before = panic::take_hook();
@@ -69,7 +69,7 @@ impl<M: Model> Slot<M> {
 /// `component` is NULL or what [`Slot::component`] of the same model returned and that has not been dropped.
 pub(super) unsafe fn free<M: Model>(component: Component) {
     let slot = component.cast::<Slot<M>>();
-    // SAFETY: as the caller promises.
+    // SAFETY: `component` is NULL or a slot that has not been dropped.
     if unsafe { slot.as_ref() }.is_some_and(|slot| slot.use_now.swap(FREED, Ordering::AcqRel) == IDLE) {
         // SAFETY: no call is under way, and none begins.
         unsafe { drop_slot(slot) };
@@ -79,8 +79,8 @@ pub(super) unsafe fn free<M: Model>(component: Component) {
 /// # Safety
 /// `slot` lives, and nobody uses it any more.
 unsafe fn drop_slot<M: Model>(slot: *mut Slot<M>) {
-    // A model that panics when it is dropped has nobody left to tell.
-    // SAFETY: as the caller promises.
+    // If dropping the model panics, there is no instance left to report it. SAFETY: `slot` came from
+    // `Box::into_raw`, has not been dropped, and nobody uses it any more.
     let _ = catch(|| drop(unsafe { Box::from_raw(slot) }));
 }
 
@@ -96,14 +96,14 @@ pub(super) unsafe fn instance<M: Model>(component: Component) -> Handle<M> {
     Handle(NonNull::new(component.cast()))
 }
 
-/// Lets the instance do `body`, if no other call is under way and it is the turn of `call`.
+/// Runs `body` on the instance, if no other call is under way and `call` is allowed in the present phase.
 pub(super) fn run<M: Model>(
     Handle(slot): Handle<M>,
     call: Call,
     body: impl FnOnce(&mut Instance<M>) -> Result<(), Failure>,
 ) -> Status {
     let Some(pointer) = slot else { return ERROR };
-    // SAFETY: the instance lives, as whoever made the handle promised.
+    // SAFETY: the handle points to a slot that has not been dropped, and it is not freed before this use.
     let slot = unsafe { pointer.as_ref() };
     if !slot.change(IDLE, BUSY) {
         return ERROR;
@@ -135,7 +135,7 @@ macro_rules! functions {
         /// to as many elements as stated; texts end with a NUL.
         #[allow(clippy::too_many_arguments, reason = "the standard's")]
         pub unsafe fn $name<M: $kind>(component: Component, $($argument: $type),*) -> Status {
-            // SAFETY: as the caller promises.
+            // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
             let instance = unsafe { $crate::ffi::guard::instance::<M>(component) };
             $crate::ffi::guard::run(instance, Call::$call, $body)
         }
@@ -146,7 +146,8 @@ pub(super) use functions;
 /// Returns what `body` returns, or the message of its panic.
 pub(super) fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     let outer = INSIDE.replace(true);
-    // What the body may have left half done is dealt with by who asked: the instance counts as failed.
+    // The body may have left the instance inconsistent. The caller handles that: the instance then counts as
+    // failed.
     let result = panic::catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outer);
     result.map_err(|payload| {
@@ -163,7 +164,7 @@ fn message(payload: Box<dyn Any + Send>) -> String {
     match payload.downcast::<&'static str>() {
         Ok(text) => (*text).to_owned(),
         Err(payload) => {
-            // Dropping what is unknown could panic in turn.
+            // Dropping a payload of unknown type could panic in turn.
             std::mem::forget(payload);
             "panic without a text".to_owned()
         }

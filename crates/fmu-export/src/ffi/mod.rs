@@ -1,7 +1,8 @@
 //! The C boundary: generic functions that [`export_fmu!`](crate::export_fmu) gives their C names.
 //!
-//! The only unsafe code of the layer. What is unsafe is to believe C: that an instance is one, that an array
-//! has as many elements as stated, that a text ends. NULL and misaligned pointers are refused.
+//! The only unsafe code of the layer. It relies on C for what it cannot check: that a component is an
+//! instance, that an array has as many elements as stated, that a text ends with a NUL. NULL and misaligned
+//! pointers are refused.
 //!
 //! ```
 //! use fmu_export::ffi::types::{EventInfo, OK, Status};
@@ -24,5 +25,4 @@ pub mod model_exchange;
 pub mod states;
 pub mod types;
 
-pub use guard::install_panic_hook;
 pub use kinds::Kinds;

@@ -12,7 +12,8 @@ functions! {
     enter_event_mode<ModelExchange>(): EnterEventMode, Instance::enter_event_mode;
     /// `fmi2NewDiscreteStates`
     new_discrete_states<ModelExchange>(information: *mut EventInfo): NewDiscreteStates, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `information` is NULL or points to room for one value that nobody else uses during the
+        // call.
         let information = unsafe { place("fmi2eventInfo", information) }?;
         let Update { again, states_changed, nominals_changed, next_event } = instance.update()?;
         information.write(EventInfo {
@@ -35,7 +36,8 @@ functions! {
         _no_set_fmu_state_prior_to_current_point: impl Sized, enter_event_mode: *mut impl From<bool>,
         terminate_simulation: *mut impl From<bool>
     ): CompletedIntegratorStep, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `enter_event_mode` and `terminate_simulation` are NULL or point to room for one value each
+        // that nobody else uses during the call.
         let (event, end) = unsafe {
             (place("enterEventMode", enter_event_mode)?, place("terminateSimulation", terminate_simulation)?)
         };
@@ -47,29 +49,33 @@ functions! {
     set_time<ModelExchange>(time: Real): SetTime, |instance| instance.set_time(time);
     /// `fmi2SetContinuousStates`, `fmi3SetContinuousStates`
     set_continuous_states<ModelExchange>(states: *const Real, count: usize): SetContinuousStates, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `states` is NULL or points to `count` numbers that stay as they are during the call.
         instance.set_states(unsafe { array("x", states, count) }?)
     };
     /// `fmi2GetDerivatives`, `fmi3GetContinuousStateDerivatives`
     get_derivatives<ModelExchange>(values: *mut Real, count: usize): GetDerivatives, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
+        // call.
         instance.derivatives(unsafe { zeroed("derivatives", values, count) }?)
     };
     /// `fmi2GetEventIndicators`, `fmi3GetEventIndicators`
     get_event_indicators<ModelExchange>(values: *mut Real, count: usize): GetEventIndicators, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
+        // call.
         instance.event_indicators(unsafe { zeroed("eventIndicators", values, count) }?)
     };
     /// `fmi2GetContinuousStates`, `fmi3GetContinuousStates`
     get_continuous_states<ModelExchange>(values: *mut Real, count: usize): GetContinuousStates, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
+        // call.
         instance.states(unsafe { zeroed("x", values, count) }?)
     };
     /// `fmi2GetNominalsOfContinuousStates`, `fmi3GetNominalsOfContinuousStates`
     get_nominals_of_continuous_states<ModelExchange>(
         values: *mut Real, count: usize
     ): GetNominalsOfContinuousStates, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `values` is NULL or points to room for `count` numbers that nobody else uses during the
+        // call.
         instance.nominals(unsafe { zeroed("x_nominal", values, count) }?)
     };
 }

@@ -1,7 +1,7 @@
 //! The functions on saved states (FMI 2.0.5, section 2.1.8; FMI 3.0.2, section 2.2.6).
 //!
-//! An `fmi2FMUstate` is only compared with those an instance gave out, never followed: a foreign or freed one
-//! is refused.
+//! An `fmi2FMUstate` is only compared with those that an instance has returned, and never dereferenced. A
+//! foreign or freed one is refused.
 
 use super::arguments::{array, array_mut, place};
 use super::guard::functions;
@@ -17,7 +17,7 @@ functions! {
     ///
     /// A state that `state` already points to is used again.
     get_fmu_state<Model>(state: *mut FmuState): GetFmuState, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `state` is NULL or points to a state or to NULL, and nobody else uses it during the call.
         let state = unsafe { initialized_place("FMUstate", state) }?;
         *state = handle(instance.save(state.addr())?);
         Ok(())
@@ -31,7 +31,7 @@ functions! {
         if state.is_null() {
             return Ok(());
         }
-        // SAFETY: as the caller promises.
+        // SAFETY: `state` points to a state or to NULL, and nobody else uses it during the call.
         let state = unsafe { initialized_place("FMUstate", state) }?;
         if !state.is_null() {
             instance.forget(state.addr())?;
@@ -41,7 +41,7 @@ functions! {
     };
     /// `fmi2SerializedFMUstateSize`, `fmi3SerializedFMUStateSize`
     serialized_fmu_state_size<Model>(state: FmuState, size: *mut usize): SerializedFmuStateSize, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `size` is NULL or points to room for one value that nobody else uses during the call.
         unsafe { place("size", size) }?.write(instance.serialize(state.addr())?.len());
         Ok(())
     };
@@ -49,7 +49,7 @@ functions! {
     serialize_fmu_state<Model>(
         state: FmuState, bytes: *mut impl Sized, size: usize
     ): SerializeFmuState, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `bytes` is NULL or points to room for `size` bytes that nobody else uses during the call.
         let target = unsafe { array_mut("serializedState", bytes.cast::<u8>(), size) }?;
         let source = instance.serialize(state.addr())?;
         if source.len() != target.len() {
@@ -69,7 +69,8 @@ functions! {
     de_serialize_fmu_state<Model>(
         bytes: *const impl Sized, size: usize, state: *mut FmuState
     ): DeSerializeFmuState, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `bytes` is NULL or points to `size` bytes that stay as they are during the call; `state`
+        // is NULL or points to room for one state that nobody else uses.
         let (bytes, state) =
             unsafe { (array("serializedState", bytes.cast::<u8>(), size)?, place("FMUstate", state)?) };
         state.write(handle(instance.deserialize(bytes)?));
@@ -77,7 +78,7 @@ functions! {
     };
 }
 
-/// A handle as C has it: an address that nobody follows.
+/// Returns a handle for C: an address that is never dereferenced.
 fn handle(address: usize) -> FmuState {
     ptr::without_provenance_mut(address)
 }
@@ -87,8 +88,8 @@ fn handle(address: usize) -> FmuState {
 /// # Safety
 /// `target` is NULL or points to a state or to NULL, and nobody else uses it during `'a`.
 unsafe fn initialized_place<'a>(name: &str, target: *mut FmuState) -> Result<&'a mut FmuState, Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `target` is NULL or points to a state or to NULL, and nobody else uses it during `'a`.
     let place: &mut MaybeUninit<FmuState> = unsafe { place(name, target) }?;
-    // SAFETY: as the caller promises; the importer sets a state to NULL before it is first saved.
+    // SAFETY: `target` holds a state or NULL: the importer sets it to NULL before it first saves a state.
     Ok(unsafe { place.assume_init_mut() })
 }

@@ -41,7 +41,7 @@ pub(crate) struct Purpose<M: Model> {
 }
 
 impl<M: Model> Purpose<M> {
-    /// Whether the instance can be in `phase`.
+    /// Returns whether the instance can be in `phase`.
     fn has(&self, phase: Phase) -> bool {
         let steps = self.interface == Interface::CoSimulation;
         match phase {
@@ -60,13 +60,13 @@ pub(crate) struct Instance<M: Model> {
     guid: String,
     logger: Logger,
     last_step: Status,
-    /// The states given out, by the address that is their handle. An address that is not here is never
-    /// followed.
+    /// The saved states, by the address that is their handle. An address that is not a key here is never
+    /// dereferenced.
     saved: BTreeMap<usize, Box<Snapshot<M>>>,
-    /// What the last get of texts returned pointers to.
+    /// Texts that the last get of strings returned pointers to.
     texts: Vec<CString>,
     purpose: Purpose<M>,
-    /// The log has the warning of a Boolean that is read as a Real.
+    /// The warning about a Boolean that is read as a Real has been logged.
     has_warned_of_boolean: bool,
     /// Asks the importer of FMI 3.0 for the inputs at a time [s].
     pub(crate) intermediate_update: Option<IntermediateUpdate>,
@@ -125,8 +125,8 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Does what `call` is for, if it is its turn. A failure is logged, and ends the simulation where
-    /// [`Call::failure_is_final`].
+    /// Carries out `call`, if it is allowed in the present phase. A failure is logged, and ends the
+    /// simulation where [`Call::failure_is_final`].
     pub(crate) fn call(&mut self, call: Call, body: impl FnOnce(&mut Self) -> Result<(), Failure>) -> Status {
         let Purpose { version, interface, .. } = self.purpose;
         let suits = call.only_for(version).is_none_or(|only| only == interface);
@@ -138,7 +138,7 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// After a panic in `call`: the model may be anything, but it can be replaced.
+    /// Handles a panic in `call`. The model may be inconsistent, but a reset replaces it.
     #[cold]
     pub(crate) fn panicked(&mut self, call: Call, message: &str) -> Status {
         let (phase, status, category) = match call {
@@ -159,7 +159,7 @@ impl<M: Model> Instance<M> {
             return Failure(format!("not for an instance of {interface}"));
         }
         let phase = || format!("not allowed now: the instance is {}", self.now.phase.describe(version));
-        Failure(call.why_never().map_or_else(phase, str::to_owned))
+        Failure(call.why_never(version).map_or_else(phase, str::to_owned))
     }
 
     #[cold]
@@ -220,13 +220,13 @@ impl<M: Model> Instance<M> {
         self.now.phase = Phase::Terminated;
     }
 
-    /// Everything as instantiated, but for the log categories and the states saved.
+    /// Resets everything to its state after instantiation, except the log categories and the saved states.
     pub(crate) fn reset(&mut self) {
         self.now = self.fresh.clone();
         self.last_step = Status::Ok;
     }
 
-    /// Before values are read: what follows from values set in Initialization Mode.
+    /// Computes what depends on values set in Initialization Mode, before values are read.
     fn calculate(&mut self) -> Result<(), Failure> {
         if self.now.stale && self.now.phase == Phase::InitializationMode {
             self.now.model.calculate()?;

@@ -9,9 +9,10 @@ use crate::log::{Category, Status};
 use crate::model::{Model, Step};
 use crate::variable::VariableId;
 
-/// Communication points are sums of rounded steps: they may differ from the own time by this much of it.
+/// Largest relative difference between a communication point and the instance's own time: communication
+/// points are sums of rounded steps.
 const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// Importers that count time in nanoseconds round it to them \[s\].
+/// Largest absolute difference \[s\]: some importers round time to nanoseconds.
 const CLOCK_ROUNDING: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {
@@ -21,7 +22,8 @@ impl<M: Model> Instance<M> {
         self.finish_step()
     }
 
-    /// Checks a step. Returns whom to ask for the inputs at its end, and that time [s], if there is somebody.
+    /// Checks a step. Returns the importer's callback that sets the inputs at the end of the step, and that
+    /// time [s]; `None` without a callback.
     pub(crate) fn begin_step(
         &mut self,
         point: f64,
@@ -35,7 +37,7 @@ impl<M: Model> Instance<M> {
         Ok(asked)
     }
 
-    /// Computes the step that has begun. True where it ended early, at an event.
+    /// Computes the step that has begun. Returns `true` where it ended early, at an event.
     pub(crate) fn finish_step(&mut self) -> Result<bool, Failure> {
         self.now.phase = Phase::StepMode;
         let Some((step, end)) = self.pending.take() else {
@@ -49,7 +51,7 @@ impl<M: Model> Instance<M> {
         Ok(event.is_some())
     }
 
-    /// In Intermediate Update Mode: the inputs run linearly to `values` at the end of the step.
+    /// Sets inputs in Intermediate Update Mode: they change linearly to `values` at the end of the step.
     pub(super) fn set_at_end(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let Some((step, _)) = self.pending else { return Ok(()) };
         for (&reference, &value) in references.iter().zip(values) {
@@ -65,8 +67,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// The step with its end. None if it is too small to reach the own time, or of length 0, which some
-    /// importers take to evaluate outputs.
+    /// Returns the step and its end. `None` for a step too small to reach the instance's own time, or of
+    /// length 0; some importers make such steps to evaluate outputs.
     fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
@@ -94,7 +96,7 @@ impl<M: Model> Instance<M> {
         if !end.is_finite() {
             return Err(Failure(format!("the step from {point:?} s by {size:?} s has no finite end")));
         }
-        // From the own time, so that no step is computed twice or left out.
+        // The step starts at the instance's own time, so that no time is computed twice or left out.
         let duration = (point - time) + size;
         let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
         Ok((size > 0.0 && duration > 0.0).then_some((step, end)))

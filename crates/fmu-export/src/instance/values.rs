@@ -150,8 +150,8 @@ impl<M: Model> Instance<M> {
         self.set(references, values, |model, variable, value| model.set_text(variable, value))
     }
 
-    /// Whether `variable` may be set now. An input may always be set to the value that it has, which
-    /// `is_same` tells: some importers set all inputs before each step.
+    /// Checks that `variable` may be set now. An input may always be set to the value that it already has
+    /// (`is_same`), because some importers set all inputs before each step.
     fn check_settable(&self, variable: &Variable, is_same: impl Fn(&M) -> bool) -> Result<(), Failure> {
         let phase = self.now.phase;
         let is_input = variable.causality == Causality::Input;
@@ -163,7 +163,7 @@ impl<M: Model> Instance<M> {
         Err(access::not_settable(variable, &phase.describe(self.purpose.version)))
     }
 
-    /// Sets what has been checked as a whole: a refused value leaves all as they were.
+    /// Sets values after all of them have been checked. If one is refused, none is set.
     fn set<V: VariableId, T>(
         &mut self,
         references: &[u32],
@@ -173,7 +173,7 @@ impl<M: Model> Instance<M> {
         for (&reference, value) in references.iter().zip(values) {
             set(&mut self.now.model, access::find(reference)?, value);
         }
-        // Later only inputs and states are set, and no calculated value follows from them.
+        // After initialisation only inputs and states are set, and no calculated value depends on them.
         self.now.stale |= self.now.phase.is_before_the_start();
         Ok(())
     }

@@ -15,13 +15,14 @@ pub struct Counting;
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATED.set(ALLOCATED.get() + 1);
-        // SAFETY: as the caller promises.
+        // SAFETY: the size in `layout` is not 0, as `GlobalAlloc::alloc` demands of its callers.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         FREED.set(FREED.get() + 1);
-        // SAFETY: as the caller promises.
+        // SAFETY: `pointer` came from `alloc` with this `layout`, as `GlobalAlloc::dealloc` demands of its
+        // callers.
         unsafe { System.dealloc(pointer, layout) }
     }
 }

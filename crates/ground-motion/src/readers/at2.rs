@@ -29,7 +29,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
     head.iter().take(HEADER_LINES).any(|line| states_count_and_step(line))
 }
 
-/// Returns whether a line has the words NPTS and DT, and is not the comment of a table.
+/// Returns whether a line has the words NPTS and DT and is not a comment of a table.
 fn states_count_and_step(line: &str) -> bool {
     let has = |word: &str| {
         line.split(|c: char| !c.is_ascii_alphabetic()).any(|found| found.eq_ignore_ascii_case(word))
@@ -91,7 +91,7 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
     Ok((count, positive(step).ok_or_else(unreadable)?))
 }
 
-/// Finds the unit that the header states, or the one that the user states; never guesses.
+/// Finds the unit that the header states, or else the one that the user states. It is never guessed.
 fn unit<'a>(
     header: impl Iterator<Item = Line<'a>>,
     count_line: usize,

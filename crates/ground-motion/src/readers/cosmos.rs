@@ -24,7 +24,7 @@ use crate::parsed::Parsed;
 const INTERVAL: usize = 62;
 const PEAK: usize = 64;
 
-/// The value of what is not known.
+/// The number that stands for an unknown value.
 const UNKNOWN: f64 = -999.0;
 
 /// Returns whether the first lines are those of such a file.

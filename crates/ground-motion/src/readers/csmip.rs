@@ -37,7 +37,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let dialect = Dialect {
         is_heading,
         acceleration: "ACCEL",
-        // Files older than their statement of it have this form.
+        // Old files state no format; their numbers have this one.
         layout: Some(Layout { per_line: 8, width: 10 }),
         scale,
         name: |line| after(line, "CHAN").filter(|_| find(line, "CHAN") == Some(0)),

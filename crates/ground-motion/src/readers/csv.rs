@@ -31,7 +31,8 @@ use heading::{Heading, name_and_unit, unquoted};
 use times::Times;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
-/// name, and take the first column for the time under any name; so the unit stands there.
+/// name, so that no unit may follow it. They take the first column for the time whatever its name is, so the
+/// unit stands there.
 pub const CSV_HEADER: &str = "time (a_g in m/s2),a_g";
 
 const FORMS: &str = "a header line such as `time,a_g` and rows of numbers, times and accelerations in two \

@@ -23,7 +23,7 @@ use crate::unit::Unit;
 
 const HEADER_LINES: usize = 64;
 
-/// The stated peak may be rounded, or that of samples with more digits.
+/// Tolerance of the stated peak, which may be rounded or come from samples with more digits.
 const PEAK_TOLERANCE: f64 = 0.01;
 
 /// Returns whether the first lines are such a header.

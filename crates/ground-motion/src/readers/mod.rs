@@ -20,7 +20,7 @@ use crate::format::Format;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 
-/// Lines that are not blank by which a format is recognised.
+/// Number of lines, blank ones aside, by which a format is recognised.
 const HEAD_LINES: usize = 80;
 
 /// Returns whether the first lines that are not blank are those of a format.

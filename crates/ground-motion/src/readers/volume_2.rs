@@ -12,7 +12,7 @@ use crate::unit::Unit;
 /// Longest name of a channel: enough for every name, short enough for a list of them.
 const NAME_CHARACTERS: usize = 40;
 
-/// Lines of text that are kept: no fewer than a record keeps of its header.
+/// Lines of text that are kept: at least as many as a record keeps of its header.
 const TEXT_LINES: usize = 8;
 
 /// How one of the two formats writes a file.
@@ -23,7 +23,7 @@ pub(super) struct Dialect {
     pub(super) acceleration: &'static str,
     /// Format of a block whose heading states none.
     pub(super) layout: Option<Layout>,
-    /// Reads the scale of so many accelerations from their heading and what precedes it.
+    /// Reads the scale of a number of accelerations from their heading and what precedes it.
     pub(super) scale: fn(&Channel<'_>, Line<'_>, usize, &RecordOptions) -> Result<Scale, Fault>,
     /// Finds the name of a channel in a line of text.
     pub(super) name: fn(&str) -> Option<&str>,
@@ -83,7 +83,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
             channel = Channel::default();
             open = false;
         } else {
-            channel.take(line.trim(), dialect);
+            channel.read_text(line.trim(), dialect);
         }
     }
     if channels.is_empty() {
@@ -103,7 +103,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
 }
 
 impl<'a> Channel<'a> {
-    fn take(&mut self, line: &'a str, dialect: &Dialect) {
+    /// Keeps a line of the channel's text, and the name and the peak that it may state.
+    fn read_text(&mut self, line: &'a str, dialect: &Dialect) {
         if self.text.len() < TEXT_LINES {
             self.text.push(line);
         }

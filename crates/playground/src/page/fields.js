@@ -53,9 +53,7 @@ const GROUPS = [
     { name: "softening", label: "Softening" },
   ]],
   ["Energy loss", [
-    { name: "damping_model", label: "Damping", names: { none: "none", constant_coefficient:
-      "constant coefficient", free_standing_block: "free-standing block", constant_ratio: "constant ratio",
-      stiffness_proportional: "stiffness proportional" } },
+    { name: "damping_model", label: "Damping" },
     { name: "xi", label: "Damping ratio xi", range: [0, 0.2, 0.005] },
     { name: "c_bar", label: "Damping c_bar", range: [0, 0.5, 0.01] },
     { name: "impact", label: "At impacts", names: { none: "nothing", restitution: "restitution" } },

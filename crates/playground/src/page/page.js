@@ -17,7 +17,7 @@ async function unpacked() {
 }
 let compiled, record = null;
 async function start() {
-  // a clock for the optimiser of calibrations, which the page has not: nothing calls these
+  // calibrations, which the page does not offer, import a clock for their optimiser; it is never called
   const imports = {};
   for (const { module, name } of WebAssembly.Module.imports(compiled)) {
     (imports[module] ??= {})[name] = () => { throw new Error(`${name} is missing`); };
@@ -33,7 +33,7 @@ function keep(bytes) {
   write(bytes);
   library.keep_record();
 }
-// Asks the library; its answer, or an object of faults by field.
+// Sends a request to the library; returns its answer, or an object of faults by field.
 function ask(request) {
   try {
     write(new TextEncoder().encode(JSON.stringify(request)));
@@ -220,9 +220,9 @@ function show(answer) {
 }
 
 // ---- fragility
-// Scene files: of the fields, if they make a scene, and of the fragility.
+// The scene file that the fields make, if they make one, and that of the fragility shown.
 let round = 0, current, fragilityOf;
-// Says whether the fragility is still that of the fields.
+// Shows whether the fields have changed since the fragility was computed.
 function tellAge() {
   const isStale = current !== fragilityOf;
   at("fragility_result").classList.toggle("stale", isStale);

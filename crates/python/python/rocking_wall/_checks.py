@@ -14,7 +14,7 @@ class CheckedSide:
     sign: float
     """1 for u > 0, -1 for u < 0."""
     onset_acceleration: float
-    """a0*, at which the wall leaves the vertical for good [m/s²]."""
+    """a0*, the acceleration of the onset of rocking [m/s²]."""
     zero_displacement: float
     """d* at which the force of the wall alone vanishes [m]."""
     displacement_capacity: float

@@ -56,9 +56,9 @@ class Record:
     name: str
     """Name, for people."""
     warnings: tuple[str, ...]
-    """What a quick check of the file has found."""
+    """Warnings from a quick check of the file."""
 
-    # numpy's numbers leave `2 * record` to the record
+    # so that numpy leaves `2 * record` to `Record.__rmul__`
     __array_priority__ = 1000.0
 
     def __init__(
@@ -91,7 +91,7 @@ class Record:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        # what numpy copies can be written to
+        # numpy's copies are writable
         self.a.flags.writeable = False
 
     def __eq__(self, other: object) -> bool:
@@ -214,7 +214,7 @@ def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.f
 
 
 def at_samples(maxima: Maxima) -> bool:
-    """Tells whether maxima are searched at the samples only."""
+    """Returns whether maxima are searched at the samples only."""
     if maxima not in ("everywhere", "at_samples"):
         raise ValueError(f"maxima = {maxima!r} is not one of everywhere, at_samples")
     return maxima == "at_samples"

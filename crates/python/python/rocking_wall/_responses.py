@@ -1,4 +1,4 @@
-"""What runs have come to."""
+"""Results of runs."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class Response:
     overturned: bool
     """Whether |u| exceeded u_ins."""
     overturn_time: float | None
-    """When it did [s]."""
+    """When |u| first exceeded u_ins [s]; None for never."""
     demands: Demands
     """Extremes, first crossings of thresholds, half cycles and the residual displacement."""
     pieces: int

@@ -88,7 +88,7 @@ class Study:
             their names in a column `name`; or walls, or dictionaries of parameters, in a list or by their
             names. What is missing has its default. Damping and impact are those of the models.
         :param records: Records, or paths of records, in a list or by their names.
-        :param models: Damping models: none, CR, "CR rigid", CDC, CDR, SDR, block.
+        :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
         :param intensity: The intensity measure, such as `{"measure": "Sa", "period": 0.5}`; by default AvgSA.
         :param tail: Free vibration after each record [s]; by default 10.
@@ -220,7 +220,7 @@ def one_wall(wall: object) -> Any:
 
 
 def is_missing(value: object) -> bool:
-    """Tells whether a cell of a table is empty."""
+    """Returns whether a cell of a table is empty."""
     if isinstance(value, float | np.floating):
         return bool(np.isnan(value))
     # that of pandas cannot be compared

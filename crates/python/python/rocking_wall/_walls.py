@@ -221,7 +221,7 @@ class Wall(Calculated):
         :param displacement_fraction: Displacement capacity over that at which the force of the wall vanishes.
         :param secant_fraction: Displacement of the secant period over the displacement capacity.
 
-        Raises `ValueError` for a demand without the secant period, and for fractions that are none.
+        Raises `ValueError` for a demand without the secant period, and for fractions outside their limits.
 
         >>> wall = Wall(height=3, thickness=0.25)
         >>> round(wall.check(spectrum=([0.0, 4.0], [1.0, 1.0])).governing.acceleration_ratio, 9)

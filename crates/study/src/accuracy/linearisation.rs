@@ -23,6 +23,8 @@ use super::error::AccuracyError;
 const TOLERANCE: f64 = 1e-12;
 /// Bisections that locate an impact: 64 exhaust a double.
 const BISECTIONS: u32 = 64;
+/// Output step of Figure 2 \[s\].
+const STEP: f64 = 0.01;
 /// Most output steps of a history.
 const MOST_STEPS: usize = 10_000_000;
 
@@ -61,7 +63,7 @@ impl Comparison {
         largest_difference(&self.linear.history, &self.trigonometric.history)
     }
 
-    /// Returns the largest difference between the amplitudes of a half cycle, which no phase enters \[-\].
+    /// Returns the largest difference between amplitudes of half cycles, which do not depend on phase \[-\].
     pub fn largest_amplitude_difference(&self) -> f64 {
         largest_difference(&self.linear.amplitudes, &self.trigonometric.amplitudes)
     }
@@ -103,9 +105,9 @@ pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Compar
     compare(&figure_2_wall(mechanism), 0.9, duration, step)
 }
 
-/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it both ways
-/// over `duration` in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its force law
-/// and damping.
+/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it in both
+/// kinematics over `duration` in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its
+/// force law and damping.
 ///
 /// # Errors
 /// [`AccuracyError`] if the parameters make no such wall or a run fails.
@@ -181,6 +183,40 @@ pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result
     let at =
         |alpha: &f64| period(&Parameters { thickness: lower * libm::tan(*alpha), ..wall.clone() }, start);
     slenderness.iter().map(at).collect()
+}
+
+/// Figures 2 and 3 for the wall of one mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BothRotations {
+    /// What tables call the wall.
+    pub name: &'static str,
+    /// How long Figure 2 follows it \[s\].
+    pub duration: f64,
+    /// Its coefficient of restitution \[-\].
+    pub restitution: f64,
+    /// Figure 2.
+    pub history: Comparison,
+    /// Figure 3: for each of [`STARTS`] one period for each of [`SLENDERNESS`].
+    pub periods: Vec<Vec<Period>>,
+}
+
+/// Computes Figures 2 and 3 for both mechanisms, the parapet first.
+///
+/// # Errors
+/// [`AccuracyError::Run`] if a run fails.
+pub fn both_rotations() -> Result<Vec<BothRotations>, AccuracyError> {
+    let mechanisms = [(Mechanism::Parapet, "parapet", 20.0), (Mechanism::VerticalSpanning, "strip", 12.0)];
+    let measured = |(mechanism, name, duration)| {
+        let periods = STARTS.iter().map(|&start| figure_3(mechanism, &SLENDERNESS, start));
+        Ok(BothRotations {
+            name,
+            duration,
+            restitution: figure_2_wall(mechanism).restitution,
+            history: figure_2(mechanism, duration, STEP)?,
+            periods: periods.collect::<Result<_, _>>()?,
+        })
+    };
+    mechanisms.into_iter().map(measured).collect()
 }
 
 /// Returns the rigid wall that is released.

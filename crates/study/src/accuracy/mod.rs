@@ -14,6 +14,7 @@
 //! # Ok::<(), study::accuracy::AccuracyError>(())
 //! ```
 
+pub mod counterpart;
 mod error;
 pub mod linearisation;
 mod problem;
@@ -23,18 +24,18 @@ use std::time::Instant;
 pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
-use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
+use record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
 use rocking_wall::wall::Wall;
 
 /// A solver and the setting of its accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Setting {
-    /// Exact, each sample of the record in so many steps.
+    /// Exact, with this many steps for each sample of the record.
     Exact(u32),
     /// Adaptive, with the tolerance on u/`u_ins`.
     Adaptive(f64),
-    /// Newmark, each sample of the record in so many steps.
+    /// Newmark, with this many steps for each sample of the record.
     Newmark(u32),
 }
 
@@ -63,7 +64,7 @@ const NEWMARK_PARTS: [u32; 6] = [1, 3, 10, 30, 100, 300];
 const EXACT_PARTS: [u32; 3] = [1, 4, 16];
 /// Tightest tolerance of the adaptive solver.
 const TIGHTEST: f64 = 1e-13;
-/// Relative change of the motion that measures the amplification.
+/// Relative change of the motion by which the amplification is measured.
 const PROBE: f64 = 1e-8;
 
 /// Run time and error of one setting.
@@ -101,7 +102,7 @@ pub struct WorkPrecision {
     pub amplification: f64,
     /// Whether the reference is the exact solver.
     pub exact: bool,
-    /// A measurement for each setting. That of the reference tells how far the two best solvers differ.
+    /// A measurement for each setting. That of the reference shows how far the two best solvers differ.
     pub measurements: Vec<Measurement>,
 }
 
@@ -239,7 +240,8 @@ impl<'a> Trial<'a> {
         RecordSolver::new(&self.motion, self.problem.step / self.parts as f64)
     }
 
-    fn start(&self, factor: f64) -> RunStart {
+    /// Returns the start of a run under `factor` times the forcing.
+    fn run_start(&self, factor: f64) -> RunStart {
         let parameters = &self.problem.parameters;
         let first = factor * self.forcing[0];
         let state = self.motion.start_under(parameters.u_start, parameters.u_dot_start, first);
@@ -255,7 +257,7 @@ impl<'a> Trial<'a> {
             }
         };
         let forcing = Forcing::Samples(&self.forcing);
-        let outcome = self.solver().run_observed(self.start(factor), forcing, true, &mut observe)?;
+        let outcome = self.solver().run_observed(self.run_start(factor), forcing, true, &mut observe)?;
         if let Some(time) = outcome.overturning {
             for (index, displacement) in displacements.iter_mut().enumerate() {
                 if index as f64 * self.problem.step > time {
@@ -272,7 +274,7 @@ impl<'a> Trial<'a> {
         let mut least = f64::INFINITY;
         for run in 0..10_000 {
             let start = Instant::now();
-            let outcome = self.solver().run(self.start(1.0), Forcing::Samples(&self.forcing), true)?;
+            let outcome = self.solver().run(self.run_start(1.0), Forcing::Samples(&self.forcing), true)?;
             std::hint::black_box(outcome);
             least = least.min(start.elapsed().as_secs_f64());
             if run >= 2 && begun.elapsed().as_secs_f64() > budget {

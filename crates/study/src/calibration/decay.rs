@@ -1,7 +1,7 @@
 //! Decay of a free vibration.
 
 use crate::free_motion::advance;
-use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters};
 
@@ -31,7 +31,8 @@ impl Decay {
     pub(super) fn samples(mut self, step: f64) -> Result<Option<Vec<f64>>, SolverError> {
         let wall = self.motion.wall();
         let u_ins = wall.body().instability;
-        // the energy is constant between impacts and falls at each: below this one |u| stays below `DECAYED`
+        // the energy is constant between impacts and falls at each: once it is below this one, |u| stays
+        // below `DECAYED`
         let [positive, negative] = [u_ins.positive, -u_ins.negative].map(|u| wall.energy(DECAYED * u, 0.0));
         let decayed = positive.min(negative);
         let (mut samples, mut count, mut memo) = (Vec::new(), None, Memo::default());

@@ -15,6 +15,9 @@ pub enum CalibrationError {
          constant_ratio"
     )]
     NoDamping,
+    /// There is no such damping model.
+    #[error("{name:?} is not one of {models}")]
+    UnknownModel { name: String, models: String },
     /// A value is out of range.
     #[error("{name} = {value}: must be above {low} and below {high}")]
     Range { name: &'static str, value: f64, low: f64, high: f64 },

@@ -2,7 +2,7 @@
 
 use crate::free_motion::{with_damping, with_restitution};
 use rocking_wall::variables::{DampingModel, ForceLaw, Solver};
-use rocking_wall::wall::{Parameters, Wall, equivalence};
+use rocking_wall::wall::{Parameters, Wall};
 
 use super::decay::Decay;
 use super::error::CalibrationError;
@@ -75,7 +75,7 @@ impl FreeVibration {
             let decay = Decay::new(&with_damping(&rocking, model, damping))?;
             decay.error(&reference, step).map_err(failed)
         };
-        let bracket = self.bracket(equivalence::predicted(model, a1, restitution), error)?;
+        let bracket = self.bracket(model.predicted_ratio(a1, restitution), error)?;
         let (damping, error) = minimum(error, bracket, TOLERANCE)?;
         Ok(Fit { a1, start, restitution, damping, error, samples: reference.len() })
     }

@@ -27,6 +27,7 @@ mod minimum;
 
 use std::num::NonZeroUsize;
 
+use crate::model::damping_models;
 use crate::parallel;
 use rocking_wall::variables::ForceLaw;
 use rocking_wall::wall::Parameters;
@@ -161,15 +162,24 @@ pub fn calibrate(
 
 /// Returns the damping models that a wall can be calibrated for: with the rigid-linear law only that of a
 /// free-standing block.
-pub fn calibrated_models(parameters: &Parameters) -> &'static [DampingModel] {
-    if parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear {
-        return &[DampingModel::FreeStandingBlock];
-    }
-    &[DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional]
+pub fn calibrated_models(parameters: &Parameters) -> Vec<DampingModel> {
+    let is_rigid = parameters.multilinear.is_none() && parameters.force_law == ForceLaw::RigidLinear;
+    damping_models().filter(|model| model.needs_elastic_branch() != is_rigid).collect()
+}
+
+/// Returns the damping model with a name of the model description.
+///
+/// # Errors
+/// [`CalibrationError::UnknownModel`].
+pub fn model_named(name: &str) -> Result<DampingModel, CalibrationError> {
+    DampingModel::from_name(name).ok_or_else(|| CalibrationError::UnknownModel {
+        name: name.to_owned(),
+        models: damping_models().map(DampingModel::name).collect::<Vec<_>>().join(", "),
+    })
 }
 
 impl Calibration {
-    /// Makes a calibration of its fits, one for each a₁, u₀ and e, in this order.
+    /// Makes a calibration from its fits, one for each a₁, u₀ and e, in this order.
     pub fn new(model: DampingModel, fits: Vec<Fit>) -> Self {
         let coefficients: Vec<Coefficient> = fits
             .chunk_by(|a, b| (a.a1, a.start) == (b.a1, b.start))

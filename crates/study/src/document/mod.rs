@@ -31,7 +31,8 @@ use rocking_wall::scene::{
 };
 use rocking_wall::wall::Parameters;
 
-use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, Model, NamedWall};
+use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, NamedWall};
+use crate::model::Model;
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
 use model::model;
@@ -175,8 +176,8 @@ struct WallText {
 }
 
 impl StudyFile {
-    /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing:
-    /// a program can have them otherwise.
+    /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing,
+    /// since a program can supply them itself.
     ///
     /// # Errors
     /// [`SceneError`] with file, line, value and remedy.

@@ -2,41 +2,34 @@
 
 use toml::{Spanned, Value};
 
-use crate::ida::{Damping, Model, RatioSource};
+use crate::model::{EnergyLoss, Model};
 use fmu_export::VariableId;
 use rocking_wall::scene::{Place, SceneError, check_limits, suggestion};
 use rocking_wall::variables::RealVariable;
-use rocking_wall::wall::{COMPUTED, given};
-
-/// Short names, for messages.
-const MODELS: &str =
-    "none, CR, \"CR rigid\", CDC, CDR, SDR, block, and CDC, CDR, SDR with \" Eq. 14\" after it";
+use rocking_wall::wall::{COMPUTED, Damping};
 
 /// Keys of a model that is a table.
 const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];
 
+/// Lists the short names, for messages.
+fn names() -> String {
+    let quoted = |name: String| if name.contains(' ') { format!("{name:?}") } else { name };
+    EnergyLoss::all().map(|loss| quoted(loss.name())).collect::<Vec<_>>().join(", ")
+}
+
+/// Describes a model that has no options.
+fn no_table(short: &str) -> String {
+    format!("{short:?} takes no ratio; write it as \"{short}\"")
+}
+
 pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, SceneError> {
     let refuse = |message: String| place.error(value.span(), message);
-    let known = |short: &str, source: RatioSource| match short {
-        "none" => Some(Damping::None),
-        "CR" => Some(Damping::Restitution),
-        "CR rigid" => Some(Damping::RigidRestitution),
-        "CDC" => Some(Damping::ConstantCoefficient(source)),
-        "CDR" => Some(Damping::ConstantRatio(source)),
-        "SDR" => Some(Damping::StiffnessProportional(source)),
-        "block" => Some(Damping::FreeStandingBlock(source)),
-        _ => None,
+    let named = |short: &str| {
+        let unknown = || refuse(format!("{short:?} is not a damping model; the models are {}", names()));
+        EnergyLoss::named(short).ok_or_else(unknown)
     };
-    let unknown = |short: &str| refuse(format!("{short:?} is not a damping model; the models are {MODELS}"));
     match value.get_ref() {
-        Value::String(text) => {
-            let damping = match text.strip_suffix(" Eq. 14") {
-                Some(short @ ("CDC" | "CDR" | "SDR")) => known(short, RatioSource::Equation14),
-                Some(_) => None,
-                None => known(text, RatioSource::Computed),
-            };
-            damping.map(Model::new).ok_or_else(|| unknown(text))
-        }
+        Value::String(text) => named(text).map(Model::new),
         Value::Table(table) => {
             if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
                 let meant = suggestion(key, KEYS);
@@ -47,12 +40,14 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
             }
             let text = |key: &str| table.get(key).and_then(Value::as_str);
             let short =
-                text("model").ok_or_else(|| refuse(format!("a model needs model = one of {MODELS}")))?;
-            let (variable, taken, other) = match short {
-                "block" => (RealVariable::CBar, "c_bar", "xi"),
-                _ => (RealVariable::Xi, "xi", "c_bar"),
+                text("model").ok_or_else(|| refuse(format!("a model needs model = one of {}", names())))?;
+            let EnergyLoss::Viscous(Damping { model, .. }) = named(short)? else {
+                return Err(refuse(no_table(short)));
             };
-            if table.contains_key(other) {
+            let taken = model.ratio_name().ok_or_else(|| refuse(no_table(short)))?;
+            if let Some(other) =
+                ["xi", "c_bar"].iter().find(|key| **key != taken && table.contains_key(**key))
+            {
                 return Err(refuse(format!("{short:?} takes no {other}; give {taken}, or leave it out")));
             }
             let number = match table.get(taken) {
@@ -62,20 +57,13 @@ pub(super) fn model(value: &Spanned<Value>, place: &Place<'_>) -> Result<Model, 
                 Some(Value::Integer(number)) => *number as f64,
                 Some(_) => return Err(refuse(format!("{taken} of a model must be a number"))),
             };
-            check_limits(variable.variable(), number).map_err(refuse)?;
-            let number = given(taken, number).map_err(|error| refuse(error.to_string()))?;
-            let damping = match short {
-                "CDC" | "CDR" | "SDR" | "block" => {
-                    known(short, number.map_or(RatioSource::Computed, RatioSource::Given))
-                }
-                _ => return Err(refuse(format!("{short:?} takes no {taken}; write it as \"{short}\""))),
-            };
-            let mut model = damping.map(Model::new).ok_or_else(|| unknown(short))?;
-            if let Some(name) = text("name") {
-                name.clone_into(&mut model.name);
+            if let Some(variable) = RealVariable::from_name(taken) {
+                check_limits(variable.variable(), number).map_err(refuse)?;
             }
-            Ok(model)
+            let damping = Damping::new(model, number).map_err(|error| refuse(error.to_string()))?;
+            let model = Model::new(EnergyLoss::Viscous(damping));
+            Ok(Model { name: text("name").map_or(model.name, str::to_owned), ..model })
         }
-        _ => Err(refuse(format!("a model is a name or a table; the models are {MODELS}"))),
+        _ => Err(refuse(format!("a model is a name or a table; the models are {}", names()))),
     }
 }

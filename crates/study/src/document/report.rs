@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::ida::Model;
+use crate::model::Model;
 use rocking_wall::scene::{Place, SceneError, suggestion};
 
 /// Most resamples of the bootstrap.
@@ -35,7 +35,7 @@ pub struct WallClass {
     pub name: String,
     /// Names of its walls; all walls of the study where empty.
     pub walls: Vec<String>,
-    /// Weight of each wall, of any sum; equal weights where empty.
+    /// Weight of each wall; they need not add up to 1. Equal weights where empty.
     pub weights: Vec<f64>,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct ClassTable {
 }
 
 impl WallClass {
-    /// Returns the weights of all its walls, which number `count`, with the sum 1.
+    /// Returns the weights of all its `count` walls, scaled to the sum 1.
     pub fn shares(&self, count: usize) -> Vec<f64> {
         let weights = if self.weights.is_empty() { &vec![1.0; count] } else { &self.weights };
         let sum: f64 = weights.iter().sum();
@@ -70,7 +70,8 @@ impl WallClass {
     /// Checks the class against the names of the study's walls.
     ///
     /// # Errors
-    /// The reason: a wall that the study does not have, weights of another number, or the name of a wall.
+    /// The reason: the study does not have one of the walls, the weights are not as many as the walls, or the
+    /// class has the name of a wall.
     pub(crate) fn check<'a>(&self, walls: impl Iterator<Item = &'a str> + Clone) -> Result<(), String> {
         let Self { name, walls: own, weights } = self;
         let count = if own.is_empty() { walls.clone().count() } else { own.len() };

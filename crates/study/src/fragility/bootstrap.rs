@@ -19,7 +19,8 @@ pub struct Bootstrap {
 
 /// An estimate and its bootstrap interval.
 ///
-/// Where the levels leave a number open, only bounds of it are known; this is where it is largest.
+/// Where the levels leave a number open, only bounds of it are known. `estimate` and `range`
+/// then hold the upper ones, `least` the lower ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Estimate from all records.
@@ -30,7 +31,8 @@ pub struct Interval {
     pub least: [f64; 3],
 }
 
-/// An estimate and those of its resamples, each as the least and the most that it can be.
+/// An estimate from all records and one from each resample; each is known by the least and the most that it
+/// can be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resampled {
     /// Least and most of the estimate from all records.
@@ -143,23 +145,31 @@ impl Interval {
         Self { estimate, range: [low, high], least: [estimate, low, high] }
     }
 
-    /// Formats the estimate and the ends of its interval in a unit, to three decimals or in full: `1.25`,
-    /// `open >2.00` above the levels, `open <0.50` below, `–` where nothing is known.
+    /// Returns the least and the most of the estimate and of the ends of its interval, in a unit.
+    pub fn bounds(&self, unit: f64) -> [[f64; 2]; 3] {
+        let most = [self.estimate, self.range[0], self.range[1]];
+        [0, 1, 2].map(|part| [self.least[part] / unit, most[part] / unit])
+    }
+
+    /// Formats the estimate and the ends of its interval in a unit, see [`between`].
     pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
-        let [low, high] = self.range;
-        let number = |value: f64| match decimals {
-            Some(decimals) => format!("{:.decimals$}", value / unit),
-            None => (value / unit).to_string(),
-        };
-        let text = |(least, most): (f64, f64)| match (least > 0.0, most < f64::INFINITY) {
-            _ if most.is_nan() || least.is_nan() => "–".to_owned(),
-            _ if least == most => number(most),
-            (true, true) => format!("open {} to {}", number(least), number(most)),
-            (true, false) => format!("open >{}", number(least)),
-            (false, true) => format!("open <{}", number(most)),
-            (false, false) => "open".to_owned(),
-        };
-        let [estimate, least_low, least_high] = self.least;
-        [(estimate, self.estimate), (least_low, low), (least_high, high)].map(text)
+        self.bounds(unit).map(|bounds| between(bounds, decimals))
+    }
+}
+
+/// Formats a number by the least and the most that it can be, to some decimals or in full: `1.25`,
+/// `open >2.00` above the levels, `open <0.50` below, `–` where nothing is known.
+pub fn between([least, most]: [f64; 2], decimals: Option<usize>) -> String {
+    let number = |value: f64| match decimals {
+        Some(decimals) => format!("{value:.decimals$}"),
+        None => value.to_string(),
+    };
+    match (least > 0.0, most < f64::INFINITY) {
+        _ if most.is_nan() || least.is_nan() => "–".to_owned(),
+        _ if least == most => number(most),
+        (true, true) => format!("open {} to {}", number(least), number(most)),
+        (true, false) => format!("open >{}", number(least)),
+        (false, true) => format!("open <{}", number(most)),
+        (false, false) => "open".to_owned(),
     }
 }

@@ -103,8 +103,8 @@ impl Fragility {
     }
 }
 
-/// Tells whether limit states contradict a common β, by the ratio of likelihoods at a level of 5 %, as if
-/// their runs were independent. Those without a curve of their own have no say.
+/// Returns whether limit states contradict a common β, by the ratio of likelihoods at a level of 5 %, as if
+/// their runs were independent. Limit states without a curve of their own are left out.
 ///
 /// S. S. Wilks: The large-sample distribution of the likelihood ratio for testing composite hypotheses.
 /// Annals of Mathematical Statistics 9(1), 1938, 60–62.
@@ -124,7 +124,7 @@ fn contradict_common_dispersion(
     2.0 * (sum(&alone) - sum(&joint)) > chi_squared_95(states.len() - 1)
 }
 
-/// Returns the 95 % fractile of χ² with some degrees of freedom, to 3 %: 3.75 for one, where it is 3.84.
+/// Returns the 95 % fractile of χ² with some degrees of freedom, to 3 %: for one degree 3.75 instead of 3.84.
 ///
 /// E. B. Wilson, M. M. Hilferty: The distribution of chi-square. Proceedings of the National Academy of
 /// Sciences 17(12), 1931, 684–688.

@@ -27,15 +27,15 @@ pub enum FitError {
     OneSided,
     /// The likelihood grows without limit as β falls to 0.
     #[error(
-        "one intensity parts all that exceed from all that do not: add records or levels for a dispersion"
+        "one intensity separates all that exceed from all that do not: add records or levels for a scatter"
     )]
     NoScatter,
     /// The curve of maximum likelihood does not rise.
-    #[error("the demand is exceeded no more often at higher intensities: check the levels and counts")]
+    #[error("the demand is not exceeded more often at higher intensities: check the levels and counts")]
     Falling,
     /// An intensity that has no logarithm, or more exceedances than runs.
     #[error(
-        "an observation is not one: intensities must be positive and finite, exceedances no more than runs"
+        "an observation is invalid: intensities must be positive and finite, exceedances no more than runs"
     )]
     Observation,
 }
@@ -126,12 +126,13 @@ fn maximum(
     let mut point = Point { a: 1.0 / spread, c: vec![0.0; states.len()] };
     let mut now = likelihood(&states, &point);
     for _ in 0..MOST_STEPS {
-        let (step, decrement) = now.step().filter(|_| point.a < STEEPEST).ok_or(FitError::NoScatter)?;
+        let (step, decrement) =
+            now.newton_step().filter(|_| point.a < STEEPEST).ok_or(FitError::NoScatter)?;
         if decrement <= DECREMENT {
             point = point.moved(&step, 1.0);
             break;
         }
-        // where no step improves on the rounding, this is the maximum
+        // where no step raises ln L by more than rounding, this point is the maximum
         let Some((better, there)) = climb(&states, &point, &step, now.value) else { break };
         (point, now) = (better, there);
     }
@@ -176,7 +177,7 @@ pub(super) fn open_bounds(observations: &[Observation]) -> [f64; 2] {
     [least, most.max(least)]
 }
 
-/// Computes ln L of observations on a curve, but for a constant.
+/// Computes ln L of a curve under observations, without its constant.
 pub(super) fn log_likelihood(observations: &[Observation], curve: &Lognormal) -> f64 {
     let Ok(mut state) = State::new(observations) else { return 0.0 };
     state.centre = libm::log(curve.median);
@@ -220,7 +221,7 @@ impl Term {
             return [libm::log(a) - 0.5 * z * z, -z, -1.0];
         }
         let (mut l, mut d, mut dd) = (0.0, 0.0, 0.0);
-        // a side without runs counts nothing, although 0 · ∞ is not 0
+        // a side without runs adds nothing, but 0 · ∞ would be NaN
         if self.exceeded > 0.0 {
             let (log, h) = log_and_hazard(z);
             (l, d, dd) = (self.exceeded * log, self.exceeded * h, -self.exceeded * h * (h + z));
@@ -285,7 +286,7 @@ impl Point {
 
 /// The likelihood L at some point.
 struct Likelihood {
-    /// ln L but for a constant.
+    /// ln L without its constant.
     value: f64,
     /// ∂ ln L/∂a and −∂² ln L/∂a².
     along_a: [f64; 2],
@@ -296,8 +297,8 @@ struct Likelihood {
 impl Likelihood {
     /// Returns Newton's step and its decrement; none where the curvature is not positive definite.
     ///
-    /// The limit states share a alone, so that their c are eliminated first.
-    fn step(&self) -> Option<(Point, f64)> {
+    /// The limit states share nothing but a, so their c are eliminated first.
+    fn newton_step(&self) -> Option<(Point, f64)> {
         let [mut gradient, mut curvature] = self.along_a;
         for [gc, ac, cc] in &self.along_c {
             gradient -= ac * gc / cc;

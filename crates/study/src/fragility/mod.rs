@@ -27,7 +27,7 @@ mod normal;
 mod observation;
 mod sample;
 
-pub use bootstrap::{Bootstrap, Interval, Resampled};
+pub use bootstrap::{Bootstrap, Interval, Resampled, between};
 pub use class::FragilityFunction;
 pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};

@@ -3,7 +3,7 @@
 use super::curve::Run;
 use super::error::IdaError;
 use ground_motion::STANDARD_GRAVITY;
-use rocking_wall::solver::record::LANES;
+use record::LANES;
 
 /// Most levels of one curve.
 const MOST_LEVELS: usize = 2000;
@@ -98,7 +98,7 @@ impl Levels {
         }
     }
 
-    /// Returns the highest level at which every record is run, whatever the wall does \[m/s²\].
+    /// Returns the highest level at which every record is run, even if the wall overturns below it \[m/s²\].
     pub(super) fn certain(&self) -> f64 {
         match *self {
             Self::Grid(ref levels) => levels.iter().copied().fold(0.0, f64::max),
@@ -107,7 +107,7 @@ impl Levels {
         }
     }
 
-    /// Estimates the runs of one curve; it is a guess where the collapse decides.
+    /// Estimates the number of runs of one curve. It is a guess where that depends on the collapse.
     pub(super) fn expected_runs(&self) -> f64 {
         match *self {
             Self::Grid(ref levels) => levels.len() as f64,
@@ -130,7 +130,7 @@ impl Levels {
                 top(levels.iter().copied().fold(0.0, f64::max))?;
                 let mut before = 0.0;
                 for &level in levels {
-                    // NaN does not rise either
+                    // refuses NaN too
                     let rises = level > before;
                     if !rises {
                         let limit = "above 0 and above the level before it".to_owned();
@@ -184,12 +184,12 @@ impl Levels {
     }
 }
 
-/// Multiples of a step up to a top. A tolerance of rounding keeps a top that is itself a multiple.
+/// Returns the multiples of a step up to a top. A tolerance for rounding includes a top that is a multiple.
 fn multiples(step: f64, top: f64) -> impl Iterator<Item = f64> {
     (1..=MOST_LEVELS).map(move |k| k as f64 * step).take_while(move |level| *level <= top * (1.0 + 1e-12))
 }
 
-/// Levels of the hunt, the last one the top.
+/// Returns the levels of the hunt; the last one is the top.
 fn hunt([first, increase, top]: [f64; 3]) -> impl Iterator<Item = f64> {
     let (mut level, mut step) = (0.0, first);
     // one more than is allowed, so that `check` notices too many
@@ -203,7 +203,7 @@ fn hunt([first, increase, top]: [f64; 3]) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Runs levels, several at once, up to the group in which the wall first overturns.
+/// Runs levels in groups, each at once, up to the group in which the wall first overturns.
 fn ascend<E>(
     levels: impl Iterator<Item = f64>,
     run: &mut impl FnMut(&[f64]) -> Result<Vec<Run>, E>,

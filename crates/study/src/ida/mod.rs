@@ -7,12 +7,13 @@
 //! ```
 //! use ground_motion::SyntheticMotion;
 //! use rocking_wall::wall::Parameters;
-//! use study::ida::{Damping, Exceedance, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study};
+//! use study::ida::{Exceedance, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
+//! use study::model::{EnergyLoss, Model};
 //!
 //! let walls = vec![NamedWall::new("parapet", Parameters::default())];
 //! let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() }.motion()?;
 //! let records = vec![NamedRecord { name: "synthetic".into(), motion }];
-//! let models = vec![Model::new(Damping::Restitution)];
+//! let models = vec![Model::new(EnergyLoss::Restitution)];
 //! let levels = Levels::ToOverturning { step: 2.0, top: 100.0 };
 //! let study = Study::new(walls, records, models, IntensityMeasure::Pga, levels)?;
 //! let curves = study.run(1)?;
@@ -24,17 +25,17 @@ mod curve;
 mod error;
 mod levels;
 mod measure;
-mod model;
 mod parts;
 mod shaking;
 
 use std::borrow::Cow;
 
+use crate::model::Model;
 use crate::parallel;
 use ground_motion::{GroundMotion, Warning};
+use record::{Outcome, RecordSolver};
 use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
-use rocking_wall::solver::record::{Outcome, RecordSolver};
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::{Parameters, Wall};
 
@@ -42,7 +43,6 @@ pub use curve::{Curve, Exceedance, Run};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
-pub use model::{Damping, Model, RatioSource};
 pub use shaking::Shaking;
 
 /// Default free vibration after a record \[s\].
@@ -55,7 +55,7 @@ pub struct NamedWall {
     pub name: String,
     /// Parameters. The coefficient of restitution that they state or imply serves every model.
     pub parameters: Parameters,
-    /// Storeys between ground and wall. The records shake the ground, whose intensity counts.
+    /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
     pub floors: Option<Floors>,
 }
 
@@ -179,8 +179,8 @@ impl Study {
         self.intensities[record]
     }
 
-    /// Warns about accelerations that no record has: those of the strongest record at the highest of given
-    /// levels, or at the lowest of levels that go on to overturning.
+    /// Warns about accelerations that no record has. They are those of the strongest record at the highest
+    /// level, or at the lowest one where levels go on to overturning.
     pub fn warning(&self) -> Option<Warning> {
         let level = self.levels.certain();
         let peaks = self.records.iter().zip(&self.intensities);
@@ -193,7 +193,8 @@ impl Study {
         self.motion(wall, model).wall().clone()
     }
 
-    /// Makes the motion of a wall and model. Those of all walls would take more memory than a part's curves.
+    /// Makes the motion of a wall and model. It is not kept: the motions of all walls would take more memory
+    /// than the curves of a part.
     fn motion(&self, wall: usize, model: usize) -> Motion {
         let made = motion(&self.walls[wall], &self.models[model]);
         made.unwrap_or_else(|error| unreachable!("`new` has made it: {error}"))
@@ -204,7 +205,7 @@ impl Study {
         self.walls.len() * self.records.len() * self.models.len()
     }
 
-    /// Returns the combination of a number: walls outermost, then models, records innermost.
+    /// Returns the combination with a number. Numbers count records first, then models, then walls.
     pub fn case(&self, index: usize) -> Case {
         let (records, models) = (self.records.len(), self.models.len());
         Case { wall: index / (records * models), model: index / records % models, record: index % records }

@@ -1,7 +1,7 @@
 //! Runs of one wall through one record, multiplied by factors.
 
 use ground_motion::GroundMotion;
-use rocking_wall::solver::record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
+use record::{Batch, Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::Support;
 
@@ -11,7 +11,8 @@ use crate::free_motion::peak_is_final;
 ///
 /// ```
 /// use ground_motion::SyntheticMotion;
-/// use rocking_wall::solver::{Motion, record::RecordSolver};
+/// use record::RecordSolver;
+/// use rocking_wall::solver::Motion;
 /// use rocking_wall::wall::Parameters;
 /// use study::ida::Shaking;
 ///

@@ -1,12 +1,12 @@
 //! Figures 4 and 13: force laws, and damping ratios over slenderness.
 
 use crate::chart::{Axis, Chart, Series};
+use crate::model::{RATIO_MODELS, label};
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning, calibration};
-use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
+use rocking_wall::wall::{ParameterError, Parameters, Wall};
 
 use super::figure::{Figure, spaced};
-use super::tables::{RATIO_MODELS, abbreviation};
 
 /// Figure 4: a) bilinear and b) trilinear law on the rigid-linear one.
 pub(super) fn figure_4() -> Result<Figure, ParameterError> {
@@ -52,19 +52,19 @@ pub(super) fn figure_4() -> Result<Figure, ParameterError> {
 /// Figure 13: ξ over the slenderness angle.
 pub(super) fn figure_13() -> Figure {
     let a1 = 0.06;
-    let curve = |model, mechanism, factor: f64| -> Vec<(f64, f64)> {
+    let curve = |model: DampingModel, mechanism, factor: f64| -> Vec<(f64, f64)> {
         let ratio = |angle: f64| {
             let analytic = match mechanism {
                 Mechanism::Parapet => analytic_parapet(angle),
                 Mechanism::VerticalSpanning => analytic_vertical_spanning(angle),
             };
-            equivalence::predicted(model, a1, factor * analytic)
+            model.predicted_ratio(a1, factor * analytic)
         };
         spaced([0.02, 0.35], 66).map(|angle| (angle, 100.0 * ratio(angle))).collect()
     };
     let (parapet, strip) = (Mechanism::Parapet, Mechanism::VerticalSpanning);
     let charts = RATIO_MODELS.map(|model| {
-        let title = format!("{}, a₁ = {a1}, a₃ = 1", abbreviation(model));
+        let title = format!("{}, a₁ = {a1}, a₃ = 1", label(model).name);
         let top = if model == RATIO_MODELS[0] { 8.0 } else { 16.0 };
         let (x, y) = (Axis::over("α or α₁ (rad)", [0.0, 0.35]), Axis::over("damping ratio (%)", [0.0, top]));
         let series = vec![

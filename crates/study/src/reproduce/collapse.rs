@@ -2,11 +2,10 @@
 
 use std::num::NonZeroUsize;
 
-use crate::chart::{Axis, Chart, Series, model_color};
+use crate::chart::{Axis, Chart, Series};
 use crate::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
-use crate::ida::{
-    Case, Exceedance, IdaError, IntensityMeasure, Levels, Model, NamedRecord, NamedWall, Study,
-};
+use crate::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
+use crate::model::{Model, color};
 use crate::parallel;
 use ground_motion::STANDARD_GRAVITY;
 use rocking_wall::variables::RestitutionSource;
@@ -120,7 +119,7 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
             below = part;
         }
         let look = if model.name.ends_with("14") { Series::dashed } else { Series::line };
-        look(&model.name, model_color(&model.name), points)
+        look(&model.name, color(&model.name), points)
     });
     let series: Vec<_> = series.collect();
     // a single record far above the rest would squeeze all others

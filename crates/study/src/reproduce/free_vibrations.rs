@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
 use crate::calibration::{Grid, calibrate};
-use crate::chart::{Axis, Chart, Series, model_color};
+use crate::chart::{Axis, Chart, Series};
 use crate::free_motion::{with_damping, with_restitution};
+use crate::model::{RATIO_MODELS as MODELS, color, label};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -18,7 +19,6 @@ use super::printed::{
     FIGURE_7_START, FIGURE_WALL, START,
 };
 use super::table::{Cell, Table, columns};
-use super::tables::{RATIO_MODELS as MODELS, abbreviation};
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
 /// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.
@@ -63,8 +63,8 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
     for (model, xi) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
         let parameters = with_damping(&strip, model, xi);
         let wall = Wall::new(&parameters)?;
-        let (name, strength) = (abbreviation(model), wall.body().strength.positive);
-        let color = model_color(name);
+        let (name, strength) = (label(model).name, wall.body().strength.positive);
+        let color = color(name);
         coefficients.push(Series::line(name, color, damping_coefficients(&wall)));
         let omega1 = wall.omega1();
         let ratio = |omega: f64| {
@@ -130,8 +130,8 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let u_ins = Wall::new(&strip)?.body().instability.positive;
     let runs = [
-        (format!("CR, e = {e}"), model_color("CR"), with_restitution(&strip, e)),
-        (format!("CDR, ξ = {xi}"), model_color("CDR"), with_damping(&strip, DampingModel::ConstantRatio, xi)),
+        (format!("CR, e = {e}"), color("CR"), with_restitution(&strip, e)),
+        (format!("CDR, ξ = {xi}"), color("CDR"), with_damping(&strip, DampingModel::ConstantRatio, xi)),
     ];
     let (mut histories, mut phases) = (Vec::new(), Vec::new());
     for (name, color, parameters) in runs {
@@ -181,7 +181,7 @@ pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
         let series = vec![
             Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
-            Series::line("rocking body, CR", model_color("CR"), rocking),
+            Series::line("rocking body, CR", color("CR"), rocking),
         ];
         charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
     }
@@ -249,7 +249,7 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError
     ];
     let remark = format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value");
     for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
-        let number = format!("Figure 5: ξ of {}", abbreviation(model));
+        let number = format!("Figure 5: ξ of {}", label(model).name);
         rows.push(row(&number, fits(model, &[e])?[0], (printed, 3), &remark));
     }
     Ok(Table {

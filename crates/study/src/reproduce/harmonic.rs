@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::chart::{Axis, Chart, Series, model_color};
+use crate::chart::{Axis, Chart, Series};
 use crate::free_motion::{with_damping, with_restitution};
+use crate::model::color;
 use ground_motion::GroundMotion;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
@@ -62,7 +63,7 @@ pub(super) fn figure_14() -> Result<Figure, ReproductionError> {
             let samples = history(&parameters, Some(excitation), [0.005, END])?;
             let points: Vec<_> = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
             let peak = points.iter().fold(0.0_f64, |peak, point| peak.max(point.1.abs()));
-            series.push(Series::line(&format!("{name}, peak {peak:.3}"), model_color(name), points));
+            series.push(Series::line(&format!("{name}, peak {peak:.3}"), color(name), points));
         }
         let panels = [("the whole motion", [0.0, END]), ("around the largest amplitude", [27.0, 33.0])];
         charts.extend(panels.map(|(panel, times)| {

@@ -53,7 +53,8 @@ pub struct Reproduction {
 const PARTS: usize = section_5::CALIBRATIONS + 6;
 
 /// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
-/// records, is computed by [`collapse::figure_15`]. Calls `finished` after each part, with the number of all.
+/// records, is computed by [`collapse::figure_15`]. Calls `finished` with the number of all
+/// parts after each part.
 ///
 /// # Errors
 /// [`ReproductionError`] if a wall, a motion, a run or a calibration fails.

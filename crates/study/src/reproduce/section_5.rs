@@ -3,16 +3,16 @@
 use std::num::NonZeroUsize;
 
 use crate::calibration::{Calibration, CalibrationError, Coefficient, Fit, Grid, PowerLaw, calibrate};
-use crate::chart::{Axis, Chart, Series, model_color};
+use crate::chart::{Axis, Chart, Series};
+use crate::model::{RATIO_MODELS as MODELS, color, label};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
 
 use super::figure::{Figure, spaced};
 use super::printed::{FIGURE_WALL, FREE_STANDING, REGRESSIONS, START};
 use super::table::{Cell, Table, columns};
-use super::tables::{RATIO_MODELS as MODELS, abbreviation};
 
-/// u₀/`u_ins` assumed for Figure 8, and a₁ for Figure 10: those drawn are lost.
+/// u₀/`u_ins` assumed for Figure 8, and a₁ for Figure 10; those of the printed figures are not known.
 const STARTS: [f64; 4] = [0.3, 0.5, 0.7, START];
 const A1: [f64; 4] = [0.01, 0.03, 0.05, 0.10];
 /// a₁ of Figures 8, 9 and 11.
@@ -75,7 +75,7 @@ impl Section5 {
             for (words, points) in [("0.01 … 0.10", &points[2..]), ("0.005 … 0.10", &points[..])] {
                 let Some(law) = PowerLaw::fit(points) else { continue };
                 rows.push(vec![
-                    Cell::text(format!("Eq. ({equation}), {}", abbreviation(model))),
+                    Cell::text(format!("Eq. ({equation}), {}", label(model).name)),
                     Cell::text(words),
                     Cell::value(law.q, q, 3),
                     Cell::value(law.r, r, 3),
@@ -120,7 +120,7 @@ impl Section5 {
                 let fits = found.fits.iter().filter(|fit| fit.start == *start);
                 series.extend(marks_and_fit(&format!("u₀ = {start} u_ins"), color, fits, *x));
             }
-            over_restitution(abbreviation(found.model), TOP, series)
+            over_restitution(label(found.model).name, TOP, series)
         });
         let x = |model: usize, start: usize| self.amplitude[model].coefficients[start].x;
         let trend = |model: usize| format!("{:.3} … {:.3}", x(model, 0), x(model, STARTS.len() - 1));
@@ -149,7 +149,7 @@ impl Section5 {
             }
             let x = self.shape[1][index].coefficients[0].x;
             series.push(Series::line("ξ = −x ln e for h/b = 10", 5, over_e(|e| -x * e.ln())));
-            over_restitution(abbreviation(model), TOP, series)
+            over_restitution(label(model).name, TOP, series)
         });
         Figure {
             number: 9,
@@ -178,7 +178,7 @@ impl Section5 {
                 let fits = found.fits.iter().filter(|fit| fit.a1 == *a1);
                 series.extend(marks_and_fit(&format!("a₁ = {a1}, x = {x:.3}"), color, fits, *x));
             }
-            over_restitution(abbreviation(found.model), TOP, series)
+            over_restitution(label(found.model).name, TOP, series)
         });
         Figure {
             number: 10,
@@ -192,8 +192,8 @@ impl Section5 {
         let series = self.stiffness.iter().map(|found| {
             let fits = found.fits.iter().filter(|fit| fit.a1 == REFERENCE_A1);
             let points = fits.map(|fit| (fit.restitution, fit.error.sqrt())).collect();
-            let name = abbreviation(found.model);
-            Series::marks(name, model_color(name), points)
+            let name = label(found.model).name;
+            Series::marks(name, color(name), points)
         });
         Figure {
             number: 11,
@@ -215,8 +215,8 @@ impl Section5 {
     fn figure_12(&self) -> Figure {
         let mut series = Vec::new();
         for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
-            let model = abbreviation(model);
-            let color = model_color(model);
+            let model = label(model).name;
+            let color = color(model);
             let points: Vec<_> = found.coefficients.iter().map(|c| (c.a1, c.x)).collect();
             let curve = |law: PowerLaw| spaced([0.005, 0.1], 95).map(|a1| (a1, law.at(a1))).collect();
             series.push(Series::dashed(&format!("Eq. ({equation})"), color, curve(PowerLaw { q, r })));

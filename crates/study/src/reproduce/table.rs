@@ -41,8 +41,8 @@ impl Value {
         self.computed - self.printed
     }
 
-    /// Returns whether the computed number rounds to the printed one: within half a unit of its last digit,
-    /// and 1e-9 of it for ties.
+    /// Returns whether the computed number rounds to the printed one. They may differ by half a unit of the
+    /// last printed digit, and by 1e-9 of that unit more for ties.
     pub fn agrees(&self) -> bool {
         #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few decimals")]
         let unit = 10.0_f64.powi(-(self.decimals as i32));

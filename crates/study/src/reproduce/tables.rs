@@ -1,27 +1,14 @@
 //! Tables 3, 4 and 5: damping ratios from Eqs. (2), (3), (14) and (20)–(22).
 
-use rocking_wall::variables::{DampingModel, Mechanism, RestitutionSource};
+use rocking_wall::variables::{Mechanism, RestitutionSource};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
+
+use crate::model::label;
 
 use super::printed::{
     TABLE_3, TABLE_3_A1, TABLE_3_RESTITUTION, TABLE_4, TABLE_5, TABLE_5_HINGE, Table4, Table5,
 };
 use super::table::{Cell, Table, columns};
-
-/// Damping models of the paper that take a ratio ξ.
-pub(super) const RATIO_MODELS: [DampingModel; 3] =
-    [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
-
-/// Returns the paper's abbreviation of a damping model.
-pub fn abbreviation(model: DampingModel) -> &'static str {
-    match model {
-        DampingModel::None => "CR",
-        DampingModel::ConstantCoefficient => "CDC",
-        DampingModel::FreeStandingBlock => "CDC, Eq. (7)",
-        DampingModel::ConstantRatio => "CDR",
-        DampingModel::StiffnessProportional => "SDR",
-    }
-}
 
 /// Returns the paper's abbreviation of a mechanism.
 pub(super) fn mechanism(row: &Table5) -> &'static str {
@@ -31,11 +18,11 @@ pub(super) fn mechanism(row: &Table5) -> &'static str {
 /// Computes Table 3.
 pub fn table_3() -> Table {
     let rows = TABLE_3.iter().map(|&(model, equation, walls)| {
-        let mut cells = vec![Cell::text(format!("{}, Eq. ({equation})", abbreviation(model)))];
+        let mut cells = vec![Cell::text(format!("{}, Eq. ({equation})", label(model).name))];
         for ([tests, predicted @ ..], restitutions) in walls.into_iter().zip(TABLE_3_RESTITUTION) {
             cells.push(Cell::text(format!("{tests:.3}")));
             for (printed, e) in predicted.into_iter().zip(restitutions) {
-                cells.push(Cell::value(equivalence::predicted(model, TABLE_3_A1, e), printed, 3));
+                cells.push(Cell::value(model.predicted_ratio(TABLE_3_A1, e), printed, 3));
             }
         }
         cells

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape};
 use rocking_wall::solver::SolverError;
-use rocking_wall::wall::ParameterError;
+use rocking_wall::wall::{ParameterError, Parameters};
 
 /// Most points of a spectrum.
 pub const MOST_POINTS: usize = 250_000;
@@ -51,7 +51,7 @@ pub enum SpectrumError {
     #[error("{found} points are more than {MOST_POINTS}; take fewer rows or columns")]
     TooManyPoints { found: usize },
     /// R or α is given for a wall that is not a parapet.
-    #[error("{name} is that of a parapet; for a vertical spanning wall give heights and h/b")]
+    #[error("{name} is for parapets only; for a vertical spanning wall give heights and h/b")]
     ParapetOnly { name: &'static str },
     /// A wall of a height and thickness \[m\] is invalid.
     #[error("wall of {height} m by {thickness} m: {source}")]
@@ -65,6 +65,15 @@ pub enum SpectrumError {
 }
 
 impl Size {
+    /// Returns the size of a wall.
+    pub fn of(self, parameters: &Parameters) -> f64 {
+        let Parameters { height, thickness, .. } = *parameters;
+        match self {
+            Self::Height => height,
+            Self::SemiDiagonal => height.hypot(thickness) / 2.0,
+        }
+    }
+
     /// Returns name and unit, for axes and messages.
     pub fn label(self) -> &'static str {
         match self {
@@ -75,6 +84,15 @@ impl Size {
 }
 
 impl Slenderness {
+    /// Returns the slenderness of a wall.
+    pub fn of(self, parameters: &Parameters) -> f64 {
+        let Parameters { height, thickness, .. } = *parameters;
+        match self {
+            Self::Ratio => height / thickness,
+            Self::Angle => (thickness / height).atan(),
+        }
+    }
+
     /// Returns name and unit, for axes and messages.
     pub fn label(self) -> &'static str {
         match self {

@@ -30,11 +30,11 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use fmu_export::{Kind, VariableId};
 
 use ground_motion::GroundMotion;
+use record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::scene::{Scene, SceneError};
-use rocking_wall::solver::record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Wall};
 
 use crate::free_motion::{advance, peak_is_final};
 use crate::parallel;
@@ -43,14 +43,14 @@ pub use axes::{MOST_POINTS, PulseForm, Size, Slenderness, SpectrumError};
 
 /// Step of the free motion after the record, over 1/p.
 const FREE_STEP: f64 = 0.25;
-/// Most steps of the free motion: a wall near the instability leaves it as e^{pt}, so that every peak comes
+/// Most steps of the free motion. A wall near the instability departs from it as e^{pt}, so every peak comes
 /// within 100/p.
 const MOST_FREE_STEPS: u32 = 400;
 
 /// Result of one wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Largest |u|/`u_ins`, of the side it is on \[-\]; at most 1.
+    /// Largest |u|/`u_ins`, with the `u_ins` of the side that the wall is on \[-\]; at most 1.
     pub ratio: f64,
     /// Whether the wall left its elastic branch, or u = 0 with the rigid-linear law.
     pub rocked: bool,
@@ -105,6 +105,19 @@ pub fn over_walls(
     Ok(RockingSpectrum { columns: sizes.to_vec(), rows: rows.to_vec(), points })
 }
 
+/// Runs the wall itself, with its size and slenderness; `None` for one that such axes cannot have.
+pub fn own_point(
+    parameters: &Parameters,
+    motion: &GroundMotion,
+    size: Size,
+    slenderness: Slenderness,
+) -> Option<([f64; 2], Point)> {
+    let place = [size.of(parameters), slenderness.of(parameters)];
+    let (column, row) = ((size, &place[..1]), (slenderness, &place[1..]));
+    let alone = over_walls(parameters, motion, column, row, 1).ok()?;
+    Some((place, alone.points[0][0]))
+}
+
 /// Computes the rocking spectrum of one wall under pulses of one form: columns are `ω_p/p`, rows are
 /// `a_p/a₀`.
 ///
@@ -125,10 +138,11 @@ pub fn over_pulses(
         }
     }
     let wall = Prepared::new(&upright(parameters))?;
-    let (p, onset, factor) = (wall.motion.wall().rocking_rate(), wall.onset(), wall.participation());
+    let (p, at_onset, factor) =
+        (wall.motion.wall().rocking_rate(), onset(wall.motion.wall()), wall.participation());
     let run = |column: usize| -> Result<Vec<Point>, SpectrumError> {
         let motion = form.motion(columns[column] * p / TAU)?;
-        let factors: Vec<f64> = rows.iter().map(|amplitude| -factor * onset * amplitude).collect();
+        let factors: Vec<f64> = rows.iter().map(|amplitude| -factor * at_onset * amplitude).collect();
         wall.points(&factors, &motion)
     };
     let found = parallel::map(columns.len(), threads, run)?;
@@ -149,6 +163,12 @@ pub fn common_motion(scene: &Scene) -> Result<GroundMotion, SceneError> {
         Some(motion) => Ok(motion.bottom().clone()),
         None => refused("a rocking spectrum needs a record, or a scene with a motion"),
     }
+}
+
+/// Returns a₀ = F₀/(λ `m_eff`), at which the rigid wall begins to rock to u > 0 \[m/s²\].
+pub fn onset(wall: &Wall) -> f64 {
+    let body = wall.body();
+    body.strength.positive / (body.participation * body.effective_mass)
 }
 
 fn check_count(found: usize) -> Result<(), SpectrumError> {
@@ -222,17 +242,11 @@ impl Prepared {
         self.motion.wall().body().participation
     }
 
-    /// Returns a₀ = F₀/(λ `m_eff`) \[m/s²\].
-    fn onset(&self) -> f64 {
-        let body = self.motion.wall().body();
-        body.strength.positive / (body.participation * body.effective_mass)
-    }
-
     /// Runs through a motion, with `factor` times its accelerations as forcing, and the free motion after it.
     fn point(&self, factor: f64, motion: &GroundMotion) -> Result<Point, SpectrumError> {
         let samples = Forcing::Samples(motion.samples());
         let solver = RecordSolver::new(&self.motion, motion.step());
-        let outcome = solver.run(self.start(factor, motion), samples, true);
+        let outcome = solver.run(self.run_start(factor, motion), samples, true);
         outcome
             .and_then(|outcome| self.followed(outcome, motion.duration()))
             .map_err(|error| self.failed(error))
@@ -241,7 +255,7 @@ impl Prepared {
     /// Runs as [`point`](Self::point) does, for each of many factors.
     fn points(&self, factors: &[f64], motion: &GroundMotion) -> Result<Vec<Point>, SpectrumError> {
         let samples = Forcing::Samples(motion.samples());
-        let starts: Vec<_> = factors.iter().map(|&factor| self.start(factor, motion)).collect();
+        let starts: Vec<_> = factors.iter().map(|&factor| self.run_start(factor, motion)).collect();
         let solver = RecordSolver::new(&self.motion, motion.step());
         let outcomes = solver.batch(samples).run(&starts, true).map_err(|error| self.failed(error))?;
         let followed =
@@ -249,7 +263,8 @@ impl Prepared {
         outcomes.into_iter().map(followed).collect()
     }
 
-    fn start(&self, factor: f64, motion: &GroundMotion) -> RunStart {
+    /// Returns the start of a run: upright and at rest, with `factor` times the motion as forcing.
+    fn run_start(&self, factor: f64, motion: &GroundMotion) -> RunStart {
         RunStart { state: self.motion.start_under(0.0, 0.0, factor * motion.samples()[0]), factor }
     }
 

@@ -1,7 +1,7 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
 use super::released::{Released, StabilityError};
-use rocking_wall::solver::record::{Forcing, RecordSolver, RunStart};
+use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
@@ -9,9 +9,9 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 /// Result of one extreme case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// Name of the case.
+    /// Name.
     pub name: &'static str,
-    /// What happens, and what the value is.
+    /// What happens in the case, and what its value measures.
     pub criterion: &'static str,
     /// Value found.
     pub value: f64,
@@ -213,7 +213,7 @@ fn both(parameters: &Parameters, strength: f64) -> Result<[History; 2], Stabilit
 
 fn agreement(parameters: &Parameters, strength: f64) -> Value {
     let [(exact, _), (adaptive, _)] = both(parameters, strength)?;
-    // a wall that hardly moved would prove nothing
+    // the comparison proves something only if the wall moves far
     let moved = largest(exact.iter().copied()) > 0.05;
     Ok(if moved { largest_difference(&exact, &adaptive) } else { f64::INFINITY })
 }
@@ -306,7 +306,8 @@ fn underflow() -> Value {
     Ok(largest_difference(&raised, &large) / largest(large.iter().copied()))
 }
 
-/// Beside such a push F(u) is nothing: |u| = ½ p t² with the forcing p, and `u_ins` at √(2 `u_ins`/p).
+/// F(u) is negligible beside such a push: |u| = ½ p t² with the forcing p, and the wall reaches `u_ins` at
+/// √(2 `u_ins`/p).
 fn huge() -> Value {
     let motion = Motion::new(Wall::new(&free())?, Method::Exact);
     let push = Support::rigid(1e300);

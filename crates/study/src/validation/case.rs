@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml};
+use rocking_wall::scene::{Group, Place, SceneError, apply_group, parse_toml, read_text};
 use rocking_wall::wall::Parameters;
 
 use super::decay::Decay;
@@ -124,13 +124,7 @@ fn law<const N: usize>(
 }
 
 fn text(path: &Path) -> Result<String, SceneError> {
-    let fail = |reason: String| SceneError::File { file: path.display().to_string(), reason };
-    let unreadable = |error: std::io::Error| fail(format!("cannot be read: {error}"));
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err(fail(format!("expected a file of at most {MAX_FILE_BYTES} bytes")));
-    }
-    std::fs::read_to_string(path).map_err(unreadable)
+    read_text(path, "a published test", MAX_FILE_BYTES)
 }
 
 /// Reads two columns of numbers that rise in the first one; the first line is their header.

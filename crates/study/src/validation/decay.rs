@@ -1,8 +1,9 @@
 //! A wall released from a displacement, against restitution and equivalent damping.
 
+use crate::model::{RATIO_MODELS, label};
 use rocking_wall::solver::{Memo, Motion, State};
-use rocking_wall::variables::{DampingModel, ForceLaw, RestitutionSource};
-use rocking_wall::wall::{COMPUTED, Parameters, Wall, equivalence};
+use rocking_wall::variables::{ForceLaw, RestitutionSource};
+use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 
 use super::difference::Difference;
 use super::error::ValidationError;
@@ -23,7 +24,7 @@ const HALVINGS: usize = 50;
 pub struct Decay {
     /// Time \[s\], and displacement over thickness of a peak \[-\]; 0 at a passage of the vertical.
     pub points: Vec<[f64; 2]>,
-    /// Time of the peak from which on the model moves \[s\].
+    /// Time of the peak from which the model is released \[s\].
     pub start: f64,
     /// a₁ of the bilinear laws with viscous damping \[-\].
     pub a1: f64,
@@ -53,7 +54,7 @@ pub struct DecayComparison {
 pub struct DecayModel {
     /// Name.
     pub name: String,
-    /// Coefficient of restitution, its own or that to which its damping is equivalent \[-\].
+    /// Coefficient of restitution: the model's own, or the one to which its damping is equivalent \[-\].
     pub restitution: f64,
     /// Damping ratio of viscous damping \[-\].
     pub damping: Option<f64>,
@@ -67,7 +68,7 @@ pub struct DecayModel {
 
 impl Decay {
     /// Compares the peaks with the rigid law and restitution, and with the viscous damping that is equivalent
-    /// by Eqs. (20)–(22). Two more runs have the calibrated and the analytic e, fitted to nothing.
+    /// by Eqs. (20)–(22). Two more runs have the calibrated and the analytic e, which are not fitted.
     ///
     /// # Errors
     /// [`ValidationError`]: a wall that is refused, a peak beyond `u_ins`, or rest before the last peak.
@@ -91,16 +92,12 @@ impl Decay {
             None => fitted(&with, &measured)?,
         };
         let mut models = vec![model("restitution", e, None, &with(e), &measured)?];
-        for (name, kind) in [
-            ("CDC", DampingModel::ConstantCoefficient),
-            ("CDR", DampingModel::ConstantRatio),
-            ("SDR", DampingModel::StiffnessProportional),
-        ] {
-            let ratio = equivalence::predicted(kind, self.a1, e);
+        for kind in RATIO_MODELS {
+            let ratio = kind.predicted_ratio(self.a1, e);
             let bilinear =
                 Parameters { force_law: ForceLaw::Bilinear, a1: self.a1, a3: 1.0, ..parameters.clone() };
             let damped = with_damping(&bilinear, kind, ratio);
-            models.push(model(name, e, Some(ratio), &damped, &measured)?);
+            models.push(model(label(kind).name, e, Some(ratio), &damped, &measured)?);
         }
         for (name, source) in
             [("calibrated e", RestitutionSource::Calibrated), ("analytic e", RestitutionSource::Analytic)]

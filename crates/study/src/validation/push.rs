@@ -38,7 +38,7 @@ pub struct PushComparison {
 pub struct PushedLaw {
     /// Name of the law or of its softening.
     pub name: &'static str,
-    /// a₃, fitted but for the rigid law \[-\].
+    /// a₃, fitted for all but the rigid law \[-\].
     pub a3: f64,
     /// Force over weight at each point \[-\].
     pub forces: Vec<f64>,

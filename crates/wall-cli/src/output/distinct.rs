@@ -8,8 +8,8 @@ use study_folder::file::{behind_links, folder};
 
 use super::terminal::give_stdout_to_a_file;
 
-/// What makes two paths one file: its device and number, or else its canonical path; of a file that does not
-/// exist yet, those of its folder and its name.
+/// What identifies a file, whatever path leads to it: its device and number, or else its canonical path. A
+/// file that does not exist yet is identified by its folder and its name.
 type Identity = (FileKey, Option<OsString>);
 
 #[cfg(unix)]
@@ -41,7 +41,7 @@ fn identity(path: &Path) -> Option<Identity> {
 pub(super) const STDOUT: &str = "-";
 
 /// Refuses outputs that would overwrite an input, another output or the file that takes stdout. If
-/// one of them is `-`, all that is told from here on goes to stderr.
+/// one of them is `-`, all messages from here on go to stderr.
 pub(crate) fn check_distinct<'a>(
     inputs: impl IntoIterator<Item = &'a PathBuf>,
     outputs: impl IntoIterator<Item = &'a PathBuf>,

@@ -12,15 +12,15 @@ const MOST_LINES: usize = 9;
 const MOST_CHARACTERS: usize = 2000;
 const MOST_MESSAGES: usize = 7;
 
-/// Whether stdout takes a file, `--csv -`: what is told then goes to stderr.
+/// Whether a file goes to stdout (`--csv -`); messages then go to stderr.
 static STDOUT_TAKES_A_FILE: AtomicBool = AtomicBool::new(false);
 
-/// Sends what is told to stderr from here on.
+/// Sends all messages to stderr from here on, since a file goes to stdout.
 pub(super) fn give_stdout_to_a_file() {
     STDOUT_TAKES_A_FILE.store(true, Ordering::Relaxed);
 }
 
-/// Tells the user results: on stdout, unless that takes a file.
+/// Prints results for the user: on stdout, unless a file goes there.
 pub(crate) fn to_stdout(text: &str) -> Result<()> {
     let text = printable(text);
     if STDOUT_TAKES_A_FILE.load(Ordering::Relaxed) {
@@ -30,7 +30,7 @@ pub(crate) fn to_stdout(text: &str) -> Result<()> {
     bytes_to_stdout(text.as_bytes())
 }
 
-/// Writes to stdout. A closed pipe or a lost terminal is no error: nobody reads what is missing.
+/// Writes to stdout. A closed pipe or a lost terminal is no error, since nobody reads the output then.
 pub(super) fn bytes_to_stdout(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -41,14 +41,14 @@ pub(super) fn bytes_to_stdout(bytes: &[u8]) -> Result<()> {
     }
 }
 
-/// Returns whether stdout was a terminal that has gone: such a device answers with an input/output error.
+/// Returns whether stdout was a terminal that is gone, which answers with an input/output error.
 #[cfg(unix)]
 fn is_lost_terminal(error: &io::Error) -> bool {
     use std::os::unix::fs::FileTypeExt;
     const EIO: i32 = 5;
     let is_device = || {
         let metadata = std::fs::metadata("/dev/stdout");
-        // the name of a lost terminal may be gone too
+        // the device of a lost terminal may have no name any more
         metadata.map_or(true, |metadata| metadata.file_type().is_char_device())
     };
     error.raw_os_error() == Some(EIO) && is_device()
@@ -65,8 +65,8 @@ pub(crate) fn to_stderr(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Writes out the characters that a terminal obeys, as JSON does: control characters other than line ends and
-/// tabs, and marks that reorder text.
+/// Escapes, as JSON does, the characters that a terminal would obey: control characters other than line ends
+/// and tabs, and marks that reorder text.
 fn printable(text: &str) -> String {
     let is_obeyed = |c: char| match c {
         '\n' | '\t' => false,
@@ -85,7 +85,7 @@ fn printable(text: &str) -> String {
     printable
 }
 
-/// Joins an error and its causes, outermost first, without a cause that the text before it ends with.
+/// Joins an error and its causes, outermost first. A cause that already ends the text is not repeated.
 pub(crate) fn message(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -96,8 +96,8 @@ pub(crate) fn message(error: &anyhow::Error) -> String {
     text
 }
 
-/// Writes the numbers of a message that have more digits than people write as [`number`] does; words that
-/// hold digits, such as names of files, stay.
+/// Shortens the numbers of a message that have more digits than people write, as [`number`] does. Words that
+/// contain digits, such as names of files, stay as they are.
 fn with_short_numbers(message: &str) -> String {
     const MOST_DIGITS: usize = 12;
     let is_boundary = |c: char| !(c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | '+' | '/' | '\\'));
@@ -129,7 +129,7 @@ fn bounded(message: &str) -> String {
     head.iter().chain(&[' ', '…', ' ']).chain(tail).collect()
 }
 
-/// Tells the user something, such as an error.
+/// Prints a message for the user, such as an error.
 pub(crate) fn report(message: &str) {
     to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
 }

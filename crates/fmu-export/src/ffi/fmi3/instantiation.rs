@@ -1,7 +1,8 @@
 //! Making instances (FMI 3.0.2, section 2.3.1).
 
 use super::types::{
-    Instance, InstanceEnvironment, IntermediateUpdate, IntermediateUpdateCallback, LogMessageCallback,
+    ClockUpdateCallback, Instance, InstanceEnvironment, IntermediateUpdate, IntermediateUpdateCallback,
+    LogMessageCallback, PreemptionCallback,
 };
 use crate::access;
 use crate::call::Version;
@@ -33,6 +34,7 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
     name: Text,
     token: Text,
     resource_path: Text,
+    _visible: bool,
     logging_on: bool,
     environment: InstanceEnvironment,
     log_message: LogMessageCallback,
@@ -46,7 +48,7 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
             event_mode: true,
             early_return: false,
         };
-        // SAFETY: as the caller promises.
+        // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
         instance::Instance::<M>::new(name, token, path, purpose, logger)
     })
@@ -59,11 +61,12 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
 ///
 /// # Safety
 /// As for [`instantiate_model_exchange`]; `intermediate_variables` is NULL or points to as many references.
-#[allow(clippy::too_many_arguments, reason = "the standard's")]
+#[allow(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "the standard's")]
 pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
     name: Text,
     token: Text,
     resource_path: Text,
+    _visible: bool,
     logging_on: bool,
     event_mode_used: bool,
     early_return_allowed: bool,
@@ -75,7 +78,8 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
 ) -> Instance {
     let logger = || Logger::new(sink(environment, log_message), logging_on);
     make("fmi3InstantiateCoSimulation", logger, |mut logger| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `intermediate_variables` is NULL or points to `intermediate_variable_count` references
+        // that stay as they are during the call.
         let intermediate = unsafe {
             array("requiredIntermediateVariables", intermediate_variables, intermediate_variable_count)
         }?;
@@ -92,7 +96,7 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
             event_mode: event_mode_used,
             early_return: early_return_allowed,
         };
-        // SAFETY: as the caller promises.
+        // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
         let mut made = instance::Instance::<M>::new(name, token, path, purpose, logger)?;
         made.intermediate_update = intermediate_update.map(|callback| asking(environment, callback));
@@ -115,10 +119,18 @@ fn asking(environment: InstanceEnvironment, callback: IntermediateUpdate) -> ins
 ///
 /// # Safety
 /// As for [`instantiate_model_exchange`].
+#[allow(clippy::too_many_arguments, reason = "the standard's")]
 pub unsafe fn instantiate_scheduled_execution<M: ModelExchange>(
+    _name: Text,
+    _token: Text,
+    _resource_path: Text,
+    _visible: bool,
     logging_on: bool,
     environment: InstanceEnvironment,
     log_message: LogMessageCallback,
+    _clock_update: ClockUpdateCallback,
+    _lock_preemption: PreemptionCallback,
+    _unlock_preemption: PreemptionCallback,
 ) -> Instance {
     let logger = || Logger::new(sink(environment, log_message), logging_on);
     make::<M>("fmi3InstantiateScheduledExecution", logger, |_| {
@@ -133,7 +145,7 @@ unsafe fn texts<'a>(
     token: Text,
     path: Text,
 ) -> Result<(&'a str, &'a str, Option<&'a str>), crate::Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: each text is NULL, or ends with a NUL and stays as it is during `'a`.
     unsafe {
         let name = text("instanceName", name)?.unwrap_or_default();
         Ok((name, required_text("instantiationToken", token)?, text("resourcePath", path)?))

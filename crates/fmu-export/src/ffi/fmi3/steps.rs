@@ -29,9 +29,10 @@ pub unsafe fn do_step<M: Model>(
     early_return: *mut Boolean,
     last_successful_time: *mut f64,
 ) -> Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: `component` is NULL or an instance of this model that the importer has not freed.
+    // `intermediateUpdate` does not free it.
     let instance = || unsafe { guard::instance::<M>(component) };
-    // SAFETY: as the caller promises.
+    // SAFETY: each place is NULL or points to room for one value that nobody else uses during the call.
     let answer = |event: bool, early: bool, time: f64| unsafe {
         place("eventHandlingNeeded", event_handling_needed)?.write(event);
         place("terminateSimulation", terminate_simulation)?.write(false);
@@ -80,7 +81,7 @@ functions! {
         values_of_continuous_states_changed: *mut Boolean,
         next_event_time_defined: *mut Boolean, next_event_time: *mut f64
     ): NewDiscreteStates, |instance| {
-        // SAFETY: as the caller promises.
+        // SAFETY: each place is NULL or points to room for one value that nobody else uses during the call.
         let places = unsafe {
             [
                 place("discreteStatesNeedUpdate", discrete_states_need_update)?,
@@ -90,7 +91,8 @@ functions! {
                 place("nextEventTimeDefined", next_event_time_defined)?,
             ]
         };
-        // SAFETY: as the caller promises.
+        // SAFETY: `next_event_time` is NULL or points to room for one value that nobody else uses during the
+        // call.
         let time = unsafe { place("nextEventTime", next_event_time) }?;
         let Update { again, states_changed, nominals_changed, next_event } = instance.update()?;
         let found = [again, false, nominals_changed, states_changed, next_event.is_some()];
@@ -106,7 +108,8 @@ functions! {
         values: *mut f64, value_count: usize
     ): GetRealOutputDerivatives, |instance| {
         check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
+        // SAFETY: `references`, `orders` and `values` are NULL or point to `count` elements that nobody else
+        // changes during the call.
         let (orders, (references, values)) =
             unsafe { (array("orders", orders, count)?, to_get(references, values, count)?) };
         instance.output_derivatives(references, orders, values)
@@ -115,7 +118,7 @@ functions! {
     get_number_of_event_indicators<ModelExchange>(
         count: *mut usize
     ): GetNumberOfEventIndicators, |_| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `count` is NULL or points to room for one value that nobody else uses during the call.
         unsafe { place("nEventIndicators", count) }?.write(M::EVENT_INDICATORS);
         Ok(())
     };
@@ -123,7 +126,7 @@ functions! {
     get_number_of_continuous_states<ModelExchange>(
         count: *mut usize
     ): GetNumberOfContinuousStates, |_| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `count` is NULL or points to room for one value that nobody else uses during the call.
         unsafe { place("nContinuousStates", count) }?.write(M::STATES.len());
         Ok(())
     };
@@ -135,10 +138,11 @@ functions! {
     ): GetDirectionalDerivative, |instance| {
         check_count("nSeed", seed_count, known_count)?;
         check_count("nSensitivity", sensitivity_count, unknown_count)?;
-        // SAFETY: as the caller promises.
+        // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
         let (unknowns, knowns) =
             unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
-        // SAFETY: as the caller promises.
+        // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state,
+        // those of `sensitivity` used by nobody else during the call.
         let (seeds, values) = unsafe {
             (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
         };
@@ -152,10 +156,11 @@ functions! {
     ): GetAdjointDerivative, |instance| {
         check_count("nSeed", seed_count, unknown_count)?;
         check_count("nSensitivity", sensitivity_count, known_count)?;
-        // SAFETY: as the caller promises.
+        // SAFETY: `unknowns` and `knowns` are NULL or point to as many references as their counts state.
         let (unknowns, knowns) =
             unsafe { (array("unknowns", unknowns, unknown_count)?, array("knowns", knowns, known_count)?) };
-        // SAFETY: as the caller promises.
+        // SAFETY: `seeds` and `sensitivity` are NULL or point to as many numbers as their counts state,
+        // those of `sensitivity` used by nobody else during the call.
         let (seeds, values) = unsafe {
             (array("seed", seeds, seed_count)?, array_mut("sensitivity", sensitivity, sensitivity_count)?)
         };

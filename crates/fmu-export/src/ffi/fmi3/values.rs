@@ -12,43 +12,6 @@ use crate::model::{Model, ModelExchange};
 use crate::variable::Kind;
 
 functions! {
-    /// `fmi3GetFloat64`
-    get_float64<ModelExchange>(
-        references: *const ValueReference, count: usize, values: *mut f64, value_count: usize
-    ): GetReal, |instance| {
-        check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        instance.get_float64(references, values)
-    };
-    /// `fmi3SetFloat64`
-    set_float64<Model>(
-        references: *const ValueReference, count: usize, values: *const f64, value_count: usize
-    ): SetReal, |instance| {
-        check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values, count) }?;
-        instance.set_real(references, values)
-    };
-    /// `fmi3GetBoolean`
-    get_boolean<Model>(
-        references: *const ValueReference, count: usize, values: *mut Boolean, value_count: usize
-    ): GetBoolean, |instance| {
-        check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_get(references, values, count) }?;
-        instance.get_boolean(references, values)
-    };
-    /// `fmi3SetBoolean`
-    set_boolean<Model>(
-        references: *const ValueReference, count: usize, values: *const Boolean, value_count: usize
-    ): SetBoolean, |instance| {
-        check_count("nValues", value_count, count)?;
-        // A byte of C that is neither 0 nor 1 is no `bool` of Rust.
-        // SAFETY: as the caller promises.
-        let (references, values) = unsafe { to_set(references, values.cast::<u8>(), count) }?;
-        instance.set_boolean(references, values)
-    };
     /// `fmi3GetString`
     ///
     /// The texts live until the next call of this for the instance.
@@ -56,7 +19,8 @@ functions! {
         references: *const ValueReference, count: usize, values: *mut Text, value_count: usize
     ): GetString, |instance| {
         check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` and `values` are NULL or point to `count` elements that nobody else changes
+        // during the call.
         unsafe { get_texts(instance, references, values, count) }
     };
     /// `fmi3SetString`
@@ -64,7 +28,8 @@ functions! {
         references: *const ValueReference, count: usize, values: *const Text, value_count: usize
     ): SetString, |instance| {
         check_count("nValues", value_count, count)?;
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` and `values` are NULL or point to `count` elements that stay as they are
+        // during the call.
         unsafe { set_texts(instance, references, values, count) }
     };
     /// `fmi3GetBinary`
@@ -74,7 +39,7 @@ functions! {
         references: *const ValueReference, count: usize, _sizes: *mut usize, _values: *mut Binary,
         _value_count: usize
     ): GetBinary, |_| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
         unsafe { none_served(references, count) }
     };
     /// `fmi3SetBinary`
@@ -84,40 +49,48 @@ functions! {
         references: *const ValueReference, count: usize, _sizes: *const usize, _values: *const Binary,
         _value_count: usize
     ): SetBinary, |_| {
-        // SAFETY: as the caller promises.
+        // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
         unsafe { none_served(references, count) }
     };
 }
 
-/// Defines getters and setters of Integer and Enumeration variables.
-macro_rules! integers {
-    ($($type:ty: $get:ident $get_call:ident, $set:ident $set_call:ident, $kind:ident;)*) => {
+/// Defines getters and setters of the values of a type, and how values to be set lie in memory.
+macro_rules! values {
+    ($(
+        $type:ty as $stored:ty: $get:ident<$kind:ident> $get_call:ident $get_by:ident,
+        $set:ident $set_call:ident $set_by:ident $(, $serves:expr)?;
+    )*) => {
         functions! { $(
-            #[doc = concat!("Gets the variables of type `", stringify!($kind), "`.")]
-            $get<Model>(
+            #[doc = concat!("Gets values of type `", stringify!($type), "`.")]
+            $get<$kind>(
                 references: *const ValueReference, count: usize, values: *mut $type, value_count: usize
             ): $get_call, |instance| {
                 check_count("nValues", value_count, count)?;
-                // SAFETY: as the caller promises.
+                // SAFETY: there are as many references and places as stated.
                 let (references, values) = unsafe { to_get(references, values, count) }?;
-                instance.get_integer(references, values, |kind| matches!(kind, Kind::$kind { .. }))
+                instance.$get_by(references, values $(, $serves)?)
             };
-            #[doc = concat!("Sets variables of type `", stringify!($kind), "`.")]
+            #[doc = concat!("Sets values of type `", stringify!($type), "`.")]
             $set<Model>(
                 references: *const ValueReference, count: usize, values: *const $type, value_count: usize
             ): $set_call, |instance| {
                 check_count("nValues", value_count, count)?;
-                // SAFETY: as the caller promises.
-                let (references, values) = unsafe { to_set(references, values, count) }?;
-                instance.set_integer(references, values, |kind| matches!(kind, Kind::$kind { .. }))
+                // SAFETY: there are as many references and values as stated.
+                let (references, values) = unsafe { to_set(references, values.cast::<$stored>(), count) }?;
+                instance.$set_by(references, values $(, $serves)?)
             };
         )* }
     };
 }
 
-integers! {
-    i32: get_int32 GetInteger, set_int32 SetInteger, Integer;
-    i64: get_int64 GetInt64, set_int64 SetInt64, Enumeration;
+values! {
+    f64 as f64: get_float64<ModelExchange> GetReal get_float64, set_float64 SetReal set_real;
+    // a byte of C that is neither 0 nor 1 is no `bool` of Rust
+    Boolean as u8: get_boolean<Model> GetBoolean get_boolean, set_boolean SetBoolean set_boolean;
+    i32 as i32: get_int32<Model> GetInteger get_integer, set_int32 SetInteger set_integer,
+        |kind| matches!(kind, Kind::Integer { .. });
+    i64 as i64: get_int64<Model> GetInt64 get_integer, set_int64 SetInt64 set_integer,
+        |kind| matches!(kind, Kind::Enumeration { .. });
 }
 
 /// Defines getters and setters of types that no variable has.
@@ -128,14 +101,16 @@ macro_rules! unused_types {
             $get<Model>(
                 references: *const ValueReference, count: usize, _values: *mut $type, _value_count: usize
             ): $get_call, |_| {
-                // SAFETY: as the caller promises.
+                // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
+                // the call.
                 unsafe { none_served(references, count) }
             };
             #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
             $set<Model>(
                 references: *const ValueReference, count: usize, _values: *const $type, _value_count: usize
             ): $set_call, |_| {
-                // SAFETY: as the caller promises.
+                // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
+                // the call.
                 unsafe { none_served(references, count) }
             };
         )* }
@@ -157,7 +132,7 @@ unused_types! {
 /// # Safety
 /// As for [`array`].
 unsafe fn none_served(references: *const ValueReference, count: usize) -> Result<(), Failure> {
-    // SAFETY: as the caller promises.
+    // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
     match unsafe { array("valueReferences", references, count) }?.first() {
         Some(&reference) => Err(access::unknown(reference)),
         None => Ok(()),

@@ -15,8 +15,8 @@ pub(super) enum Separator {
 }
 
 impl Separator {
-    /// Finds what separates the numbers of a row; `None` for a single word. A comma beside a blank separates;
-    /// another one is a decimal comma where there are blanks.
+    /// Finds what separates the numbers of a row; `None` for a single word. A comma beside a blank separates
+    /// numbers. In a row with blanks, any other comma is a decimal comma.
     pub(super) fn of_row(row: &str) -> Option<Self> {
         let beside_blank = |(at, _): (usize, &str)| {
             row[..at].ends_with(char::is_whitespace) || row[at + 1..].starts_with(char::is_whitespace)

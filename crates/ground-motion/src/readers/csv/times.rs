@@ -47,7 +47,8 @@ impl Times {
     }
 }
 
-/// Rounds to twelve digits: steps are decimal fractions, and quotients of their sums are so up to rounding.
+/// Rounds to twelve digits. Steps are decimal fractions, but a quotient of their sums is one only up to
+/// rounding.
 fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }

@@ -1,0 +1,133 @@
+//! Tests runs of buildings: floors against their modes, walls against the cascade. The system
+//! integrated as one and the SSP in FMPy are in tests/python/test_building.py.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use building::{Building, Coupled, Parts, Settings};
+use ground_motion::{GroundMotion, Storey, Storeys, SyntheticMotion};
+use rocking_wall::response::Response;
+use rocking_wall::scene::{Floors, Scene, StoreyTable, SupportsTable};
+use rocking_wall::simulation::Excitation;
+
+const STOREYS: [(f64, f64); 3] = [(2.0e4, 4.0e7), (2.0e4, 3.0e7), (1.5e4, 2.0e7)];
+
+/// Makes a folder for the files of a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn ground(scale: f64) -> GroundMotion {
+    let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() };
+    motion.motion().unwrap().scaled(scale)
+}
+
+fn parapet(width: f64) -> String {
+    format!(
+        "inputs = [\"a_bottom\"]\n[geometry]\nheight = 1.2\nthickness = 0.3\nwidth = {width:?}\n\
+         [force_law]\na1 = 0.05\n[damping]\ndamping_model = \"constant_coefficient\"\n\
+         xi = 0.05\n"
+    )
+}
+
+/// Writes a building and returns its path.
+fn written(folder: &Path, storeys: &[(f64, f64)], damping_ratio: f64, walls: &[(&str, &str)]) -> PathBuf {
+    let mut building = String::from("title = \"a test\"\n");
+    let mut below = "ground".to_owned();
+    for (index, (mass, stiffness)) in storeys.iter().enumerate() {
+        let name = format!("floor_{}", index + 1);
+        // writing to a String cannot fail
+        let _ = write!(building, "[[floor]]\nname = \"{name}\"\non = \"{below}\"\nmass = {mass:?}\n");
+        let _ = write!(building, "stiffness = {stiffness:?}\ndamping_ratio = {damping_ratio:?}\n");
+        below = name;
+    }
+    for (name, keys) in walls {
+        let _ = write!(building, "[[wall]]\nname = \"{name}\"\nscene = \"{name}.toml\"\n{keys}\n");
+    }
+    let path = folder.join("b.toml");
+    fs::write(&path, building).unwrap();
+    path
+}
+
+fn run(path: &Path, ground: &GroundMotion, end: f64, tolerance: f64) -> Coupled {
+    let building = Building::read(path).unwrap();
+    let parts = Parts::read(&building).unwrap();
+    Coupled::run(&building, &parts, ground, Settings { end, tolerance }).unwrap()
+}
+
+/// Without walls, peaks are those of the modes, to 1e-3 of the floor's.
+#[test]
+fn floors_without_walls_move_by_their_modes() {
+    let path = written(&folder("building_modes"), &STOREYS, 0.0, &[]);
+    let (ground, end) = (ground(1.0), 12.0);
+    let coupled = run(&path, &ground, end, 2e-4);
+    let storeys = STOREYS.map(|(mass, stiffness)| Storey { mass, stiffness, damping_ratio: 0.0 });
+    let modes = Storeys::new(&storeys).unwrap();
+    for (index, floor) in coupled.floors.iter().enumerate() {
+        let own = modes.floor(&ground, end, index + 1).unwrap().acceleration;
+        let found = floor.acceleration.peak.value.abs();
+        let wanted = own.peak();
+        assert!((found - wanted).abs() <= 1e-3 * wanted, "floor {index}: {found} instead of {wanted}");
+        let parts = coupled.times.iter().zip(&floor.acceleration.values);
+        let apart = parts.map(|(time, value)| (own.at(*time) - value).abs()).fold(0.0, f64::max);
+        assert!(apart <= 1e-3 * wanted, "floor {index}: {:.1e}", apart / wanted);
+    }
+}
+
+/// The peak of the floor differs from that without a wall (the cascade) by at most C times the mass ratio.
+///
+/// A wall on its elastic branch or rocking pushes the floor by |R| = m |a + ü| with
+/// ü = −¾ a − (C u̇ + F)/m_eff. So |R| <= m (A/4 + ¾ g b/h + c V) for a peak A of the floor and V of u̇,
+/// with c = C/m_eff. The acceleration of a floor under a force R is R/M − (2ξω ẋ + ω² x), at most
+/// (1 + ∫|ω e^{−ξωt} sin ωt| dt + …) R/M. The integral is below 2/(πξ) + 1, and the damping adds 2ξ times
+/// as much.
+#[test]
+fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
+    let folder = folder("building_cascade");
+    let (mass, stiffness, ratio) = (2.0e5, 2.0e5 * 400.0, 0.05);
+    let (ground, end) = (ground(0.3), 14.0);
+    let storey = StoreyTable {
+        mass: Some(mass),
+        stiffness: Some(stiffness),
+        damping_ratio: Some(ratio),
+        ..StoreyTable::default()
+    };
+    let floors = Floors::new(&[storey], SupportsTable::default()).unwrap();
+    let cascade = floors.storeys().floor(&ground, end, 1).unwrap().acceleration;
+    let (mut differences, mut shares) = (Vec::new(), Vec::new());
+    for width in [4.0, 2.0, 1.0] {
+        fs::write(folder.join("p.toml"), parapet(width)).unwrap();
+        let path = written(&folder, &[(mass, stiffness)], ratio, &[("p", "bottom = \"floor_1\"")]);
+        let coupled = run(&path, &ground, end, 1e-4);
+        let mut scene = Scene::read(&folder.join("p.toml")).unwrap();
+        scene.floors = Some(floors.clone());
+        scene.shake(Excitation::new(ground.clone(), None), end - ground.duration(), Vec::new());
+        let alone = Response::of(&scene).unwrap();
+        assert!(!alone.summary.overturned && alone.summary.u_ratio_max > 0.05, "{:?}", alone.summary);
+        let wall = rocking_wall::wall::Wall::new(&scene.parameters).unwrap();
+        let mass_ratio = wall.body().mass / mass;
+        let peak = cascade.peak();
+        let difference = (coupled.floors[0].acceleration.peak.value.abs() - peak).abs();
+        let damping = 2.0 * 0.05 * wall.omega1();
+        let fastest = alone.samples.iter().fold(0.0_f64, |most, s| most.max(s.outputs.velocity.abs()));
+        let push = peak / 4.0 + 0.75 * 9.81 * 0.3 / 1.2 + damping * fastest;
+        let gain = 1.0 + (1.0 + 2.0 * ratio) * (2.0 / (std::f64::consts::PI * ratio) + 1.0);
+        assert!(difference <= gain * push * mass_ratio, "{difference} of {}", gain * push * mass_ratio);
+        differences.push(difference);
+        // the wall's own relative change is at most that of its floor; it is in fact a twentieth of it
+        let share = (coupled.walls[0].largest / alone.summary.u_max - 1.0).abs();
+        assert!(share <= difference / peak, "{share} of {}", difference / peak);
+        shares.push(share);
+    }
+    // half the mass gives half the difference: 0.49 to 0.5
+    for pair in differences.windows(2).chain(shares.windows(2)) {
+        let halved = pair[1] / pair[0];
+        assert!((0.45..0.55).contains(&halved), "{differences:?} {shares:?}");
+    }
+}

@@ -1,0 +1,142 @@
+//! Tests files of any kind: size limits, binary content, paths that are not files.
+
+use std::fs::{self, File};
+use std::path::PathBuf;
+
+use ground_motion::{Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, parse, read};
+use proptest::prelude::*;
+
+use crate::specimen::{self, SAMPLES};
+
+fn stated() -> RecordOptions {
+    RecordOptions { unit: Some(Unit::StandardGravity), step: Some(0.01), ..RecordOptions::default() }
+}
+
+fn file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+/// Returns random bytes, from the noise of a synthetic record.
+fn noise() -> Vec<u8> {
+    let motion = SyntheticMotion::default().motion().expect("the default is valid");
+    motion.samples().iter().flat_map(|a| a.to_bits().to_le_bytes()).collect()
+}
+
+#[track_caller]
+fn assert_refused(path: &PathBuf, fragments: &[&str]) {
+    let error = read(path, &stated()).expect_err("no record").to_string();
+    assert!(error.starts_with(&path.display().to_string()), "{error}");
+    for fragment in fragments {
+        assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
+    }
+}
+
+#[test]
+fn reads_a_file() {
+    let path = file("sound.csv");
+    fs::write(&path, "# three samples\n0.1\n0.2\n-0.3\n").unwrap();
+    let record = read(&path, &stated()).unwrap();
+    assert_eq!(record.motion.samples().len(), 3);
+    assert_eq!(record.header, ["three samples"]);
+    // A stated format is the only one that is tried.
+    let error =
+        read(&path, &RecordOptions { format: Some(Format::At2), ..stated() }).unwrap_err().to_string();
+    assert!(error.contains("NPTS"), "{error}");
+    assert_eq!("CSV".parse::<Format>().unwrap(), Format::Csv);
+    assert!("wav".parse::<Format>().unwrap_err().to_string().contains("`wav`"));
+}
+
+#[test]
+fn refuses_what_is_no_file() {
+    assert_refused(&file("there_is_none.AT2"), &["cannot be read"]);
+    assert_refused(&file(""), &["expected a record of at most 67108864 bytes, found a folder"]);
+    #[cfg(unix)]
+    assert_refused(&PathBuf::from("/dev/zero"), &["bytes, found a pipe or device"]);
+}
+
+#[test]
+fn refuses_noise_at_its_first_byte() {
+    let path = file("noise.AT2");
+    let mut bytes = b"time,a_g\n0,1\n".to_vec();
+    bytes.extend(noise());
+    fs::write(&path, bytes).unwrap();
+    assert_refused(&path, &["line ", "expected text, found the byte 0x00", "plain text"]);
+    let utf16: Vec<u8> = "time,a_g\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let error = parse("x.csv", utf16, &stated()).unwrap_err().to_string();
+    assert!(error.contains("line 1") && error.contains("0x00") && error.contains("UTF-16"), "{error}");
+}
+
+#[test]
+fn refuses_two_gigabytes_without_reading_them() {
+    // sparse files: they take no space and are not read
+    for name in ["large.csv", "large.AT2", "large.ASC", "large.EW", "large.V2c", "large.V2", "large.smc"] {
+        let path = file(name);
+        File::create(&path).unwrap().set_len(2 << 30).unwrap();
+        assert_refused(&path, &["at most 67108864 bytes", "found 2147483648"]);
+        fs::remove_file(&path).unwrap();
+    }
+    assert_eq!(MAX_FILE_BYTES, 67_108_864);
+}
+
+/// Eight megabytes of blanks are read, and refused with one message in each format.
+#[test]
+fn refuses_megabytes_of_blanks() {
+    for format in Format::ALL {
+        for blank in [b' ', b'\n'] {
+            let mut bytes = vec![blank; usize::try_from(MAX_FILE_BYTES).unwrap() / 8];
+            let options = RecordOptions { format: Some(format), ..stated() };
+            let error = parse("x", bytes.clone(), &options).unwrap_err().to_string();
+            assert!(error.starts_with("x, line 1: expected") && error.len() < 300, "{error}");
+            // followed by other text, so that they are not trimmed
+            bytes.push(b'1');
+            let error = parse("x", bytes, &options).unwrap_err().to_string();
+            assert!(error.starts_with("x, line ") && error.len() < 300, "{format:?}: {error}");
+        }
+    }
+}
+
+#[test]
+fn shortens_what_it_quotes() {
+    let error = parse("x.csv", vec![b'7'; 100_000], &stated()).unwrap_err().to_string();
+    assert!(error.contains("`7777") && error.len() < 300, "{error}");
+}
+
+proptest! {
+    #![proptest_config(crate::configuration::configuration())]
+
+    #[test]
+    fn never_panics_on_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
+        for format in [None, Some(Format::At2), Some(Format::Csv)] {
+            let _ = parse("x", bytes.clone(), &RecordOptions { format, ..stated() });
+        }
+    }
+
+    #[test]
+    fn never_panics_on_any_text(text in "\\PC{0,200}") {
+        for format in [None, Some(Format::At2), Some(Format::Csv)] {
+            let _ = parse("x", text.clone().into_bytes(), &RecordOptions { format, ..stated() });
+        }
+    }
+}
+
+/// The direction as each format states it; specimens are horizontal.
+#[test]
+fn headers_state_vertical_directions() {
+    let is_vertical =
+        |text: &str| parse("x", text.as_bytes().to_vec(), &RecordOptions::default()).unwrap().is_vertical;
+    for (format, write, level, vertical) in [
+        (Format::At2, specimen::at2 as fn(&[f64]) -> String, "hill, 90\n", "hill, UP\n"),
+        (Format::At2, specimen::at2, "hill, 90\n", "hill, DWN (STATION 5)\n"),
+        (Format::Esm, specimen::esm, "STREAM: HNE", "STREAM: HNZ"),
+        (Format::Knet, specimen::knet, "E-W", "U-D"),
+        (Format::Knet, specimen::knet, "E-W", "6"),
+        (Format::Cosmos, specimen::cosmos, "90 Deg", "Up"),
+        (Format::Csmip, specimen::csmip, "90 Deg", "Down"),
+        (Format::Smc, specimen::smc, "*\n", "a hill component=   UP\n"),
+    ] {
+        let text = write(&SAMPLES);
+        assert!(!is_vertical(&text), "{format:?}");
+        let text = text.replacen(level, vertical, 1);
+        assert!(is_vertical(&text), "{format:?}: {text:.300}");
+    }
+}

@@ -1,0 +1,176 @@
+//! Measures the time per sample of a record: `cargo bench -p rocking-record [-- RECORD.AT2]`. The walls are
+//! 2, 5 and 6 of Table 5 of the paper, under the first 30 s of the record or under the embedded motion. The
+//! yardstick is the bare recurrence of a linear oscillator, timed in the same run.
+
+#![allow(clippy::print_stdout, reason = "a benchmark prints")]
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use ground_motion::{GroundMotion, RecordOptions, SyntheticMotion};
+use record::{Forcing, RecordSolver, RunStart};
+use rocking_wall::simulation::Simulation;
+use rocking_wall::solver::{Motion, Segment};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
+use rocking_wall::wall::{Parameters, Support};
+
+const RUNS: usize = 200;
+/// Runs of one batch.
+const BATCH: usize = 64;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    if let [flag, path, runs] = arguments.as_slice()
+        && flag == "--count"
+    {
+        println!("{}", count(path, runs.parse().expect("a number of runs")));
+        return;
+    }
+    let record = match arguments.first() {
+        Some(path) => ground_motion::read(path, &RecordOptions::default()).expect("a record").motion,
+        None => SyntheticMotion::default().motion().expect("the default motion"),
+    };
+    let record = record.trimmed(0.0, record.duration().min(30.0)).expect("30 s");
+    let samples = record.samples().len() - 1;
+    let bare = least(samples, || oscillator(black_box(record.samples())));
+    println!("{:<44}{bare:>8.2} ns a sample", "bare linear oscillator");
+    for (number, height, thickness, a1) in
+        [(6, 6.0, 0.6, 0.018), (5, 3.0, 0.6, 0.0024), (2, 1.5, 0.3, 0.0012)]
+    {
+        let wall = Parameters { height, thickness, a1, u_start: 0.0, ..Parameters::default() };
+        let damped = |damping_model| Parameters { damping_model, ..wall.clone() };
+        let bouncing = |force_law| Parameters {
+            force_law,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            ..wall.clone()
+        };
+        for (model, parameters) in [
+            ("constant coefficient", damped(DampingModel::ConstantCoefficient)),
+            ("constant ratio", damped(DampingModel::ConstantRatio)),
+            ("stiffness-proportional", damped(DampingModel::StiffnessProportional)),
+            ("restitution, bilinear", bouncing(ForceLaw::Bilinear)),
+            ("restitution, rigid", bouncing(ForceLaw::RigidLinear)),
+        ] {
+            for scale in [0.02, 0.8, 1.2, 1.3] {
+                measure(&record, bare, (number, model), &parameters, scale);
+            }
+        }
+    }
+}
+
+fn measure(
+    record: &GroundMotion,
+    bare: f64,
+    (number, model): (u32, &str),
+    parameters: &Parameters,
+    scale: f64,
+) {
+    let motion = Motion::of(parameters, 1e-8).expect("a valid wall");
+    let participation = motion.wall().body().forcing(Support::rigid(1.0));
+    let samples = record.samples();
+    let count = samples.len() - 1;
+    let solver = RecordSolver::new(&motion, record.step());
+    let state = motion.start(0.0, 0.0, Support::default());
+    let start = |factor: f64| RunStart { state, factor: factor * participation };
+    let run = |factor: f64| {
+        let forcing = Forcing::Samples(black_box(samples));
+        solver.run(start(factor), forcing, false).expect("a bounded motion")
+    };
+    let outcome = run(scale);
+    let one = least(count, || run(scale).state.displacement);
+    let batch = batch(scale, start);
+    let side_by_side = solver.batch(Forcing::Samples(samples)).is_side_by_side();
+    let way = if side_by_side { "side by side" } else { "one by one  " };
+    let many = least(count * BATCH, || {
+        let outcomes = solver.batch(Forcing::Samples(black_box(samples))).run(&batch, false);
+        outcomes.expect("bounded motions")[0].state.displacement
+    });
+    println!(
+        "wall {number}, {:<23} x{scale}: {one:>8.2} ns, {:>5.1} times; {BATCH} {way} {many:>6.2} ns a run; \
+         {:>4} corners, u_max/u_ins {:.3}{}",
+        model,
+        one / bare,
+        outcome.work.corners,
+        outcome.state.peaks.largest() / motion.wall().displacement_scale(),
+        if outcome.overturning.is_some() { ", overturned" } else { "" },
+    );
+}
+
+/// Runs whose factors go from 0.65 of a scale to the scale.
+fn batch(scale: f64, start: impl Fn(f64) -> RunStart) -> Vec<RunStart> {
+    (0..BATCH).map(|i| start(scale * (0.65 + 0.35 * i as f64 / (BATCH - 1) as f64))).collect()
+}
+
+/// uₙ₊₁ = A uₙ + b₀ aₙ + b₁ aₙ₊₁, the piecewise-exact recurrence.
+fn oscillator(record: &[f64]) -> f64 {
+    let (mut u, mut v) = (1e-4_f64, 0.0_f64);
+    for ends in record.windows(2) {
+        let (from, to) = (ends[0], ends[1]);
+        (u, v) = (
+            0.9986 * u + 0.004_99 * v - 1.2e-5 * from - 4e-6 * to,
+            -0.55 * u + 0.9986 * v - 2.5e-3 * (from + to),
+        );
+    }
+    u + v
+}
+
+/// Nanoseconds per unit, the least of several runs after a warm-up.
+fn least(units: usize, mut run: impl FnMut() -> f64) -> f64 {
+    black_box(run());
+    let mut least = f64::INFINITY;
+    for _ in 0..RUNS {
+        let start = Instant::now();
+        black_box(run());
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e9 / units as f64
+}
+
+/// Runs one path several times to count its instructions; returns the number of samples.
+fn count(path: &str, runs: u32) -> u64 {
+    let record = SyntheticMotion::default().motion().expect("the default motion");
+    let damping_model = match path {
+        "adaptive" => DampingModel::ConstantRatio,
+        _ => DampingModel::ConstantCoefficient,
+    };
+    let parameters = Parameters {
+        height: 3.0,
+        thickness: 0.6,
+        a1: 0.0024,
+        damping_model,
+        u_start: 0.0,
+        ..Parameters::default()
+    };
+    let motion = Motion::of(&parameters, 1e-8).expect("a valid wall");
+    let participation = motion.wall().body().forcing(Support::rigid(1.0));
+    let solver = RecordSolver::new(&motion, record.step());
+    let state = motion.start(0.0, 0.0, Support::default());
+    let start = |factor: f64| RunStart { state, factor: factor * participation };
+    for _ in 0..runs {
+        let samples = black_box(record.samples());
+        match path {
+            "segments" => {
+                let mut simulation =
+                    Simulation::new(&parameters, None, 0.0, Support::default()).expect("a valid wall");
+                for ends in samples.windows(2) {
+                    let [from, to] = [ends[0], ends[1]].map(Support::rigid);
+                    let segment = Segment { duration: record.step(), from, to };
+                    simulation.advance(&segment).expect("a bounded motion");
+                }
+                black_box(simulation.progress().state);
+            }
+            "record" | "adaptive" => {
+                let outcome = solver.run(start(1.0), Forcing::Samples(samples), false);
+                black_box(outcome.expect("a bounded motion"));
+            }
+            "batch" => {
+                let outcomes = solver.batch(Forcing::Samples(samples)).run(&batch(1.0, start), false);
+                black_box(outcomes.expect("bounded motions"));
+            }
+            other => panic!("no path {other}: segments, record, batch, adaptive"),
+        }
+    }
+    let lanes = if path == "batch" { BATCH } else { 1 };
+    (record.samples().len() - 1) as u64 * u64::from(runs) * lanes as u64
+}

@@ -1,0 +1,212 @@
+//! Runs through records: one, or many of one wall.
+
+use fearless_simd::Simd;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Avx2, Avx512, Level};
+use rocking_wall::solver::SolverError;
+use rocking_wall::solver::secant::{ByRatio, ByStiffness};
+
+use crate::forcing::{Blocks, Forcing};
+use crate::lanes::Lanes;
+use crate::number::{Eight, WIDTH};
+use crate::responses::Responses;
+use crate::solver::{Observer, Outcome, RecordSolver, RunStart, Unseen};
+use crate::table::{Law, Way};
+
+/// Runs that go side by side in a [`Batch`]. A batch of fewer leaves lanes empty.
+pub const LANES: usize = WIDTH;
+
+impl RecordSolver<'_> {
+    /// Moves a wall through a record; `until_overturning` stops it at the end of the step in which it
+    /// overturns. A record of one sample, or of none, leaves the wall as it was.
+    ///
+    /// # Errors
+    /// [`SolverError`] if the motion could not be followed: too many pieces of motion in one step, or numbers
+    /// that are not finite. Its times count from the start of the step, or of what was left of it.
+    pub fn run(
+        &self,
+        start: RunStart,
+        forcing: Forcing<'_>,
+        until_overturning: bool,
+    ) -> Result<Outcome, SolverError> {
+        self.run_through(start, &Blocks::new(forcing), until_overturning, Unseen)
+    }
+
+    /// Does the same, and shows `observe` the number, u \[m\] and u̇ \[m/s\] of each sample after the first,
+    /// in their order. Sample 0 is the state given.
+    ///
+    /// ```
+    /// # use record::{Forcing, RecordSolver, RunStart};
+    /// # use rocking_wall::solver::Motion;
+    /// # use rocking_wall::wall::{Parameters, Support};
+    /// # let parameters = Parameters::default();
+    /// # let motion = Motion::of(&parameters, parameters.tolerance)?;
+    /// // free vibration from 10 mm, in steps of 5 ms
+    /// let start = RunStart { state: motion.start(0.01, 0.0, Support::default()), factor: 1.0 };
+    /// let solver = RecordSolver::new(&motion, 5e-3);
+    /// let mut history = vec![0.01];
+    /// let outcome =
+    ///     solver.run_observed(start, Forcing::Still(401), false, &mut |_, u, _| history.push(u))?;
+    /// assert_eq!(history.len(), 401);
+    /// assert_eq!(history[400], outcome.state.displacement);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn run_observed(
+        &self,
+        start: RunStart,
+        forcing: Forcing<'_>,
+        until_overturning: bool,
+        observe: &mut dyn FnMut(usize, f64, f64),
+    ) -> Result<Outcome, SolverError> {
+        self.run_through(start, &Blocks::new(forcing), until_overturning, observe)
+    }
+
+    /// Moves a wall through a record whose blocks are known.
+    fn run_through(
+        &self,
+        start: RunStart,
+        record: &Blocks<'_>,
+        until_overturning: bool,
+        observer: impl Observer,
+    ) -> Result<Outcome, SolverError> {
+        let outcomes = Lanes::new(self, record, &[start], until_overturning, observer).one_by_one()?;
+        Ok(outcomes[0])
+    }
+
+    /// Prepares a record for many runs, with the widest vectors of this processor. A large record may take
+    /// some MB for each branch.
+    pub fn batch<'b>(&'b self, forcing: Forcing<'b>) -> Batch<'b> {
+        self.batch_on(forcing, Vectors::widest())
+    }
+
+    /// Prepares a record for some vectors; `None` lets runs go one by one.
+    pub(crate) fn batch_on<'b>(&'b self, forcing: Forcing<'b>, vectors: Option<Vectors>) -> Batch<'b> {
+        let side_by_side = vectors.and_then(|vectors| Some((vectors, SideBySide::new(self, forcing)?)));
+        Batch { solver: self, record: Blocks::new(forcing), side_by_side }
+    }
+}
+
+/// Vectors with which runs go faster side by side. Code for narrower ones would be slower than one by one,
+/// and take long to build.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Vectors {
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(Avx512),
+}
+
+impl Vectors {
+    /// Returns the widest of this processor, if it has any.
+    pub(crate) fn widest() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let level = Level::new();
+            level.as_avx512().map(Self::Avx512).or_else(|| level.as_avx2().map(Self::Avx2))
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        None
+    }
+}
+
+/// Where runs go side by side.
+#[derive(Debug)]
+pub(crate) enum SideBySide {
+    /// Everywhere, by affine maps: four steps at once.
+    Affine(Responses),
+    /// On branches with secant damping, by Taylor series.
+    Curved,
+}
+
+impl SideBySide {
+    pub(crate) fn new(solver: &RecordSolver<'_>, forcing: Forcing<'_>) -> Option<Self> {
+        let RecordSolver { motion, table, .. } = solver;
+        if table.ways.contains(&Way::Curved) {
+            return Some(Self::Curved);
+        }
+        Responses::new(motion, table, forcing).map(Self::Affine)
+    }
+}
+
+/// A record prepared for many runs of one wall.
+///
+/// What becomes of a run never depends on the other runs. Where processor, wall and step allow it, eight runs
+/// go side by side, with the same bits on every processor. With constant damping each has the bits of
+/// [`RecordSolver::run`]; with secant damping it agrees with that within the tolerance.
+///
+/// ```
+/// use record::{Forcing, RecordSolver, RunStart};
+/// use rocking_wall::solver::Motion;
+/// use rocking_wall::wall::{Parameters, Support};
+///
+/// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };
+/// let motion = Motion::of(&parameters, parameters.tolerance)?;
+/// let samples: Vec<f64> = (0..500).map(|n| (0.06 * f64::from(n)).sin()).collect();
+/// let solver = RecordSolver::new(&motion, 0.01);
+/// let state = motion.start(0.0, 0.0, Support::default());
+/// let starts = [0.1, 1.0, 100.0].map(|factor| RunStart { state, factor });
+/// let outcomes = solver.batch(Forcing::Samples(&samples)).run(&starts, true)?;
+/// assert!(outcomes[0].overturning.is_none() && outcomes[2].overturning.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Batch<'a> {
+    solver: &'a RecordSolver<'a>,
+    record: Blocks<'a>,
+    side_by_side: Option<(Vectors, SideBySide)>,
+}
+
+impl Batch<'_> {
+    /// Returns whether runs go side by side, not one by one. They go one by one on a processor without AVX2,
+    /// and where the wall, the step or the length of the record does not suit.
+    pub fn is_side_by_side(&self) -> bool {
+        self.side_by_side.is_some()
+    }
+
+    /// Moves walls through the record, each as if it were alone; `until_overturning` stops each at the end of
+    /// the step in which it overturns. Returns one outcome for each start, in their order.
+    ///
+    /// # Errors
+    /// [`SolverError`] of the first start that could not be followed, as of [`RecordSolver::run`].
+    pub fn run(&self, starts: &[RunStart], until_overturning: bool) -> Result<Vec<Outcome>, SolverError> {
+        let lanes = Lanes::new(self.solver, &self.record, starts, until_overturning, Unseen);
+        match &self.side_by_side {
+            #[cfg(target_arch = "x86_64")]
+            Some((Vectors::Avx2(simd), way)) => abreast(*simd, way, lanes),
+            #[cfg(target_arch = "x86_64")]
+            Some((Vectors::Avx512(simd), way)) => abreast(*simd, way, lanes),
+            _ => lanes.one_by_one(),
+        }
+    }
+}
+
+/// Follows runs side by side.
+pub(crate) fn abreast<S: Simd>(
+    simd: S,
+    way: &SideBySide,
+    lanes: Lanes<'_, Unseen>,
+) -> Result<Vec<Outcome>, SolverError> {
+    simd.vectorize(
+        #[inline(always)]
+        || match (way, lanes.solver.table.law) {
+            (SideBySide::Affine(responses), _) => lanes.side_by_side(
+                Way::Affine,
+                #[inline(always)]
+                |lanes, busy| lanes.affine::<Eight<S>>(simd, 0, busy, Some(responses)),
+            ),
+            (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(
+                Way::Curved,
+                #[inline(always)]
+                |lanes, busy| lanes.parts::<Eight<S>, ByRatio>(simd, 0, busy),
+            ),
+            (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(
+                Way::Curved,
+                #[inline(always)]
+                |lanes, busy| lanes.parts::<Eight<S>, ByStiffness>(simd, 0, busy),
+            ),
+        },
+    )
+}

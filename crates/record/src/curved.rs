@@ -1,0 +1,397 @@
+//! Parts of steps on branches with secant damping, one Taylor series each (docs/record-path.md, §7).
+
+use rocking_wall::solver::secant::{
+    ByRatio, ByStiffness, ORDER, Scaled, SecantBranch, SecantLaw, Start, excess,
+};
+
+use crate::lanes::{Lanes, Rows, Waiting, each};
+use crate::number::{BranchRow, Number, Row, WIDTH, index};
+use crate::regularised::Regularised;
+use crate::solver::Observer;
+use crate::table::{Law, Table, exit, get};
+
+/// The way of a part of eight lanes, as a share of |u|: there the terms of a series fall fast enough to end
+/// at its order.
+const REACH: f64 = 0.2;
+/// By which the next way is longer where the series reached, and shorter where it did not: of eight lanes,
+/// and of one.
+const LONGER: [f64; 2] = [1.1, 1.3];
+const SHORTER: [f64; 2] = [0.7, 0.6];
+/// The way so short that the run goes on by itself.
+const SHORTEST: f64 = 1e-3;
+/// Lanes that wait while the others go on.
+const WAITING: u32 = 1;
+/// Parts between two looks at what waits.
+const MOST_PARTS: usize = 256;
+/// The share of u by which it changes in a part from which on a regularised series costs less, as measured.
+const FAST: f64 = 0.1;
+/// Lengths of a part within which its corner is looked for.
+const MOST_TIME: f64 = 2.0;
+/// Guesses of the time of a corner.
+const MOST_GUESSES: u32 = 8;
+/// Largest Newton step, over the time, from which the next would be a rounding.
+const SMALL_STEP: f64 = 1e-8;
+
+/// The series of one run by itself, of any order.
+pub(crate) trait OneLane: SecantLaw {
+    /// The largest way, as a share of u, that one series may reach.
+    const FARTHEST: f64;
+
+    /// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part; `None` where no series reaches.
+    fn end(start: Start<f64>, most: f64) -> Option<[f64; 2]>;
+
+    /// Returns the share of the part, or the multiple, after which u/u₀ − 1 comes to `rise`, and L u̇/u₀
+    /// then; `None` where that is not found at once or u̇ may change its sign before.
+    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]>;
+}
+
+/// Returns the end of a part by order 8 or 10; `None` where these leave out too much.
+#[inline(always)]
+fn end_to_10<L: SecantLaw>(series: &mut Scaled<f64>, most: f64) -> Option<[f64; 2]> {
+    series.extend_to_8::<L>();
+    if excess::<f64, 8>(series.last::<8>(), most) <= 0.0 {
+        return Some(series.end::<8>());
+    }
+    series.extend_to_10::<L>();
+    (excess::<f64, 10>(series.last::<10>(), most) <= 0.0).then(|| series.end::<10>())
+}
+
+impl OneLane for ByRatio {
+    const FARTHEST: f64 = f64::MAX;
+
+    #[inline(always)]
+    fn end(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
+        if start.velocity.abs() < FAST
+            && let Some(end) = end_to_10::<Self>(&mut Scaled::new(start), most)
+        {
+            return Some(end);
+        }
+        Regularised::new(start).end(most)
+    }
+
+    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]> {
+        Regularised::new(start).passage(rise, most)
+    }
+}
+
+impl OneLane for ByStiffness {
+    const FARTHEST: f64 = 0.3;
+
+    #[inline(always)]
+    fn end(start: Start<f64>, most: f64) -> Option<[f64; 2]> {
+        let mut series = Scaled::new(start);
+        if let Some(end) = end_to_10::<Self>(&mut series, most) {
+            return Some(end);
+        }
+        series.extend_to_12::<Self>();
+        if excess::<f64, 12>(series.last::<12>(), most) <= 0.0 {
+            return Some(series.end::<12>());
+        }
+        series.extend_to_16::<Self>();
+        (excess::<f64, ORDER>(series.last::<ORDER>(), most) <= 0.0).then(|| series.end::<ORDER>())
+    }
+
+    fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]> {
+        let mut series = Scaled::new(start);
+        series.extend_to_8::<Self>();
+        series.extend_to_10::<Self>();
+        series.extend_to_12::<Self>();
+        series.extend_to_16::<Self>();
+        let x = &series.x;
+        let guess = rise / x[1];
+        let mut time = guess - guess * guess * x[2] / x[1];
+        for _ in 0..MOST_GUESSES {
+            let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
+            for n in (1..=ORDER).rev() {
+                bend = bend * time + slope;
+                slope = slope * time + value;
+                value = value * time + x[n];
+            }
+            // Horner's rule has left out one factor of time
+            (bend, slope, value) = (2.0 * (bend * time + slope), slope * time + value, value * time - rise);
+            let first = -value / slope;
+            let turn = 0.5 * bend * first / slope;
+            let shift = first * (1.0 - turn * (1.0 - 2.0 * turn));
+            if !(time + shift > 0.0 && time + shift < MOST_TIME) {
+                return None;
+            }
+            if shift.abs() < SMALL_STEP * time {
+                // the first term of u̇ outweighs all others
+                let others = (2..=ORDER).rev().fold(0.0, |sum, n| sum * time + n as f64 * x[n].abs()) * time;
+                if others >= x[1].abs() {
+                    return None;
+                }
+                // what is left out at that time, not at the end
+                let mut power = time * (time * time).powi(6);
+                let mut last = series.last::<ORDER>();
+                for term in &mut last {
+                    *term *= power;
+                    power *= time;
+                }
+                return (excess::<f64, ORDER>(last, most) <= 0.0)
+                    .then_some([time + shift, slope + shift * bend]);
+            }
+            time += shift;
+        }
+        None
+    }
+}
+
+/// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part, and the lanes for which the series reach.
+#[inline(always)]
+fn end_of_part<N: Number, L: OneLane>(token: N::Token, start: Start<N>, most: N) -> ([N; 2], N::Mask) {
+    if N::LANES == 1 {
+        let start = Start {
+            velocity: start.velocity.lane(0),
+            driving: start.driving.lane(0),
+            rate: start.rate.lane(0),
+            half_kappa: start.half_kappa.lane(0),
+            stiffness: start.stiffness.lane(0),
+            damping: start.damping.lane(0),
+        };
+        let end = L::end(start, most.lane(0));
+        let [u, v] = end.unwrap_or_default();
+        return ([N::splat(token, u), N::splat(token, v)], N::mask(token, u8::from(end.is_some())));
+    }
+    let mut series = Scaled::new(start);
+    series.extend_to_8::<L>();
+    series.extend_to_10::<L>();
+    let within = excess::<N, 10>(series.last::<10>(), most).at_most(N::splat(token, 0.0));
+    (series.end::<10>(), within)
+}
+
+/// Returns the law of the branch of each lane, looked up by `of`.
+#[inline(always)]
+fn law<N>(table: &Table, of: impl Fn(&BranchRow) -> N) -> SecantBranch<N> {
+    let SecantBranch { anchor, force, stiffness, own, force_at_zero, factor } = &table.secant;
+    SecantBranch {
+        anchor: of(anchor),
+        force: of(force),
+        stiffness: of(stiffness),
+        own: [of(&own[0]), of(&own[1]), of(&own[2])],
+        force_at_zero: of(force_at_zero),
+        factor: of(factor),
+    }
+}
+
+/// What lanes have come to on their branches.
+#[derive(Clone, Copy)]
+struct Reached<N> {
+    now: [N; 2],
+    /// Extremes of u at the ends of parts, and the largest |u̇| at their starts.
+    highest: N,
+    lowest: N,
+    fastest: N,
+    /// The share of the step taken already.
+    share: N,
+    /// The way of the next part, as a share of u.
+    way: N,
+}
+
+impl<N: Number> Reached<N> {
+    #[inline(always)]
+    fn load(token: N::Token, rows: &Rows, first: usize) -> Self {
+        let load = |row| N::load(token, row, first);
+        let u = load(&rows.u);
+        Self {
+            now: [u, load(&rows.v)],
+            highest: load(&rows.highest).max(u),
+            lowest: load(&rows.lowest).min(u),
+            fastest: load(&rows.fastest),
+            share: load(&rows.share),
+            way: load(&rows.way),
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, rows: &mut Rows, first: usize) {
+        self.now[0].store(&mut rows.u, first);
+        self.now[1].store(&mut rows.v, first);
+        self.highest.store(&mut rows.highest, first);
+        self.lowest.store(&mut rows.lowest, first);
+        self.fastest.store(&mut rows.fastest, first);
+        self.share.store(&mut rows.share, first);
+        self.way.store(&mut rows.way, first);
+    }
+}
+
+/// What bounds the motion of lanes on their branches.
+#[derive(Clone, Copy)]
+struct Bounds<N> {
+    driving: N,
+    damping: N,
+    growth: N,
+    /// Where u may be \[m\].
+    lower: N,
+    upper: N,
+}
+
+impl<N: Number> Bounds<N> {
+    /// Finds the lanes whose u stays where it may be over a length (docs/record-path.md, Eq. (8)).
+    #[inline(always)]
+    fn hold(&self, [u, v]: [N; 2], length: N) -> N::Mask {
+        let (zero, speed) = (u.like(0.0), v.abs());
+        // A L, and how far u may get from a straight line
+        let change = self.growth * (self.driving + self.damping * speed) * length;
+        let (line, margin) = (u + length * v, change * length * 0.5);
+        // beyond that speed u̇ keeps its sign, so that u does not go back
+        let steady = change.below(speed);
+        let low = N::select(steady & zero.below(v), u, u.min(line) - margin);
+        let high = N::select(steady & v.below(zero), u, u.max(line) + margin);
+        self.lower.at_most(low) & high.at_most(self.upper)
+    }
+}
+
+impl<O: Observer> Lanes<'_, O> {
+    /// Takes parts of steps of lanes, from one on, until some wait; returns which.
+    #[inline(always)]
+    pub(crate) fn parts<N: Number, L: OneLane>(
+        &mut self,
+        token: N::Token,
+        first: usize,
+        busy: u8,
+    ) -> Waiting {
+        let (h, tolerances) = (self.solver.step, self.solver.motion.tolerances());
+        let (law, bounds) = self.laws::<N>(token, first);
+        let mut reached = Reached::<N>::load(token, &self.rows, first);
+        let (zero, one) = (N::splat(token, 0.0), N::splat(token, 1.0));
+        let (farthest, longer, shorter) =
+            if N::LANES == 1 { (L::FARTHEST, LONGER[1], SHORTER[1]) } else { (REACH, LONGER[0], SHORTER[0]) };
+        let farthest = zero + farthest;
+        reached.way = reached.way.min(farthest);
+        // p at both ends of the step
+        let mut ends = [[0.0; WIDTH]; 2];
+        let mut ended = 0;
+        for lane in each(busy) {
+            ended |= u8::from(!self.take_forcing(first + lane, lane, &mut ends)) << lane;
+        }
+        let mut goes = N::mask(token, busy & !ended);
+        for _ in 0..MOST_PARTS {
+            let Reached { now: [u, v], share, way, .. } = reached;
+            let (rest, speed) = (-share + 1.0, v.abs());
+            // the share of u by which it changes in all of the step
+            let whole = speed * h / u.abs();
+            let most = rest.min(way / whole.max(zero + f64::MIN_POSITIVE));
+            let length = most * h;
+            let fits = bounds.hold([u, v], length);
+            let [p0, p1] = [N::load(token, &ends[0], 0), N::load(token, &ends[1], 0)];
+            let forcing = [p0 + (p1 - p0) * share, (p1 - p0) * most];
+            let (start, inverse) = law.start::<L>([u, v], forcing, length);
+            let (end, within) = end_of_part::<N, L>(token, start, tolerances.over(inverse, length));
+            let taken = goes & fits & within;
+            // also where the sum rounds to the whole step
+            let finished = taken & (rest.at_most(most) | one.at_most(share + most));
+            let now = [N::select(taken, u + u * end[0], u), N::select(taken, u / length * end[1], v)];
+            let next_way = N::select(taken, (way * longer).min(farthest), way.min(whole * most) * shorter);
+            reached = Reached {
+                now,
+                highest: reached.highest.max(now[0]),
+                lowest: reached.lowest.min(now[0]),
+                fastest: reached.fastest.max(N::select(taken, speed, zero)),
+                share: N::select(taken, N::select(finished, zero, share + most), share),
+                // a lane that waits is as it was
+                way: N::select(goes, next_way, way),
+            };
+            goes = goes & fits & (zero + SHORTEST).below(reached.way);
+            for lane in each(N::bits(finished)) {
+                self.rows.index[first + lane] += 1.0;
+                if O::SEES {
+                    self.see(index(self.rows.index[first]), now.map(|number| number.lane(0)));
+                }
+                ended |= u8::from(!self.take_forcing(first + lane, lane, &mut ends)) << lane;
+            }
+            goes = goes & !N::mask(token, ended);
+            if (busy & !N::bits(goes)).count_ones() > WAITING.min(busy.count_ones() - 1) {
+                break;
+            }
+        }
+        reached.store(&mut self.rows, first);
+        Waiting { ended, stuck: busy & !N::bits(goes) & !ended }
+    }
+
+    /// Takes p at both ends of a lane's step; returns whether there is one in its block.
+    #[inline(always)]
+    fn take_forcing(&self, lane: usize, place: usize, ends: &mut [Row; 2]) -> bool {
+        if self.is_at_end(lane) {
+            return false;
+        }
+        let samples = self.record.forcing.from(index(self.rows.index[lane]), 2);
+        for (row, sample) in ends.iter_mut().zip(samples) {
+            row[place] = self.rows.factor[lane] * sample;
+        }
+        true
+    }
+
+    /// Looks up the law and the bounds of the branch of each lane.
+    #[inline(always)]
+    fn laws<N: Number>(&self, token: N::Token, first: usize) -> (SecantBranch<N>, Bounds<N>) {
+        let (rows, table) = (&self.rows, &self.solver.table);
+        // of any number of branches: this is not done often
+        let of =
+            |row: &BranchRow| N::of_lanes(token, |lane| get(row, index(rows.branch[(first + lane) % WIDTH])));
+        let load = |row| N::load(token, row, first);
+        let bounds = Bounds {
+            driving: load(&rows.driving),
+            damping: of(&table.damping),
+            growth: of(&table.growth),
+            lower: of(&table.ends[0]).max(load(&rows.limits[0])),
+            upper: of(&table.ends[1]).min(load(&rows.limits[1])),
+        };
+        (law(table, of), bounds)
+    }
+
+    /// Takes a lane along a branch with secant damping to the end of the step or to the corner ahead, where
+    /// u̇ keeps its sign until then; returns whether it does.
+    pub(crate) fn pass_curved_corner(&mut self, lane: usize) -> bool {
+        match self.solver.table.law {
+            Law::Ratio => self.follow_to_corner::<ByRatio>(lane),
+            Law::Stiffness => self.follow_to_corner::<ByStiffness>(lane),
+        }
+        .is_some()
+    }
+
+    fn follow_to_corner<L: OneLane>(&mut self, lane: usize) -> Option<()> {
+        let (rows, table, step) = (&self.rows, &self.solver.table, self.solver.step);
+        let (u, v, share) = (rows.u[lane], rows.v[lane], rows.share[lane]);
+        let branch = rows.branch[lane].branches();
+        let side = usize::from(v > 0.0);
+        let corner = get(&table.ends[side], branch);
+        if (corner - u).abs() > L::FARTHEST * u.abs() {
+            return None;
+        }
+        let rest = (1.0 - share) * step;
+        let samples = self.record.forcing.from(index(rows.index[lane]), 2);
+        let [p0, p1] = [samples[0], samples[1]].map(|p| rows.factor[lane] * p);
+        let law = law(table, |row| get(row, branch));
+        let (forcing, rate) = (p0 + (p1 - p0) * share, (p1 - p0) / step);
+        let (start, inverse) = law.start::<L>([u, v], [forcing, rate * rest], rest);
+        let tolerance = self.solver.motion.tolerances().over(inverse, rest);
+        let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
+        let share = share + part * (rest / step);
+        if part <= 0.0 {
+            return None;
+        }
+        let (end, finished) = if part < 1.0 && share < 1.0 {
+            ([corner, u / rest * velocity], false)
+        } else {
+            let [rise, velocity] = L::end(start, tolerance)?;
+            ([u + u * rise, u / rest * velocity], true)
+        };
+        let known = rows.limits[0][lane] <= end[0] && end[0] <= rows.limits[1][lane];
+        let open = get(&table.exits[side], branch);
+        if !known || !(finished || open == exit::ORDINARY || open == exit::CURVED) {
+            return None;
+        }
+        let rows = &mut self.rows;
+        [rows.u[lane], rows.v[lane]] = end;
+        if finished {
+            (rows.share[lane], rows.index[lane]) = (0.0, rows.index[lane] + 1.0);
+            self.see_now(lane);
+        } else {
+            rows.share[lane] = share;
+            rows.branch[lane] += if side == 1 { 1.0 } else { -1.0 };
+            rows.corners[lane] += 1.0;
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,85 @@
+//! The forcing of a run: samples of a record, in blocks that share a bound.
+
+use std::ops::Range;
+
+/// Samples of a block.
+pub(crate) const BLOCK: usize = 256;
+/// Plain steps that lanes of a batch take at once; the last ones of a block may go as far beyond it, less
+/// one.
+pub(crate) const AT_ONCE: usize = 4;
+
+/// Forcing of a wall at the samples of a record, linear in between.
+///
+/// The forcing of a run is p = s × sample \[m/s²\], with s the run's [`factor`](crate::RunStart::factor). The
+/// samples may be p itself, or accelerations `a_g` of the supports: p = −λ `a_g`, so s then includes −λ. The
+/// step between samples is that of the [`RecordSolver`](crate::RecordSolver).
+#[derive(Clone, Copy, Debug)]
+pub enum Forcing<'a> {
+    /// One value for each sample \[m/s²\]: n samples are n − 1 steps.
+    Samples(&'a [f64]),
+    /// A number of samples without motion, for free vibration; no memory is taken for them.
+    Still(usize),
+}
+
+/// As many samples without motion as are asked for at once.
+static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
+
+impl Forcing<'_> {
+    /// Returns the number of samples.
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            Self::Samples(samples) => samples.len(),
+            Self::Still(count) => *count,
+        }
+    }
+
+    /// Returns the forcing at `count` samples from `index` on.
+    #[inline(always)]
+    pub(crate) fn from(&self, index: usize, count: usize) -> &[f64] {
+        match self {
+            Self::Samples(samples) => &samples[index..][..count],
+            Self::Still(_) => &STILL[..count],
+        }
+    }
+
+    /// Returns the forcing at a sample.
+    #[inline(always)]
+    pub(crate) fn at(&self, index: usize) -> f64 {
+        self.from(index, 1)[0]
+    }
+
+    /// Returns the largest |p| over a range of samples.
+    fn largest(&self, range: Range<usize>) -> f64 {
+        let Self::Samples(samples) = self else { return 0.0 };
+        // eight side by side: one maximum after another would take longer than the steps
+        let (rows, rest) = samples[range].as_chunks::<8>();
+        let larger = |a: f64, b: f64| if b > a { b } else { a };
+        let mut columns = [0.0; 8];
+        for row in rows {
+            columns = std::array::from_fn(|i| larger(columns[i], row[i].abs()));
+        }
+        columns.iter().chain(rest).fold(0.0, |largest, sample| larger(largest, sample.abs()))
+    }
+}
+
+/// A forcing and its bounds, block by block.
+#[derive(Debug)]
+pub(crate) struct Blocks<'a> {
+    pub(crate) forcing: Forcing<'a>,
+    /// Largest |p| over each block and the samples after it to which plain steps may go \[m/s²\].
+    largest: Vec<f64>,
+}
+
+impl<'a> Blocks<'a> {
+    pub(crate) fn new(forcing: Forcing<'a>) -> Self {
+        let last = forcing.count().saturating_sub(1);
+        let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + AT_ONCE - 1).min(last) + 1;
+        let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
+        Self { forcing, largest }
+    }
+
+    /// Returns the bound on |p| in the block of a sample \[m/s²\].
+    pub(crate) fn largest(&self, index: usize) -> f64 {
+        self.largest.get(index / BLOCK).copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,329 @@
+//! Runs in lanes: how each is on its way through its record, block by block, with its bounds and extremes.
+
+use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
+
+use crate::forcing::{AT_ONCE, BLOCK, Blocks};
+use crate::number::{Row, WIDTH, index};
+use crate::solver::{Observer, Outcome, RecordSolver, RunStart};
+use crate::table::Way;
+
+/// The |u| up to which f̂ is taken, over the largest so far.
+const ROOM: f64 = 4.0;
+/// Most of the |u| up to which f̂ is taken, over the largest so far, for f̂ to serve another block.
+const MOST_ROOM: f64 = 16.0;
+
+/// A block that a run has entered, and the extremes at the ends of its steps.
+#[derive(Clone, Copy)]
+pub(crate) struct Block {
+    /// The run's number, and its factor.
+    pub(crate) number: usize,
+    pub(crate) factor: f64,
+    pub(crate) state: State,
+    /// The sample, and the share of the step from there that is taken already.
+    pub(crate) first: usize,
+    pub(crate) share: f64,
+    pub(crate) end: usize,
+    pub(crate) highest: f64,
+    pub(crate) lowest: f64,
+    pub(crate) fastest: f64,
+    /// P \[m/s²\].
+    pub(crate) forcing: f64,
+}
+
+impl Block {
+    /// Returns what a run is before its first block.
+    pub(crate) fn new(number: usize, factor: f64, state: State) -> Self {
+        let (first, share, end) = (0, 0.0, 0);
+        let (highest, lowest, fastest, forcing) = (0.0, 0.0, 0.0, 0.0);
+        Self { number, factor, state, first, share, end, highest, lowest, fastest, forcing }
+    }
+}
+
+/// A run beside its motion.
+pub(crate) struct Run {
+    pub(crate) block: Block,
+    /// The sample at which this pass through the record ends.
+    pub(crate) last: usize,
+    pub(crate) phase: Phase,
+    pub(crate) overturned: bool,
+    pub(crate) departed: bool,
+    pub(crate) peaks: Peaks,
+    /// f̂ \[m/s²\], for |u| up to `reach` \[m\].
+    pub(crate) force: f64,
+    pub(crate) reach: f64,
+    pub(crate) overturning: Option<f64>,
+    /// Work of the general search, and the steps left to it.
+    pub(crate) searched: Work,
+    pub(crate) steps: u64,
+    pub(crate) put_to_rest: bool,
+    pub(crate) memo: Memo,
+}
+
+/// The motion of each lane, and its bounds.
+#[derive(Default)]
+#[repr(align(64))]
+pub(crate) struct Rows {
+    /// The sample, the share of the step from there that is taken already, and the first sample at which no
+    /// plain steps begin.
+    pub(crate) index: Row,
+    pub(crate) share: Row,
+    pub(crate) limit: Row,
+    /// The factor of the forcing.
+    pub(crate) factor: Row,
+    pub(crate) u: Row,
+    pub(crate) v: Row,
+    pub(crate) branch: Row,
+    /// Extremes of u at the ends of the block's steps \[m\], and the largest |u̇| on curved branches \[m/s\].
+    pub(crate) highest: Row,
+    pub(crate) lowest: Row,
+    pub(crate) fastest: Row,
+    /// P and D = P + f̂ \[m/s²\].
+    pub(crate) forcing: Row,
+    pub(crate) driving: Row,
+    /// The |u| beyond which f̂ is taken anew, and where u is known to stay \[m\].
+    pub(crate) half_reach: Row,
+    pub(crate) limits: [Row; 2],
+    /// Corners passed here, and of these the passages of u = 0.
+    pub(crate) corners: Row,
+    pub(crate) impacts: Row,
+    /// The way of the next part on a curved branch, as a share of u.
+    pub(crate) way: Row,
+}
+
+/// What a call is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pass {
+    /// The motion.
+    Motion { until_overturning: bool },
+    /// The extremes between samples, in blocks where they may exceed those known.
+    Extremes,
+}
+
+/// Lanes that wait, by their bits.
+#[derive(Clone, Copy)]
+pub(crate) struct Waiting {
+    /// At the end of a block.
+    pub(crate) ended: u8,
+    /// For the run to go on by itself.
+    pub(crate) stuck: u8,
+}
+
+/// Runs in lanes.
+pub(crate) struct Lanes<'a, O> {
+    pub(crate) solver: &'a RecordSolver<'a>,
+    pub(crate) record: &'a Blocks<'a>,
+    pub(crate) rows: Rows,
+    pub(crate) observer: O,
+    pub(crate) pass: Pass,
+    /// The steps that lanes take side by side.
+    pub(crate) joins: Option<Way>,
+    /// The run of each lane that has had one.
+    pub(crate) runs: Vec<Run>,
+    pub(crate) starts: &'a [RunStart],
+    /// The next start to take up.
+    pub(crate) next: usize,
+    /// Blocks in which u may have gone beyond the extremes known.
+    pub(crate) candidates: Vec<Block>,
+    pub(crate) outcomes: Vec<Outcome>,
+    /// The extremes found between samples.
+    pub(crate) extremes: Vec<Peaks>,
+    /// The first run that could not be followed.
+    pub(crate) failure: Option<(usize, SolverError)>,
+}
+
+/// Lists lanes by their bits.
+pub(crate) fn each(bits: u8) -> impl Iterator<Item = usize> {
+    (0..WIDTH).filter(move |i| bits >> i & 1 == 1)
+}
+
+impl<'a, O: Observer> Lanes<'a, O> {
+    pub(crate) fn new(
+        solver: &'a RecordSolver<'a>,
+        record: &'a Blocks<'a>,
+        starts: &'a [RunStart],
+        until_overturning: bool,
+        observer: O,
+    ) -> Self {
+        let outcome = |start: &RunStart| Outcome {
+            state: start.state,
+            overturning: start.state.overturned.then_some(0.0),
+            work: Work::default(),
+            put_to_rest: false,
+        };
+        Self {
+            solver,
+            record,
+            rows: Rows::default(),
+            observer,
+            pass: Pass::Motion { until_overturning },
+            joins: None,
+            runs: Vec::new(),
+            starts,
+            next: 0,
+            candidates: Vec::new(),
+            outcomes: starts.iter().map(outcome).collect(),
+            extremes: starts.iter().map(|_| Peaks::at(0.0)).collect(),
+            failure: None,
+        }
+    }
+}
+
+impl<O: Observer> Lanes<'_, O> {
+    /// Returns the sample a lane is at.
+    #[inline(always)]
+    pub(crate) fn sample(&self, lane: usize) -> usize {
+        index(self.rows.index[lane])
+    }
+
+    /// Returns the state of the run in a lane.
+    pub(crate) fn state(&self, lane: usize) -> State {
+        let (Run { phase, overturned, departed, peaks, .. }, rows) = (&self.runs[lane], &self.rows);
+        State {
+            displacement: rows.u[lane],
+            velocity: rows.v[lane],
+            branch: index(rows.branch[lane]),
+            phase: *phase,
+            overturned: *overturned,
+            departed: *departed,
+            peaks: *peaks,
+        }
+    }
+
+    /// Enters the block that the run of a lane is in.
+    pub(crate) fn enter_block(&mut self, lane: usize) {
+        let (first, state) = (self.sample(lane), self.state(lane));
+        let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
+        let end = match self.pass {
+            Pass::Motion { .. } => ((first / BLOCK + 1) * BLOCK).min(run.last),
+            Pass::Extremes => run.last,
+        };
+        let forcing = self.record.largest(first) * rows.factor[lane].abs();
+        run.block = Block { state, first, share: rows.share[lane], end, forcing, ..run.block };
+        // the last plain steps may go beyond the block, but not beyond the record
+        rows.limit[lane] = end.min((run.last + 1).saturating_sub(AT_ONCE)) as f64;
+        rows.forcing[lane] = forcing;
+        (rows.highest[lane], rows.lowest[lane]) = (f64::NEG_INFINITY, f64::INFINITY);
+        (rows.fastest[lane], rows.way[lane]) = (0.0, f64::INFINITY);
+        let largest = self.largest(lane);
+        let run = &self.runs[lane];
+        // f̂ serves on while u is far below `reach`, yet not too far
+        if 2.0 * largest < run.reach && run.reach < MOST_ROOM * largest {
+            self.rows.driving[lane] = forcing + run.force;
+        } else {
+            self.bound_force(lane);
+        }
+    }
+
+    /// Returns about how far u may come soon \[m\].
+    fn largest(&self, lane: usize) -> f64 {
+        self.runs[lane].peaks.largest() + self.rows.forcing[lane] * self.solver.step * self.solver.step
+    }
+
+    /// Takes the bound f̂ on the forces anew, and where u is known to stay.
+    pub(crate) fn bound_force(&mut self, lane: usize) {
+        self.include_ends(lane);
+        let seeks = self.pass == Pass::Extremes;
+        let reach = if seeks { self.runs[lane].peaks.largest() } else { ROOM * self.largest(lane) };
+        let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
+        (run.reach, run.force) = (reach, self.solver.table.largest_force(reach));
+        rows.driving[lane] = rows.forcing[lane] + run.force;
+        let Peaks { positive, negative } = run.peaks;
+        let (limits, half_reach) =
+            if seeks { ([-negative, positive], f64::INFINITY) } else { ([-reach, reach], 0.5 * reach) };
+        [rows.limits[0][lane], rows.limits[1][lane]] = limits;
+        rows.half_reach[lane] = half_reach;
+    }
+
+    /// Takes the ends of steps so far into the peaks.
+    pub(crate) fn include_ends(&mut self, lane: usize) {
+        let (rows, peaks) = (&self.rows, &mut self.runs[lane].peaks);
+        for u in [rows.highest[lane], rows.lowest[lane], rows.u[lane]] {
+            if u.is_finite() {
+                peaks.include(u);
+            }
+        }
+    }
+
+    /// Keeps a block in which an extreme may lie between samples.
+    fn close_block(&mut self, lane: usize) {
+        self.include_ends(lane);
+        let (rows, run) = (&self.rows, &self.runs[lane]);
+        let (highest, lowest, fastest) = (rows.highest[lane], rows.lowest[lane], rows.fastest[lane]);
+        let block = Block { highest, lowest, fastest, end: self.sample(lane), ..run.block };
+        // f̂ was taken at least as far as u has gone
+        if self.pass != Pass::Extremes && self.may_exceed(&block, &run.peaks, run.force) {
+            self.candidates.push(block);
+        }
+    }
+
+    /// Returns whether u may have gone beyond the peaks in a block, |f| being up to `force`
+    /// (docs/record-path.md, §5).
+    pub(crate) fn may_exceed(&self, block: &Block, peaks: &Peaks, force: f64) -> bool {
+        let Self { solver: RecordSolver { table, step, .. }, .. } = self;
+        let driving = block.forcing + force;
+        // A L²/8 of plain steps, and of parts on curved branches
+        let plain = table.most_growth * (1.0 + table.most_damping) * driving;
+        let curved = table.curved_growth * (driving + table.curved_damping * block.fastest);
+        let margin = 0.125 * step * step * plain.max(curved);
+        block.highest + margin > peaks.positive || margin - block.lowest > peaks.negative
+    }
+
+    /// Moves on to the block that the run of a lane is in; returns whether there is one.
+    pub(crate) fn in_block(&mut self, lane: usize) -> bool {
+        if self.runs[lane].phase == Phase::Landed {
+            // nothing will ever happen
+            let (first, last) = (self.sample(lane), self.runs[lane].last);
+            let lies = [self.rows.u[lane], self.rows.v[lane]];
+            (first..last).for_each(|sample| self.see(sample + 1, lies));
+            self.rows.index[lane] = last as f64;
+        }
+        if !self.is_at_end(lane) {
+            return true;
+        }
+        self.close_block(lane);
+        if self.sample(lane) < self.runs[lane].last {
+            self.enter_block(lane);
+            return true;
+        }
+        self.finish(lane);
+        false
+    }
+
+    /// Shows the observer u and u̇ at a sample.
+    #[inline(always)]
+    pub(crate) fn see(&mut self, sample: usize, [u, v]: [f64; 2]) {
+        if self.pass != Pass::Extremes {
+            self.observer.see(sample, u, v);
+        }
+    }
+
+    /// Shows the observer where a lane is.
+    #[inline(always)]
+    pub(crate) fn see_now(&mut self, lane: usize) {
+        self.see(self.sample(lane), [self.rows.u[lane], self.rows.v[lane]]);
+    }
+
+    /// Returns whether the run of a lane is at the end of its block.
+    #[inline(always)]
+    pub(crate) fn is_at_end(&self, lane: usize) -> bool {
+        self.sample(lane) >= self.runs[lane].block.end
+    }
+
+    /// Takes down what became of the run in a lane.
+    fn finish(&mut self, lane: usize) {
+        let (state, rows, run) = (self.state(lane), &self.rows, &self.runs[lane]);
+        let number = run.block.number;
+        if self.pass == Pass::Extremes {
+            self.extremes[number].include(state.peaks.positive);
+            self.extremes[number].include(-state.peaks.negative);
+            return;
+        }
+        let (corners, impacts) = (index(rows.corners[lane]) as u64, index(rows.impacts[lane]) as u64);
+        // a step is one piece of motion, and each corner passed in it one more
+        let pieces = run.last as u64 - run.steps + corners;
+        let mut work = Work { pieces, corners, impacts };
+        work.add(run.searched);
+        self.outcomes[number] =
+            Outcome { state, overturning: run.overturning, work, put_to_rest: run.put_to_rest };
+    }
+}

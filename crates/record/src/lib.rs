@@ -1,0 +1,35 @@
+//! Rocking walls through whole earthquake records: many steps of one length, of one run
+//! ([`RecordSolver::run`]) or of many ([`Batch`]).
+//!
+//! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made
+//! once for each branch; so are four steps. A *plain* step applies the map and checks that u at both ends is
+//! so far from the corners that none can have been reached in between. On a branch with secant damping a step
+//! is a Taylor series. Ordinary corners are passed where u̇ keeps its sign; everything else is left to the
+//! general search for events, the one of `wall.fmu`.
+//!
+//! One code serves a run by itself and eight side by side: a number is a vector of one lane.
+//! docs/record-path.md has the bounds, their proofs and the way of a run.
+#![allow(
+    clippy::inline_always,
+    reason = "measured: a step is one piece of straight code, its numbers in registers"
+)]
+#![cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "other processors have no wide vectors"))]
+
+mod batch;
+mod corners;
+mod curved;
+mod forcing;
+mod lanes;
+mod number;
+mod plain;
+mod regularised;
+mod responses;
+mod schedule;
+mod solver;
+mod table;
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests;
+
+pub use batch::{Batch, LANES};
+pub use forcing::Forcing;
+pub use solver::{Outcome, RecordSolver, RunStart};

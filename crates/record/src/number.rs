@@ -1,0 +1,300 @@
+//! A number of each lane: one `f64` for a run by itself, a vector of eight for runs side by side.
+//!
+//! Every operation rounds alike for both, on every processor. `mul_add` does not: it is fused on some
+//! processors only, so it is never used.
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x2, f64x8, i64x8, mask64x8, u8x64};
+use rocking_wall::solver::secant;
+
+/// Lanes of a vector.
+pub(crate) const WIDTH: usize = 8;
+/// Most branches of a wall whose steps are prepared.
+pub(crate) const MOST_BRANCHES: usize = 2 * WIDTH;
+
+/// A number for each lane.
+pub(crate) type Row = [f64; WIDTH];
+/// A number for each branch of a wall.
+pub(crate) type BranchRow = [Row; MOST_BRANCHES / WIDTH];
+
+/// A number of each lane.
+pub(crate) trait Number: secant::Number {
+    const LANES: usize;
+    /// Shows that the processor has these vectors.
+    type Token: Copy;
+    /// True or false for each lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    /// The branch of each lane.
+    type Branches: Copy;
+
+    fn splat(token: Self::Token, value: f64) -> Self;
+    /// Loads from a row, from a lane on.
+    fn load(token: Self::Token, row: &Row, first: usize) -> Self;
+    fn store(self, row: &mut Row, first: usize);
+    fn of_lanes(token: Self::Token, value: impl Fn(usize) -> f64) -> Self;
+    /// Returns the first and the second numbers of pairs.
+    fn unzip(token: Self::Token, pair: impl Fn(usize) -> [f64; 2]) -> [Self; 2];
+    fn lane(self, lane: usize) -> f64;
+
+    fn below(self, other: Self) -> Self::Mask;
+    fn at_most(self, other: Self) -> Self::Mask;
+    fn min(self, other: Self) -> Self;
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Returns a mask as bits, one for each lane.
+    fn bits(mask: Self::Mask) -> u8;
+    fn mask(token: Self::Token, bits: u8) -> Self::Mask;
+
+    /// Takes whole numbers below [`MOST_BRANCHES`], in a vector below [`WIDTH`].
+    fn branches(self) -> Self::Branches;
+    /// Looks up the number that belongs to the branch of each lane.
+    fn of(token: Self::Token, row: &BranchRow, branches: Self::Branches) -> Self;
+}
+
+impl Number for f64 {
+    const LANES: usize = 1;
+    type Token = ();
+    type Mask = bool;
+    type Branches = usize;
+
+    #[inline(always)]
+    fn splat((): (), value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn load((): (), row: &Row, first: usize) -> Self {
+        row[first % WIDTH]
+    }
+
+    #[inline(always)]
+    fn store(self, row: &mut Row, first: usize) {
+        row[first % WIDTH] = self;
+    }
+
+    #[inline(always)]
+    fn of_lanes((): (), value: impl Fn(usize) -> f64) -> Self {
+        value(0)
+    }
+
+    #[inline(always)]
+    fn unzip((): (), pair: impl Fn(usize) -> [f64; 2]) -> [Self; 2] {
+        pair(0)
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> bool {
+        self <= other
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn bits(mask: bool) -> u8 {
+        u8::from(mask)
+    }
+
+    #[inline(always)]
+    fn mask((): (), bits: u8) -> bool {
+        bits & 1 == 1
+    }
+
+    #[inline(always)]
+    fn branches(self) -> usize {
+        index(self) % MOST_BRANCHES
+    }
+
+    #[inline(always)]
+    fn of((): (), row: &BranchRow, branch: usize) -> Self {
+        row.as_flattened()[branch]
+    }
+}
+
+/// Returns a whole number, not negative, as an index.
+#[inline(always)]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers, none negative")]
+pub(crate) fn index(number: f64) -> usize {
+    number as i64 as usize
+}
+
+/// Eight numbers side by side.
+#[derive(Clone, Copy)]
+pub(crate) struct Eight<S: Simd>(f64x8<S>);
+
+macro_rules! operators {
+    ($($name:ident $function:ident)*) => { $(
+        impl<S: Simd> $name for Eight<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self(self.0.$function(other.0))
+            }
+        }
+    )* };
+}
+
+operators!(Add add Sub sub Mul mul Div div);
+
+impl<S: Simd> Add<f64> for Eight<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: f64) -> Self {
+        Self(self.0 + other)
+    }
+}
+
+impl<S: Simd> Mul<f64> for Eight<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        Self(self.0 * other)
+    }
+}
+
+impl<S: Simd> Neg for Eight<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<S: Simd> secant::Number for Eight<S> {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self(f64x8::splat(self.0.simd, value))
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+}
+
+/// The branch of each lane, and the bytes of its number in a row.
+#[derive(Clone, Copy)]
+pub(crate) struct Places<S: Simd> {
+    indices: [usize; WIDTH],
+    bytes: u8x64<S>,
+}
+
+impl<S: Simd> Number for Eight<S> {
+    const LANES: usize = WIDTH;
+    type Token = S;
+    type Mask = mask64x8<S>;
+    type Branches = Places<S>;
+
+    #[inline(always)]
+    fn splat(simd: S, value: f64) -> Self {
+        Self(f64x8::splat(simd, value))
+    }
+
+    #[inline(always)]
+    fn load(simd: S, row: &Row, _: usize) -> Self {
+        Self(f64x8::load_array_ref(simd, row))
+    }
+
+    #[inline(always)]
+    fn store(self, row: &mut Row, _: usize) {
+        self.0.store_array(row);
+    }
+
+    #[inline(always)]
+    fn of_lanes(simd: S, value: impl Fn(usize) -> f64) -> Self {
+        Self(f64x8::from_fn(simd, value))
+    }
+
+    #[inline(always)]
+    fn unzip(simd: S, pair: impl Fn(usize) -> [f64; 2]) -> [Self; 2] {
+        let two = |i: usize| f64x2::load_array(simd, pair(i));
+        let four = |i: usize| two(i).combine(two(i + 1)).combine(two(i + 2).combine(two(i + 3)));
+        let (first, second) = four(0).deinterleave(four(4));
+        [Self(first), Self(second)]
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0.to_array()[lane % WIDTH]
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> mask64x8<S> {
+        self.0.simd_lt(other.0)
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> mask64x8<S> {
+        self.0.simd_le(other.0)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+
+    #[inline(always)]
+    fn select(mask: mask64x8<S>, yes: Self, no: Self) -> Self {
+        Self(mask.select(yes.0, no.0))
+    }
+
+    #[inline(always)]
+    #[allow(clippy::cast_possible_truncation, reason = "eight bits")]
+    fn bits(mask: mask64x8<S>) -> u8 {
+        mask.to_bitmask() as u8
+    }
+
+    #[inline(always)]
+    fn mask(simd: S, bits: u8) -> mask64x8<S> {
+        mask64x8::from_bitmask(simd, bits.into())
+    }
+
+    #[inline(always)]
+    fn branches(self) -> Places<S> {
+        let whole: i64x8<S> = self.0.to_int();
+        let bytes = (whole * 0x0808_0808_0808_0808 + 0x0706_0504_0302_0100).to_bytes();
+        Places { indices: self.0.to_array().map(index), bytes }
+    }
+
+    #[inline(always)]
+    fn of(simd: S, [row, _]: &BranchRow, Places { indices, bytes }: Places<S>) -> Self {
+        if S::f64s::LEN == WIDTH {
+            Self(f64x8::load_array_ref(simd, row).swizzle_dyn(bytes))
+        } else {
+            // the permutation of a row in several registers takes longer
+            Self(f64x8::from_fn(simd, |lane| row[indices[lane] % WIDTH]))
+        }
+    }
+}

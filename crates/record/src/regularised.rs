@@ -1,0 +1,328 @@
+//! Taylor series of the motion with a constant damping ratio, in a time in which small u pass slowly.
+//!
+//! As a function of time, u has a singularity where its branch would reach u = 0: one series holds while u
+//! changes by a fraction of its size. With u = u₀ y² and a time σ with dt ∝ y dσ it has none there, as with
+//! collisions of bodies in celestial mechanics (Levi-Civita's regularisation). With θ = t/h and c = 2ξ √(f/u)
+//! ```text
+//! θ′ = y        y″ = y g − κ z y′        z² = 1 + e (y² − 1)
+//! g = h² (p − f(u))/(2u₀)        κ = h c(u₀)        e = 1 − f(0)/f(u₀)
+//! ```
+//! and h u̇/u₀ = 2y′. The step h ends where θ = 1. docs/record-path.md, §7, derives it.
+
+use rocking_wall::solver::secant::{CAUTION, ORDER, Start, half_square, inner};
+
+/// Highest order of these series.
+const HIGHEST: usize = 12;
+/// Guesses of the σ that is looked for.
+const MOST_GUESSES: u32 = 6;
+/// Largest miss of θ = 1 from which the expansion about a guess leads there.
+const SMALL_MISS: f64 = 1e-6;
+/// Largest Newton step, over σ, from which the next would be a rounding.
+const SMALL_STEP: f64 = 1e-8;
+
+type Terms = [f64; ORDER + 1];
+
+/// The coefficients of a series, over σ.
+#[derive(Clone, Copy)]
+pub(crate) struct Regularised {
+    y: Terms,
+    g: Terms,
+    z: Terms,
+    /// κ y′.
+    d: Terms,
+    /// The rate of g over θ.
+    rate: f64,
+    /// h² k.
+    stiffness: f64,
+    kappa: f64,
+    e: f64,
+}
+
+/// Where a series is evaluated: θ, y − 1, y′ and y″.
+#[derive(Clone, Copy)]
+struct Values {
+    theta: f64,
+    growth: f64,
+    slope: f64,
+    bend: f64,
+}
+
+/// Sums c₀ + c₁ x + … to the given order, four terms at a time.
+#[inline(always)]
+fn sum(x: f64, order: usize, c: impl Fn(usize) -> f64) -> f64 {
+    let (x2, term) = (x * x, |n| if n <= order { c(n) } else { 0.0 });
+    let four = |n| (term(n) + x * term(n + 1)) + x2 * (term(n + 2) + x * term(n + 3));
+    (0..order / 4).rev().fold(four(order / 4 * 4), |sum, group| four(4 * group) + x2 * x2 * sum)
+}
+
+impl Regularised {
+    /// Starts a series: coefficients up to y₂.
+    #[inline(always)]
+    pub(crate) fn new(start: Start<f64>) -> Self {
+        let Start { velocity, driving, rate, half_kappa, stiffness, damping } = start;
+        let ones = [1.0; ORDER + 1];
+        let (rate, kappa, e) = (0.5 * rate, damping, 1.0 + 2.0 * half_kappa);
+        let mut series = Self { y: ones, g: ones, z: ones, d: ones, rate, stiffness, kappa, e };
+        series.y[1] = 0.5 * velocity;
+        series.g[0] = 0.5 * driving;
+        series.d[0] = kappa * series.y[1];
+        let second = series.g[0] - series.d[0];
+        series.d[1] = kappa * second;
+        series.y[2] = 0.5 * second;
+        series
+    }
+
+    /// Adds gₙ, zₙ, yₙ₊₂ and (κ y′)ₙ₊₁.
+    #[inline(always)]
+    fn term<const N: usize>(&mut self) {
+        let Self { y, g, z, d, .. } = self;
+        let theta = y[N - 1] * (1.0 / N as f64);
+        // of (y² − 1)/2
+        let stretch = if N > 1 { y[N] + half_square::<f64, N>(y) } else { y[N] };
+        g[N] = self.rate * theta - self.stiffness * stretch;
+        z[N] = if N > 1 { self.e * stretch - half_square::<f64, N>(z) } else { self.e * stretch };
+        let mut second = g[0] * y[N] + g[N];
+        if N > 1 {
+            second += inner::<f64, N>(y, g) - inner::<f64, N>(z, d);
+        }
+        second = second - z[N] * d[0] - d[N];
+        d[N + 1] = second * (self.kappa * (1.0 / (N + 1) as f64));
+        y[N + 2] = second * (1.0 / ((N + 1) * (N + 2)) as f64);
+    }
+
+    /// Adds the terms up to y₈.
+    #[inline(always)]
+    fn extend_to_8(&mut self) {
+        self.term::<1>();
+        self.term::<2>();
+        self.term::<3>();
+        self.term::<4>();
+        self.term::<5>();
+        self.term::<6>();
+    }
+
+    /// Adds terms until a series up to `sigma` leaves out no more than `most` of u/u₀ and of h u̇/u₀. Returns
+    /// the order; `None` where the highest does not reach.
+    #[inline(always)]
+    fn extend(&mut self, sigma: f64, most: f64) -> Option<usize> {
+        // u/u₀ = y² and h u̇/u₀ = 2 y′, and σ need not be 1
+        let most = 0.5 * most * sigma.min(1.0);
+        if self.reaches::<8>(sigma, most) {
+            return Some(8);
+        }
+        self.term::<7>();
+        self.term::<8>();
+        if self.reaches::<10>(sigma, most) {
+            return Some(10);
+        }
+        self.term::<9>();
+        self.term::<10>();
+        self.reaches::<HIGHEST>(sigma, most).then_some(HIGHEST)
+    }
+
+    /// Tells whether a series to the even order N leaves out little enough at `sigma`: as `within` does, but
+    /// a pair of terms does not count as less than a hundredth of the pair before. Here one can be small by
+    /// chance (docs/record-path.md, §7).
+    #[inline(always)]
+    fn reaches<const N: usize>(&self, sigma: f64, most: f64) -> bool {
+        let mut power = sigma;
+        for _ in 2..N / 2 {
+            power *= sigma * sigma;
+        }
+        let [a, b, c, d] = [N - 3, N - 2, N - 1, N].map(|n| {
+            let term = power * self.y[n];
+            power *= sigma;
+            term
+        });
+        let (before, last) = (a.abs().max(b.abs()), c.abs().max(d.abs()));
+        (2 * N) as f64 * last * last.max(0.01 * before) <= CAUTION * most * (before - last)
+    }
+
+    /// Evaluates the terms up to an order.
+    #[inline(always)]
+    fn at(&self, order: usize, x: f64) -> Values {
+        match order {
+            8 => self.at_by::<8>(x),
+            10 => self.at_by::<10>(x),
+            _ => self.at_by::<HIGHEST>(x),
+        }
+    }
+
+    #[inline(always)]
+    fn at_by<const N: usize>(&self, x: f64) -> Values {
+        let y = &self.y;
+        Values {
+            theta: x * sum(x, N, |n| y[n] * (1.0 / (n + 1) as f64)),
+            growth: x * sum(x, N - 1, |n| y[n + 1]),
+            slope: sum(x, N - 1, |n| (n + 1) as f64 * y[n + 1]),
+            bend: sum(x, N - 2, |n| ((n + 1) * (n + 2)) as f64 * y[n + 2]),
+        }
+    }
+
+    /// Returns about where the step ends: Halley's rule by the terms up to y₄, from the end for constant u̇.
+    #[inline(always)]
+    fn guess(&self) -> f64 {
+        let [_, a, b, c, d, ..] = self.y;
+        // 2/(1 + √(1 + 2a)) by Padé's approximation
+        let x = (1.0 + 0.5 * a) / (1.0 + a);
+        let beyond = x * (1.0 + x * (a / 2.0 + x * (b * (1.0 / 3.0) + x * (c / 4.0 + x * d * 0.2)))) - 1.0;
+        let value = 1.0 + x * (a + x * (b + x * (c + x * d)));
+        let slope = a + x * (2.0 * b + x * (3.0 * c + x * 4.0 * d));
+        x - beyond * value / (value * value - 0.5 * beyond * slope)
+    }
+
+    /// Returns u/u₀ − 1 and h u̇/u₀ at the end of the step; `None` where the series leaves out more than
+    /// `most` of them.
+    #[inline(always)]
+    pub(crate) fn end(mut self, most: f64) -> Option<[f64; 2]> {
+        self.extend_to_8();
+        let mut x = self.guess();
+        for _ in 0..MOST_GUESSES {
+            // a guess further on may need a higher order
+            let order = self.extend(x, most)?;
+            let Values { theta, growth, slope, bend } = self.at(order, x);
+            let pace = 1.0 / (1.0 + growth);
+            // θ(x + δ) = 1 as in docs/record-path.md, Eq. (4)
+            let first = (1.0 - theta) * pace;
+            let turn = 0.5 * slope * first * pace;
+            let shift = first * (1.0 - turn * (1.0 - 2.0 * turn) - bend * first * first * pace / 6.0);
+            if first.abs() < SMALL_MISS {
+                let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
+                let growth = growth + shift * (slope + shift * (bend / 2.0 + shift * third / 6.0));
+                let slope = slope + shift * (bend + shift * third / 2.0);
+                return Some([growth * (2.0 + growth), 2.0 * slope]);
+            }
+            x += shift;
+        }
+        None
+    }
+
+    /// Returns whether y′ keeps its sign up to σ: its first term outweighs all others.
+    fn keeps_its_sign(&self, order: usize, x: f64) -> bool {
+        let others = (2..=order).rev().fold(0.0, |sum, n| sum * x + n as f64 * self.y[n].abs()) * x;
+        others < self.y[1].abs()
+    }
+
+    /// Returns the θ at which u/u₀ − 1 comes to `rise`, and h u̇/u₀ then; `None` where that is not found at
+    /// once, the series leaves out more than `most`, or u̇ may change its sign before.
+    #[inline(always)]
+    pub(crate) fn passage(mut self, rise: f64, most: f64) -> Option<[f64; 2]> {
+        self.extend_to_8();
+        let goal = rise / (1.0 + (1.0 + rise).sqrt());
+        let [_, a, b, ..] = self.y;
+        let mut x = goal / a;
+        x -= x * x * b / a;
+        for _ in 0..2 {
+            let Values { growth, slope, .. } = self.at(8, x);
+            x += (goal - growth) / slope;
+        }
+        let order = self.extend(x, most)?;
+        for _ in 0..MOST_GUESSES {
+            let Values { theta, growth, slope, bend } = self.at(order, x);
+            let shift = (goal - growth) / slope;
+            if shift.abs() < SMALL_STEP * x {
+                if !self.keeps_its_sign(order, x) {
+                    return None;
+                }
+                return Some([theta + shift * (1.0 + goal), 2.0 * (slope + shift * bend)]);
+            }
+            x += shift;
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_wall::solver::secant::{ByRatio, Scaled};
+
+    /// Of p \[m/s³\].
+    const RATE: f64 = 0.3;
+
+    /// Of the motion from u = 1 at u̇ on a line f = f₀ + k u under a forcing p, over a length.
+    fn start([velocity, length]: [f64; 2], [zero, stiffness]: [f64; 2], forcing: f64) -> Start<f64> {
+        let (force, square) = (zero + stiffness, length * length);
+        Start {
+            velocity: length * velocity,
+            driving: square * (forcing - force),
+            rate: square * length * RATE,
+            half_kappa: -0.5 * zero / force,
+            stiffness: stiffness * square,
+            damping: 0.1 * length * force.sqrt(),
+        }
+    }
+
+    /// Speeds with which u changes by −50 % to +100 % in the step, on lines that rise and fall.
+    fn starts() -> impl Iterator<Item = ([f64; 2], [f64; 2], f64)> {
+        (-25..=50).flat_map(|speed| {
+            [[1.0, -0.3], [1.0, 0.0], [0.4, 0.6]].map(|line| ([0.4 * f64::from(speed), 0.05], line, 0.7))
+        })
+    }
+
+    /// A step is that of sixteen series in time.
+    #[test]
+    fn steps_are_those_of_series_in_time() {
+        let (mut reached, mut worst) = (0, 0.0_f64);
+        for ([speed, length], [zero, stiffness], forcing) in starts() {
+            let whole = Regularised::new(start([speed, length], [zero, stiffness], forcing));
+            let Some([rise, velocity]) = whole.end(1e-12) else { continue };
+            reached += 1;
+            let (mut u, mut v) = (1.0, speed);
+            for part in 0..16 {
+                let (length, scale) = (length / 16.0, 1.0 / u);
+                let now = forcing + RATE * length * f64::from(part);
+                let line = [zero * scale, stiffness];
+                let mut start = start([v * scale, length], line, now * scale);
+                start.rate *= scale;
+                let mut series = Scaled::new(start);
+                series.extend_to_8::<ByRatio>();
+                series.extend_to_10::<ByRatio>();
+                series.extend_to_12::<ByRatio>();
+                series.extend_to_16::<ByRatio>();
+                let [x, slope] = series.end::<ORDER>();
+                (v, u) = (u / length * slope, u + u * x);
+            }
+            worst = worst.max((1.0 + rise - u).abs()).max((velocity - length * v).abs());
+        }
+        assert!(reached > 150, "{reached}");
+        // the tolerance, of which the estimate takes a tenth; the sixteen leave out far less
+        assert!(worst <= 1e-12, "{worst:e}");
+    }
+
+    /// A series whose seventh and eighth terms are small by chance is not taken for exact.
+    #[test]
+    fn a_pair_that_is_small_by_chance_ends_no_series() {
+        let start = Start {
+            velocity: 0.329_743_348_744_494_5,
+            driving: -0.044_126_231_109_285_15,
+            rate: -2.142_715_727_186_584_8e-4,
+            half_kappa: -0.502_251_412_753_074,
+            stiffness: -2.452_5e-4,
+            damping: 0.010_995_945_853_256_826,
+        };
+        let mut series = Regularised::new(start);
+        series.extend_to_8();
+        let sigma = series.guess();
+        assert!(series.y[7].abs().max(series.y[8].abs()) < 1e-4 * series.y[5].abs());
+        assert_ne!(series.extend(sigma, 3.5e-14), Some(8));
+    }
+
+    /// Where u passes a value, the step that ends there ends with it.
+    #[test]
+    fn passages_are_ends_of_shorter_steps() {
+        let (mut found, mut worst) = (0, 0.0_f64);
+        for ([speed, length], line, forcing) in starts().filter(|([speed, _], ..)| speed.abs() > 1.0) {
+            let rise = 0.03 * speed;
+            let series = Regularised::new(start([speed, length], line, forcing));
+            let Some([share, velocity]) = series.passage(rise, 1e-12) else { continue };
+            found += 1;
+            let shorter = Regularised::new(start([speed, length * share], line, forcing));
+            let end = shorter.end(1e-12).expect("a series that reaches");
+            worst = worst.max((end[0] - rise).abs()).max((end[1] - share * velocity).abs());
+        }
+        assert!(found > 150, "{found}");
+        // the tolerance of both
+        assert!(worst <= 2e-12, "{worst:e}");
+    }
+}

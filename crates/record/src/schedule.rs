@@ -1,0 +1,255 @@
+//! The one scheduler: of runs by themselves, in one lane, and of runs side by side.
+
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Level, Simd};
+use rocking_wall::solver::secant::{ByRatio, ByStiffness};
+use rocking_wall::solver::{Memo, Phase, SolverError, State, Work};
+
+use crate::lanes::{Block, Lanes, Pass, Run, Waiting, each};
+use crate::number::{WIDTH, index};
+use crate::solver::{Observer, Outcome, RunStart};
+use crate::table::{Law, Way};
+
+impl<O: Observer> Lanes<'_, O> {
+    /// Follows all runs to their ends, one after the other.
+    ///
+    /// # Errors
+    /// Of the first run that could not be followed.
+    pub(crate) fn one_by_one(mut self) -> Result<Vec<Outcome>, SolverError> {
+        // nothing joins: a lane that is filled goes from run to run
+        self.fill(0);
+        self.pass = Pass::Extremes;
+        self.fill(0);
+        self.outcomes()
+    }
+
+    /// Follows all runs to their ends, side by side where they take steps of one kind; `round` takes these
+    /// until lanes wait.
+    ///
+    /// # Errors
+    /// Of the first run that could not be followed.
+    #[inline(always)]
+    pub(crate) fn side_by_side(
+        mut self,
+        joins: Way,
+        round: impl Fn(&mut Self, u8) -> Waiting,
+    ) -> Result<Vec<Outcome>, SolverError> {
+        self.joins = Some(joins);
+        for pass in [self.pass, Pass::Extremes] {
+            self.pass = pass;
+            let mut busy = (0..WIDTH).fold(0, |busy, lane| busy | u8::from(self.fill(lane)) << lane);
+            while busy != 0 {
+                let Waiting { ended, stuck } = round(&mut self, busy);
+                for lane in each(ended | stuck) {
+                    let goes = stuck >> lane & 1 == 0 || self.unblock(lane);
+                    if !(goes && self.alone(lane) || self.fill(lane)) {
+                        busy &= !(1 << lane);
+                    }
+                }
+            }
+        }
+        self.outcomes()
+    }
+
+    fn outcomes(mut self) -> Result<Vec<Outcome>, SolverError> {
+        if let Some((_, error)) = self.failure {
+            return Err(error);
+        }
+        for (outcome, extremes) in self.outcomes.iter_mut().zip(self.extremes) {
+            outcome.state.peaks.include(extremes.positive);
+            outcome.state.peaks.include(-extremes.negative);
+        }
+        Ok(self.outcomes)
+    }
+
+    /// Gives a lane the next run that comes to steps taken side by side; returns whether there is one.
+    fn fill(&mut self, lane: usize) -> bool {
+        while self.start_next(lane) {
+            if self.alone(lane) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Starts the next run of this pass in a lane; returns whether there is one.
+    fn start_next(&mut self, lane: usize) -> bool {
+        match self.pass {
+            Pass::Motion { .. } => {
+                let number = self.next;
+                let Some(&RunStart { state, factor }) = self.starts.get(number) else { return false };
+                self.next += 1;
+                self.start(lane, Block::new(number, factor, state), self.record.forcing.count().max(1) - 1);
+                true
+            }
+            Pass::Extremes => {
+                while let Some(block) = self.candidates.pop() {
+                    // those of the motion: what one block adds does not depend on the others
+                    let peaks = self.outcomes[block.number].state.peaks;
+                    if self.may_exceed(&block, &peaks, self.solver.table.largest_force(peaks.largest())) {
+                        let state = State { peaks, ..block.state };
+                        self.start(lane, Block { state, ..block }, block.end);
+                        return true;
+                    }
+                }
+                false
+            }
+        }
+    }
+
+    /// Starts a run in a lane, over some samples.
+    fn start(&mut self, lane: usize, block: Block, last: usize) {
+        let Block { state, factor, number, first, share, .. } = block;
+        let State { displacement, velocity, branch, phase, overturned, departed, peaks } = state;
+        let run = Run {
+            block,
+            last,
+            phase,
+            overturned,
+            departed,
+            peaks,
+            force: 0.0,
+            reach: 0.0,
+            overturning: self.outcomes[number].overturning,
+            searched: Work::default(),
+            steps: 0,
+            put_to_rest: false,
+            memo: Memo::default(),
+        };
+        // lanes are filled in their order
+        if lane < self.runs.len() {
+            self.runs[lane] = run;
+        } else {
+            self.runs.push(run);
+        }
+        let rows = &mut self.rows;
+        (rows.index[lane], rows.share[lane], rows.factor[lane]) = (first as f64, share, factor);
+        (rows.u[lane], rows.v[lane], rows.branch[lane]) = (displacement, velocity, branch as f64);
+        (rows.corners[lane], rows.impacts[lane]) = (0.0, 0.0);
+        self.enter_block(lane);
+    }
+
+    /// Lets a run go by itself until it comes to steps taken side by side; returns whether that comes before
+    /// its end.
+    #[inline(never)]
+    fn alone(&mut self, lane: usize) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Level::new().as_avx2() {
+            // its instructions take three operands; they round alike
+            return avx2.vectorize(
+                #[inline(always)]
+                || self.go(lane),
+            );
+        }
+        self.go(lane)
+    }
+
+    #[inline(always)]
+    fn go(&mut self, lane: usize) -> bool {
+        while self.in_block(lane) {
+            let way = self.way(lane);
+            if Some(way) == self.joins && self.rows.index[lane] < self.rows.limit[lane] {
+                return true;
+            }
+            let waiting = match way {
+                Way::Affine => self.affine::<f64>((), lane, 1, None),
+                Way::Curved => self.parts_by_law(lane),
+                Way::General => Waiting { ended: 0, stuck: u8::from(!self.rest(lane)) },
+            };
+            if waiting.stuck != 0 && !self.unblock(lane) {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Returns how the run of a lane takes steps.
+    #[inline(always)]
+    fn way(&self, lane: usize) -> Way {
+        match self.runs[lane].phase {
+            Phase::Moving => self.solver.table.ways[index(self.rows.branch[lane])],
+            Phase::Resting | Phase::Landed => Way::General,
+        }
+    }
+
+    #[inline(always)]
+    fn parts_by_law(&mut self, lane: usize) -> Waiting {
+        match self.solver.table.law {
+            Law::Ratio => self.parts::<f64, ByRatio>((), lane, 1),
+            Law::Stiffness => self.parts::<f64, ByStiffness>((), lane, 1),
+        }
+    }
+
+    /// Takes the run of a lane past what it waits for; returns whether it could be followed.
+    fn unblock(&mut self, lane: usize) -> bool {
+        if self.rows.u[lane].abs() > self.rows.half_reach[lane] {
+            self.bound_force(lane);
+            return true;
+        }
+        self.rows.way[lane] = f64::INFINITY;
+        if self.way(lane) == Way::Curved && self.pass_curved_corner(lane) {
+            return true;
+        }
+        let Err(error) = self.search(lane) else { return true };
+        let number = self.runs[lane].block.number;
+        if self.failure.as_ref().is_none_or(|(first, _)| number < *first) {
+            self.failure = Some((number, error));
+        }
+        false
+    }
+
+    /// Takes the steps of its block through which a wall rests; returns whether there are any.
+    fn rest(&mut self, lane: usize) -> bool {
+        let [lowest, highest] = self.solver.motion.rest_band();
+        let first = self.sample(lane);
+        if self.runs[lane].phase != Phase::Resting {
+            return false;
+        }
+        let holds = |sample: usize| {
+            let p = self.rows.factor[lane] * self.record.forcing.at(sample);
+            lowest < p && p < highest
+        };
+        let end = self.runs[lane].block.end;
+        let steps =
+            if holds(first) { (first + 1..=end).take_while(|&sample| holds(sample)).count() } else { 0 };
+        self.runs[lane].steps += steps as u64;
+        for sample in first + 1..=first + steps {
+            self.rows.index[lane] = sample as f64;
+            self.see_now(lane);
+        }
+        steps > 0
+    }
+
+    /// Takes what is left of a step by the general search for events.
+    fn search(&mut self, lane: usize) -> Result<(), SolverError> {
+        self.include_ends(lane);
+        let (sample, share) = (self.sample(lane), self.rows.share[lane]);
+        let [from, to] = [0, 1].map(|n| self.rows.factor[lane] * self.record.forcing.at(sample + n));
+        let p = [from + (to - from) * share, to];
+        let (solver, step) = (self.solver, self.solver.step);
+        let mut state = self.state(lane);
+        let run = &mut self.runs[lane];
+        // where parts of the step were taken before, these count as its piece
+        run.steps += u64::from(share == 0.0);
+        let report = solver.motion.advance_under(&mut state, (1.0 - share) * step, p, &mut run.memo)?;
+        run.searched.add(report.work);
+        run.put_to_rest |= report.put_to_rest;
+        (run.phase, run.overturned, run.departed) = (state.phase, state.overturned, state.departed);
+        run.peaks = state.peaks;
+        if let (Some(offset), None) = (report.overturning, run.overturning) {
+            run.overturning = Some((sample as f64 + share) * step + offset);
+            if self.pass == (Pass::Motion { until_overturning: true }) {
+                (run.last, run.block.end) = (sample + 1, sample + 1);
+            }
+        }
+        let rows = &mut self.rows;
+        (rows.u[lane], rows.v[lane]) = (state.displacement, state.velocity);
+        (rows.index[lane], rows.share[lane]) = ((sample + 1) as f64, 0.0);
+        rows.branch[lane] = state.branch as f64;
+        self.see_now(lane);
+        if self.pass == Pass::Extremes || state.displacement.abs() > self.rows.half_reach[lane] {
+            self.bound_force(lane);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,92 @@
+//! A motion prepared for steps of one length, the start of a run, and what becomes of it.
+
+use rocking_wall::solver::{Motion, State, Work};
+
+use crate::table::Table;
+
+/// Where a run through a record starts, and what multiplies the record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunStart {
+    /// The state at the first sample: u \[m\], u̇ \[m/s\], the branch u is on, and the peaks so far.
+    /// [`Motion::start`] and [`Motion::start_under`] return it.
+    pub state: State,
+    /// The factor of the [`Forcing`](crate::Forcing) \[-\], of either sign.
+    pub factor: f64,
+}
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The state at the last sample, or at the end of the step in which the run stopped. Its peaks include
+    /// extremes between samples.
+    pub state: State,
+    /// Time of overturning from the first sample \[s\], 0 for a wall that had overturned before; `None` if it
+    /// stands.
+    pub overturning: Option<f64>,
+    /// Pieces of motion, corners passed and impacts.
+    pub work: Work,
+    /// Whether a step reached the bound on impacts and the wall was put to rest.
+    pub put_to_rest: bool,
+}
+
+/// Sees the motion at each sample.
+pub(crate) trait Observer {
+    const SEES: bool;
+    fn see(&mut self, index: usize, u: f64, v: f64);
+}
+
+/// Sees nothing.
+pub(crate) struct Unseen;
+
+impl Observer for Unseen {
+    const SEES: bool = false;
+
+    #[inline(always)]
+    fn see(&mut self, _: usize, _: f64, _: f64) {}
+}
+
+impl Observer for &mut dyn FnMut(usize, f64, f64) {
+    const SEES: bool = true;
+
+    fn see(&mut self, index: usize, u: f64, v: f64) {
+        self(index, u, v);
+    }
+}
+
+/// A motion prepared for steps of one length.
+///
+/// ```
+/// use record::{Forcing, RecordSolver, RunStart};
+/// use rocking_wall::solver::Motion;
+/// use rocking_wall::wall::{Parameters, Support};
+///
+/// let parameters = Parameters { u_start: 0.0, ..Parameters::default() };
+/// let motion = Motion::of(&parameters, parameters.tolerance)?;
+/// // a_g every 10 ms [m/s²]
+/// let samples: Vec<f64> = (0..500).map(|n| 0.5 * (0.06 * f64::from(n)).sin()).collect();
+/// // p = −λ a_g
+/// let factor = motion.wall().body().forcing(Support::rigid(1.0));
+/// let start = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor };
+/// let solver = RecordSolver::new(&motion, 0.01);
+/// let outcome = solver.run(start, Forcing::Samples(&samples), false)?;
+/// assert!(outcome.state.peaks.largest() > 0.0 && outcome.overturning.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct RecordSolver<'a> {
+    pub(crate) motion: &'a Motion,
+    /// \[s\]
+    pub(crate) step: f64,
+    pub(crate) table: Table,
+    /// On u̇ at an impact.
+    pub(crate) passage_factor: f64,
+}
+
+impl<'a> RecordSolver<'a> {
+    /// Prepares steps of `step` \[s\], which is above zero. What is prepared serves all records with that
+    /// step.
+    pub fn new(motion: &'a Motion, step: f64) -> Self {
+        let passage_factor = motion.wall().passage_factor();
+        Self { motion, step, table: Table::new(motion, step), passage_factor }
+    }
+}

@@ -1,0 +1,399 @@
+//! What the steps of a run need of the branch it is on, for all branches of a wall.
+
+use oscillator::Oscillator;
+use rocking_wall::solver::secant::{Secant, SecantBranch};
+use rocking_wall::solver::{Method, Motion};
+use rocking_wall::wall::{Branch, Corner};
+
+use crate::forcing::AT_ONCE;
+use crate::number::{BranchRow, MOST_BRANCHES, WIDTH};
+
+/// c V over P + f̂, which fixes the largest speed V of a plain step: walls stay far below it, as they do
+/// below the terminal speed (docs/record-path.md, §2).
+const DAMPING_SHARE: f64 = 0.25;
+/// Largest γ over plain steps taken at once: beyond, every block would have to be searched for extremes.
+const MOST_GROWTH: f64 = 4.0;
+/// Largest margin of four plain steps at once, over the width of their branch.
+const MOST_MARGIN: f64 = 0.25;
+/// (c + √|k|) h of the longest steps in which corners are passed; beyond, a step passes too many.
+pub(crate) const LONGEST: f64 = 0.5;
+/// Share of the leading term that may be left out of a series.
+const NEGLIGIBLE: f64 = 1e-18;
+
+/// How the steps on a branch are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// As affine maps: damping is constant.
+    Affine,
+    /// As Taylor series: damping follows the secant stiffness.
+    Curved,
+    /// By the general search for events.
+    General,
+}
+
+/// How damping follows the secant stiffness, on all branches alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Law {
+    /// c = 2ξ ω.
+    Ratio,
+    /// c = (2ξ₁/ω₁) ω².
+    Stiffness,
+}
+
+/// How a branch is left at a corner: the numbers of `Table::exits`.
+pub(crate) mod exit {
+    /// By the general search for events.
+    pub(crate) const CLOSED: f64 = 0.0;
+    /// At an ordinary corner, to another branch with affine maps.
+    pub(crate) const ORDINARY: f64 = 1.0;
+    /// The same at u = 0, with an impact.
+    pub(crate) const IMPACT: f64 = 2.0;
+    /// At an ordinary corner, to a branch with secant damping.
+    pub(crate) const CURVED: f64 = 3.0;
+}
+
+/// An affine map over some steps, by the forcing less the branch's force at u = 0, q = p − f(0): the
+/// change of u and of u̇ for each of u₀, u̇₀ and the q at the samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Affine {
+    pub(crate) of_state: [[f64; 2]; 2],
+    pub(crate) of_forcing: [[f64; 2]; AT_ONCE + 1],
+}
+
+impl Affine {
+    fn one_step(oscillator: &Oscillator, step: f64) -> Self {
+        let (c, k) = (oscillator.damping(), oscillator.stiffness());
+        let green = oscillator.green(step);
+        let (g, h, j) = (green.g, green.h, green.j / step);
+        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
+        [of_forcing[0], of_forcing[1]] = [[h - j, g - h / step], [j, h / step]];
+        Self { of_state: [[-k * h, -k * g], [g, -(k * h + c * g)]], of_forcing }
+    }
+
+    /// Makes the map of some steps, four at most: the closed form for the state, and the forcing step by
+    /// step.
+    fn steps(one: &Self, count: usize, oscillator: &Oscillator, step: f64) -> Self {
+        let of_state = Self::one_step(oscillator, count as f64 * step).of_state;
+        let [by_u, by_v] = one.of_state;
+        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
+        for n in 0..count {
+            // what came before, moved on by one step
+            for [u, v] in &mut of_forcing[..=n] {
+                (*u, *v) = (*u + (by_u[0] * *u + by_v[0] * *v), *v + (by_u[1] * *u + by_v[1] * *v));
+            }
+            for (end, term) in one.of_forcing[..2].iter().enumerate() {
+                of_forcing[n + end][0] += term[0];
+                of_forcing[n + end][1] += term[1];
+            }
+        }
+        Self { of_state, of_forcing }
+    }
+
+    /// Returns the change of u and u̇ by the forcing at five samples.
+    #[inline(always)]
+    pub(crate) fn respond(&self, p: &[f64]) -> [f64; 2] {
+        let [a, b, c, d, e] = self.of_forcing;
+        [
+            ((a[0] * p[0] + b[0] * p[1]) + (c[0] * p[2] + d[0] * p[3])) + e[0] * p[4],
+            ((a[1] * p[0] + b[1] * p[1]) + (c[1] * p[2] + d[1] * p[3])) + e[1] * p[4],
+        ]
+    }
+}
+
+/// Returns γ(L) = 1/(1 − c L/2 − |k| L²/8), by which P + c V + f̂ is multiplied to bound |ü| over a length L;
+/// infinite where L is too long for the bound (docs/record-path.md, §2).
+fn growth(oscillator: &Oscillator, length: f64) -> f64 {
+    let (c, k) = (oscillator.damping(), oscillator.stiffness());
+    let slack = 1.0 - 0.5 * c * length - 0.125 * k.abs() * length * length;
+    if slack > 0.0 { 1.0 / slack } else { f64::INFINITY }
+}
+
+/// (c + √|k|) h.
+fn reach(oscillator: &Oscillator, step: f64) -> f64 {
+    (oscillator.damping() + oscillator.stiffness().abs().sqrt()) * step
+}
+
+/// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct Table {
+    /// The number of plain steps taken at once, four or two; the change over them, of u by u, u̇ and the
+    /// branch's force at u = 0, and of u̇.
+    pub(crate) at_once: BranchRow,
+    pub(crate) plain_steps: [[BranchRow; 3]; 2],
+    /// Change over one step, of u by u, u̇, p₀ − f(0) and p₁ − f(0), and of u̇.
+    pub(crate) one_step: [[BranchRow; 4]; 2],
+    /// c, with secant damping the largest \[1/s\]; k \[1/s²\]; f(0) \[m/s²\].
+    pub(crate) damping: BranchRow,
+    pub(crate) stiffness: BranchRow,
+    pub(crate) force_at_zero: BranchRow,
+    /// The ends of the branch \[m\], and how it is left there.
+    pub(crate) ends: [BranchRow; 2],
+    pub(crate) exits: [BranchRow; 2],
+    /// γ over one step and over plain steps at once.
+    pub(crate) growth: BranchRow,
+    pub(crate) plain_growth: BranchRow,
+    /// V over P + f̂ \[s\], and c V over P + f̂.
+    pub(crate) speed_share: BranchRow,
+    pub(crate) damping_share: BranchRow,
+    /// The law of a branch with secant damping.
+    pub(crate) secant: SecantBranch<BranchRow>,
+    pub(crate) law: Law,
+    /// How steps are made, and the map of plain steps at once, branch by branch.
+    pub(crate) ways: Vec<Way>,
+    pub(crate) maps: Vec<Affine>,
+    /// The largest γ L²/h² and c V over P + f̂ of plain steps, and γ and c of curved branches.
+    pub(crate) most_growth: f64,
+    pub(crate) most_damping: f64,
+    pub(crate) curved_growth: f64,
+    pub(crate) curved_damping: f64,
+    /// (c + √|k|) h of the longest steps with affine maps, and the terms of the series of motion.
+    pub(crate) longest: f64,
+    pub(crate) terms: usize,
+}
+
+const ZERO: BranchRow = [[0.0; WIDTH]; MOST_BRANCHES / WIDTH];
+
+impl Table {
+    pub(crate) fn new(motion: &Motion, step: f64) -> Self {
+        let wall = motion.wall();
+        let ways: Vec<Way> = (0..wall.branches().len()).map(|branch| way(motion, branch, step)).collect();
+        let secant = SecantBranch {
+            anchor: ZERO,
+            force: ZERO,
+            stiffness: ZERO,
+            own: [ZERO; 3],
+            force_at_zero: ZERO,
+            factor: ZERO,
+        };
+        let mut table = Self {
+            at_once: ZERO,
+            plain_steps: [[ZERO; 3]; 2],
+            one_step: [[ZERO; 4]; 2],
+            damping: ZERO,
+            stiffness: ZERO,
+            force_at_zero: ZERO,
+            ends: [ZERO; 2],
+            exits: [[[exit::CLOSED; WIDTH]; MOST_BRANCHES / WIDTH]; 2],
+            growth: ZERO,
+            plain_growth: ZERO,
+            speed_share: ZERO,
+            damping_share: ZERO,
+            secant,
+            law: Law::Ratio,
+            ways,
+            maps: Vec::new(),
+            most_growth: 0.0,
+            most_damping: 0.0,
+            curved_growth: 0.0,
+            curved_damping: 0.0,
+            longest: 0.0,
+            terms: 0,
+        };
+        if table.ways.iter().all(|way| *way == Way::General) {
+            // nothing is prepared, and of more branches there is no row
+            return table;
+        }
+        for branch in 0..table.ways.len() {
+            let oscillator = &motion.oscillators()[branch];
+            let one = Affine::one_step(oscillator, step);
+            let at_once = at_once(&motion.wall().branches()[branch], oscillator, step);
+            set(&mut table.at_once, branch, at_once as f64);
+            table.maps.push(Affine::steps(&one, at_once, oscillator, step));
+            match (table.ways[branch], &motion.secants()[branch]) {
+                (Way::Affine, _) => table.enter_affine(branch, motion, &one, step),
+                (Way::Curved, Some(secant)) => table.enter_curved(branch, motion, secant, step),
+                _ => {}
+            }
+        }
+        table.open_exits(motion, step);
+        table.terms = terms(table.longest.min(LONGEST));
+        table
+    }
+
+    fn enter_line(&mut self, branch: usize, motion: &Motion, damping: f64) {
+        let line = &motion.wall().branches()[branch];
+        set(&mut self.damping, branch, damping);
+        set(&mut self.stiffness, branch, line.stiffness);
+        set(&mut self.force_at_zero, branch, line.restoring(0.0));
+        set(&mut self.ends[0], branch, line.lower);
+        set(&mut self.ends[1], branch, line.upper);
+    }
+
+    fn enter_affine(&mut self, branch: usize, motion: &Motion, one: &Affine, step: f64) {
+        let oscillator = &motion.oscillators()[branch];
+        let c = oscillator.damping();
+        self.enter_line(branch, motion, c);
+        let map = self.maps[branch];
+        let force_at_zero = motion.wall().branches()[branch].restoring(0.0);
+        for part in [0, 1] {
+            let terms = [one.of_state[0], one.of_state[1], one.of_forcing[0], one.of_forcing[1]];
+            for (row, term) in self.one_step[part].iter_mut().zip(terms) {
+                set(row, branch, term[part]);
+            }
+            let by_force: f64 = map.of_forcing.iter().map(|term| term[part]).sum();
+            let changes = [map.of_state[0][part], map.of_state[1][part], -by_force * force_at_zero];
+            for (row, change) in self.plain_steps[part].iter_mut().zip(changes) {
+                set(row, branch, change);
+            }
+        }
+        let at_once = get(&self.at_once, branch);
+        let plain = growth(oscillator, at_once * step);
+        let usable = plain <= MOST_GROWTH && !oscillator.is_spread(at_once * step);
+        let single = growth(oscillator, step);
+        set(&mut self.growth, branch, single);
+        set(&mut self.plain_growth, branch, if usable { plain } else { f64::INFINITY });
+        let damping_share = if c > 0.0 { DAMPING_SHARE } else { 0.0 };
+        set(&mut self.speed_share, branch, DAMPING_SHARE * (1.0 / c));
+        set(&mut self.damping_share, branch, damping_share);
+        // where a bound is infinite no such step is plain
+        let bounds = [(single, single.is_finite()), (plain * at_once * at_once, usable)];
+        for (growth, _) in bounds.iter().filter(|(_, taken)| *taken) {
+            self.most_growth = self.most_growth.max(*growth);
+        }
+        self.most_damping = self.most_damping.max(damping_share);
+        self.longest = self.longest.max(reach(oscillator, step));
+    }
+
+    fn enter_curved(&mut self, branch: usize, motion: &Motion, secant: &Secant, step: f64) {
+        let damping = largest_damping(motion, branch);
+        let growth = 1.0 / (1.0 - damping * step);
+        self.enter_line(branch, motion, damping);
+        set(&mut self.growth, branch, growth);
+        self.curved_growth = self.curved_growth.max(growth);
+        self.curved_damping = self.curved_damping.max(damping);
+        self.law = match secant {
+            Secant::Ratio(_) => Law::Ratio,
+            Secant::Stiffness(_) => Law::Stiffness,
+        };
+        let (law, of) = (&mut self.secant, secant.branch());
+        set(&mut law.anchor, branch, of.anchor);
+        set(&mut law.force, branch, of.force);
+        set(&mut law.stiffness, branch, of.stiffness);
+        for (row, number) in law.own.iter_mut().zip(of.own) {
+            set(row, branch, number);
+        }
+        set(&mut law.force_at_zero, branch, of.force_at_zero);
+        set(&mut law.factor, branch, of.factor);
+    }
+
+    /// Finds how branches are left at their ends.
+    fn open_exits(&mut self, motion: &Motion, step: f64) {
+        let wall = motion.wall();
+        let short = |branch: usize| {
+            self.ways[branch] != Way::Affine || reach(&motion.oscillators()[branch], step) <= LONGEST
+        };
+        let find = |branch: usize, upwards: bool| {
+            let corner = wall.corners().get(branch + usize::from(upwards));
+            let next = if upwards { branch + 1 } else { branch.wrapping_sub(1) };
+            let (Some(corner), Some(next_way)) = (corner, self.ways.get(next)) else { return exit::CLOSED };
+            let Corner { passage, stop, overturning, departure, landing, .. } = *corner;
+            if stop || overturning || departure || landing || !short(branch) || !short(next) {
+                return exit::CLOSED;
+            }
+            match next_way {
+                Way::General => exit::CLOSED,
+                Way::Affine if passage => exit::IMPACT,
+                Way::Affine => exit::ORDINARY,
+                Way::Curved if passage => exit::CLOSED,
+                Way::Curved => exit::CURVED,
+            }
+        };
+        let exits = [false, true].map(|upwards| {
+            let mut row = ZERO;
+            (0..self.ways.len()).for_each(|branch| set(&mut row, branch, find(branch, upwards)));
+            row
+        });
+        self.exits = exits;
+    }
+
+    /// Returns the largest |f| between the corners of the branches whose steps are prepared, for |u| up to
+    /// `reach` \[m/s²\].
+    pub(crate) fn largest_force(&self, reach: f64) -> f64 {
+        let mut largest = 0.0_f64;
+        for branch in (0..self.ways.len()).filter(|&branch| self.ways[branch] != Way::General) {
+            let [lower, upper] =
+                [get(&self.ends[0], branch).max(-reach), get(&self.ends[1], branch).min(reach)];
+            if lower <= upper {
+                let force = |u: f64| get(&self.force_at_zero, branch) + get(&self.stiffness, branch) * u;
+                largest = largest.max(force(lower).abs()).max(force(upper).abs());
+            }
+        }
+        largest
+    }
+}
+
+/// Returns the number of a branch.
+#[inline(always)]
+pub(crate) fn get(row: &BranchRow, branch: usize) -> f64 {
+    row.as_flattened()[branch % MOST_BRANCHES]
+}
+
+/// Sets the number of a branch.
+pub(crate) fn set(row: &mut BranchRow, branch: usize, number: f64) {
+    row.as_flattened_mut()[branch] = number;
+}
+
+/// Returns the largest c of a branch with secant damping, which is monotone in u \[1/s\].
+fn largest_damping(motion: &Motion, branch: usize) -> f64 {
+    let branch = &motion.wall().branches()[branch];
+    branch.damping_at(branch.lower).max(branch.damping_at(branch.upper))
+}
+
+/// Decides how the steps on a branch are made.
+fn way(motion: &Motion, branch: usize, step: f64) -> Way {
+    let wall = motion.wall();
+    let adaptive = matches!(motion.method(), Method::Adaptive { .. });
+    if wall.branches().len() > MOST_BRANCHES || matches!(motion.method(), Method::Newmark { .. }) {
+        Way::General
+    } else if motion.secants()[branch].is_some() {
+        if largest_damping(motion, branch) * step < 1.0 { Way::Curved } else { Way::General }
+    } else if wall.branches()[branch].damping.constant().is_none() {
+        // a law of damping without a fast series
+        Way::General
+    } else if adaptive && wall.has_constant_damping() && wall.branches()[branch].stiffness <= 0.0 {
+        // nothing but the method asks for series: it has them on all but the elastic branch
+        Way::General
+    } else if motion.oscillators()[branch].is_spread(step) {
+        Way::General
+    } else {
+        Way::Affine
+    }
+}
+
+/// Returns how many plain steps are taken at once: four, or two where the margin of four is much of the
+/// branch.
+fn at_once(branch: &Branch, oscillator: &Oscillator, step: f64) -> usize {
+    let four = AT_ONCE as f64 * step;
+    // a forcing as large as the forces of the branch
+    let driving = 2.0 * branch.restoring(branch.lower).abs().max(branch.restoring(branch.upper).abs());
+    let margin = 0.125 * four * four * growth(oscillator, four) * driving;
+    if margin <= MOST_MARGIN * (branch.upper - branch.lower) { AT_ONCE } else { 2 }
+}
+
+/// Counts the terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
+fn terms(reach: f64) -> usize {
+    let (mut terms, mut share) = (0, 1.0);
+    while share > NEGLIGIBLE {
+        terms += 1;
+        share *= reach / (terms as f64 + 1.0);
+    }
+    terms.max(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first term left out is negligible, the last one kept is not.
+    #[test]
+    fn series_end_where_their_terms_are_negligible() {
+        let left_out = |reach: f64, n: usize| (0..n).fold(1.0, |share, m| share * reach / (m as f64 + 2.0));
+        for reach in [1e-6, 0.01, 0.06, 0.25, LONGEST] {
+            let n = terms(reach);
+            assert!(left_out(reach, n) <= NEGLIGIBLE, "{reach}: {n}");
+            assert!(n == 2 || left_out(reach, n - 1) > NEGLIGIBLE, "{reach}: {n}");
+        }
+        assert_eq!([0.25, LONGEST].map(terms), [13, 16]);
+    }
+}

@@ -1,0 +1,281 @@
+//! Runs side by side beside runs by themselves, and numbers side by side beside single ones, with every
+//! vector of the processor.
+
+use fearless_simd::{Level, Simd};
+use rocking_wall::choices::{DampingModel, Impact};
+use rocking_wall::solver::secant::{ByStiffness, SecantBranch, Start};
+use rocking_wall::solver::{Memo, Motion};
+use rocking_wall::wall::{Parameters, Support};
+
+use crate::batch::{SideBySide, Vectors, abreast};
+use crate::curved::OneLane;
+use crate::forcing::{Blocks, Forcing};
+use crate::lanes::Lanes;
+use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
+use crate::solver::{Outcome, RecordSolver, RunStart, Unseen};
+
+/// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
+fn shaking() -> Vec<f64> {
+    let at = |n: i32| {
+        let t = 5e-3 * f64::from(n);
+        (t / 5.0).min(1.0) * (2.2 * (5.1 * t).sin() + 1.1 * (17.0 * t).cos() + 0.4 * (90.0 * t).sin())
+    };
+    (0..6000).map(at).collect()
+}
+
+/// A wall of 6 m, its first corner at a share a₁ of its instability.
+fn motion(a1: f64) -> Motion {
+    losing(a1, DampingModel::ConstantCoefficient, Impact::None)
+}
+
+/// The same with other ways of losing energy.
+fn losing(a1: f64, damping_model: DampingModel, impact: Impact) -> Motion {
+    let wall = Parameters { height: 6.0, thickness: 0.6, ..Parameters::default() };
+    Motion::of(&Parameters { a1, damping_model, impact, ..wall }, 1e-8).expect("a valid wall")
+}
+
+/// Moves walls side by side with the vectors that every processor has.
+fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
+    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
+    let steps = SideBySide::new(solver, forcing).expect("a wall for lanes");
+    let record = Blocks::new(forcing);
+    abreast(simd, &steps, Lanes::new(solver, &record, starts, false, Unseen)).expect("bounded motions")
+}
+
+/// Factors of the forcing, more than there are lanes.
+fn starts(motion: &Motion) -> Vec<RunStart> {
+    let state = motion.start(0.0, 0.0, Support::default());
+    (0..21).map(|i| RunStart { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
+}
+
+/// Side by side, with many corners passed, all vectors that the processor has give the same bits.
+#[test]
+fn runs_do_not_depend_on_the_processor() {
+    let models =
+        [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio, DampingModel::StiffnessProportional];
+    for model in models {
+        let motion = losing(0.018, model, Impact::None);
+        let samples = shaking();
+        let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
+        let starts = starts(&motion);
+        let portable = narrow(&solver, samples, &starts);
+        let level = Level::new();
+        let wide = [level.as_avx2().map(Vectors::Avx2), level.as_avx512().map(Vectors::Avx512)];
+        for vectors in wide.into_iter().flatten() {
+            let batch = solver.batch_on(samples, Some(vectors));
+            assert!(batch.is_side_by_side());
+            assert_eq!(batch.run(&starts, false).expect("bounded motions"), portable);
+        }
+        let corners: u64 = portable.iter().map(|outcome| outcome.work.corners).sum();
+        let overturned = portable.iter().filter(|outcome| outcome.overturning.is_some()).count();
+        assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
+    }
+}
+
+/// Walls whose elastic branch is narrower than their way in a step, with impacts: a step may pass three
+/// corners. Beside each other they do what they do alone.
+#[test]
+fn steps_with_several_corners_are_those_of_single_runs() {
+    let bouncing = |a1| losing(a1, DampingModel::None, Impact::Restitution);
+    for motion in [bouncing(1.2e-3), bouncing(2.4e-3), motion(8e-4)] {
+        let samples = &shaking()[..2000];
+        let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
+        let starts = starts(&motion);
+        for (start, lane) in starts.iter().zip(narrow(&solver, samples, &starts)) {
+            let single = solver.run(*start, samples, false).expect("a bounded motion");
+            assert_eq!(lane, single);
+        }
+    }
+}
+
+/// Walls that turn shortly before a corner, within what four steps keep away from it but not one: the turning
+/// point is found, alone as beside others.
+#[test]
+fn extremes_before_a_corner_are_found() {
+    let (motion, step) = (motion(0.018), 5e-3);
+    let wall = motion.wall();
+    let corner =
+        wall.corners().iter().map(|corner| corner.displacement).find(|u| *u > 0.0).expect("a corner");
+    let pull = wall.branches()[wall.branch_of(0.5 * corner, 0.0)].restoring(corner);
+    let start = |u: f64, v: f64| {
+        let mut state = motion.start(u, v, Support::default());
+        // it has been further out on the other side: nothing there asks for a second look
+        state.peaks.negative = corner;
+        RunStart { state, factor: 1.0 }
+    };
+    let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
+    let still = Forcing::Samples(&still);
+    let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
+    for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
+        for speed in (0..12).map(|i| 0.25 * f64::from(i)).take_while(|speed| 0.5 * speed * speed < distance) {
+            let turning = start(corner - distance * pull * step * step, speed * pull * step);
+            let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
+            let alone = narrow(&solver, still, &[turning])[0];
+            assert_eq!(alone, narrow(&solver, still, &starts)[0]);
+            let single = solver.run(turning, still, false).expect("a bounded motion");
+            let missed = single.state.peaks.positive - alone.state.peaks.positive;
+            // a few roundings of u
+            assert!(missed.abs() <= 8.0 * f64::EPSILON * corner, "{distance} {speed}: {missed:e} m");
+        }
+    }
+}
+
+/// Steps that are long beside the wall's period, and few samples, make no lanes.
+#[test]
+fn what_does_not_suit_goes_one_by_one() {
+    let samples = shaking();
+    let all = Forcing::Samples(&samples);
+    let (soft, stiff) = (motion(0.018), motion(1e-4));
+    let side_by_side = |motion: &Motion, samples, vectors| {
+        RecordSolver::new(motion, 5e-3).batch_on(samples, vectors).is_side_by_side()
+    };
+    let widest = Vectors::widest();
+    assert_eq!(side_by_side(&soft, all, widest), widest.is_some());
+    assert!(!side_by_side(&soft, all, None));
+    assert!(!side_by_side(&stiff, all, widest));
+    assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), widest));
+    let solver = RecordSolver::new(&stiff, 5e-3);
+    let starts = starts(&stiff);
+    let together = solver.batch(all).run(&starts, false).expect("bounded motions");
+    for (start, outcome) in starts.iter().zip(together) {
+        assert_eq!(solver.run(*start, all, false).expect("a bounded motion"), outcome);
+    }
+    let none = solver.batch(Forcing::Samples(&[])).run(&starts, false).expect("no motion");
+    assert_eq!(none.len(), starts.len());
+}
+
+/// What an observer is shown does not change what becomes of a run, and ends with it.
+#[test]
+fn an_observed_run_is_the_same_run() {
+    let samples = shaking();
+    let forcing = Forcing::Samples(&samples);
+    for (model, impact) in [
+        (DampingModel::ConstantCoefficient, Impact::None),
+        (DampingModel::ConstantRatio, Impact::None),
+        (DampingModel::StiffnessProportional, Impact::None),
+        (DampingModel::None, Impact::Restitution),
+    ] {
+        let motion = losing(0.018, model, impact);
+        let solver = RecordSolver::new(&motion, 5e-3);
+        for start in starts(&motion).into_iter().step_by(4) {
+            for until_overturning in [false, true] {
+                let mut seen = Vec::new();
+                let mut observe = |sample: usize, u: f64, v: f64| seen.push((sample, u, v));
+                let observed = solver.run_observed(start, forcing, until_overturning, &mut observe);
+                let outcome = observed.expect("a bounded motion");
+                assert_eq!(solver.run(start, forcing, until_overturning).expect("the same"), outcome);
+                assert!(seen.iter().enumerate().all(|(n, &(sample, ..))| sample == n + 1));
+                let &(last, u, v) = seen.last().expect("samples");
+                assert_eq!((u, v), (outcome.state.displacement, outcome.state.velocity));
+                let stopped = until_overturning && outcome.overturning.is_some();
+                assert_eq!(last < samples.len() - 1, stopped);
+            }
+        }
+    }
+}
+
+/// The motion from u = 1 on a line f = f₀ + k u, with damping that follows the stiffness.
+fn by_stiffness(velocity: f64, length: f64, [force_at_zero, stiffness]: [f64; 2]) -> Start<f64> {
+    let own = [0.0, force_at_zero, stiffness];
+    let (anchor, force, factor) = (0.0, force_at_zero, 0.02);
+    let branch = SecantBranch { anchor, force, stiffness, own, force_at_zero, factor };
+    branch.start::<ByStiffness>([1.0, velocity], [0.7, 0.3 * length], length).0
+}
+
+/// When u passes a value is found by halving the step, too.
+#[test]
+fn passages_are_found_by_halving() {
+    let (mut found, mut worst) = (0, 0.0_f64);
+    for speed in (-25..=50).filter(|speed: &i32| speed.abs() > 3) {
+        for line in [[1.0, -0.3], [1.0, 0.0], [0.4, 0.6]] {
+            let (velocity, length) = (0.1 * f64::from(speed), 0.05);
+            let rise = 0.03 * velocity;
+            let end = |share: f64| ByStiffness::end(by_stiffness(velocity, share * length, line), 1e-12);
+            let passage = ByStiffness::passage(by_stiffness(velocity, length, line), rise, 1e-12);
+            let Some([share, slope]) = passage else { continue };
+            found += 1;
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                let passed = (end(middle).expect("a series that reaches")[0] / rise) > 1.0;
+                if passed { high = middle } else { low = middle }
+            }
+            let [_, velocity] = end(high).expect("a series that reaches");
+            worst = worst.max(((share - high) * slope).abs()).max((velocity - high * slope).abs());
+        }
+    }
+    assert!(found > 150, "{found}");
+    // the tolerance of both
+    assert!(worst <= 2e-12, "{worst:e}");
+}
+
+/// Numbers of lanes, ordinary and not, and their branches.
+const ROWS: [Row; 3] = [
+    [1.5, -2.25, 1e-300, -7e200, 0.1, f64::INFINITY, -3.0, 1.0 / 3.0],
+    [0.3, -2.25, 3e-310, 9e150, -0.7, 2.0, f64::NEG_INFINITY, 1e17],
+    [0.0, 7.0, 3.0, 3.0, 1.0, 6.0, 2.0, 5.0],
+];
+
+/// Does each operation of a number, from a lane on; returns the bits of the results, lane by lane.
+fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
+    let [a, b, branch] = ROWS.map(|row| N::load(token, &row, first));
+    let branches: BranchRow = [[0.1, 1.2, 2.3, 3.4, 4.5, 5.6, 6.7, 7.8], [0.0; WIDTH]];
+    let (below, at_most) = (a.below(b), a.at_most(b));
+    let given = N::mask(token, 0b1011_0101 >> first);
+    let [zipped, other] = N::unzip(token, |lane| [ROWS[0][first + lane], ROWS[1][first + lane]]);
+    let mut stored = [0.0; WIDTH];
+    (a - b).store(&mut stored, first);
+    let masks = [below, at_most, given, !below, given & at_most, given | below];
+    let numbers = [a + b, a - b, a * b, a / b, a + 0.3, a * 0.3, -a, a.abs(), a.abs().sqrt()];
+    let more = [a.max(b), a.min(b), a.like(0.7), N::splat(token, -0.2), zipped, other];
+    let of_lanes = N::of_lanes(token, |lane| stored[first + lane]);
+    let found = N::of(token, &branches, branch.branches());
+    let chosen = masks.map(|mask| N::select(mask, a, b));
+    let lanes = |number: N| (0..N::LANES).map(|lane| number.lane(lane).to_bits()).collect();
+    let bits = |mask| (0..N::LANES).map(|lane| u64::from(N::bits(mask) >> lane & 1)).collect();
+    let numbers = numbers.into_iter().chain(more).chain([of_lanes, found]).chain(chosen);
+    numbers.map(lanes).chain(masks.map(bits)).collect()
+}
+
+/// Eight numbers are, lane by lane and bit for bit, eight single ones.
+fn check_lanes<S: Simd>(simd: S) {
+    let eight = operations::<Eight<S>>(simd, 0);
+    for lane in 0..WIDTH {
+        for (n, (eight, single)) in eight.iter().zip(operations::<f64>((), lane)).enumerate() {
+            assert_eq!(eight[lane], single[0], "operation {n} in lane {lane}");
+        }
+    }
+}
+
+#[test]
+fn numbers_side_by_side_are_single_numbers() {
+    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
+    check_lanes(simd);
+    if let Some(simd) = Level::new().as_avx2() {
+        check_lanes(simd);
+    }
+    if let Some(simd) = Level::new().as_avx512() {
+        check_lanes(simd);
+    }
+}
+
+/// A wall of more branches than are prepared goes by the general search for events.
+#[test]
+fn many_branches_go_by_the_general_search() {
+    // a law that rises to its twelfth corner and falls from there
+    let points: Vec<_> = (1..=12).map(|n| 0.02 * f64::from(n)).map(|u| [u, (4.0 * u).sqrt()]).collect();
+    let multilinear = Some(points.into_iter().chain([[1.0, 0.0]]).collect());
+    let wall = Parameters { height: 6.0, thickness: 0.6, multilinear, ..Parameters::default() };
+    let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
+    assert!(motion.wall().branches().len() > MOST_BRANCHES);
+    let samples = &shaking()[..1000];
+    let solver = RecordSolver::new(&motion, 5e-3);
+    let start = starts(&motion)[10];
+    let outcome = solver.run(start, Forcing::Samples(samples), false).expect("a bounded motion");
+    let mut state = start.state;
+    for p in samples.windows(2) {
+        let p = [start.factor * p[0], start.factor * p[1]];
+        motion.advance_under(&mut state, 5e-3, p, &mut Memo::default()).expect("a bounded motion");
+    }
+    assert_eq!(outcome.state, state);
+}

@@ -1,0 +1,27 @@
+//! The tests of many runs.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
+
+use std::path::Path;
+
+mod accuracy;
+mod calibration;
+#[path = "../../../../tests/it/configuration.rs"]
+mod configuration;
+mod extremes;
+mod figure_15;
+mod fragility;
+mod ida;
+mod linearisation;
+#[path = "../../../ground-motion/tests/it/records.rs"]
+mod records;
+mod reproduce;
+mod rocking_spectrum;
+mod storeys;
+mod validation;
+
+/// Returns the root of the workspace.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}

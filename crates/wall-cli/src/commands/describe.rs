@@ -1,0 +1,101 @@
+//! `wall describe`: what follows from a wall's parameters.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::Args;
+use rocking_wall::scene::check_thresholds;
+use rocking_wall::solver::Method;
+use rocking_wall::wall::{Fact, Wall};
+
+use crate::args::SceneArguments;
+use crate::output;
+use crate::output::capacity::{Capacity, significant};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Limit states as fractions of `u_ins` to show secant periods at, instead of the scene's
+    /// [default: 0.1,0.4,0.6,1]
+    #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
+    thresholds: Option<Vec<f64>>,
+    /// Write the corners and limit states of the capacity curve as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw the capacity curve with its secants, as SVG or PNG by the file's ending
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load()?;
+    arguments.scene.apply(&mut scene)?;
+    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
+    let parameters = &scene.parameters;
+    let wall = arguments.scene.named(Wall::new(parameters))?;
+    let method = Method::new(parameters, &wall, parameters.tolerance)?;
+    let fractions = arguments.thresholds.clone().unwrap_or_else(|| scene.thresholds.clone());
+    check_thresholds(&fractions)?;
+    let capacity = Capacity::new(&wall, &fractions);
+    // first, because its ending may be refused
+    if let Some(path) = &arguments.plot {
+        output::picture(path, || Ok(capacity.picture()))?;
+    }
+    output::save(arguments.csv.as_ref(), || capacity.csv())?;
+    let facts = wall.facts();
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let words = [
+        ("title", scene.title.clone()),
+        ("mechanism", parameters.mechanism.name().to_owned()),
+        ("kinematics", parameters.kinematics.name().to_owned()),
+        ("force_law", law.to_owned()),
+        ("damping_model", parameters.damping_model.name().to_owned()),
+        ("impact", parameters.impact.name().to_owned()),
+        ("solver", method_name(&method).to_owned()),
+    ];
+    if arguments.json {
+        let mut object = serde_json::Map::new();
+        for (name, value) in words {
+            object.insert(name.into(), value.into());
+        }
+        for Fact { name, value, .. } in facts {
+            object.insert(name.into(), value.into());
+        }
+        let backbone: Vec<_> = wall.backbone().into_iter().map(|(u, force)| [u, force]).collect();
+        object.insert("backbone".into(), serde_json::to_value(backbone)?);
+        object.insert("capacity".into(), capacity.json());
+        let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
+        object.insert("warnings".into(), warnings.into());
+        return output::to_stdout(&(serde_json::to_string_pretty(&object)? + "\n"));
+    }
+    let mut text = String::new();
+    for (name, value) in words {
+        let _ = writeln!(text, "{name:<22}{value}");
+    }
+    text.push('\n');
+    for Fact { name, symbol, value, unit } in facts {
+        let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
+    }
+    text.push_str(&capacity.table());
+    for warning in wall.warnings() {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
+        let _ = writeln!(text, "\nwritten {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+/// The solver in words.
+pub(crate) fn method_name(method: &Method) -> &'static str {
+    match method {
+        Method::Exact => "exact",
+        Method::Adaptive { .. } => "adaptive",
+        Method::Newmark { .. } => "newmark",
+    }
+}

@@ -1,0 +1,215 @@
+//! `wall ida` and `wall merge`: incremental dynamic analyses, on all cores, interruptible, in shards.
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use study::ida::Study;
+use study::loaded::LoadedStudy;
+use study::parallel;
+use study_folder::Folder;
+
+use crate::output;
+use crate::output::progress::Progress;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Study file (TOML): walls, records, damping models, intensity, levels
+    study: PathBuf,
+    /// Folder of the results [default: the study's name and `_results`]; a study that is started again
+    /// continues where it stopped
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Number of threads [default: one for each core]
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<NonZeroUsize>,
+    /// Run one of n shards, such as 2/8, for the array jobs of a cluster; `wall merge` merges them
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    /// Folders of the shards, or the one they share
+    #[arg(required = true, value_name = "FOLDER")]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Folder of the merged study
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// One of several shares of the parts of a study.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shard {
+    /// From 1.
+    pub(crate) number: usize,
+    pub(crate) of: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("expected I/N with I from 1 to N, such as 2/8".to_owned()),
+        }
+    }
+}
+
+/// Files of the results, beside the parts.
+const FILES: [&str; 8] = [
+    "study.json",
+    "levels.csv",
+    "collapses.csv",
+    "fragilities.csv",
+    "fragility_curves.csv",
+    "fragilities.xml",
+    "fragilities.svg",
+    "study.html",
+];
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    let loaded = LoadedStudy::read(&arguments.study)?;
+    let path = match (&arguments.output, arguments.study.file_stem()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
+        (None, None) => bail!("{}: not a file", arguments.study.display()),
+    };
+    output::check_distinct(&loaded.inputs, &FILES.map(|name| path.join(name)))?;
+    let folder = Folder::of_study(&path, &loaded)?;
+    output::report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
+    let threads = parallel::threads(arguments.threads).get();
+    let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
+    let contents = folder.contents();
+    let mine: Vec<usize> = (shard..contents.parts()).step_by(shards).collect();
+    let missing = folder.missing(mine.iter().copied());
+    warn_of_damage(&folder, &missing);
+    let cases = |parts: &[usize]| parts.iter().map(|&part| contents.part(part).len()).sum::<usize>();
+    let found = cases(&mine) - cases(&missing);
+    if found > 0 {
+        output::report(&format!("{found} of {} combinations are done already", cases(&mine)));
+    }
+    tell_of_resuming()?;
+    let words = work(&loaded.study, &folder, &missing, cases(&missing), threads)?;
+    drop(loaded);
+    // a summary that cannot be printed must not prevent the results from being written
+    let told = output::to_stdout(&words);
+    if shards > 1 {
+        let name = path.display();
+        return output::to_stdout(&format!(
+            "shard {} of {shards} is done; when all are: wall merge {name}\n",
+            shard + 1
+        ));
+    }
+    finish(&folder, threads).and(told)
+}
+
+pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
+    let mut folders =
+        arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>, _>>()?;
+    for folder in &folders[1..] {
+        folder.expect(folders[0].contents())?;
+    }
+    let target = match (&arguments.output, folders.len()) {
+        (Some(path), _) => Folder::like(path, folders[0].manifest())?,
+        (None, 1) => folders.remove(0),
+        (None, _) => bail!("several folders are merged into another; give it with -o FOLDER"),
+    };
+    let mut missing = Vec::new();
+    for part in target.missing(0..target.contents().parts()) {
+        match folders.iter().find_map(|folder| folder.part(part)) {
+            Some(curves) => target.keep(part, &curves)?,
+            None => missing.push(part),
+        }
+    }
+    if !missing.is_empty() {
+        for folder in folders.iter().chain([&target]) {
+            warn_of_damage(folder, &missing);
+        }
+        return Err(target.incomplete(&missing).into());
+    }
+    finish(&target, parallel::threads(None).get())
+}
+
+/// Exit code of a program that Ctrl-C has ended, 128 and the number of the signal.
+const INTERRUPTED: i32 = 130;
+
+/// Makes Ctrl-C print that the same command resumes the study. Nothing has to be saved then: each finished
+/// part is a complete file.
+fn tell_of_resuming() -> Result<()> {
+    ctrlc::set_handler(|| {
+        // ends the line of progress
+        output::to_stderr("\n");
+        output::report("interrupted; finished parts are kept, and the same command resumes");
+        std::process::exit(INTERRUPTED);
+    })
+    .context("Ctrl-C")
+}
+
+/// Warns of parts whose files exist but are damaged, and which therefore count as missing.
+fn warn_of_damage(folder: &Folder, missing: &[usize]) {
+    folder.damage(missing).iter().for_each(|warning| output::warn(warning));
+}
+
+/// Time spent on one model, and the work done in it.
+#[derive(Clone, Copy, Default)]
+struct Share {
+    seconds: f64,
+    runs: usize,
+    samples: f64,
+}
+
+/// Runs the missing parts, which hold `cases` combinations; returns the throughput of each model.
+fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads: usize) -> Result<String> {
+    if missing.is_empty() {
+        return Ok(String::new());
+    }
+    let progress = Progress::new();
+    let shares = Mutex::new(vec![Share::default(); study.models().len()]);
+    let start = Instant::now();
+    let outcome = study_folder::work(study, folder, missing, threads, |case, curve, time| {
+        let runs = curve.runs().len();
+        if let Ok(mut shares) = shares.lock() {
+            let share = &mut shares[case.model];
+            share.seconds += time.as_secs_f64();
+            share.runs += runs;
+            share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
+        }
+        progress.add(cases, runs);
+    });
+    progress.finish();
+    outcome?;
+    let shares = shares.into_inner().unwrap_or_default();
+    let runs: usize = shares.iter().map(|share| share.runs).sum();
+    let mut text = format!("{runs} runs in {:.1} s on {threads} threads\n", start.elapsed().as_secs_f64());
+    let _ =
+        writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
+    for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {
+        let (rate, each) = (share.runs as f64 / share.seconds, 1e9 * share.seconds / share.samples);
+        let _ = writeln!(text, "{:<16}{:>10}{rate:>18.0}{each:>22.1}", model.name, share.runs);
+    }
+    Ok(text)
+}
+
+/// Makes the final results of a folder whose parts are complete.
+fn finish(folder: &Folder, threads: usize) -> Result<()> {
+    let progress = Progress::new();
+    let walls = folder.contents().walls.len();
+    let report = study_folder::finish(folder, threads, || progress.add(walls, 0));
+    progress.finish();
+    let report = report?;
+    if let Some(warning) = &report.warning {
+        output::warn(warning);
+    }
+    let mut text = report.summary;
+    for path in &report.files {
+        let _ = writeln!(text, "written  {}", path.display());
+    }
+    output::to_stdout(&text)
+}

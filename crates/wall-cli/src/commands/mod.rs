@@ -1,0 +1,108 @@
+//! The commands of `wall`: each reads its arguments, calls the library and reports.
+
+mod accuracy;
+mod building;
+mod calibrate;
+mod check;
+mod describe;
+mod ida;
+mod motion;
+mod package;
+mod record;
+mod reproduce;
+mod schema;
+mod simulate;
+mod spectrum;
+mod stability;
+mod tie;
+mod validate;
+
+use anyhow::Result;
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::output;
+
+/// Out-of-plane rocking of masonry walls under earthquakes.
+#[derive(Debug, Parser)]
+#[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene, or the default wall, and write its history and its page
+    #[command(allow_negative_numbers = true)]
+    Simulate(simulate::Arguments),
+    /// Make an FMU of a scene, with only the variables it uses and its ground motion inside
+    Package(package::Arguments),
+    /// Run storeys and walls as one system under a record, or make it an SSP of connected FMUs
+    Building(building::Arguments),
+    /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
+    Describe(describe::Arguments),
+    /// Check capacity against demand: onset and displacement of the wall's own curve over a spectrum
+    Check(check::Arguments),
+    /// Compute the force of a parapet's tie and the displacement of the wall over the tie's stiffness
+    Tie(tie::Arguments),
+    /// Write a ground motion as CSV: a record in m/s2, or the synthetic one
+    #[command(allow_negative_numbers = true)]
+    Motion(motion::Arguments),
+    /// Measure the error of each solver against its run time
+    #[command(allow_negative_numbers = true)]
+    Accuracy(accuracy::Arguments),
+    /// Map the stability of each solver, and run the extremes
+    Stability(stability::Arguments),
+    /// Print what record files hold: format, points, step, duration, PGA, AvgSA, Sa, and a quick check
+    Record(record::Arguments),
+    /// Run an incremental dynamic analysis: walls x records x damping models, with fragilities and a page
+    Ida(ida::Arguments),
+    /// Merge the shards of an incremental dynamic analysis and write its results
+    Merge(ida::MergeArguments),
+    /// Compute rocking spectra: `u_max/u_ins` of rocking walls over size and slenderness, or over pulses
+    #[command(allow_negative_numbers = true)]
+    Spectrum(spectrum::Arguments),
+    /// Match viscous damping to restitution, as section 5 of the paper does, for any wall
+    Calibrate(calibrate::Arguments),
+    /// Compute every table and figure of the paper and compare it with print, on one page
+    Reproduce(reproduce::Arguments),
+    /// Compare the model with a published test: a slow push or a free decay
+    Validate(validate::Arguments),
+    /// Print the JSON schema of scenes, studies or buildings
+    Schema(schema::Arguments),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
+}
+
+impl Arguments {
+    /// Runs the command with its arguments.
+    pub(crate) fn run(&self) -> Result<()> {
+        match &self.command {
+            Command::Simulate(arguments) => simulate::run(arguments),
+            Command::Package(arguments) => package::run(arguments),
+            Command::Building(arguments) => building::run(arguments),
+            Command::Describe(arguments) => describe::run(arguments),
+            Command::Check(arguments) => check::run(arguments),
+            Command::Tie(arguments) => tie::run(arguments),
+            Command::Motion(arguments) => motion::run(arguments),
+            Command::Accuracy(arguments) => accuracy::run(arguments),
+            Command::Stability(arguments) => stability::run(arguments),
+            Command::Record(arguments) => record::run(arguments),
+            Command::Ida(arguments) => ida::run(arguments),
+            Command::Merge(arguments) => ida::merge(arguments),
+            Command::Spectrum(arguments) => spectrum::run(arguments),
+            Command::Calibrate(arguments) => calibrate::run(arguments),
+            Command::Reproduce(arguments) => reproduce::run(arguments),
+            Command::Validate(arguments) => validate::run(arguments),
+            Command::Schema(arguments) => schema::run(arguments),
+            Command::Completions { shell } => {
+                let mut script = Vec::new();
+                clap_complete::generate(*shell, &mut Self::command(), "wall", &mut script);
+                output::to_stdout(&String::from_utf8_lossy(&script))
+            }
+        }
+    }
+}

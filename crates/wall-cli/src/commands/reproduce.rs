@@ -1,0 +1,248 @@
+//! `wall reproduce`: the paper's tables and figures, computed now, on one page.
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use figures::{chart, escaped};
+use ground_motion::{RecordOptions, read};
+use study::ida::NamedRecord;
+use study::parallel::threads;
+use study::reproduce::collapse::{Collapses, figure_15};
+use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
+
+use crate::output;
+use crate::output::progress::Progress;
+use figures::template;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Records to scale for Figure 15: every file of this folder that can be read without unit or channel
+    #[arg(long, value_name = "FOLDER")]
+    records: Option<PathBuf>,
+    /// The page to write
+    #[arg(short, long, value_name = "FILE", default_value = "reproduction.html")]
+    output: PathBuf,
+    /// Number of threads [default: one for each core]
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<NonZeroUsize>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    // before anything is computed: a wrong folder should not cost a minute
+    let records =
+        arguments.records.as_deref().map(|folder| records(folder, &arguments.output)).transpose()?;
+    let threads = threads(arguments.threads);
+    let progress = Progress::new();
+    let reproduction = reproduce(threads, |all| progress.add(all, 0));
+    progress.finish();
+    let reproduction = reproduction?;
+    output::to_stdout(&summary(&reproduction))?;
+    let progress = Progress::new();
+    let collapses = records.map(|records| figure_15(records, threads, |all| progress.add(all, 0)));
+    progress.finish();
+    let collapses = collapses.transpose()?;
+    if let Some(collapses) = &collapses {
+        output::to_stdout(&plain(&collapses.table))?;
+    }
+    output::to_file(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
+}
+
+/// Reads the records of a folder in the order of their names; warns of the files it leaves out. The page must
+/// not replace one of them.
+fn records(folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
+    let entries =
+        std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
+    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    paths.retain(|path| path.is_file());
+    paths.sort();
+    output::check_distinct(&paths, [page])?;
+    let (mut records, mut left_out) = (Vec::new(), Vec::new());
+    for path in paths {
+        match read(&path, &RecordOptions::default()) {
+            Ok(record) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                records.push(NamedRecord { name, motion: record.motion });
+            }
+            Err(error) => left_out.push(format!("warning: left out: {error}")),
+        }
+    }
+    output::report_all(left_out);
+    if records.is_empty() {
+        bail!(
+            "{}: no record to read; give a folder with records that state their unit, such as AT2",
+            folder.display()
+        );
+    }
+    Ok(records)
+}
+
+/// Describes how many numbers agree with the printed ones.
+fn counts(table: &Table) -> [usize; 2] {
+    let all = table.values().count();
+    [table.values().filter(|value| value.agrees()).count(), all]
+}
+
+fn summary(reproduction: &Reproduction) -> String {
+    let mut text = String::new();
+    for table in &reproduction.tables {
+        let [agree, all] = counts(table);
+        let _ = write!(text, "{:<24}{agree:>4} of {all:>3} numbers round to print", table.name);
+        if let Some((deviation, place)) = worst(table) {
+            let _ = write!(text, "; largest deviation {:.1} %, {place}", 100.0 * deviation);
+        }
+        text.push('\n');
+        for note in &table.notes {
+            text.push_str(&indented(note));
+        }
+    }
+    let numbers: Vec<String> = reproduction.figures.iter().map(|figure| figure.number.to_string()).collect();
+    let _ = writeln!(text, "Figures {}", numbers.join(", "));
+    text
+}
+
+/// Finds the largest relative deviation of a table, and where it is.
+fn worst(table: &Table) -> Option<(f64, String)> {
+    let cells = table.rows.iter().flat_map(|row| row.iter().zip(&table.columns).map(move |cell| (row, cell)));
+    let deviations = cells.filter_map(|(row, (cell, column))| match cell {
+        Cell::Value(value) if value.printed != 0.0 => {
+            Some(((value.computed / value.printed - 1.0).abs(), row, column, value))
+        }
+        Cell::Value(_) | Cell::Text(_) => None,
+    });
+    let (deviation, row, column, value) = deviations.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let Value { computed, printed, decimals } = *value;
+    let (name, finer) = (row.first().map_or_else(String::new, words), decimals + 1);
+    Some((deviation, format!("{name}, {column}: printed {printed:.decimals$}, computed {computed:.finer$}")))
+}
+
+/// A note as indented lines.
+fn indented(note: &str) -> String {
+    const WIDTH: usize = 100;
+    let (mut text, mut column) = (String::new(), WIDTH);
+    for word in note.split_whitespace() {
+        let length = word.chars().count() + 1;
+        if column + length > WIDTH {
+            text.push_str(if text.is_empty() { "   " } else { "\n   " });
+            column = 3;
+        }
+        let _ = write!(text, " {word}");
+        column += length;
+    }
+    text + "\n"
+}
+
+/// Formats a table that has no printed numbers.
+fn plain(table: &Table) -> String {
+    let mut text = format!("{}: {}\n", table.name, table.title);
+    let columns: Vec<String> = table.columns.iter().map(ToString::to_string).collect();
+    let rows = table.rows.iter().map(|row| row.iter().map(words).collect());
+    for row in std::iter::once(columns).chain(rows) {
+        for (index, cell) in row.iter().enumerate() {
+            let width = if index < 2 { 6 } else { 24 };
+            let _ = write!(text, "{cell:<width$}");
+        }
+        text = text.trim_end().to_owned() + "\n";
+    }
+    text
+}
+
+fn words(cell: &Cell) -> String {
+    match cell {
+        Cell::Text(words) => words.clone(),
+        Cell::Value(Value { computed, decimals, .. }) => format!("{computed:.decimals$}"),
+    }
+}
+
+/// Words for a page without records.
+const MISSING: &str = "<p>Figure 15 needs records: <code>wall reproduce --records FOLDER</code> adds it.</p>";
+
+fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> String {
+    let tables: String = reproduction.tables.iter().map(table).collect();
+    let drawn = || reproduction.figures.iter().chain(collapses.map(|collapses| &collapses.figure));
+    let mut figures: String = drawn().map(figure).collect();
+    figures.extend(collapses.map(|collapses| table(&collapses.table)));
+    let [agree, all] = reproduction.tables.iter().map(counts).fold([0, 0], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let mut links = String::new();
+    for figure in drawn() {
+        let _ = write!(links, "<a href=\"#figure-{0}\">{0}</a> ", figure.number);
+    }
+    template::page(
+        include_str!("../pages/reproduce.html"),
+        &[
+            ("title", "Modelling rocking response via equivalent viscous damping, reproduced"),
+            ("agree", &agree.to_string()),
+            ("all", &all.to_string()),
+            ("links", &links),
+            ("missing", if collapses.is_some() { "" } else { MISSING }),
+            ("tables", &tables),
+            ("figures", &figures),
+        ],
+    )
+}
+
+fn notes(notes: &[String]) -> String {
+    let mut text = String::new();
+    for note in notes {
+        let _ = writeln!(text, "<p>{}</p>", escaped(note));
+    }
+    text
+}
+
+fn table(table: &Table) -> String {
+    let mut text = format!(
+        "<section><h2>{}: {}</h2>\n{}<div class=\"scroll\"><table><tr>",
+        escaped(table.name),
+        escaped(table.title),
+        notes(&table.notes)
+    );
+    for column in &table.columns {
+        let _ = write!(text, "<th>{}</th>", escaped(column));
+    }
+    text.push_str("</tr>\n");
+    for row in &table.rows {
+        text.push_str("<tr>");
+        text.extend(row.iter().map(cell));
+        text.push_str("</tr>\n");
+    }
+    text + "</table></div></section>\n"
+}
+
+fn cell(cell: &Cell) -> String {
+    match cell {
+        Cell::Text(words) => format!("<td>{}</td>", escaped(words)),
+        Cell::Value(value) => {
+            let Value { computed, printed, decimals } = *value;
+            let class = if value.agrees() { "number" } else { "number off" };
+            let finer = decimals + 1;
+            let deviation = shown(computed - printed, finer);
+            let printed = shown(printed, decimals);
+            format!(
+                "<td class=\"{class}\"><b>{printed:.decimals$}</b> {computed:.finer$}<br>\
+                 <i>{deviation:+.finer$}</i></td>"
+            )
+        }
+    }
+}
+
+/// Formats a number; one that shows as zero has no minus sign.
+fn shown(value: f64, decimals: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "a few decimals")]
+    let half = 0.5 * 10.0_f64.powf(-(decimals as f64));
+    if value.abs() < half { 0.0 } else { value }
+}
+
+fn figure(figure: &Figure) -> String {
+    let charts: String = figure.charts.iter().map(chart::figure).collect();
+    format!(
+        "<section id=\"figure-{0}\"><h2>Figure {0}: {1}</h2>\n{2}<div class=\"figures{3}\">\n{charts}</div>\
+         </section>\n",
+        figure.number,
+        escaped(figure.title),
+        notes(&figure.notes),
+        // two or four panels are laid out in rows of two
+        if matches!(figure.charts.len(), 2 | 4) { " two" } else { "" }
+    )
+}

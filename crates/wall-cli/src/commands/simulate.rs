@@ -1,0 +1,104 @@
+//! `wall simulate`: run a scene, write its history and its page.
+
+mod arguments;
+mod records;
+
+use std::fmt::Write;
+
+use anyhow::Result;
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::Wall;
+
+use crate::output::{self, demands};
+use crate::pages;
+
+pub(crate) use arguments::Arguments;
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    if !arguments.table().is_empty() {
+        return records::run(arguments);
+    }
+    let scene = arguments.scene()?;
+    let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
+    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html).chain(&arguments.svg))?;
+    // checked before the run, which may take long
+    output::expect_svg(arguments.svg.as_ref())?;
+    let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
+    for warning in wall.warnings() {
+        output::warn(&warning.to_string());
+    }
+    let response = arguments.scene.named(Response::of(&scene))?;
+    if let Some(warning) = scene.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
+        output::warn(&warning);
+    }
+    if response.summary.put_to_rest {
+        output::warn("impacts accumulated beyond their bound: the wall was put to rest");
+    }
+    output::save(arguments.csv.as_ref(), || response.csv())?;
+    if let Some(path) = &arguments.html {
+        let page = pages::wall::render(&scene, &wall, &response)?;
+        output::to_file(path, page.as_bytes())?;
+    }
+    if let Some(path) = &arguments.svg {
+        output::to_file(path, pages::wall::animation::render(&scene, &wall, &response)?.as_bytes())?;
+    }
+    let text = if arguments.json {
+        json(&scene, &response)?
+    } else {
+        let mut text = table(&scene, &response);
+        for path in [&arguments.csv, &arguments.html, &arguments.svg].into_iter().flatten() {
+            let _ = writeln!(text, "written        {}", path.display());
+        }
+        text
+    };
+    output::to_stdout(&text)
+}
+
+fn json(scene: &Scene, response: &Response) -> Result<String> {
+    let summary = &response.summary;
+    let value = serde_json::json!({
+        "title": scene.title,
+        "u_max": summary.u_max,
+        "u_ratio_max": summary.u_ratio_max,
+        "overturned": summary.overturned,
+        "overturn_time": summary.overturn_time,
+        "falls": summary.fate.falls(),
+        "end_time": summary.end_time,
+        "pieces": summary.work.pieces,
+        "corners": summary.work.corners,
+        "impacts": summary.work.impacts,
+        "demands": demands::json(response),
+    });
+    Ok(serde_json::to_string_pretty(&value)? + "\n")
+}
+
+fn table(scene: &Scene, response: &Response) -> String {
+    let summary = &response.summary;
+    let mut text = format!("{}\n", scene.title);
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<15}{value}");
+    };
+    if !scene.motion_notes.is_empty() {
+        line("motion", scene.motion_notes.join(", "));
+    }
+    line("largest |u|", demands::largest(summary, "m", 6));
+    line("overturned", demands::overturned(summary.fate, 4));
+    line("run", format!("{} s", figures::number(summary.end_time, 6)));
+    line(
+        "work",
+        format!(
+            "{} pieces of motion, {} corners, {} impacts",
+            summary.work.pieces, summary.work.corners, summary.work.impacts
+        ),
+    );
+    if let Some(until) = demands::until(response) {
+        line("demands", until.to_owned());
+    }
+    let has_top = scene.parameters.mechanism == Mechanism::VerticalSpanning;
+    for (name, value) in demands::lines(response, has_top) {
+        let _ = writeln!(text, "{name:<15}{value}");
+    }
+    text
+}

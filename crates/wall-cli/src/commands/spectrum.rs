@@ -1,0 +1,289 @@
+//! `wall spectrum`: rocking spectra of a record over walls, or of pulses on one wall.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use anyhow::{Result, anyhow, bail};
+use clap::Args;
+use figures::rocking_spectrum::{Shown, own_words, svg};
+use ground_motion::{GroundMotion, Pulse};
+use rocking_wall::scene::{DEFAULT_TAIL, Scene};
+use rocking_wall::simulation::Excitation;
+use rocking_wall::variables::{DampingModel, Impact};
+use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
+use study::parallel;
+use study::spectrum::{
+    Point, PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
+};
+
+use crate::args::{RecordArguments, SceneArguments};
+use crate::output;
+use crate::pages::spectrum::page;
+use study_folder::csv::optional;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    record: RecordArguments,
+    /// Pulse instead of a record: ricker, `sine_cycle` or `half_sine`; by itself it gives the dimensionless
+    /// spectrum over `omega_p/p` and `a_p/a_0`
+    #[arg(long, value_name = "FORM", conflicts_with_all = ["record", "synthetic"])]
+    pulse: Option<String>,
+    /// Frequency of the pulse in Hz, for a spectrum over walls
+    #[arg(long, value_name = "HZ", requires_all = ["pulse", "amplitude"])]
+    frequency: Option<f64>,
+    /// Amplitude of the pulse in m/s2, for a spectrum over walls
+    #[arg(long, value_name = "M_PER_S2", requires_all = ["pulse", "frequency"])]
+    amplitude: Option<f64>,
+    /// Heights in m [default: 0.5:8:31]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "radii")]
+    heights: Option<String>,
+    /// Semi-diagonals R of a parapet in m, instead of heights
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    radii: Option<String>,
+    /// Slenderness h/b [default: 4:20:33]
+    #[arg(long, value_name = "FROM:TO:COUNT", conflicts_with = "angles")]
+    ratios: Option<String>,
+    /// Slenderness angles alpha = atan(b/h) of a parapet in rad, instead of h/b
+    #[arg(long, value_name = "FROM:TO:COUNT")]
+    angles: Option<String>,
+    /// `omega_p/p` of the dimensionless spectrum [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    frequency_ratios: Option<String>,
+    /// `a_p/a_0` of the dimensionless spectrum, `a_0` = g tan alpha for a parapet without overburden
+    /// [default: 0.5:10:39]
+    #[arg(long, value_name = "FROM:TO:COUNT", requires = "pulse")]
+    amplitude_ratios: Option<String>,
+    /// Number of threads [default: one for each core]; the result does not depend on it
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<std::num::NonZeroUsize>,
+    /// Write the points as CSV
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write a page with the heat map
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write the heat map as SVG
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// The most values along an axis.
+const MOST_VALUES: usize = 500;
+
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load()?;
+    arguments.scene.apply(&mut scene)?;
+    let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
+    let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
+    output::check_distinct(inputs, outputs.into_iter().flatten())?;
+    output::expect_svg(arguments.svg.as_ref())?;
+    let threads = parallel::threads(arguments.threads).get();
+    let pulse = arguments.pulse.as_deref().map(form).transpose()?;
+    let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
+        (Some(form), None, None) => pulses(arguments, &scene.parameters, form, threads)?,
+        (Some(form), Some(frequency), Some(amplitude)) => {
+            let motion = Pulse { amplitude, ..form.pulse(frequency) }.motion(None)?;
+            let note = format!("{} of {amplitude} m/s² at {frequency} Hz", words(form));
+            walls(arguments, &scene.parameters, &motion, vec![note], threads)?
+        }
+        _ => {
+            let (motion, notes) = motion(arguments, &scene)?;
+            walls(arguments, &scene.parameters, &motion, notes, threads)?
+        }
+    };
+    shown.notes.push(law(&scene.parameters));
+    output::save(arguments.csv.as_ref(), || table(&shown))?;
+    output::save(arguments.html.as_ref(), || page(&shown))?;
+    output::save(arguments.svg.as_ref(), || svg(&shown))?;
+    let mut text = summary(&shown);
+    for path in outputs.into_iter().flatten() {
+        let _ = writeln!(text, "written    {}", path.display());
+    }
+    output::to_stdout(&text)
+}
+
+fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {
+    let Arguments { heights, radii, ratios, angles, .. } = arguments;
+    let given = [("--heights", heights), ("--radii", radii), ("--ratios", ratios), ("--angles", angles)];
+    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
+        bail!(
+            "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too"
+        );
+    }
+    // refuses --scale and --pga, which need a record
+    arguments.record.load()?;
+    let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
+    let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
+    let wall = arguments.scene.named(Wall::new(parameters))?;
+    Ok(Shown {
+        spectrum: over_pulses(parameters, form, &columns, &rows, threads)?,
+        title: format!("Rocking spectrum of a {}", words(form)),
+        notes: vec![format!(
+            "{} of {} m × {} m, p = {:.4} rad/s, a₀ = {:.4} m/s²",
+            parameters.mechanism.name().replace('_', " "),
+            parameters.height,
+            parameters.thickness,
+            wall.rocking_rate(),
+            onset(&wall)
+        )],
+        labels: ["ω_p / p", "a_p / a₀"].map(str::to_owned),
+        names: ["frequency_ratio", "amplitude_ratio"],
+        axes: "Across the frequency of the pulse over p = √(k₀/m_eff), up its amplitude over a₀ = F₀/(λ \
+               m_eff), which is g tan α for a parapet without overburden; walls of any size with the same \
+               damping and restitution have this spectrum."
+            .into(),
+        own: None,
+    })
+}
+
+fn walls(
+    arguments: &Arguments,
+    parameters: &Parameters,
+    motion: &GroundMotion,
+    notes: Vec<String>,
+    threads: usize,
+) -> Result<Shown> {
+    let Arguments { frequency_ratios, amplitude_ratios, .. } = arguments;
+    let given = [("--frequency-ratios", frequency_ratios), ("--amplitude-ratios", amplitude_ratios)];
+    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
+        bail!(
+            "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude"
+        );
+    }
+    let (size, sizes) = match &arguments.radii {
+        Some(radii) => (Size::SemiDiagonal, values("--radii", Some(radii), [0.0; 2], 2)?),
+        None => (Size::Height, values("--heights", arguments.heights.as_deref(), [0.5, 8.0], 31)?),
+    };
+    let (slenderness, rows) = match &arguments.angles {
+        Some(angles) => (Slenderness::Angle, values("--angles", Some(angles), [0.0; 2], 2)?),
+        None => (Slenderness::Ratio, values("--ratios", arguments.ratios.as_deref(), [4.0, 20.0], 33)?),
+    };
+    let column = if size == Size::Height { "height_m" } else { "semi_diagonal_m" };
+    let row = if slenderness == Slenderness::Ratio { "slenderness" } else { "angle_rad" };
+    Ok(Shown {
+        spectrum: over_walls(parameters, motion, (size, &sizes), (slenderness, &rows), threads)?,
+        own: own_point(parameters, motion, size, slenderness),
+        title: format!("Rocking spectrum, {}", parameters.mechanism.name().replace('_', " ")),
+        notes,
+        labels: [size.label(), slenderness.label()].map(str::to_owned),
+        names: [column, row],
+        axes: "Each cell is one wall under the whole motion, followed until its peak has come.".into(),
+    })
+}
+
+/// The motion that the supports get from the one given, or from the scene's own.
+fn motion(arguments: &Arguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
+    let mut scene = scene.clone();
+    if let Some((motion, note)) = arguments.record.load()? {
+        let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
+        scene.shake(Excitation::new(motion, None), DEFAULT_TAIL, vec![note, peak]);
+    }
+    if scene.excitation.is_none() {
+        bail!("a rocking spectrum needs a motion; give --record, --synthetic, --pulse, or a scene with one");
+    }
+    Ok((common_motion(&scene)?, scene.motion_notes))
+}
+
+fn form(name: &str) -> Result<PulseForm> {
+    PulseForm::from_name(name)
+        .ok_or_else(|| anyhow!("--pulse {name}: expected ricker, sine_cycle or half_sine"))
+}
+
+fn words(form: PulseForm) -> &'static str {
+    match form {
+        PulseForm::Ricker => "Ricker pulse",
+        PulseForm::SineCycle => "sine cycle",
+        PulseForm::HalfSine => "half sine",
+    }
+}
+
+/// Evenly spaced values of `FROM:TO:COUNT`.
+fn values(option: &str, given: Option<&str>, default: [f64; 2], count: usize) -> Result<Vec<f64>> {
+    let ([from, to], count) = match given {
+        None => (default, count),
+        Some(text) => {
+            let parts: Vec<_> = text.split(':').collect();
+            let range = match parts[..] {
+                [from, to, count] => from.parse().ok().zip(to.parse().ok()).zip(count.parse().ok()),
+                _ => None,
+            };
+            let Some(((from, to), count)) = range else {
+                bail!("{option} {text}: expected FROM:TO:COUNT, such as 1:8:29");
+            };
+            ([from, to], count)
+        }
+    };
+    if !(from > 0.0 && from < to && to.is_finite() && (2..=MOST_VALUES).contains(&count)) {
+        bail!(
+            "{option}: expected 0 < FROM < TO and a COUNT from 2 to {MOST_VALUES}, found {from}:{to}:{count}"
+        );
+    }
+    let value = |index: usize| {
+        let part = index as f64 / (count - 1) as f64;
+        // to the digits of a decimal fraction: 0.1, not 0.1 and a rounding
+        format!("{:.12e}", from + (to - from) * part).parse().unwrap_or(from)
+    };
+    Ok((0..count).map(value).collect())
+}
+
+/// The force law, damping and impact in words.
+fn law(parameters: &Parameters) -> String {
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let damping = match parameters.damping() {
+        Damping { model: DampingModel::None, .. } => "no damping".to_owned(),
+        Damping { model, ratio: Some(ratio) } => format!("{} damping ({ratio})", model.name()),
+        Damping { model, ratio: None } => format!("{} damping (computed)", model.name()),
+    };
+    let impact = match parameters.impact {
+        Impact::None => "no impact".to_owned(),
+        Impact::Restitution if parameters.restitution == COMPUTED => {
+            format!("restitution ({})", parameters.restitution_source.name())
+        }
+        Impact::Restitution => format!("restitution ({})", parameters.restitution),
+    };
+    format!("{law} law, {damping}, {impact}").replace('_', " ")
+}
+
+fn summary(shown: &Shown) -> String {
+    let points = || shown.spectrum.points.iter().flatten();
+    let (rocked, overturned) = (
+        points().filter(|point| point.rocked && point.overturning.is_none()).count(),
+        points().filter(|point| point.overturning.is_some()).count(),
+    );
+    let standing = points().filter(|point| point.overturning.is_none());
+    let largest = standing.map(|point| point.ratio).fold(0.0, f64::max);
+    let range = |values: &[f64]| match values {
+        [first, .., last] => format!("{first} to {last}, {} values", values.len()),
+        _ => String::new(),
+    };
+    let own =
+        shown.own.as_ref().map_or_else(String::new, |own| format!("your wall  {}\n", own_words(shown, own)));
+    format!(
+        "{}\nmotion     {}\nacross     {}: {}\nup         {}: {}\npoints     {}: {} do not rock, {rocked} \
+         rock up to {largest:.3} u_ins, {overturned} overturn\n{own}",
+        shown.title,
+        shown.notes.join("; "),
+        shown.labels[0],
+        range(&shown.spectrum.columns),
+        shown.labels[1],
+        range(&shown.spectrum.rows),
+        points().count(),
+        points().count() - rocked - overturned,
+    )
+}
+
+fn table(shown: &Shown) -> String {
+    let [column, row] = shown.names;
+    let mut text = format!("{column},{row},u_ratio_max,rocked,overturned,overturn_time_s\n");
+    for (y, points) in shown.spectrum.rows.iter().zip(&shown.spectrum.points) {
+        for (x, point) in shown.spectrum.columns.iter().zip(points) {
+            let Point { ratio, rocked, overturning } = point;
+            let (overturned, time) = (overturning.is_some(), optional(*overturning));
+            let _ = writeln!(text, "{x:?},{y:?},{ratio:?},{rocked},{overturned},{time}");
+        }
+    }
+    text
+}

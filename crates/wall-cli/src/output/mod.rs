@@ -1,0 +1,50 @@
+//! What leaves the program: stdout, stderr, and files.
+
+pub(crate) mod capacity;
+pub(crate) mod demands;
+mod distinct;
+pub(crate) mod progress;
+mod terminal;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow, bail};
+use figures::plot::Picture;
+
+pub(crate) use distinct::check_distinct;
+pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
+
+/// Writes a file completely or not at all, see [`study_folder::file::to_file`]; `-` is standard output.
+pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
+    if path.as_os_str() == distinct::STDOUT {
+        return terminal::bytes_to_stdout(content);
+    }
+    Ok(study_folder::file::to_file(path, content)?)
+}
+
+/// Writes a text to the file that an option names, if it is given.
+pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
+    path.map_or(Ok(()), |path| to_file(path, text().as_bytes()))
+}
+
+/// Refuses any ending but .svg for a picture that is written as SVG only. Names without an ending, such as
+/// those of devices, are accepted.
+pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
+    match path.and_then(|path| Some((path, path.extension()?))) {
+        Some((path, ending)) if !ending.eq_ignore_ascii_case("svg") => {
+            bail!("{}: --svg writes SVG; give a file that ends in .svg", path.display())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a picture, as SVG or PNG by the file's ending; draws it only if the ending is one of them.
+pub(crate) fn picture(path: &Path, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let bytes = match ending.as_str() {
+        "svg" => draw()?.svg().into_bytes(),
+        "png" => draw()?.png().map_err(|reason| anyhow!("{}: {reason}", path.display()))?,
+        _ => bail!("{}: a plot is SVG or PNG; give a file that ends in .svg or .png", path.display()),
+    };
+    to_file(path, &bytes)
+}

@@ -1,0 +1,379 @@
+//! Tests `wall ida` and `wall merge`: the same bytes for any threads, shards and interruptions, and what they
+//! refuse.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::command_line::{folder, refused, text, wall};
+
+/// Two walls, three synthetic records and one from a file, three models.
+const STUDY: &str = r#"
+title = "A small study {{facts}}"
+models = ["CR", "CDC", { name = "CDR 5 %", model = "CDR", xi = 0.05 }]
+
+[levels]
+method = "hunt"
+first = 0.1
+increase = 0.1
+top = 8
+gap = 0.3
+
+[records]
+files = ["records/*.csv"]
+unit = "g"
+synthetic = { count = 3, duration = 12, step = 0.01 }
+
+[report]
+resamples = 200
+
+[[walls]]
+name = "parapet, low"
+geometry = { height = 3, thickness = 0.3 }
+force_law = { a1 = 0.009 }
+
+[[walls]]
+name = "strip"
+geometry = { mechanism = "vertical_spanning", height = 3.75, thickness = 0.24, hinge_ratio = 0.58 }
+force_law = { a1 = 0.02 }
+"#;
+
+const COUNT: usize = 2 * 4 * 3;
+/// Parts of two combinations.
+const PARTS: usize = COUNT / 2;
+
+pub(crate) fn study(name: &str) -> PathBuf {
+    let folder = folder(name);
+    fs::write(folder.join("study.toml"), STUDY).unwrap();
+    fs::create_dir(folder.join("records")).unwrap();
+    let sample = |k: u32| {
+        let time = f64::from(k) * 0.01;
+        format!("{time:.2},{:.6}\n", 0.3 * (7.0 * time).sin() * (0.8 * time).sin())
+    };
+    let samples: Vec<_> = (0..400).map(sample).collect();
+    let record = format!("time,a_g\n{}", samples.concat());
+    fs::write(folder.join("records/beat.csv"), record).unwrap();
+    folder
+}
+
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
+    let output = wall(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Every file of a folder of results, with its bytes.
+pub(crate) fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    let mut rest = vec![path.to_owned()];
+    while let Some(folder) = rest.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let entry = entry.unwrap().path();
+            if entry.is_dir() {
+                rest.push(entry);
+            } else {
+                files.insert(entry.strip_prefix(path).unwrap().to_owned(), fs::read(&entry).unwrap());
+            }
+        }
+    }
+    files
+}
+
+pub(crate) fn part_files(results: &Path) -> Vec<PathBuf> {
+    let files = bytes(results).into_keys().filter(|path| path.starts_with("runs"));
+    files.map(|path| results.join(path)).collect()
+}
+
+#[test]
+fn threads_shards_and_interruptions_change_no_byte() {
+    let folder = study("ida_bytes");
+    let at = |name: &str| folder.join(name);
+    let printed = succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
+    assert!(printed.contains("runs/s a core") && printed.contains("CDR 5 %"), "{printed}");
+    let whole = bytes(&at("one"));
+    assert_eq!(part_files(&at("one")).len(), PARTS);
+    for name in ["levels.csv", "collapses.csv", "fragilities.csv", "study.html", "study.json"] {
+        assert!(whole.contains_key(Path::new(name)), "{name}");
+    }
+    succeed(&folder, &["ida", "study.toml", "-o", "two", "--threads", "2"]);
+    assert!(bytes(&at("two")) == whole, "two threads");
+
+    // shards in folders of their own, and in one
+    for shard in ["1/3", "2/3", "3/3"] {
+        let own = format!("shard{}", &shard[..1]);
+        let printed = succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", &own]);
+        assert!(printed.contains("wall merge"), "{printed}");
+        assert!(!at(&own).join("levels.csv").exists());
+        succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", "shared"]);
+    }
+    refused_in_words(
+        &folder,
+        &["merge", "shard1", "shard3", "-o", "part"],
+        &["8 of 24", "missing", "parapet, low"],
+    );
+    succeed(&folder, &["merge", "shard1", "shard2", "shard3", "-o", "merged"]);
+    assert!(bytes(&at("merged")) == whole, "merged shards");
+    succeed(&folder, &["merge", "shared"]);
+    assert!(bytes(&at("shared")) == whole, "a shared folder");
+
+    // lost parts, truncated parts, a part of another number, a half-written file, no results
+    let runs = part_files(&at("two"));
+    fs::remove_file(&runs[3]).unwrap();
+    let content = fs::read(&runs[7]).unwrap();
+    fs::write(&runs[7], &content[..content.len() / 2]).unwrap();
+    fs::write(&runs[9], &content).unwrap();
+    fs::write(&runs[11], "").unwrap();
+    fs::write(runs[3].with_file_name(".0000003.parquet.1.part"), "half").unwrap();
+    fs::remove_file(at("two").join("fragilities.csv")).unwrap();
+    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert!(
+        text(&output.stderr).contains("16 of 24 combinations are done already"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert!(bytes(&at("two")) == whole, "after losses");
+
+    // another report of the same runs computes nothing again
+    fs::write(at("study.toml"), STUDY.replace("resamples = 200", "resamples = 300")).unwrap();
+    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert!(text(&output.stderr).contains("24 of 24"), "{}", text(&output.stderr));
+    let again = bytes(&at("two"));
+    assert_eq!(again[Path::new("levels.csv")], whole[Path::new("levels.csv")]);
+    assert_ne!(again[Path::new("fragilities.csv")], whole[Path::new("fragilities.csv")]);
+}
+
+/// No damage of a file goes unseen: a flipped bit, a value that cannot be, a damaged description.
+#[test]
+fn damaged_files_are_computed_again() {
+    let folder = study("ida_damage");
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let (out, whole) = (folder.join("out"), bytes(&folder.join("out")));
+    let runs = part_files(&out);
+    // the lowest bit of a byte, of each file another one
+    let flipped = 8;
+    for (k, file) in runs.iter().take(flipped).enumerate() {
+        let mut content = fs::read(file).unwrap();
+        let at = content.len() * (k + 1) / (flipped + 1);
+        content[at] ^= 1;
+        fs::write(file, content).unwrap();
+    }
+    // values that cannot be, under their own checksum
+    let parts = study_folder::Folder::open(&out).unwrap();
+    for (k, bad) in [f64::NAN, f64::INFINITY, -0.5].into_iter().enumerate() {
+        let file = &runs[flipped + k];
+        let demand = parts.part(flipped + k).unwrap()[0].runs()[0].demand;
+        let mut content = fs::read(file).unwrap();
+        let at = content.windows(8).position(|bytes| bytes == demand.to_le_bytes()).unwrap();
+        content[at..at + 8].copy_from_slice(&bad.to_le_bytes());
+        let checksum = content.windows(9).rposition(|bytes| bytes == b"checksum ").unwrap() + 9;
+        content[checksum..checksum + 32].fill(b'0');
+        let own = rocking_wall::scene::fingerprint(&content);
+        content[checksum..checksum + 32].copy_from_slice(own.as_bytes());
+        fs::write(file, content).unwrap();
+    }
+    drop(parts);
+    let merged = wall(&folder, &["merge", "out"]);
+    let told = text(&merged.stderr);
+    assert!(told.contains("11 of 12 parts are damaged") && told.contains("22 of 24 combinations"), "{told}");
+    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(again.status.success(), "{}", text(&again.stderr));
+    assert!(text(&again.stderr).contains("11 of 12 parts are damaged"), "{}", text(&again.stderr));
+    assert!(bytes(&out) == whole, "a damaged file went into the results");
+
+    let description = out.join("study.json");
+    let content = fs::read_to_string(&description).unwrap();
+    assert!(content.contains(&format!("\"sources\": \"{}\"", study::SOURCES)) && study::SOURCES.len() == 32);
+    fs::write(&description, content.replace("A small study", "A smaml study")).unwrap();
+    refused_in_words(&folder, &["merge", "out"], &["study.json", "damaged", "remove it"]);
+    fs::remove_file(&description).unwrap();
+    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(text(&again.stderr).contains("24 of 24 combinations are done already"));
+    assert!(bytes(&out) == whole);
+}
+
+/// What one process writes is not removed by another that has finished.
+#[cfg(unix)]
+#[test]
+fn processes_share_a_folder() {
+    let folder = study("ida_two_processes");
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    // another process works on the folder, and is writing this file
+    let other = fs::File::open(folder.join("out/runs")).unwrap();
+    other.lock_shared().unwrap();
+    let part = folder.join("out/runs/0000/.0123456789abcdef.part");
+    fs::write(&part, "half").unwrap();
+    succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert!(part.exists(), "the part of another process was removed");
+    drop(other);
+    succeed(&folder, &["merge", "out"]);
+    assert!(!part.exists(), "the part of a killed process is left");
+}
+
+/// Like `refused`, for a message of several lines, or a command that keeps what it has merged so far.
+fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let output = wall(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for word in words {
+        assert!(message.contains(word), "no {word:?} in {message}");
+    }
+}
+
+/// Kills the command repeatedly at arbitrary moments of a run, and starts it again.
+#[test]
+fn a_killed_study_goes_on() {
+    let folder = study("ida_killed");
+    succeed(&folder, &["ida", "study.toml", "-o", "whole"]);
+    let (mut killed, mut complete) = (0, 0);
+    for attempt in 0..40_u64 {
+        // on a slow machine it takes longer until there are parts
+        if attempt >= 12 && complete > 0 {
+            break;
+        }
+        let mut child = Command::new(env!("CARGO_BIN_EXE_wall"))
+            .current_dir(&folder)
+            .args(["ida", "study.toml", "-o", "broken", "--threads", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(15 + 23 * attempt));
+        if child.try_wait().unwrap().is_none() {
+            // SIGKILL: the process cannot clean up
+            child.kill().unwrap();
+            killed += 1;
+        }
+        child.wait().unwrap();
+        // killed before it had made its folder
+        if !folder.join("broken").is_dir() {
+            continue;
+        }
+        let parts = part_files(&folder.join("broken"));
+        for part in parts.iter().filter(|part| part.extension().is_some_and(|ending| ending == "parquet")) {
+            assert!(fs::read(part).unwrap().ends_with(b"PAR1"), "{}", part.display());
+            complete += 1;
+        }
+    }
+    assert!(killed > 0, "the study was over before it could be killed");
+    assert!(complete > 0, "it was always killed before its first part");
+    succeed(&folder, &["ida", "study.toml", "-o", "broken"]);
+    assert!(bytes(&folder.join("broken")) == bytes(&folder.join("whole")));
+}
+
+#[test]
+fn tables_and_page_hold_the_runs() {
+    let folder = study("ida_tables");
+    succeed(&folder, &["ida", "study.toml"]);
+    let results = folder.join("study_results");
+    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    let collapses = read("collapses.csv");
+    assert_eq!(collapses.lines().count(), 1 + COUNT);
+    for line in collapses.lines().skip(1) {
+        // the name of the first wall holds a comma and is quoted
+        let cells: Vec<_> = line.trim_start_matches("\"parapet, low\"").split(',').collect();
+        let [collapse, standing] = [3, 4].map(|column| cells[column].parse::<f64>().unwrap());
+        assert!(standing < collapse && collapse <= standing * 1.0102, "{line}");
+    }
+    let levels = read("levels.csv");
+    let fragilities = read("fragilities.csv");
+    assert_eq!(fragilities.lines().count(), 1 + 2 * 3 * 4);
+    // overturned runs are those whose demand is above 1
+    for line in levels.lines().skip(1) {
+        let cells: Vec<_> = line.rsplit(',').collect();
+        let (overturned, demand) = (cells[1] == "1", cells[2].parse::<f64>().unwrap());
+        assert_eq!((overturned, demand >= 1.0), (!cells[0].is_empty(), overturned), "{line}");
+    }
+    let page = read("study.html");
+    assert!(page.len() < 3_000_000 && page.contains("A small study {{facts}}"));
+    assert!(!page.contains("NaN") && !page.contains("http") && !page.contains("inf"), "a page of its own");
+    // for each wall the collapse, three models' curves and three fractions
+    assert_eq!(page.matches("<svg").count(), 2 * (1 + 3 + 3));
+    assert!(page.contains("AvgSA (g)") && page.contains("u_max / u_ins") && page.contains("CDR 5 %"));
+    let panels = read("fragilities.svg");
+    assert!(panels.starts_with("<svg xmlns") && panels.matches("font-weight=\"600\">Wall ").count() == 2);
+    // all walls at one glance, and each curve with its record
+    assert_eq!(page.matches("<div class=\"track\">").count(), 2);
+    assert!(page.contains("<title>synthetic 1</title>") && page.contains("<td>synthetic 1</td>"));
+}
+
+#[test]
+fn other_studies_and_bad_ones_are_refused() {
+    let folder = study("ida_refused");
+    succeed(&folder, &["ida", "study.toml", "-o", "out", "--shard", "1/8"]);
+    let change = |name: &str, from: &str, to: &str| {
+        assert!(STUDY.contains(from), "{from}");
+        fs::write(folder.join(name), STUDY.replace(from, to)).unwrap();
+    };
+    change("wall.toml", "height = 3,", "height = 3.1,");
+    let other = ["out", "another study", "height = 3.0", "height = 3.1", "give another folder with -o"];
+    refused(&folder, &["ida", "wall.toml", "-o", "out"], &other);
+    fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
+    refused(&folder, &["ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
+    refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
+    refused(&folder, &["ida", "none.toml"], &["none.toml"]);
+    refused_in_words(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
+    let cases: [(&str, &str, &[&str]); 22] = [
+        ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
+        ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
+        ("gap = 0.3", "values = [1]", &["line 5", "values", "no part"]),
+        ("first = 0.1", "first = 0", &["first", "above 0"]),
+        ("first = 0.1\n", "", &["line 5", "needs first"]),
+        ("top = 8", "top = nan", &["top", "NaN"]),
+        ("\"CDC\"", "\"CDX\"", &["line 3", "CDX", "CDR"]),
+        ("\"CDC\"", "\"CR\"", &["line 3", "\"CR\"", "twice"]),
+        ("xi = 0.05", "xi = 11", &["line 3", "xi = 11 is above its limit 10"]),
+        ("xi = 0.05", "xi = -0.5", &["line 3", "xi = -0.5", "or -1 for the one computed"]),
+        ("xi = 0.05", "c_bar = 0.5", &["line 3", "takes no c_bar", "give xi"]),
+        ("xi = 0.05", "e = 0.9", &["line 3", "\"e\"", "name, model, xi, c_bar"]),
+        ("[report]", "[report]\nreference = \"SDR\"", &["SDR", "not among the models"]),
+        ("[report]", "[report]\nfractions = [0.5, 1.5]", &["1.5", "at most 1"]),
+        ("a1 = 0.009", "a1 = -0.009", &["a1", "-0.009", "below its limit"]),
+        ("a1 = 0.009", "xi = 0.009", &["xi", "[damping]"]),
+        ("name = \"strip\"", "name = \"parapet, low\"", &["parapet, low", "twice"]),
+        ("name = \"strip\"", "colour = \"red\"", &["colour", "geometry"]),
+        ("records/*.csv", "records/*.AT2", &["line 13", "records/*.AT2", "no match"]),
+        ("unit = \"g\"", "unit = \"feet\"", &["line 14", "feet", "cm/s2"]),
+        ("count = 3", "count = 0", &["line 15", "count = 0", "10000"]),
+        ("[levels]", "[intensity]\nmeasure = \"Sa\"\n\n[levels]", &["line 5", "period = 0.5"]),
+    ];
+    for (from, to, words) in cases {
+        change("bad.toml", from, to);
+        refused(&folder, &["ida", "bad.toml", "-o", "new"], words);
+    }
+}
+
+/// The study of the project runs unchanged; its walls are those of Table 5.
+#[test]
+fn the_example_is_a_study() {
+    let folder = folder("ida_example");
+    let file = crate::root().join("studies/table_5.toml");
+    // one of its 900 combinations; all of them take seconds in a release build
+    let file = file.to_str().unwrap();
+    let printed = succeed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
+    assert!(printed.contains("shard 7 of 900 is done"), "{printed}");
+    assert_eq!(part_files(&folder.join("out")).len(), 1);
+}
+
+/// Walls that stand at every level leave medians open. Tables state the bound, neither `inf` nor `NaN`.
+#[test]
+fn open_medians_have_their_bound() {
+    let folder = study("ida_open");
+    let from = STUDY.find("method").unwrap();
+    let to = STUDY.find("[records]").unwrap();
+    let grid = "method = \"grid\"\nvalues = [0.05, 0.1, 0.15, 0.2]\n\n";
+    let text_of = format!("{}{grid}{}", &STUDY[..from], &STUDY[to..]);
+    fs::write(folder.join("study.toml"), text_of).unwrap();
+    let printed = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let table = fs::read_to_string(folder.join("out/fragilities.csv")).unwrap();
+    let page = fs::read_to_string(folder.join("out/study.html")).unwrap();
+    for (text, bound) in [(&printed, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
+        assert!(text.contains(bound), "{text}");
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+    }
+    // stripes are points: of runs, and of the fractions that exceed a limit state
+    assert!(page.contains("class=\"runs\"") && page.contains("class=\"mark\""));
+    assert!(!page.contains("class=\"record\"") && !page.contains("class=\"steps\""));
+    assert!(page.contains("<td>open &gt;0.200</td>"), "records that never collapsed");
+}

@@ -1,0 +1,147 @@
+//! Tests that every command says the same of a wall that overturns, and of one that comes back.
+
+use std::fs;
+
+use ground_motion::{GroundMotion, SyntheticMotion};
+use rocking_wall::response::{Fate, Response};
+use rocking_wall::scene::Scene;
+use rocking_wall::simulation::Excitation;
+use rocking_wall::variables::TieSide;
+use rocking_wall::wall::Parameters;
+use serde_json::Value;
+
+use crate::command_line::{folder, refused, text, wall};
+
+/// The default parapet under `scale` times the synthetic motion, with a tie of a stiffness [N/m].
+fn scene(scale: f64, tie_stiffness: f64, tie_side: TieSide) -> Scene {
+    let parameters = Parameters { tie_height: 3.0, tie_stiffness, tie_side, ..Parameters::default() };
+    let mut scene = Scene { parameters, ..Scene::default() };
+    let motion = SyntheticMotion::default().motion().unwrap().checked_scaled(scale).unwrap();
+    scene.shake(Excitation::new(motion, None), 10.0, Vec::new());
+    scene
+}
+
+fn respond(scale: f64, tie_stiffness: f64, tie_side: TieSide) -> Response {
+    Response::of(&scene(scale, tie_stiffness, tie_side)).unwrap()
+}
+
+/// The same number of a fall in the text, the JSON and the tables of all commands that run it.
+#[test]
+fn every_output_says_the_same_of_a_fall() {
+    let folder = folder("overturning_rule");
+    let run = |arguments: &[&str]| {
+        let output = wall(&folder, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let motion = ["motion", "--synthetic", "--scale", "3", "--csv", "strong.csv"];
+    run(&motion);
+    let record = ["--record", "strong.csv"];
+    let told = run(&[&["simulate", "--html", "p.html"], &record[..]].concat());
+    assert!(told.contains("0.200000 m, 1.0000 u_ins, where the wall falls\n"), "{told}");
+    let page = fs::read_to_string(folder.join("p.html")).unwrap();
+    assert!(page.contains("<td>200.0 mm, 1.0000 u_ins, where the wall falls</td>"));
+    let value: Value = serde_json::from_str(&run(&[&["simulate", "--json"], &record[..]].concat())).unwrap();
+    assert_eq!((&value["u_ratio_max"], &value["falls"]), (&1.0.into(), &true.into()), "{value}");
+    let table = run(&["simulate", "--records", "strong.csv", "--csv", "table.csv"]);
+    assert!(table.contains("    200.00     1.0000  at "), "{table}");
+    let csv = fs::read_to_string(folder.join("table.csv")).unwrap();
+    assert!(
+        csv.lines().next().unwrap()
+            == "record,sign,pga_m_s2,u_max_m,u_ratio_max,overturned,overturn_time_s,falls"
+    );
+    assert!(csv.contains(",1.0,true,") && csv.ends_with(",true\n"), "{csv}");
+    let study = "models = [\"CDR\"]\nlevels = { method = \"grid\", values = [0.1, 0.9] }\n\
+                 intensity = { measure = \"PGA\" }\nrecords = { files = [\"strong.csv\"] }\n\
+                 report = { resamples = 100 }\n[[walls]]\nname = \"p\"\n";
+    fs::write(folder.join("study.toml"), study).unwrap();
+    run(&["ida", "study.toml", "-o", "r"]);
+    let levels = fs::read_to_string(folder.join("r/levels.csv")).unwrap();
+    let fallen: Vec<_> = levels.lines().filter(|line| line.contains(",1,1,")).collect();
+    assert_eq!(fallen.len(), 1, "u/u_ins = 1 and overturned: {levels}");
+}
+
+/// Polarity: a record alone is run with both signs; a wall that is alike on both sides is run once.
+#[test]
+fn both_polarities_of_one_record_and_of_a_tie() {
+    let folder = folder("polarities");
+    let run = |arguments: &[&str]| {
+        let output = wall(&folder, arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    run(&["motion", "--synthetic", "--csv", "r.csv"]);
+    let both = ["simulate", "--record", "r.csv", "--both-polarities"];
+    let alike = run(&both);
+    assert!(alike.contains("alike on both sides") && alike.contains("   ±  "), "{alike}");
+    let leaning = ["--set", "overburden=5000", "--set", "overburden_eccentricity=0.05", "--csv", "t.csv"];
+    let leaning = [&leaning[..], &["--set", "eccentricity_mode=fixed_to_wall"]].concat();
+    let told = run(&[&both[..], &leaning].concat());
+    assert!(!told.contains("alike"), "{told}");
+    let rows = fs::read_to_string(folder.join("t.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = rows.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert!(
+        rows.len() == 2 && rows[0][1] == "+1" && rows[1][1] == "-1" && rows[0][3] != rows[1][3],
+        "{rows:?}"
+    );
+    refused(&folder, &[&both[..], &["--html", "p.html"]].concat(), &["--html", "without --both-polarities"]);
+    let synthetic = wall(&folder, &["simulate", "--synthetic", "--both-polarities"]);
+    assert!(synthetic.status.code() == Some(2) && text(&synthetic.stderr).contains("--record <FILE>"));
+
+    let tie = |more: &[&str]| -> Value {
+        let tie = ["tie", "--records", "r.csv", "--set", "tie_height=3", "--stiffness", "1e5", "--json"];
+        serde_json::from_str(&run(&[&tie[..], more].concat())).unwrap()
+    };
+    let (one, two) = (tie(&[]), tie(&["--both-polarities"]));
+    assert_eq!(
+        (&one["motions"], &two["motions"], &two["tie_side"]),
+        (&1.into(), &2.into(), &"positive".into())
+    );
+    // pulled by one sign only
+    let force = |value: &Value, name: &str| value["rows"][0][name].as_f64().unwrap();
+    assert!(force(&two, "force_median_n") <= force(&two, "force_max_n"), "{two}");
+    assert!(force(&two, "force_max_n") >= force(&one, "force_max_n"), "{two}");
+    let both_sides = tie(&["--both-polarities", "--set", "tie_side=both"]);
+    assert!(both_sides["motions"] == 1 && both_sides["alike_on_both_sides"] == true, "{both_sides}");
+}
+
+/// `wall tie` states its side, gives forces in kN, and tells falls from walls that come back. Before, both
+/// counted as overturned.
+#[test]
+fn a_tie_that_holds_a_wall_beyond_u_ins() {
+    let folder = folder("tie_back");
+    let motion = SyntheticMotion::default().motion().unwrap();
+    let scales = [1.5, 2.0, 2.5, 3.0];
+    let names: Vec<_> = scales.iter().map(|scale| format!("r{scale}.csv")).collect();
+    for (name, scale) in names.iter().zip(scales) {
+        let scaled: GroundMotion = motion.checked_scaled(scale).unwrap();
+        let rows = scaled.samples().iter().enumerate();
+        let rows: Vec<_> = rows.map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * motion.step())).collect();
+        fs::write(folder.join(name), format!("{}\n{}", ground_motion::CSV_HEADER, rows.concat())).unwrap();
+    }
+    let names: Vec<_> = names.iter().map(String::as_str).collect();
+    let arguments = ["tie", "--set", "tie_height=3", "--set", "tie_side=both", "--stiffness", "0,1e4,1e7"];
+    let arguments = [&arguments[..], &["--csv", "t.csv", "--records"], &names].concat();
+    let output = wall(&folder, &arguments);
+    let told = text(&output.stdout);
+    assert!(told.contains("tie at 3 m against both sides, 4 motions") && told.contains("[kN]"), "{told}");
+    let csv = fs::read_to_string(folder.join("t.csv")).unwrap();
+    let header: Vec<_> = csv.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let place = header.iter().position(|column| *column == name).unwrap();
+        csv.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
+    };
+    let expect = |stiffness: f64| {
+        let runs = scales.map(|scale| respond(scale, stiffness, TieSide::Both).summary);
+        let count = |is: fn(&Fate) -> bool| runs.iter().filter(|run| is(&run.fate)).count() as f64;
+        [count(Fate::falls), count(|fate| matches!(fate, Fate::ComesBack { .. }))]
+    };
+    let (falls, back) = (column("falls"), column("beyond_u_ins_and_back"));
+    for (index, stiffness) in [0.0, 1e4, 1e7].into_iter().enumerate() {
+        assert_eq!([falls[index], back[index]], expect(stiffness), "{stiffness}: {told}");
+    }
+    assert!(falls[0] > 0.0 && back[1] > 0.0, "{told}");
+    assert!(falls.is_sorted_by(|a, b| a >= b), "a stiffer tie lets fewer walls fall: {told}");
+    let force = column("force_max_n")[1] / 1000.0;
+    assert!(told.contains(&format!("{force:.4}")[..5]), "{force} kN: {told}");
+}

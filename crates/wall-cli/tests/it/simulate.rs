@@ -1,0 +1,200 @@
+//! Tests `wall simulate`: demands, tables, pictures and what it refuses.
+
+use std::fs;
+
+use ground_motion::SyntheticMotion;
+use rocking_wall::choices::Mechanism;
+use rocking_wall::scene::{Floors, StoreyTable, SupportsTable};
+
+use crate::command_line::{folder, refused, text, wall};
+
+#[test]
+fn the_program_reports_demands() {
+    let folder = folder("demands");
+    let output = wall(&folder, &["simulate", "--synthetic", "--json", "--thresholds", "0.5,1"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let demands = &summary["demands"];
+    assert_eq!(demands["thresholds"][1]["time"], summary["overturn_time"]);
+    assert_eq!(demands["thresholds"][0]["fraction"], 0.5);
+    assert!(demands["reaction_bottom"]["lowest"]["value"].as_f64().unwrap() < 0.0);
+    let output = text(&wall(&folder, &["simulate", "--synthetic", "--html", "page.html"]).stdout);
+    for words in
+        ["base force", "first reached  0.1 u_ins at", "half cycles", "residual u", "up to overturning"]
+    {
+        assert!(output.contains(words), "no {words:?} in {output}");
+    }
+    assert!(fs::read_to_string(folder.join("page.html")).unwrap().contains("0.1 u_ins at"));
+    let folder = crate::command_line::folder("demands_refused");
+    for bad in ["0", "1.5", "nan", "-0.1"] {
+        refused(
+            &folder,
+            &["simulate", &format!("--thresholds={bad}")],
+            &["thresholds", "above 0 and at most 1"],
+        );
+    }
+    fs::write(folder.join("bad.toml"), "thresholds = [0.4, 2]\n").unwrap();
+    refused(&folder, &["simulate", "bad.toml"], &["bad.toml", "line 1", "thresholds", "2"]);
+}
+
+/// The page and the animation show the transverse walls, on the side to which the wall cannot rock.
+#[test]
+fn pictures_show_the_transverse_walls() {
+    let folder = folder("one_sided_pictures");
+    let drawn = |rocking: &str| {
+        let sets = [&format!("rocking={rocking}"), "impact=restitution"];
+        let more = ["restitution=0.4", "damping_model=none", "u_start=0", "height=3"];
+        let sets = sets.into_iter().chain(more).flat_map(|set| ["--set", set]);
+        let arguments = ["simulate", "--synthetic", "--html", "w.html", "--svg", "w.svg"];
+        let output = wall(&folder, &arguments.into_iter().chain(sets).collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        ["w.html", "w.svg"].map(|name| fs::read_to_string(folder.join(name)).unwrap())
+    };
+    for (rocking, page, svg) in [
+        // the wall is 0.4 m thick and 26 px wide, and turns about its foot at 110 px
+        (
+            "one_sided_positive",
+            "x=\"-12.6000\" y=\"0.0000\" width=\"12.4000\"",
+            "x=\"8.0\" y=\"66.0\" width=\"88.9\"",
+        ),
+        (
+            "one_sided_negative",
+            "x=\"0.2000\" y=\"0.0000\" width=\"12.4000\"",
+            "x=\"123.1\" y=\"66.0\" width=\"98.9\"",
+        ),
+    ] {
+        let [html, picture] = drawn(rocking);
+        assert!(html.contains(page) && picture.contains(svg), "{rocking}: {picture}");
+    }
+    let [html, picture] = drawn("two_sided");
+    assert!(html.matches("fill:var(--ground)").count() == 1 && !picture.contains("#e4e1dc"));
+}
+
+#[test]
+fn supports_that_do_not_exist_are_refused() {
+    let floors =
+        |supports| Floors::new(&[StoreyTable { period: Some(0.3), ..StoreyTable::default() }], supports);
+    let roof = SupportsTable { bottom: Some(1), ..SupportsTable::default() };
+    let floors_of = floors(roof).unwrap();
+    assert_eq!(floors_of.supports(Mechanism::Parapet).unwrap(), (1, None));
+    assert!(floors_of.supports(Mechanism::VerticalSpanning).is_err(), "a strip on the roof");
+    let below = floors(SupportsTable::default()).unwrap();
+    assert_eq!(below.supports(Mechanism::VerticalSpanning).unwrap(), (0, Some(1)));
+    let folder = folder("floors");
+    let storey = "[[storeys]]\nmass = 1e4\nstiffness = 1e6\n";
+    let cases: [(String, &[&str]); 7] = [
+        ("[supports]\nbottom = 1\n".into(), &["line 1", "[[storeys]]"]),
+        (format!("{storey}period = 1.0\n"), &["line 1", "either a stiffness"]),
+        (format!("{storey}[[storeys]]\nperiod = 0.2\n"), &["line 4", "mass"]),
+        (format!("{storey}[supports]\nbottom = 2\n"), &["line 4", "no floor 2", "1 to 1"]),
+        (format!("{storey}damping_ratio = 1.5\n"), &["damping ratio", "1.5"]),
+        (storey.into(), &["[motion]", "--record"]),
+        (format!("{storey}[supports]\ntop = 1\n[motion]\nsynthetic = {{}}\n"), &["parapet", "top"]),
+    ];
+    for (text, words) in cases {
+        fs::write(folder.join("s.toml"), &text).unwrap();
+        refused(&folder, &["simulate", "s.toml"], words);
+    }
+    let output = wall(&folder, &["simulate", "--synthetic", "--floor", "xi=0.3"]);
+    assert!(output.status.code() == Some(2) && text(&output.stderr).contains("a period"));
+    refused(&folder, &["simulate", "--synthetic", "--floor", "T=0.3", "--hold"], &["--hold"]);
+    let heavy = ["simulate", "--synthetic", "--floor", "T=0.3,xi=0.05,mass=1e4"];
+    let output = wall(&folder, &heavy);
+    assert!(text(&output.stderr).contains("wall building"), "{}", text(&output.stderr));
+    let light = wall(&folder, &["simulate", "--synthetic", "--floor", "T=0.3,xi=0.05,mass=1e6"]);
+    assert!(light.status.success() && light.stderr.is_empty());
+    assert!(text(&light.stdout).contains("felt on a floor, T = 0.300 s"), "{}", text(&light.stdout));
+}
+
+/// A wall with a loaded edge rocks differently under both signs of a record, and a table holds what single
+/// runs give.
+#[test]
+fn many_records_make_a_table() {
+    let folder = folder("many_records");
+    fs::create_dir(folder.join("records")).unwrap();
+    for seed in 0..4 {
+        let motion = SyntheticMotion { seed, duration: 10.0, ..SyntheticMotion::default() }.motion().unwrap();
+        let rows = motion.samples().iter().enumerate();
+        let rows: Vec<_> = rows.map(|(k, a)| format!("{},{a:?}\n", k as f64 * motion.step())).collect();
+        fs::write(folder.join(format!("records/{seed}.csv")), format!("time,a_g\n{}", rows.concat()))
+            .unwrap();
+    }
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["simulate", "--set", "thickness=0.25", "--unit", "m/s2"];
+        arguments.extend(["--set", "overburden=2000", "--set", "overburden_eccentricity=0.05"]);
+        arguments.extend(more);
+        let output = wall(&folder, &arguments);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let files = ["records/0.csv", "records/1.csv", "records/2.csv", "records/3.csv"];
+    let mut arguments = vec!["--records"];
+    arguments.extend(files);
+    let table = run(&[&arguments[..], &["--both-polarities", "--csv", "table.csv"]].concat());
+    assert_eq!(table.lines().count(), 1 + 1 + 8 + 1 + 1, "{table}");
+    let csv = fs::read_to_string(folder.join("table.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    for (pair, file) in rows.chunks(2).zip(files) {
+        assert_eq!((pair[0][1], pair[1][1]), ("+1", "-1"));
+        assert_ne!(pair[0][3..], pair[1][3..], "{file}");
+        let single: serde_json::Value = serde_json::from_str(&run(&["--record", file, "--json"])).unwrap();
+        let (u, ratio): (f64, f64) = (pair[0][3].parse().unwrap(), pair[0][4].parse().unwrap());
+        assert!((single["u_max"].as_f64().unwrap() / u - 1.0).abs() < 1e-9);
+        assert!((single["u_ratio_max"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-9);
+    }
+    let json = run(&[&arguments[..], &["--json"]].concat());
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["runs"].as_array().unwrap().len(), 4);
+    let html = [&["simulate"], &arguments[..], &["--unit", "m/s2", "--html", "a.html"]].concat();
+    refused(&folder, &html, &["--html", "--record"]);
+}
+
+/// The picture moves by itself: no script, nothing from elsewhere, small enough for a README.
+#[test]
+fn the_animated_picture_of_a_wall_is_one_small_file() {
+    let folder = folder("animated");
+    let strip = ["--set", "mechanism=vertical_spanning", "--set", "thickness=0.2"];
+    let cases = [(&[][..], "falls at 12.6 s"), (&["--pga", "2.5"], "stands: 33 %"), (&strip, "falls")];
+    for (settings, said) in cases {
+        let svg = [&["simulate", "--synthetic", "--svg", "wall.svg"], settings].concat();
+        assert!(wall(&folder, &svg).status.success());
+        let svg = fs::read_to_string(folder.join("wall.svg")).unwrap();
+        assert!(svg.contains(said) && svg.contains("<animateTransform"), "{said}");
+        assert!(svg.len() < 40_000 && !svg.contains("<script") && !svg.contains("NaN"), "{}", svg.len());
+    }
+    let still = ["simulate", "--synthetic", "--scale", "1e-4", "--svg", "still.svg"];
+    refused(&folder, &still, &["--svg", "hardly moves"]);
+}
+
+const SCENE: &str = "[geometry]\nkinematics = \"trigonometric\"\n[force_law]\nforce_law = \"rigid_linear\"\n\
+                     [damping]\ndamping_model = \"none\"\n[impact]\nimpact = \"restitution\"\n";
+
+#[test]
+fn what_full_rotations_do_not_know_is_refused_with_the_remedy() {
+    let folder = folder("trigonometric_refused");
+    fs::write(folder.join("good.toml"), SCENE).unwrap();
+    let simulate = |setting: &'static str| vec!["simulate", "good.toml", "--set", setting];
+    for (setting, words) in [
+        ("force_law=bilinear", &["force_law = bilinear", "rigid_linear"][..]),
+        ("a3=0.9", &["a3 = 0.9", "set a3 = 1"]),
+        ("damping_model=free_standing_block", &["free_standing_block", "impact = restitution"]),
+        ("solver=exact", &["solver = exact", "adaptive"]),
+        ("solver=newmark", &["solver = newmark", "adaptive"]),
+        ("kinematics=spherical", &["spherical", "linear, trigonometric"]),
+    ] {
+        refused(&folder, &simulate(setting), words);
+    }
+    refused(&folder, &["package", "good.toml", "-o", "x.fmu"], &["kinematics = linear", "wall simulate"]);
+    fs::write(folder.join("table.toml"), "[solver]\nkinematics = \"linear\"\n").unwrap();
+    refused(&folder, &["simulate", "table.toml"], &["line 2", "[geometry]"]);
+    fs::write(folder.join("a.csv"), "0.0\n1.0\n0.0\n").unwrap();
+    let record = "record = \"a.csv\"\nunit = \"m/s2\"\nstep = 0.1\n";
+    let apart = format!("{SCENE}[motion]\n{record}[motion.top]\n{record}");
+    let strip = apart.replacen("[geometry]", "[geometry]\nmechanism = \"vertical_spanning\"", 1);
+    fs::write(folder.join("apart.toml"), strip).unwrap();
+    refused(&folder, &["simulate", "apart.toml"], &["[motion.top]", "kinematics = linear"]);
+    let output = wall(&folder, &["simulate", "good.toml", "--html", "page.html"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let page = fs::read_to_string(folder.join("page.html")).unwrap();
+    assert!(page.contains("0.26 % short") && !page.contains("NaN"), "the error of small rotations");
+}

@@ -1,0 +1,112 @@
+//! Tests `wall spectrum`.
+
+use ground_motion::SyntheticMotion;
+use rocking_wall::wall::Parameters;
+use study::spectrum::{Size, Slenderness, over_walls};
+
+use crate::command_line::{folder, refused, text, wall};
+
+/// A row of the CSV file as the program writes it: two axes, ratio, rocked, overturned, time.
+fn rows(path: &std::path::Path) -> Vec<Vec<String>> {
+    let content = std::fs::read_to_string(path).unwrap();
+    content.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn the_program_writes_a_table_and_a_page() {
+    let folder = folder("spectrum");
+    let arguments = ["spectrum", "--synthetic", "--heights", "1:3:3", "--ratios", "5:15:2", "--csv", "s.csv"];
+    let output = wall(&folder, &[&arguments[..], &["--html", "s.html", "--threads", "2"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let found = rows(&folder.join("s.csv"));
+    let axes: Vec<_> = found.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
+    assert_eq!(
+        axes,
+        [("1.0", "5.0"), ("2.0", "5.0"), ("3.0", "5.0"), ("1.0", "15.0"), ("2.0", "15.0"), ("3.0", "15.0")]
+    );
+    let motion = SyntheticMotion::default().motion().unwrap();
+    let defaults = Parameters::default();
+    let expected = over_walls(
+        &defaults,
+        &motion,
+        (Size::Height, &[1.0, 2.0, 3.0]),
+        (Slenderness::Ratio, &[5.0, 15.0]),
+        1,
+    )
+    .unwrap();
+    for (row, point) in found.iter().zip(expected.points.iter().flatten()) {
+        assert_eq!(row[2].parse::<f64>().unwrap(), point.ratio);
+        assert_eq!(row[4].parse::<bool>().unwrap(), point.overturning.is_some());
+        assert_eq!(row[5].parse::<f64>().ok(), point.overturning);
+    }
+    let words = text(&output.stdout);
+    assert!(words.contains("points     6:") && words.contains("written    s.html"), "{words}");
+    let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
+    assert_eq!(page.matches("<title>height h (m) = ").count(), 6);
+    assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
+    // the default parapet is beyond these axes, and on wider ones
+    let own = "height h (m) = 4, slenderness h/b = 10: overturns at ";
+    assert!(words.contains(own) && words.contains(", outside the map") && !page.contains(">your wall<"));
+    let wider = ["spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
+    assert!(wall(&folder, &[&wider[..], &["--svg", "w.svg"]].concat()).status.success());
+    let svg = std::fs::read_to_string(folder.join("w.svg")).unwrap();
+    assert!(svg.starts_with("<svg xmlns") && svg.contains(">your wall</text>") && !svg.contains("<title>"));
+    let page = std::fs::read_to_string(folder.join("w.html")).unwrap();
+    assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
+
+    let rigid =
+        ["--set", "force_law=rigid_linear", "--set", "damping_model=none", "--set", "impact=restitution"];
+    let pulse =
+        ["spectrum", "--pulse", "half_sine", "--frequency-ratios", "2:3:2", "--amplitude-ratios", "0.5:9:2"];
+    let output = wall(&folder, &[&pulse[..], &rigid, &["--csv", "p.csv"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let outcomes: Vec<_> =
+        rows(&folder.join("p.csv")).iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
+    assert_eq!(outcomes, [["false", "false"], ["false", "false"], ["true", "true"], ["true", "true"]]);
+    // a pulse with its frequency and amplitude is a motion like any other
+    let output = wall(
+        &folder,
+        &[
+            "spectrum",
+            "--pulse",
+            "ricker",
+            "--frequency",
+            "1",
+            "--amplitude",
+            "3",
+            "--radii",
+            "1:2:2",
+            "--angles",
+            "0.1:0.2:2",
+        ],
+    );
+    assert!(text(&output.stdout).contains("semi-diagonal R (m)"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn bad_requests_are_refused() {
+    let folder = folder("spectrum_refused");
+    let strip = ["spectrum", "--synthetic", "--set", "mechanism=vertical_spanning", "--radii", "1:2:2"];
+    let cases: [(&[&str], &[&str]); 11] = [
+        (&["spectrum"], &["--record", "--pulse", "scene"]),
+        (&["spectrum", "--pulse", "cosine"], &["cosine", "ricker, sine_cycle or half_sine"]),
+        (
+            &["spectrum", "--pulse", "ricker", "--heights", "1:2:2"],
+            &["--heights", "--frequency", "--amplitude"],
+        ),
+        (&["spectrum", "--pulse", "ricker", "--scale", "2"], &["--scale", "--record"]),
+        (&["spectrum", "--synthetic", "--heights", "1:2"], &["--heights 1:2", "FROM:TO:COUNT"]),
+        (&["spectrum", "--synthetic", "--heights", "2:1:5"], &["2:1:5", "FROM < TO"]),
+        (&["spectrum", "--synthetic", "--angles", "0.1:2:3"], &["angle", "1.05", "0.7854"]),
+        (&["spectrum", "--synthetic", "--ratios", "5:9:501"], &["COUNT from 2 to 500"]),
+        (&["spectrum", "--record", "none.AT2"], &["none.AT2", "cannot be read"]),
+        (
+            &["spectrum", "--synthetic", "--set", "force_law=rigid_linear"],
+            &["constant_ratio", "free_standing_block"],
+        ),
+        (&strip, &["semi-diagonal", "vertical spanning", "heights"]),
+    ];
+    for (arguments, words) in cases {
+        refused(&folder, &[arguments, &["--csv", "out.csv", "--html", "out.html"]].concat(), words);
+    }
+}

@@ -1,0 +1,310 @@
+//! Tests what the program warns of: numbers that walls and motions rarely have, and studies that take long.
+
+use std::collections::BTreeSet;
+
+use rocking_wall::scene::GROUPS;
+use rocking_wall::variables::DampingModel;
+use rocking_wall::wall::{Parameters, Wall, usage};
+
+use crate::command_line::{folder, text, wall};
+
+/// Runs `arguments` and returns what the program warns of.
+fn warned(arguments: &[&str]) -> String {
+    // it writes no file; a folder that each of these tests cleared would vanish under the others
+    let output = wall(crate::root(), arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stderr)
+}
+
+#[test]
+fn improbable_walls_are_warned_of() {
+    let heavy = "overburden=3000";
+    for (changes, words) in [
+        (vec!["density=1.8"], ["density = 1.8 kg/m3", "400 to 3000 kg/m3"]),
+        (vec!["overburden=10"], ["overburden = 10 N", "100 to 1000000 N"]),
+        (
+            vec![heavy, "overburden_eccentricity=0.25", "u_start=0"],
+            ["overburden_eccentricity = 0.25 m", "-0.2 to 0.2 m"],
+        ),
+        // 100 N/m times 0.07 m is 7.000000000000001 N
+        (vec!["width=0.07", "overburden=1"], ["overburden = 1 N is", "7 to 70000 N"]),
+        (vec!["width=0.07", "overburden=1e11"], ["overburden = 1e11 N is", "7 to 70000 N"]),
+        (vec!["height=300"], ["height = 300 m", "0.2 to 30 m"]),
+        (vec!["thickness=5"], ["height/thickness = 0.8 is", "1 to 100 is"]),
+        // meant in per cent
+        (vec!["xi=5"], ["xi = 5 is unusual", "0 to 0.5 is usual"]),
+        (vec!["gravity=1.62"], ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
+    ] {
+        let mut arguments = vec!["simulate", "--stop-time", "0.1", "--set", "u_start=0"];
+        for change in changes {
+            arguments.extend(["--set", change]);
+        }
+        let message = warned(&arguments);
+        for word in words {
+            assert!(message.contains(word), "{arguments:?}: no {word:?} in {message}");
+        }
+    }
+    // usual walls are silent
+    assert_eq!(warned(&["simulate", "--stop-time", "0.1"]), "");
+}
+
+/// 3000 m/s² are 305.9 g.
+#[test]
+fn motions_stronger_than_any_record_are_warned_of() {
+    let folder = folder("strong_motions");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    write("s.toml", "[motion]\nsynthetic = {}\npga = 3000\n");
+    write("top.toml", "[motion]\nrecord = \"r.csv\"\ntop = { record = \"r.csv\", scale = 1000 }\n");
+    write("pulse.toml", "[motion]\nsine_cycle = { amplitude = 3000, frequency = 1 }\n");
+    write("r.csv", "t [s],a [m/s2]\n0,0\n0.1,3\n0.2,-3\n0.3,0\n");
+    let walls = "[[walls]]\nname = \"a\"\ngeometry = { height = 2, thickness = 0.3 }\n";
+    let study = |levels: &str| {
+        format!(
+            "models = [\"CDC\"]\nintensity = {{ measure = \"PGA\" }}\n\
+             levels = {{ unit = \"m/s2\", {levels} }}\n\
+             records = {{ synthetic = {{ count = 2, seed = 1 }} }}\n{walls}"
+        )
+    };
+    write("grid.toml", &study("method = \"grid\", values = [1, 3000]"));
+    write("hunt.toml", &study("method = \"hunt\", first = 3000, increase = 1, top = 9000"));
+    write("step.toml", &study("method = \"step\", step = 3000, top = 9000"));
+    write("usual.toml", &study("method = \"step\", step = 3, top = 3000"));
+    let tied = ["--set", "tie_height=3", "--stiffness", "1e5"];
+    let cases: [&[&str]; 14] = [
+        &["simulate", "--synthetic", "--pga", "3000"],
+        &["simulate", "--record", "r.csv", "--scale", "1000"],
+        &["simulate", "--records", "r.csv", "--pga", "3000"],
+        &["simulate", "s.toml", "--stop-time", "1"],
+        &["simulate", "top.toml", "--stop-time", "0.3"],
+        &["simulate", "pulse.toml"],
+        &["spectrum", "s.toml", "--heights", "1:2:2", "--ratios", "5:6:2"],
+        &["motion", "--synthetic", "--pga", "3000", "--csv", "m.csv"],
+        &[&["tie", "--records", "r.csv", "--scale", "1000"][..], &tied].concat(),
+        &["ida", "grid.toml", "--output", "grid"],
+        &["ida", "hunt.toml", "--output", "hunt"],
+        &["ida", "step.toml", "--output", "step"],
+        // usual ones
+        &["simulate", "--synthetic", "--pga", "29"],
+        &["ida", "usual.toml", "--output", "usual"],
+    ];
+    for (index, arguments) in cases.into_iter().enumerate() {
+        let output = wall(&folder, arguments);
+        let message = text(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {message}");
+        let told = message.matches("a peak of 3000.0 m/s² is 305.9 g").count();
+        assert_eq!(told, usize::from(index < 12), "{arguments:?}: {message}");
+        assert_eq!(message.contains("check its scale"), index < 12, "{arguments:?}: {message}");
+    }
+}
+
+/// Lists damping models as conditions do.
+fn one_of<'a>(models: impl Iterator<Item = &'a DampingModel>) -> String {
+    let names: Vec<_> = models.map(|model| model.name()).collect();
+    let (last, others) = names.split_last().unwrap();
+    format!("{} or {last}", others.join(", "))
+}
+
+/// A parameter that is set counts, or is named in a warning with what would make it count.
+#[test]
+fn a_parameter_without_effect_is_warned_of() {
+    let with_xi = DampingModel::ALL.iter().filter(|model| model.needs_elastic_branch());
+    let is_curved = |model: &&DampingModel| {
+        let parameters = Parameters { damping_model: **model, ..Parameters::default() };
+        !Wall::new(&parameters).unwrap().has_constant_damping()
+    };
+    let ratio = &*format!("damping_model = {}", one_of(with_xi.clone()));
+    let block = "c_bar = -1 and damping_model = free_standing_block";
+    let mut named = BTreeSet::new();
+    for (changes, name, condition) in [
+        (vec!["damping_model=none", "xi=0.2"], "xi", ratio),
+        (vec!["c_bar=0.2"], "c_bar", "damping_model = free_standing_block"),
+        (
+            vec!["xi=0.05", "restitution=0.9"],
+            "restitution",
+            &format!("impact = restitution, or xi = -1 and {ratio}, or {block}"),
+        ),
+        (
+            // restitution is -1 here: what else it takes is told too
+            vec!["xi=0.05", "restitution_source=analytic"],
+            "restitution_source",
+            &format!(
+                "restitution = -1 and impact = restitution, or restitution = -1 and xi = -1 and {ratio}, or \
+                 restitution = -1 and {block}"
+            ),
+        ),
+        (vec!["hinge_ratio=0.6"], "hinge_ratio", "mechanism = vertical_spanning"),
+        (vec!["overburden_eccentricity=0.1"], "overburden_eccentricity", "overburden is not 0"),
+        (
+            vec!["overburden=3000", "eccentricity_mode=follows_pivot"],
+            "eccentricity_mode",
+            "overburden_eccentricity is not 0 and overburden is not 0",
+        ),
+        (
+            vec!["force_law=rigid_linear", "damping_model=none", "a1=0.05"],
+            "a1",
+            "force_law = bilinear or trilinear",
+        ),
+        (vec!["d1=0.7"], "d1", "force_law = trilinear"),
+        (vec!["softening=chord"], "softening", "a3 is not 1"),
+        (vec!["tie_height=3"], "tie_height", "tie_stiffness is not 0"),
+        (vec!["tie_slack=0.01"], "tie_slack", "tie_stiffness is not 0"),
+        (vec!["tie_strength=1000"], "tie_strength", "tie_stiffness is not 0"),
+        (vec!["tie_side=both"], "tie_side", "tie_stiffness is not 0"),
+        (
+            vec!["damping_model=constant_coefficient", "tolerance=1e-10"],
+            "tolerance",
+            &format!(
+                "solver = adaptive, or solver = automatic and damping_model = {}",
+                one_of(with_xi.clone().filter(is_curved))
+            ),
+        ),
+        (vec!["newmark_step=1e-4"], "newmark_step", "solver = newmark"),
+    ] {
+        let mut arguments = vec!["simulate", "--stop-time", "0.1"];
+        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
+        let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
+        assert!(warned(&arguments).ends_with(&expected), "{}\n{expected}", warned(&arguments));
+        named.insert(name);
+    }
+    // the list is complete: a new condition needs a line here
+    let conditional = usage(&Parameters::default()).filter(|usage| !usage.condition.is_empty());
+    let parameters = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
+    let parameters: BTreeSet<_> = parameters.collect();
+    let conditional: BTreeSet<_> = conditional.map(|usage| usage.name).collect();
+    assert_eq!(named, &conditional & &parameters);
+}
+
+/// A number that is set is the one in use, whatever the start values are.
+#[test]
+fn a_number_that_is_given_counts() {
+    let used = |changes: &[&str]| {
+        let mut arguments = vec!["describe", "--json"];
+        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
+        let output = wall(&folder("given"), &arguments);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let facts: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        ["xi_used", "restitution_used"].map(|name| facts[name].as_f64().unwrap())
+    };
+    assert_eq!(used(&["xi=0.2"])[0], 0.2);
+    assert_eq!(used(&["xi=0"])[0], 0.0);
+    // Eq. (21) with a1 = 0.03 and the calibrated e
+    let [xi, e] = used(&[]);
+    assert!((xi + 0.350 * 0.03_f64.powf(0.074) * e.ln()).abs() < 1e-15, "{xi} {e}");
+    assert_eq!(used(&["xi=-1"]), [xi, e]);
+    assert_eq!(used(&["damping_model=none", "impact=restitution", "restitution=0.8"])[1], 0.8);
+    // a given e is behind the computed damping, too
+    assert!((used(&["restitution=0.8"])[0] + 0.350 * 0.03_f64.powf(0.074) * 0.8_f64.ln()).abs() < 1e-15);
+}
+
+/// The default start of 0.18 m is beyond u_ins of a wall 0.25 m thick, 0.125 m.
+#[test]
+fn a_start_beyond_u_ins_is_refused() {
+    let folder = folder("start_beyond");
+    let output = wall(&folder, &["simulate", "--set", "thickness=0.25"]);
+    let message = text(&output.stderr);
+    let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m: for a wall at rest set u_start = 0";
+    assert!(output.status.code() == Some(2) && message.contains(remedy), "{message}");
+    // what does not move has no start
+    assert_eq!(warned(&["describe", "--set", "thickness=0.25"]), "");
+    assert_eq!(warned(&["simulate", "--set", "thickness=0.37", "--stop-time", "1"]), "");
+}
+
+/// A strip wall whose supports have motions of their own shows both, and both peaks.
+#[test]
+fn two_motions_are_both_shown() {
+    let folder = folder("two_motions");
+    let record = |name: &str, peak: f64| {
+        let sample = |k: u32| format!("{:.2},{}\n", 0.01 * f64::from(k), peak * f64::from(k % 3) / 2.0);
+        let rows: String = (0..300).map(sample).collect();
+        std::fs::write(folder.join(name), format!("time,a_g\n{rows}")).unwrap();
+    };
+    record("bottom.csv", 0.25);
+    record("top.csv", 0.75);
+    let scene = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.3\n\
+                 [motion]\nrecord = \"bottom.csv\"\nunit = \"m/s2\"\n\
+                 [motion.top]\nrecord = \"top.csv\"\nunit = \"m/s2\"\n";
+    std::fs::write(folder.join("strip.toml"), scene).unwrap();
+    let output = wall(&folder, &["simulate", "strip.toml", "--html", "page.html"]);
+    let summary = text(&output.stdout);
+    assert!(summary.contains("0.2500 m/s² (bottom), 0.7500 m/s² (top)"), "{summary}");
+    let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
+    let motion = page.split("<figure>").find(|figure| figure.contains("id=\"motion\"")).unwrap();
+    assert!(motion.contains("bottom (grey), top (amber)"), "{motion}");
+    for color in [figures::palette::DARK_GREY, figures::palette::AMBER] {
+        assert!(motion.contains(&format!("stroke=\"{color}\"")), "no {color} in {motion}");
+    }
+}
+
+/// Writes a study into a folder of its own and returns what `wall ida` warns of.
+fn warned_of_study(name: &str, study: &str) -> String {
+    let folder = folder(name);
+    std::fs::write(folder.join("study.toml"), study).unwrap();
+    let output = wall(&folder, &["ida", "study.toml"]);
+    let message = text(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    message
+}
+
+/// The PGA at which a rigid wall starts to rock hardly depends on the record; that of its collapse does.
+#[test]
+fn contradictions_of_a_common_beta_are_warned_of() {
+    let study = |fractions: &str| {
+        format!(
+            "models = [\"CR rigid\"]\nintensity = {{ measure = \"PGA\" }}\n\
+             report = {{ fractions = {fractions} }}\n\
+             records = {{ synthetic = {{ count = 8, duration = 10 }} }}\n\
+             levels = {{ method = \"hunt\", first = 0.02, increase = 0.1, top = 4, gap = 0.1 }}\n\
+             [[walls]]\nname = \"parapet\"\ngeometry = {{ height = 3, thickness = 0.3 }}\n"
+        )
+    };
+    let message = warned_of_study("contradicted", &study("[0.001, 1]"));
+    for words in [
+        "warning: limit states contradict a common beta in 1 of 1 fits",
+        ": wall \"parapet\" with CR rigid (0.08, 0.30); their fitted curves are rough",
+        "see the steps on the page and beta_alone in fragilities.csv",
+    ] {
+        assert!(message.contains(words), "no {words:?} in {message}");
+    }
+    let alike = warned_of_study("not_contradicted", &study("[0.9, 1]"));
+    assert!(!alike.contains("beta"), "{alike}");
+}
+
+/// Steps of Newmark and elastic frequencies that make a study slow are named before its runs.
+#[test]
+fn a_study_warns_of_much_work() {
+    // each run overturns within the first steps
+    let study = |wall: &str| {
+        format!(
+            "models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [50] }}\n\
+             records = {{ synthetic = {{ count = 1, duration = 10 }} }}\n\
+             [[walls]]\nname = \"slow\"\n{wall}\n"
+        )
+    };
+    for (name, settings, words) in [
+        (
+            "newmark",
+            "solver = { solver = \"newmark\", newmark_step = 1e-7 }",
+            "newmark_step = 1e-7 s: 100000 ",
+        ),
+        ("stiff", "force_law = { a1 = 1e-9 }", "omega1 = "),
+    ] {
+        let message = warned_of_study(&format!("work_{name}"), &study(settings));
+        assert!(message.contains(&format!("warning: wall \"slow\": {words}")), "{message}");
+        assert!(message.contains("computing takes as much longer than usual"), "{message}");
+    }
+}
+
+/// A study shakes its walls with its own records.
+#[test]
+fn a_study_says_that_it_ignores_a_motion() {
+    let folder = folder("ignored_motion");
+    std::fs::write(folder.join("shaken.toml"), "[motion]\nsynthetic = {}\n").unwrap();
+    let study = "models = [\"CR\"]\nlevels = { method = \"grid\", values = [0.1] }\n\
+                 records = { synthetic = { count = 1, duration = 10 } }\n\
+                 [[walls]]\nscene = \"shaken.toml\"\n\
+                 [[walls]]\nname = \"light\"\ngeometry = { density = 1.8 }\n";
+    std::fs::write(folder.join("study.toml"), study).unwrap();
+    let message = text(&wall(&folder, &["ida", "study.toml"]).stderr);
+    assert!(message.contains("wall \"shaken\": the study ignores the motion of its scene"), "{message}");
+    assert!(message.contains("wall \"light\": density = 1.8 kg/m3 is unusual"), "{message}");
+}

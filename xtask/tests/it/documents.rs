@@ -1,0 +1,62 @@
+//! Tests that documents name files and functions that exist.
+
+use std::path::Path;
+
+use crate::root;
+use crate::tidy::files;
+
+const ENDINGS: [&str; 7] = [".rs", ".py", ".c", ".toml", ".xml", ".html", ".md"];
+
+/// Returns whether a word in backquotes is the path of a committed file.
+fn is_path(word: &str) -> bool {
+    let is_made = word.starts_with("fmu_out/") || word.contains('*') || word.contains(' ');
+    word.contains('/') && !is_made && ENDINGS.iter().any(|ending| word.ends_with(ending))
+}
+
+/// Returns the words in backquotes.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+#[test]
+fn documents_name_what_exists() {
+    let is_document = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "md");
+    let documents: Vec<_> = files().into_iter().filter(|(name, _)| is_document(name)).collect();
+    assert!(documents.len() > 15, "git lists {} documents", documents.len());
+    let (mut paths, mut links, mut rows) = (0, 0, 0);
+    for (document, text) in documents {
+        let path = root().join(&document);
+        for (index, line) in text.lines().enumerate() {
+            let place = format!("{document}:{}", index + 1);
+            for word in quoted(line).filter(|word| is_path(word)) {
+                let is_here = root().join(word).is_file() || path.with_file_name(word).is_file();
+                assert!(is_here, "{place}: there is no {word}");
+                paths += 1;
+            }
+            for link in line.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+                let is_here = link.is_empty() || link.contains("://") || path.with_file_name(link).exists();
+                assert!(is_here, "{place}: there is no {link}");
+                links += 1;
+            }
+            // a row of a table: a file, and what it holds
+            let mut cells = line.split('|').skip(1);
+            let (Some(first), Some(second)) = (cells.next(), cells.next()) else { continue };
+            let Some(file) = quoted(first).find(|word| is_path(word)) else { continue };
+            let source = std::fs::read_to_string(root().join(file)).unwrap();
+            for name in quoted(second) {
+                assert!(source.contains(name), "{place}: {file} has no {name}");
+                rows += 1;
+            }
+        }
+    }
+    assert!(paths > 80 && links > 70 && rows > 40, "{paths} paths, {links} links, {rows} names in tables");
+}
+
+#[test]
+fn every_equation_of_the_paper_has_its_place() {
+    let text = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let section = text.split("\n### ").find(|section| section.starts_with("Equations of the paper")).unwrap();
+    for equation in 1..=23 {
+        assert!(section.contains(&format!("({equation})")), "Eq. ({equation}) is not in the table");
+    }
+}

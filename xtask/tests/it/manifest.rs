@@ -1,0 +1,184 @@
+//! What the manifests promise: metadata for a registry, walls between crates, the minimum Rust version.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+use serde_json::Value;
+
+/// The packages that cargo knows of, with `--no-deps` those of the workspace.
+fn packages(arguments: &[&str]) -> Vec<Value> {
+    let output = Command::new(env!("CARGO"))
+        .current_dir(crate::root())
+        .args(["metadata", "--format-version", "1", "--locked"])
+        .args(arguments)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    metadata["packages"].as_array().unwrap().clone()
+}
+
+/// Major and minor number of a version such as 1.89 or 1.89.0.
+fn minor(version: &str) -> (u32, u32) {
+    let mut numbers = version.split('.').map(|number| number.parse().unwrap());
+    (numbers.next().unwrap(), numbers.next().unwrap())
+}
+
+#[test]
+fn no_dependency_needs_a_newer_rust_than_the_project_states() {
+    let packages = packages(&[]);
+    let wall = packages.iter().find(|package| package["name"] == "rocking-wall").unwrap();
+    let stated = wall["rust_version"].as_str().unwrap();
+    let mut compared = 0;
+    for package in &packages {
+        if let Some(needed) = package["rust_version"].as_str() {
+            compared += 1;
+            assert!(minor(needed) <= minor(stated), "{} needs Rust {needed}", package["name"]);
+        }
+    }
+    assert!(2 * compared > packages.len(), "{compared} of {} packages state a version", packages.len());
+    let workflow = std::fs::read_to_string(crate::root().join(".github/workflows/ci.yml")).unwrap();
+    assert!(workflow.contains(&format!("cargo +{stated} check")), "the workflow checks another version");
+}
+
+#[test]
+fn versions_agree() {
+    let version = env!("CARGO_PKG_VERSION");
+    let read = |name: &str| std::fs::read_to_string(crate::root().join(name)).unwrap();
+    for package in packages(&["--no-deps"]) {
+        assert_eq!(package["version"], version, "{}", package["name"]);
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let is_ours = dependency["path"].is_string();
+            let stated = dependency["req"].as_str().unwrap();
+            assert!(!is_ours || [format!("^{version}").as_str(), "*"].contains(&stated), "{dependency}");
+        }
+    }
+    for name in ["modelDescription", "crates/floor/modelDescription"] {
+        let description = read(&format!("{name}/modelDescription.xml"));
+        assert!(description.contains(&format!("\n  version=\"{version}\"\n")), "{name}");
+    }
+    let changelog = read("CHANGELOG.md");
+    let newest = changelog.lines().find_map(|line| line.strip_prefix("## ")).unwrap();
+    assert!(newest == "Unreleased" || newest.starts_with(&format!("{version} ")), "CHANGELOG.md: {newest}");
+}
+
+#[test]
+fn every_crate_has_what_a_registry_shows() {
+    for package in packages(&["--no-deps"]).iter().filter(|package| package["publish"].is_null()) {
+        for key in ["description", "license", "repository", "readme", "rust_version"] {
+            assert!(package[key].is_string(), "{} has no {key}", package["name"]);
+        }
+        for key in ["keywords", "categories"] {
+            let count = package[key].as_array().unwrap().len();
+            assert!((1..=5).contains(&count), "{} has {count} {key}", package["name"]);
+        }
+    }
+}
+
+/// What each crate may know of the others.
+const KNOWN: [(&str, &[&str]); 15] = [
+    ("fmu-export", &[]),
+    ("fmu-export-build", &["fmu-export"]),
+    ("rocking-oscillator", &[]),
+    ("ground-motion", &["rocking-oscillator"]),
+    ("rocking-floor", &["fmu-export", "rocking-oscillator"]),
+    ("rocking-wall", &["fmu-export", "ground-motion", "rocking-oscillator"]),
+    ("rocking-record", &["rocking-oscillator", "rocking-wall"]),
+    ("rocking-study", &["fmu-export", "ground-motion", "rocking-record", "rocking-wall"]),
+    ("rocking-figures", &["rocking-study"]),
+    ("rocking-study-folder", &["ground-motion", "rocking-figures", "rocking-study", "rocking-wall"]),
+    ("rocking-scene-fmu", &["fmu-export-build", "ground-motion", "rocking-wall"]),
+    (
+        "rocking-building",
+        &[
+            "fmu-export",
+            "fmu-export-build",
+            "ground-motion",
+            "rocking-floor",
+            "rocking-scene-fmu",
+            "rocking-wall",
+        ],
+    ),
+    (
+        "rocking-playground",
+        &["fmu-export", "ground-motion", "rocking-figures", "rocking-study", "rocking-wall"],
+    ),
+    (
+        "rocking-wall-python",
+        &[
+            "rocking-building",
+            "fmu-export",
+            "ground-motion",
+            "rocking-figures",
+            "rocking-record",
+            "rocking-scene-fmu",
+            "rocking-study",
+            "rocking-study-folder",
+            "rocking-wall",
+        ],
+    ),
+    (
+        "rocking-wall-cli",
+        &[
+            "rocking-building",
+            "fmu-export",
+            "fmu-export-build",
+            "ground-motion",
+            "rocking-figures",
+            "rocking-floor",
+            "rocking-scene-fmu",
+            "rocking-study",
+            "rocking-study-folder",
+            "rocking-wall",
+        ],
+    ),
+];
+
+/// Crates know what the table says; Cargo holds them to it.
+#[test]
+fn arrows_between_crates_point_one_way() {
+    let ours = packages(&["--no-deps"]);
+    for package in &ours {
+        let name = package["name"].as_str().unwrap();
+        let Some((_, allowed)) = KNOWN.iter().find(|(known, _)| *known == name) else {
+            assert!(
+                ["xtask", "conformance"].contains(&name),
+                "{name} is not in the list of what crates know"
+            );
+            continue;
+        };
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let other = dependency["name"].as_str().unwrap();
+            if dependency["kind"].is_null() && ours.iter().any(|ours| ours["name"] == other) {
+                assert!(allowed.contains(&other), "{name} knows {other}");
+            }
+        }
+    }
+    for (name, _) in KNOWN {
+        assert!(ours.iter().any(|package| package["name"] == name), "there is no crate {name}");
+    }
+}
+
+/// Crates and their features behind a `|`, as cargo builds them.
+fn built(arguments: &[&str]) -> BTreeSet<String> {
+    let output = Command::new(env!("CARGO"))
+        .current_dir(crate::root())
+        .args(["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p}|{f}"])
+        .args(arguments)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+}
+
+/// What cargo has built for the Rust tests it takes for the wheel, unless a feature differs somewhere below.
+#[test]
+fn the_wheel_takes_what_the_tests_have_built() {
+    let tests = built(&["--edges", "normal,build,dev"]);
+    let wheel = built(&["--package", "rocking-wall-python", "--edges", "normal,build"]);
+    let name = |line: &str| line.split('|').next().map(str::to_owned);
+    let shared = wheel.iter().filter(|line| tests.iter().any(|other| name(other) == name(line)));
+    let (same, other): (Vec<_>, Vec<_>) = shared.partition(|line| tests.contains(*line));
+    assert!(other.is_empty(), "the tests build these with other features: {other:?}");
+    assert!(same.len() > 50, "{same:?}");
+}
