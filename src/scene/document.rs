@@ -4,6 +4,7 @@ use std::path::Path;
 
 use fmu_export::VariableId;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::Spanned;
 
 use crate::variables::RealVariable;
@@ -55,6 +56,8 @@ pub struct Document {
     pub supports: Option<Spanned<SupportsTable>>,
     /// What moves the supports, or the ground below the storeys.
     pub motion: Option<Spanned<MotionTable>>,
+    /// A check by a code, which a run does not need.
+    pub check: Option<IgnoredAny>,
 }
 
 impl Document {

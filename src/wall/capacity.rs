@@ -56,21 +56,35 @@ impl Wall {
     /// the largest a* of the force law, on the weaker of the sides to which the wall can rock \[m/s²\].
     pub fn rocking_onset(&self) -> f64 {
         let body = self.body();
-        let largest = |sign: f64| {
-            let corners = self.capacity_corners(sign);
-            let forces = corners.iter().map(|corner| self.own_force(sign, corner.displacement));
-            forces.fold(0.0, f64::max) / (body.participation * body.effective_mass)
-        };
+        let largest = |sign: f64| self.largest_own_force(sign) / (body.participation * body.effective_mass);
         self.sides().map(largest).fold(f64::INFINITY, f64::min)
     }
 
-    /// |F| of the wall alone at |u| on the side of `sign` \[N\].
-    fn own_force(&self, sign: f64, u: f64) -> f64 {
+    /// |F| of the wall without its tie at |u| on the side of `sign` \[N\].
+    pub fn own_force(&self, sign: f64, u: f64) -> f64 {
         let side = self.force.side(sign);
         let line = side.lines[side.corners.partition_point(|&corner| corner < u)];
         let direction = 1.0_f64.copysign(sign);
         let force = direction * line.at(direction * u);
         if force.abs() <= ROUNDING * self.body().strength.of(sign) { 0.0 } else { force }
+    }
+
+    /// |F| at |u| of the line along which the force falls to 0 on the side of `sign`, the last of the law
+    /// \[N\].
+    pub fn softening_force(&self, sign: f64, u: f64) -> f64 {
+        let direction = 1.0_f64.copysign(sign);
+        self.force.side(sign).lines.last().map_or(0.0, |line| direction * line.at(direction * u))
+    }
+
+    /// |u| at the end of the elastic branch on the side of `sign`; 0 for the rigid-linear law \[m\].
+    pub fn elastic_end(&self, sign: f64) -> f64 {
+        if self.is_rigid() { 0.0 } else { self.force.side(sign).corners[0] }
+    }
+
+    /// The largest |F| of the wall without its tie on the side of `sign` \[N\].
+    pub fn largest_own_force(&self, sign: f64) -> f64 {
+        let corners = self.capacity_corners(sign);
+        corners.iter().map(|corner| self.own_force(sign, corner.displacement)).fold(0.0, f64::max)
     }
 
     fn capacity_point(&self, sign: f64, u: f64) -> CapacityPoint {

@@ -123,6 +123,15 @@ impl Storeys {
         self.modes.iter().map(|mode| mode.damping_ratio).collect()
     }
 
+    /// Returns Γ φ of a mode at a floor (-): modes in the order of [`periods`](Self::periods), floors counted
+    /// from 1.
+    ///
+    /// # Panics
+    /// If there is no such mode or floor.
+    pub fn participation(&self, mode: usize, floor: usize) -> f64 {
+        self.modes[mode].shape[floor - 1]
+    }
+
     /// Computes the motion of a floor, counted from 1, for `duration` (s) from the start of `ground`. Storeys
     /// start at rest; after the record the ground stands still.
     ///

@@ -22,6 +22,7 @@
 //! | [`polarity`] | motions with both signs |
 //! | [`tie`] | force and displacement over the stiffness of a tie |
 //! | [`check`] | static capacity against a response spectrum |
+//! | [`circolare`] | the check of a wall by the Italian code, Circolare 7/2019 |
 //! | [`accuracy`] | error against run time of every solver; error of small rotations |
 //! | [`stability`] | stability maps and extremes |
 //! | [`reproduce`] | the tables and figures of the paper |
@@ -34,6 +35,7 @@ pub mod accuracy;
 pub mod calibration;
 pub mod chart;
 pub mod check;
+pub mod circolare;
 pub mod document;
 pub mod fragility;
 mod free_motion;

@@ -212,7 +212,11 @@ fn warn(NamedWall { name, parameters, floors }: &NamedWall, models: &[Model], wa
 }
 
 /// Lists the record files of a study, in the order of its patterns.
-fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<PathBuf>, SceneError> {
+pub(crate) fn record_files(
+    entry: &RecordsEntry,
+    folder: &Path,
+    study: &str,
+) -> Result<Vec<PathBuf>, SceneError> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (pattern, line) in &entry.files {
         let found = files(&folder.join(pattern)).map_err(|reason| SceneError::Line {
@@ -226,7 +230,7 @@ fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<
     Ok(paths)
 }
 
-fn all_records(
+pub(crate) fn all_records(
     entry: &RecordsEntry,
     paths: &[PathBuf],
     study: &str,

@@ -22,6 +22,7 @@ mod report;
 use std::path::PathBuf;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
@@ -115,13 +116,17 @@ struct Document {
     #[serde(default)]
     storeys: Vec<Spanned<StoreyTable>>,
     supports: Option<Spanned<SupportsTable>>,
+    /// Read by [`crate::circolare`].
+    #[serde(rename = "check")]
+    _check: Option<IgnoredAny>,
     #[serde(default)]
     walls: Vec<Spanned<WallTable>>,
 }
 
-#[derive(Debug, Deserialize)]
+/// Records of a study or a check, as they are written.
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RecordsTable {
+pub struct RecordsTable {
     #[serde(default)]
     files: Vec<Spanned<String>>,
     unit: Option<Unit>,
@@ -132,7 +137,7 @@ struct RecordsTable {
     synthetic: Option<Spanned<SyntheticRecords>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SyntheticRecords {
     count: u64,
@@ -300,7 +305,7 @@ pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
     Ok(NamedWall { name, parameters, floors })
 }
 
-fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {
+pub(crate) fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {
     let spec = table.get_ref();
     if spec.files.is_empty() && spec.synthetic.is_none() {
         return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));

@@ -7,6 +7,7 @@ use std::path::Path;
 
 mod accuracy;
 mod calibration;
+mod circolare;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod extremes;

@@ -1,0 +1,128 @@
+//! The demand of a limit state at the place of a wall.
+
+use std::f64::consts::TAU;
+
+use ground_motion::{GroundMotion, Maxima, Spectrum};
+
+use super::LimitState;
+use super::error::CheckError;
+use super::floor::FloorSpectrum;
+use super::ground::GroundSpectrum;
+
+/// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.
+pub const MEAN_COUNTS_FROM: usize = 7;
+
+/// Periods at which the largest `S_d` between T0 and `T_SLV` is searched.
+const SEARCHED: u32 = 200;
+
+/// A demand.
+#[derive(Clone, Debug)]
+pub(super) enum Demand {
+    /// On the ground, NTC 3.2.3.2.
+    Ground(GroundSpectrum),
+    /// At a height, C7.2.3.
+    Floor(FloorSpectrum),
+    /// Points (T, `S_a`) of one damping \[s, m/s²\].
+    Points(Vec<(f64, f64)>, f64),
+    /// The mean spectrum of records at the wall's place, or their envelope.
+    Records(Vec<GroundMotion>),
+}
+
+/// A displacement demand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DisplacementDemand {
+    /// `S_e` or `S_eZ` at the period \[m/s²\].
+    pub(super) acceleration: f64,
+    /// `S_d` \[m\].
+    pub(super) displacement: f64,
+    /// Both terms of [C8.7.1.12] \[m\].
+    pub(super) terms: [Option<f64>; 2],
+}
+
+impl Demand {
+    /// The acceleration at T = 0: `a_g` S, or `a_Z` \[m/s²\].
+    pub(super) fn peak(&self) -> f64 {
+        match self {
+            Self::Ground(ground) => ground.acceleration(0.0, 0.05),
+            Self::Floor(floor) => floor.peak_acceleration(),
+            Self::Points(points, _) => points[0].1,
+            Self::Records(records) => combined(records.iter().map(GroundMotion::peak).collect()),
+        }
+    }
+
+    /// The acceleration at a period, of the damping ξ \[m/s²\].
+    pub(super) fn acceleration(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
+        match self {
+            _ if period == 0.0 => Ok(self.peak()),
+            Self::Ground(ground) => Ok(ground.acceleration(period, xi)),
+            Self::Floor(floor) => Ok(floor.acceleration(period, xi)),
+            Self::Points(points, given) => {
+                if (given - xi).abs() > 1e-9 {
+                    let (needed, given) = (100.0 * xi, 100.0 * given);
+                    return Err(CheckError::Damping { state, needed, given });
+                }
+                interpolated(state, points, period)
+            }
+            Self::Records(records) => {
+                let spectrum = Spectrum::new(xi, Maxima::Everywhere)?;
+                let at = |motion| spectrum.acceleration(motion, period);
+                Ok(combined(records.iter().map(at).collect::<Result<_, _>>()?))
+            }
+        }
+    }
+
+    /// The displacement demand of a limit state of the period T and the damping ξ, of a wall whose elastic
+    /// period is T0.
+    pub(super) fn displacement(
+        &self,
+        state: LimitState,
+        [t0, period]: [f64; 2],
+        xi: f64,
+    ) -> Result<DisplacementDemand, CheckError> {
+        let of = |first: f64, second: Option<f64>| DisplacementDemand {
+            acceleration: first * (TAU / period).powi(2),
+            displacement: second.map_or(first, |second| first.max(second)),
+            terms: [Some(first), second],
+        };
+        match self {
+            Self::Ground(ground) => Ok(of(ground.displacement(period, xi), None)),
+            Self::Floor(floor) => {
+                let (first, second) = floor.displacement(period, xi);
+                Ok(of(first, second))
+            }
+            // the largest S_d from T0 to T
+            Self::Points(..) | Self::Records(_) => {
+                let mut largest = 0.0_f64;
+                for part in 0..=SEARCHED {
+                    let at = t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED);
+                    // S_d is 0 at T = 0; below 1 ms it is nothing
+                    if at >= 1e-3 {
+                        largest = largest.max(self.acceleration(state, at, xi)? * (at / TAU).powi(2));
+                    }
+                }
+                let acceleration = self.acceleration(state, period, xi)?;
+                Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
+            }
+        }
+    }
+}
+
+/// The mean of 7 and more records, or the largest of fewer.
+pub(super) fn combined(values: Vec<f64>) -> f64 {
+    if values.len() >= MEAN_COUNTS_FROM {
+        values.iter().sum::<f64>() / values.len() as f64
+    } else {
+        values.into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// `S_a` at a period of points, straight between them.
+fn interpolated(state: LimitState, points: &[(f64, f64)], period: f64) -> Result<f64, CheckError> {
+    let after = points.partition_point(|point| point.0 < period);
+    let (Some(before), Some(&(t1, s1))) = (after.checked_sub(1), points.get(after)) else {
+        let [from, to] = [points[0].0, points[points.len() - 1].0];
+        return Err(CheckError::Period { state, period, from, to });
+    };
+    let (t0, s0) = points[before];
+    Ok(s0 + (s1 - s0) * ((period - t0) / (t1 - t0)))
+}

@@ -1,0 +1,304 @@
+//! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
+//!
+//! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
+//! and the strength of a tie are divided by FC, masses stay. A record passes on either side that it moves the
+//! wall to: what counts is the larger of |d| over the threshold of its side.
+
+use ground_motion::GroundMotion;
+use record::RecordSolver;
+use rocking_wall::scene::Floors;
+use rocking_wall::solver::Motion;
+use rocking_wall::wall::Parameters;
+use serde::Serialize;
+
+use super::demand::{MEAN_COUNTS_FROM, combined};
+use super::error::CheckError;
+use super::records::Records;
+use super::statement::{Source, StateStatement, Statement};
+use super::table::{Method, RecordScale};
+use super::verdict::{Deciding, Governs, Side, SideVerdict, SideVerdicts};
+use super::{G, LimitState};
+use crate::ida::{DEFAULT_TAIL, Shaking};
+
+/// Factors on all records between which the lowest that fails is searched \[-\].
+const FACTORS: [f64; 2] = [0.01, 100.0];
+/// Ratio of factors that follow each other. A wall that fails between two and not at them is not seen.
+const RATIO: f64 = 1.01;
+/// Factors that are run at once.
+const AT_ONCE: usize = 64;
+/// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
+const HALVINGS: u32 = 10;
+
+/// The dynamic check of a wall.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicCheck {
+    /// SLV.
+    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
+    pub slv: Option<DynamicState>,
+    /// SLC.
+    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
+    pub slc: Option<DynamicState>,
+}
+
+/// The dynamic check of a limit state.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicState {
+    /// Whether no run exceeds `d_0` and the mean of the maxima is within the threshold.
+    pub passed: bool,
+    /// Mean of the maxima of |d|, or of fewer than 7 records the largest \[m\].
+    pub d: f64,
+    /// Threshold over it, each side by its own \[-\].
+    pub ratio: f64,
+    /// How many runs exceed `d_0`.
+    pub beyond_d0: usize,
+    /// The lowest factor on all records that fails \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+    /// The side of the largest |d| over its threshold.
+    pub side: Side,
+    /// The runs.
+    pub runs: Vec<DynamicRun>,
+}
+
+/// A run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DynamicRun {
+    /// Name of the record.
+    pub record: String,
+    /// Factor on the record \[-\].
+    pub factor: f64,
+    /// Largest d on the sides u > 0 and u < 0 \[m\].
+    pub d: [f64; 2],
+    /// Whether one of them exceeds `d_0`.
+    pub beyond_d0: bool,
+}
+
+/// Thresholds of both sides; infinite on one to which the wall cannot rock \[m\].
+#[derive(Clone, Copy, Debug)]
+struct Thresholds {
+    limit: [f64; 2],
+    zero: [f64; 2],
+}
+
+/// What the maxima of some runs say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Judged {
+    d: f64,
+    ratio: f64,
+    beyond_d0: usize,
+    side: Side,
+}
+
+impl Judged {
+    fn passed(self) -> bool {
+        self.beyond_d0 == 0 && self.ratio >= 1.0
+    }
+}
+
+impl Thresholds {
+    fn of(sides: &SideVerdicts, limit: impl Fn(&SideVerdict) -> Option<f64>) -> Self {
+        let each = |value: &dyn Fn(&SideVerdict) -> Option<f64>| {
+            [&sides.positive, &sides.negative]
+                .map(|side| side.as_ref().and_then(value).unwrap_or(f64::INFINITY))
+        };
+        Self { limit: each(&limit), zero: each(&|side| Some(side.d0)) }
+    }
+
+    /// Judges the maxima of |d| of some runs, both sides of each.
+    fn judge(&self, maxima: &[[f64; 2]]) -> Judged {
+        let share = |d: &[f64; 2], side: usize| d[side] / self.limit[side];
+        let used = maxima.iter().map(|d| share(d, 0).max(share(d, 1))).collect();
+        let largest = |side: usize| maxima.iter().map(|d| share(d, side)).fold(0.0, f64::max);
+        let beyond = |d: &&[f64; 2]| d[0] > self.zero[0] || d[1] > self.zero[1];
+        Judged {
+            d: combined(maxima.iter().map(|d| d[0].max(d[1])).collect()),
+            ratio: 1.0 / combined(used),
+            beyond_d0: maxima.iter().filter(beyond).count(),
+            side: if largest(1) > largest(0) { Side::Negative } else { Side::Positive },
+        }
+    }
+}
+
+impl DynamicCheck {
+    fn states(&self) -> impl Iterator<Item = (Deciding, &DynamicState)> {
+        let states = [(Deciding::Slv, &self.slv), (Deciding::Slc, &self.slc)];
+        states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
+    }
+
+    /// Whether every limit state holds.
+    pub fn passed(&self) -> bool {
+        self.states().all(|(_, state)| state.passed)
+    }
+
+    pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
+        self.states().map(|(limit_state, state)| Governs { side: state.side, limit_state, zeta: state.zeta })
+    }
+
+    pub(super) fn warnings(&self, parameters: &Parameters, statement: &Statement) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let count = self.states().next().map_or(0, |(_, state)| state.runs.len());
+        if count <= MEAN_COUNTS_FROM {
+            let what =
+                if count < MEAN_COUNTS_FROM { "the least favourable one counts" } else { "the mean counts" };
+            warnings.push(format!(
+                "{count} records: {what} (NTC 7.3.5); the dynamic check wants more than a global analysis \
+                 (C8.7.1.2.1.9)"
+            ));
+        }
+        if parameters.overburden > 0.0 && statement.overburden_mass.is_some_and(|r| r > 0.0) {
+            warnings.push(
+                "the dynamic model has no mass on top: the overburden loads the wall, its inertia goes elsewhere"
+                    .into(),
+            );
+        }
+        for (name, state) in self.states().filter(|(_, state)| state.passed && state.zeta < 1.0) {
+            warnings.push(format!(
+                "{}: the wall passes under the records, and fails under {:.3} of them: the response is not \
+                 monotonic",
+                name.name(),
+                state.zeta
+            ));
+        }
+        warnings
+    }
+}
+
+/// Runs the dynamic check; `None` without records. Without it deciding, a limit state whose site gives no S
+/// is left out.
+pub(super) fn check(
+    parameters: &Parameters,
+    floors: Option<&Floors>,
+    statement: &Statement,
+    sides: &SideVerdicts,
+    records: &Records,
+) -> Result<Option<DynamicCheck>, CheckError> {
+    if records.is_empty() {
+        return Ok(None);
+    }
+    let factor = statement.confidence_factor;
+    let divided = Parameters {
+        gravity: parameters.gravity / factor,
+        overburden: parameters.overburden / factor,
+        tie_stiffness: parameters.tie_stiffness / factor,
+        tie_strength: parameters.tie_strength / factor,
+        u_start: 0.0,
+        u_dot_start: 0.0,
+        ..parameters.clone()
+    };
+    let motion = Motion::of(&divided, divided.tolerance)?;
+    let felt = records.felt(floors, motion.wall())?;
+    let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
+    let runs = Runs { motion: &motion, felt: &felt, stretch };
+    let state = |state: LimitState, limit: fn(&SideVerdict) -> Option<f64>| {
+        let Some(given) = statement.state(state) else { return Ok(None) };
+        let factors = match factors(statement, given, records) {
+            Err(_) if statement.method != Method::Dynamic => return Ok(None),
+            factors => factors?,
+        };
+        runs.check(&Thresholds::of(sides, limit), &factors, records).map(Some)
+    };
+    let slv = state(LimitState::Slv, |side| side.slv.map(|check| check.d))?;
+    let slc = state(LimitState::Slc, |side| side.slc.map(|check| check.d))?;
+    Ok((slv.is_some() || slc.is_some()).then_some(DynamicCheck { slv, slc }))
+}
+
+/// The factors that bring the peaks of the records to `a_g` S, or 1.
+fn factors(statement: &Statement, given: &StateStatement, records: &Records) -> Result<Vec<f64>, CheckError> {
+    let records = records.named().iter();
+    match (statement.record_scale, &given.source) {
+        (RecordScale::None, _) => Ok(records.map(|_| 1.0).collect()),
+        (RecordScale::Ag, Source::Code(ground)) => {
+            let peak = given.ag * G * ground.s;
+            Ok(records.map(|record| peak / record.motion.peak()).collect())
+        }
+        (RecordScale::Ag, _) => {
+            let message = "record_scale = \"ag\" needs S of F0 and TC; give them, or record_scale = \"none\"";
+            Err(CheckError::value(&["record_scale"], message))
+        }
+    }
+}
+
+/// Runs of one wall under what it feels of each record.
+struct Runs<'a> {
+    motion: &'a Motion,
+    felt: &'a [GroundMotion],
+    stretch: f64,
+}
+
+impl Runs<'_> {
+    fn check(
+        &self,
+        thresholds: &Thresholds,
+        factors: &[f64],
+        records: &Records,
+    ) -> Result<DynamicState, CheckError> {
+        let maxima = self.maxima(factors, &[1.0])?.remove(0);
+        let judged = thresholds.judge(&maxima);
+        let runs = records.named().iter().zip(factors).zip(&maxima).map(|((record, factor), d)| DynamicRun {
+            record: record.name.clone(),
+            factor: *factor,
+            d: *d,
+            beyond_d0: thresholds.judge(&[*d]).beyond_d0 > 0,
+        });
+        Ok(DynamicState {
+            passed: judged.passed(),
+            d: judged.d,
+            ratio: judged.ratio,
+            beyond_d0: judged.beyond_d0,
+            zeta: self.lowest_failure(thresholds, factors)?,
+            side: judged.side,
+            runs: runs.collect(),
+        })
+    }
+
+    /// Returns the lowest factor on all records that fails, searched upwards, for the response is neither
+    /// linear nor monotonic.
+    fn lowest_failure(&self, thresholds: &Thresholds, factors: &[f64]) -> Result<f64, CheckError> {
+        let [lowest, highest] = FACTORS;
+        let mut below = lowest;
+        while below < highest {
+            let levels: Vec<f64> =
+                std::iter::successors(Some(below), |level| Some(level * RATIO)).take(AT_ONCE).collect();
+            for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
+                if !thresholds.judge(&maxima).passed() {
+                    return self.between(thresholds, factors, [below, *level]);
+                }
+                below = *level;
+            }
+            below *= RATIO;
+        }
+        Ok(highest)
+    }
+
+    /// Halves a step of factors at whose end the check fails.
+    fn between(
+        &self,
+        thresholds: &Thresholds,
+        factors: &[f64],
+        [mut passes, mut fails]: [f64; 2],
+    ) -> Result<f64, CheckError> {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (passes + fails);
+            let maxima = self.maxima(factors, &[middle])?.remove(0);
+            if thresholds.judge(&maxima).passed() { passes = middle } else { fails = middle }
+        }
+        Ok(fails)
+    }
+
+    /// Returns the maxima of |d| on both sides: for each level, of each record.
+    fn maxima(&self, factors: &[f64], levels: &[f64]) -> Result<Vec<Vec<[f64; 2]>>, CheckError> {
+        let mut maxima = vec![Vec::with_capacity(self.felt.len()); levels.len()];
+        for (record, factor) in self.felt.iter().zip(factors) {
+            let solver = RecordSolver::new(self.motion, record.step());
+            let shaking = Shaking::new(self.motion, &solver, record, DEFAULT_TAIL);
+            let scaled: Vec<f64> = levels.iter().map(|level| level * factor).collect();
+            let outcomes =
+                shaking.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
+            for (at_level, outcome) in maxima.iter_mut().zip(outcomes) {
+                let peaks = outcome.state.peaks;
+                at_level.push([self.stretch * peaks.positive, self.stretch * peaks.negative]);
+            }
+        }
+        Ok(maxima)
+    }
+}

@@ -1,0 +1,66 @@
+//! Why a check is impossible, and what it warns of.
+
+use ground_motion::GroundMotionError;
+use rocking_wall::scene::SceneError;
+use rocking_wall::wall::ParameterError;
+
+use super::LimitState;
+
+/// Why a check is impossible.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the numbers of the message")]
+pub enum CheckError {
+    /// A value of the table `[check]`.
+    #[error("{message}")]
+    Value {
+        /// Keys from the table on, such as `SLV`, `ag`.
+        keys: Vec<&'static str>,
+        message: String,
+    },
+    /// A wall whose curve the check cannot take.
+    #[error("{message}")]
+    Wall { message: String },
+    /// The force does not vanish.
+    #[error("the force does not vanish: no d_0")]
+    NoZero,
+    /// The force at a limit state is not positive.
+    #[error("{state}: a is not positive at d = {displacement} m")]
+    NotPositive { state: LimitState, displacement: f64 },
+    /// The elastic branch goes on to the limit state.
+    #[error(
+        "the elastic branch reaches d_{state}: the wall does not rock before {state} (it ends at d_y = \
+         {elastic} m with T0 = {t0} s; d_{state} = {displacement} m with T = {period} s)"
+    )]
+    Elastic { state: LimitState, elastic: f64, t0: f64, displacement: f64, period: f64 },
+    /// A displacement of the limit state SLC beyond the zero of the force.
+    #[error("SLC.displacement = {given} m must be above 0 and below u_0 = {zero} m")]
+    LocalInstability { given: f64, zero: f64 },
+    /// A displacement of the limit state SLC that comes before that of SLV.
+    #[error("SLC comes before SLV: d_SLC = {slc} m is below d_SLV = {slv} m")]
+    Order { slc: f64, slv: f64 },
+    /// A spectrum given by points that ends too early.
+    #[error("{state} needs the spectrum up to T = {period} s; it goes from {from} to {to} s")]
+    Period { state: LimitState, period: f64, from: f64, to: f64 },
+    /// A spectrum of another damping.
+    #[error("{state} needs the spectrum at {needed} % damping; the given one is at {given} %")]
+    Damping { state: LimitState, needed: f64, given: f64 },
+    /// A record.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
+    /// A scene or a run.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The parameters of the wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+}
+
+impl CheckError {
+    pub(super) fn value(keys: &[&'static str], message: impl Into<String>) -> Self {
+        Self::Value { keys: keys.to_vec(), message: message.into() }
+    }
+
+    pub(super) fn wall(message: impl Into<String>) -> Self {
+        Self::Wall { message: message.into() }
+    }
+}

@@ -1,0 +1,361 @@
+//! What the engineer states, checked.
+
+use super::error::CheckError;
+use super::floor::{FloorSpectrum, Mode};
+use super::ground::{GroundSpectrum, Hazard, Soil};
+use super::table::{
+    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, ModeTable, RecordScale,
+    Topography, UseClass,
+};
+use super::{CODE, LimitState};
+
+/// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
+pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
+
+/// The statements of a check, in their limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// The wall before it rocks; `None` where the engineer did not say.
+    pub before_activation: Option<Activation>,
+    /// E of the masonry \[Pa\]; given where the wall is a beam.
+    pub young_modulus: Option<f64>,
+    /// FC \[-\].
+    pub confidence_factor: f64,
+    /// Whether the hinges are set back for compression.
+    pub compression_considered: bool,
+    /// r \[-\]; `None` where the engineer did not say.
+    pub overburden_mass: Option<f64>,
+    /// q \[-\].
+    pub behaviour_factor: f64,
+    /// Use class.
+    pub use_class: Option<UseClass>,
+    /// What decides.
+    pub method: Method,
+    /// What the peaks of the records become.
+    pub record_scale: RecordScale,
+    /// SLD, SLV and SLC; `None` for a check that is not made.
+    pub states: [Option<StateStatement>; 3],
+    /// The building is that of the table `[check.building]`.
+    pub has_building: bool,
+}
+
+/// What is stated of a limit state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateStatement {
+    /// Which.
+    pub state: LimitState,
+    /// `a_g` \[g\].
+    pub ag: f64,
+    /// ξ of the mechanism \[-\].
+    pub damping: f64,
+    /// Where the demand comes from.
+    pub source: Source,
+    /// `ξ_k` of the building \[-\].
+    pub building_damping: Option<f64>,
+    /// T₁ of the building in this limit state \[s\].
+    pub building_period: Option<f64>,
+    /// Modes of the table `[check.building]`, with the period of this limit state; none on the ground.
+    pub modes: Vec<Mode>,
+    /// u of a local instability \[m\].
+    pub displacement: Option<f64>,
+}
+
+/// Where a demand comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// The spectrum of the code.
+    Code(GroundSpectrum),
+    /// Points (T, `S_a`) at the wall's place, of one damping \[s, m/s², -\].
+    Points(Vec<(f64, f64)>, f64),
+    /// The records of the check.
+    Records,
+}
+
+impl Statement {
+    pub(super) fn new(table: &CheckTable) -> Result<Self, CheckError> {
+        let refused = |key, message: String| Err(CheckError::value(&[key], message));
+        if table.code != CODE {
+            return refused("code", format!("code = {:?} is unknown; the code is {CODE:?}", table.code));
+        }
+        let q = table.behaviour_factor.unwrap_or(2.0);
+        if !(q >= 1.0 && q.is_finite()) {
+            return refused("behaviour_factor", format!("behaviour_factor = {q} must be at least 1"));
+        }
+        if let Some(r) = table.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
+            return refused("overburden_mass", format!("overburden_mass = {r} must be at least 0"));
+        }
+        if let Some(e) = table.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
+            return refused("young_modulus", format!("young_modulus = {e} Pa must be above 0"));
+        }
+        match (table.before_activation, table.young_modulus) {
+            (Some(Activation::Beam), None) => {
+                return refused("before_activation", "beam needs young_modulus, E in Pa".into());
+            }
+            (Some(Activation::Rigid | Activation::Law) | None, Some(_)) => {
+                return refused(
+                    "young_modulus",
+                    "young_modulus counts only with before_activation = \"beam\"".into(),
+                );
+            }
+            _ => {}
+        }
+        let mut states = [const { None }; 3];
+        for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
+            if let Some(given) = given {
+                states[state as usize] = Some(limit_state(state, given, table)?);
+            }
+        }
+        let statement = Self {
+            before_activation: table.before_activation,
+            young_modulus: table.young_modulus,
+            confidence_factor: confidence_factor(table)?,
+            compression_considered: table.compression_considered,
+            overburden_mass: table.overburden_mass,
+            behaviour_factor: q,
+            use_class: table.use_class,
+            method: table.method,
+            record_scale: table.record_scale,
+            states,
+            has_building: table.building.is_some(),
+        };
+        statement.check_sites()?;
+        Ok(statement)
+    }
+
+    /// What is stated of a limit state; `None` where its check is not made.
+    pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
+        self.states[state as usize].as_ref()
+    }
+
+    /// Refuses a method whose limit states have no site.
+    fn check_sites(&self) -> Result<(), CheckError> {
+        let has = |state: LimitState| self.states[state as usize].is_some();
+        let needed = match self.method {
+            Method::Linear => LimitState::Slv,
+            Method::Nonlinear | Method::Dynamic if !has(LimitState::Slc) => LimitState::Slv,
+            Method::Nonlinear | Method::Dynamic => return Ok(()),
+        };
+        if has(needed) {
+            return Ok(());
+        }
+        let message = format!("{needed} needs its site: [check.{needed}] with ag, F0 and TC");
+        Err(CheckError::value(&[], message))
+    }
+}
+
+fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
+    let (key, factor) = match (table.confidence_factor, table.knowledge_level) {
+        (Some(_), Some(_)) => {
+            let message = "confidence_factor and knowledge_level state the same; leave one out";
+            return Err(CheckError::value(&["knowledge_level"], message));
+        }
+        (Some(factor), None) => ("confidence_factor", factor),
+        (None, Some(KnowledgeLevel::LC2)) => ("knowledge_level", 1.20),
+        (None, Some(KnowledgeLevel::LC3)) => ("knowledge_level", 1.00),
+        (None, Some(KnowledgeLevel::LC1) | None) => return Ok(LARGEST_CONFIDENCE_FACTOR),
+    };
+    if !(factor >= 1.0 && factor.is_finite()) {
+        let message = format!("confidence_factor = {factor} must be at least 1");
+        return Err(CheckError::value(&[key], message));
+    }
+    if factor < LARGEST_CONFIDENCE_FACTOR && !table.compression_considered {
+        let message = format!(
+            "FC = {factor}: FC of LC1, 1.35, applies where compression is neglected (C8.7.1.2.1.3); set the \
+             hinges back (a3 < 1, or a smaller thickness) and state compression_considered = true"
+        );
+        return Err(CheckError::value(&[key], message));
+    }
+    Ok(factor)
+}
+
+/// The name of a limit state, as key of its table.
+fn key_of(state: LimitState) -> &'static str {
+    ["SLD", "SLV", "SLC"][state as usize]
+}
+
+fn limit_state(
+    state: LimitState,
+    given: &LimitStateTable,
+    table: &CheckTable,
+) -> Result<StateStatement, CheckError> {
+    let name = key_of(state);
+    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
+    let ag = given.ag;
+    if !(ag > 0.0 && ag <= 1.0) {
+        return Err(refused("ag", format!("a_g = {ag} must be above 0 and at most 1 g; give it in g")));
+    }
+    let ratio = |key, value: f64| {
+        if value > 0.0 && value <= 0.5 {
+            return Ok(value);
+        }
+        Err(refused(key, format!("{key} = {value} is a ratio, such as 0.08; above 0 and at most 0.5")))
+    };
+    let damping = ratio("damping", given.damping.unwrap_or(state.damping()))?;
+    let building_damping = given.building_damping.map(|xi| ratio("building_damping", xi)).transpose()?;
+    if let Some(period) = given.building_period.filter(|period| !(*period > 0.0 && period.is_finite())) {
+        return Err(refused("building_period", format!("building_period = {period} s must be above 0")));
+    }
+    if given.displacement.is_some() && state != LimitState::Slc {
+        let message = "a displacement of local instability belongs to SLC (C8.7.1.2.1.6)";
+        return Err(refused("displacement", message.into()));
+    }
+    let source = source(state, given, table)?;
+    let mut modes = table.building.as_ref().map(modes).transpose()?.unwrap_or_default();
+    if let (Some(first), Some(period)) = (modes.first().copied(), given.building_period) {
+        for mode in &mut modes {
+            mode.period *= period / first.period;
+        }
+    }
+    if !matches!(source, Source::Code(_)) && table.building.is_some() {
+        let message = "a spectrum and records are those of the wall's own place; leave [check.building] out, \
+                       or give F0 and TC";
+        return Err(refused("ag", message.into()));
+    }
+    Ok(StateStatement {
+        state,
+        ag,
+        damping,
+        source,
+        building_damping,
+        building_period: given.building_period,
+        modes,
+        displacement: given.displacement,
+    })
+}
+
+fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Result<Source, CheckError> {
+    let name = key_of(state);
+    let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
+    match (given.f0, given.tc, &given.spectrum) {
+        (Some(f0), Some(tc), None) => {
+            if !(f0 >= 2.2 && f0.is_finite()) {
+                return Err(refused("F0", format!("F0 = {f0} is below 2.2 (NTC 3.2.3.2.1)")));
+            }
+            if !(tc > 0.0 && tc.is_finite()) {
+                return Err(refused("TC", format!("T_C* = {tc} s must be above 0")));
+            }
+            let hazard = Hazard { ag: given.ag, f0, tc };
+            Ok(Source::Code(GroundSpectrum::new(hazard, soil(table)?, topography(table)?)))
+        }
+        (None, None, Some(points)) => {
+            let Some(damping) = given.spectrum_damping else {
+                return Err(refused("spectrum", "state spectrum_damping, the ratio of that spectrum".into()));
+            };
+            let rises = points.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            let begins = points.first().is_some_and(|point| point[0] == 0.0);
+            let positive = points.iter().all(|point| point[0].is_finite() && point[1] > 0.0);
+            if !(rises && begins && positive && points.len() > 1 && points.iter().all(|p| p[1].is_finite())) {
+                let message = "expected points [T, Sa] in s and g: T from 0 on that rises, Sa above 0";
+                return Err(refused("spectrum", message.into()));
+            }
+            let points = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
+            Ok(Source::Points(points, damping))
+        }
+        (None, None, None) if table.records.is_some() => Ok(Source::Records),
+        (None, None, None) => {
+            Err(refused("ag", format!("needs its site: [check.{state}] with ag, F0 and TC")))
+        }
+        (Some(_), Some(_), Some(_)) => {
+            Err(refused("spectrum", "give F0 and TC, or a spectrum, not both".into()))
+        }
+        _ => Err(refused("ag", "F0 and TC go together; give both".into())),
+    }
+}
+
+fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
+    let Some(given) = &table.soil else {
+        return Err(CheckError::value(&[], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
+    };
+    Soil::ALL.into_iter().find(|soil| soil.name() == given).ok_or_else(|| {
+        let message =
+            format!("soil {given:?}: NTC 3.2.2 has formulas for A to E; give a spectrum of a local analysis");
+        CheckError::value(&["soil"], message)
+    })
+}
+
+fn topography(table: &CheckTable) -> Result<f64, CheckError> {
+    let factor = match &table.topography {
+        None => Some(1.0),
+        Some(Topography::Factor(factor)) => Some(*factor).filter(|factor| (1.0..=1.4).contains(factor)),
+        Some(Topography::Category(name)) => {
+            let categories = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)];
+            categories.into_iter().find(|(category, _)| category == name).map(|(_, factor)| factor)
+        }
+    };
+    factor.ok_or_else(|| {
+        let given = match &table.topography {
+            Some(Topography::Factor(factor)) => factor.to_string(),
+            Some(Topography::Category(name)) => format!("{name:?}"),
+            None => String::new(),
+        };
+        let message = format!("topography = {given} must be \"T1\" to \"T4\", or S_T from 1 to 1.4");
+        CheckError::value(&["topography"], message)
+    })
+}
+
+fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
+    let refused =
+        |key, message: String| Err(CheckError::value(&["building", key], format!("building: {message}")));
+    match (building.storeys, building.period, building.height_ratio, &building.modes) {
+        (Some(storeys), Some(period), Some(height_ratio), None) => {
+            if storeys < 1 {
+                return refused("storeys", format!("storeys = {storeys} must be at least 1"));
+            }
+            if !(period > 0.0 && period.is_finite()) {
+                return refused("period", format!("period = {period} s must be above 0"));
+            }
+            if !(0.0..=1.0).contains(&height_ratio) {
+                let message = format!("height_ratio = {height_ratio} is z/H, from 0 to 1");
+                return refused("height_ratio", message);
+            }
+            Ok(vec![Mode::of_storeys(storeys, period, height_ratio)])
+        }
+        (None, None, None, Some(modes)) => {
+            let usable = |mode: &ModeTable| {
+                mode.period > 0.0 && mode.period.is_finite() && mode.participation.is_finite()
+            };
+            if modes.is_empty() || !modes.iter().all(usable) {
+                return refused("modes", "each mode needs a period above 0 s and a participation".into());
+            }
+            let mode = |mode: &ModeTable| Mode { period: mode.period, participation: mode.participation };
+            Ok(modes.iter().map(mode).collect())
+        }
+        _ => refused(
+            "modes",
+            "give storeys, period and height_ratio, or modes = [{ period, participation }]".into(),
+        ),
+    }
+}
+
+impl StateStatement {
+    /// Makes the spectrum of the code at the place of the wall, with these modes of the building; of the
+    /// ground where there is none.
+    ///
+    /// # Errors
+    /// [`CheckError::Value`] without a damping of the building, or of one that leaves no amplification.
+    pub(super) fn floor(
+        &self,
+        ground: GroundSpectrum,
+        modes: Vec<Mode>,
+    ) -> Result<Option<FloorSpectrum>, CheckError> {
+        if modes.is_empty() {
+            return Ok(None);
+        }
+        let name = key_of(self.state);
+        let Some(xi) = self.building_damping else {
+            let message = format!(
+                "{name}: state building_damping, the damping of the building in this limit state \
+                 (C8.7.1.2.1.4)"
+            );
+            return Err(CheckError::value(&[name], message));
+        };
+        let floor = FloorSpectrum::new(ground, modes, xi);
+        // the linear check takes ξ = 5 %, which amplifies more than the others
+        let largest = self.damping.max(LimitState::Sld.damping());
+        if floor.amplification(largest) <= 1.0 {
+            let message = format!("{name}: xi_k = {xi} leaves no amplification: [C7.2.6] does not hold");
+            return Err(CheckError::value(&[name, "building_damping"], message));
+        }
+        Ok(Some(floor))
+    }
+}

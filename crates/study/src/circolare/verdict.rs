@@ -1,0 +1,192 @@
+//! The outcome of a check.
+
+use serde::Serialize;
+
+use super::dynamic::DynamicCheck;
+
+/// The outcome of a check. Serialized it is what `wall check --json` prints: SI units, `a_g` in g.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verdict {
+    /// [`CODE`].
+    pub code: &'static str,
+    /// Whether every limit state that decides holds on every side.
+    pub passed: bool,
+    /// What governs: the smallest `ζ_E` of those that decide.
+    pub governs: Governs,
+    /// The sides to which the wall can rock.
+    pub sides: SideVerdicts,
+    /// The dynamic check, where there are records for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dynamic: Option<DynamicCheck>,
+    /// What the engineer should know; none of it stops the check.
+    pub warnings: Vec<String>,
+}
+
+/// What governs a verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Governs {
+    /// `positive` or `negative`; in the dynamic check the side of the largest response.
+    pub side: Side,
+    /// The limit state, and `SLV_q` for the linear check.
+    pub limit_state: Deciding,
+    /// `ζ_E` \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+}
+
+/// A side of a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// u > 0.
+    Positive,
+    /// u < 0.
+    Negative,
+}
+
+impl Side {
+    /// The side of a sign of u.
+    pub fn of(sign: f64) -> Self {
+        if sign < 0.0 { Self::Negative } else { Self::Positive }
+    }
+
+    /// Its name in tables, `u > 0` or `u < 0`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Positive => "u > 0",
+            Self::Negative => "u < 0",
+        }
+    }
+}
+
+/// A check that can decide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Deciding {
+    /// Activation.
+    #[serde(rename = "SLD")]
+    Sld,
+    /// SLV with q.
+    #[serde(rename = "SLV_q")]
+    SlvWithQ,
+    /// SLV by displacement, or dynamic.
+    #[serde(rename = "SLV")]
+    Slv,
+    /// SLC by displacement, or dynamic.
+    #[serde(rename = "SLC")]
+    Slc,
+}
+
+impl Deciding {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sld => "SLD",
+            Self::SlvWithQ => "SLV with q",
+            Self::Slv => "SLV",
+            Self::Slc => "SLC",
+        }
+    }
+}
+
+/// The outcomes of both sides; `None` for one to which the wall cannot rock.
+#[derive(Clone, Debug, Serialize)]
+pub struct SideVerdicts {
+    /// u > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positive: Option<SideVerdict>,
+    /// u < 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub negative: Option<SideVerdict>,
+}
+
+impl SideVerdicts {
+    /// The sides there are.
+    pub fn iter(&self) -> impl Iterator<Item = (Side, &SideVerdict)> {
+        let sides = [(Side::Positive, &self.positive), (Side::Negative, &self.negative)];
+        sides.into_iter().filter_map(|(side, verdict)| Some((side, verdict.as_ref()?)))
+    }
+}
+
+/// The outcome of one side.
+#[derive(Clone, Debug, Serialize)]
+pub struct SideVerdict {
+    /// α0 [C8.7.1.1] \[-\].
+    pub alpha0: f64,
+    /// e* [C8.7.1.5] \[-\].
+    pub e_star: f64,
+    /// M* = e* Σ(P + Q)/g \[kg\].
+    #[serde(rename = "M_star")]
+    pub mass: f64,
+    /// `a_0` = α0 g/e*, without FC \[m/s²\].
+    pub a0: f64,
+    /// `d_0` \[m\].
+    pub d0: f64,
+    /// T0 of the elastic branch; 0 where the wall is rigid \[s\].
+    #[serde(rename = "T0")]
+    pub t0: f64,
+    /// `d_y`, the end of the elastic branch \[m\].
+    pub dy: f64,
+    /// `a_y`, without FC \[m/s²\].
+    pub ay: f64,
+    /// d/u \[-\].
+    pub d_per_u: f64,
+    /// SLD, activation.
+    #[serde(rename = "SLD", skip_serializing_if = "Option::is_none")]
+    pub sld: Option<ActivationCheck>,
+    /// SLV with q.
+    #[serde(rename = "SLV_q", skip_serializing_if = "Option::is_none")]
+    pub slv_q: Option<ActivationCheck>,
+    /// SLV by displacement.
+    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
+    pub slv: Option<DisplacementCheck>,
+    /// SLC by displacement.
+    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
+    pub slc: Option<DisplacementCheck>,
+    /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
+    #[serde(skip)]
+    pub corners: Vec<(f64, f64)>,
+}
+
+/// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ActivationCheck {
+    /// Capacity, with FC and, in the linear check, times q \[m/s²\].
+    pub capacity: f64,
+    /// Demand \[m/s²\].
+    pub demand: f64,
+    /// `ζ_E` = capacity/demand \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there \[g\].
+    pub ag: f64,
+}
+
+/// A check of displacements, C8.7.1.2.1.8.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DisplacementCheck {
+    /// `d_SLV` or `d_SLC` \[m\].
+    pub d: f64,
+    /// a there, with FC \[m/s²\].
+    pub a: f64,
+    /// `T_SLV` or `T_SLC` \[s\].
+    #[serde(rename = "T")]
+    pub period: f64,
+    /// `S_e` or `S_eZ` at that period \[m/s²\].
+    #[serde(rename = "S_e")]
+    pub acceleration: f64,
+    /// `S_d` \[m\].
+    pub demand: f64,
+    /// Both terms of [C8.7.1.12]; the second only behind b T₁ \[m\].
+    pub demand_terms: [Option<f64>; 2],
+    /// d/`S_d` \[-\].
+    pub ratio: f64,
+    /// `a_g` that just brings the wall there: `ζ_E` times that of the limit state \[g\].
+    pub ag: f64,
+    /// `ζ_E` \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+    /// Whether the tie breaks there.
+    pub limited_by_tie: bool,
+    /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
+    #[serde(rename = "raised_to_SLD")]
+    pub raised: bool,
+}

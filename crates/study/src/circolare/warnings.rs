@@ -1,0 +1,92 @@
+//! What the engineer should know of a check that can be made.
+
+use rocking_wall::scene::Floors;
+use rocking_wall::wall::Wall;
+
+use super::LimitState;
+use super::curve::Curve;
+use super::demand::Demand;
+use super::statement::{Source, Statement};
+use super::table::UseClass;
+use super::verdict::SideVerdicts;
+
+/// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
+const LONGEST_PERIOD: f64 = 4.0;
+/// `T_C`* above which a typing error is likely \[s\].
+const LONGEST_TC: f64 = 1.0;
+
+pub(super) fn of_statement(statement: &Statement, floors: Option<&Floors>, wall: &Wall) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut below: Option<(LimitState, f64)> = None;
+    for given in statement.states.iter().flatten() {
+        if let Some((state, ag)) = below.filter(|(_, ag)| *ag >= given.ag) {
+            warnings
+                .push(format!("a_g does not rise from {state} to {}: {ag} and {} g", given.state, given.ag));
+        }
+        below = Some((given.state, given.ag));
+        if let Source::Code(ground) = &given.source {
+            let tc = ground.t_c / ground.period_factor;
+            if tc > LONGEST_TC {
+                warnings.push(format!("{}: T_C* = {tc} s is above 1 s; is it in s?", given.state));
+            }
+        }
+    }
+    if statement.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
+        warnings.push("use class IV is checked for SLD too (NTC 8.3); give [check.SLD]".into());
+    }
+    warnings.extend(
+        floors
+            .and_then(|floors| floors.warning(wall))
+            .map(|warning| format!("{warning}; the check is then on the safe side (C8.7.1.2.1.4)")),
+    );
+    warnings
+}
+
+pub(super) fn of_demand(state: LimitState, demand: &Demand) -> Vec<String> {
+    let Demand::Floor(floor) = demand else { return Vec::new() };
+    let (place, ground) = (floor.peak_acceleration(), floor.ground().acceleration(0.0, 0.05));
+    if place >= ground {
+        return Vec::new();
+    }
+    vec![format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground")]
+}
+
+pub(super) fn of_side(
+    curve: &Curve<'_>,
+    statement: &Statement,
+    demands: &[Option<Demand>; 3],
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if curve.tie().is_some_and(|tie| tie.strength_displacement().is_none()) {
+        warnings
+            .push("the tie has no tie_strength: it never breaks and is counted at d_SLV and d_SLC".into());
+    }
+    let t0 = curve.elastic.period;
+    for given in statement.states.iter().flatten() {
+        let Some(Demand::Floor(floor)) = &demands[given.state as usize] else { continue };
+        let xi = LimitState::Sld.damping();
+        let (above, ground) = (floor.acceleration(t0, xi), floor.ground().acceleration(t0, xi));
+        if t0 > 0.0 && t0 < floor.first_period() && above < ground {
+            warnings.push(format!(
+                "{}: S_eZ(T0) = {above:.4} m/s² is below S_e(T0) = {ground:.4} m/s² of the ground",
+                given.state
+            ));
+        }
+    }
+    warnings
+}
+
+pub(super) fn of_periods(sides: &SideVerdicts) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (_, side) in sides.iter() {
+        for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
+            if let Some(check) = check.filter(|check| check.period > LONGEST_PERIOD) {
+                warnings.push(format!(
+                    "T_{state} = {:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s",
+                    check.period
+                ));
+            }
+        }
+    }
+    warnings
+}
