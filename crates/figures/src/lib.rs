@@ -28,6 +28,7 @@ mod axes;
 pub mod calibration;
 pub mod capacity;
 pub mod chart;
+pub mod check;
 pub mod heat_map;
 pub mod many_lines;
 pub mod palette;

@@ -42,7 +42,11 @@ pub(crate) fn check_wall<'py>(
         })
         .map_err(|error: study::check::CheckError| refused(error))?;
     let values = sides.iter().map(|side| values(py, side)).collect::<PyResult<_>>()?;
-    Ok((values, governing(&sides).sign, over_demand(&drawn).picture().svg()))
+    Ok((
+        values,
+        governing(&sides, |side| side.acceleration_ratio.min(side.displacement_ratio)).sign,
+        over_demand(&drawn).picture().svg(),
+    ))
 }
 
 /// Returns the numbers of a side by their names in `wall check --json`.

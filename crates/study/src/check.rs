@@ -189,7 +189,7 @@ impl CapacityOverDemand {
     /// # Panics
     /// If there is no side.
     pub fn new(wall: &Wall, demand: &Demand, sides: &[SideCheck]) -> Result<Self, CheckError> {
-        let worst = governing(sides);
+        let worst = governing(sides, |side| side.displacement_ratio);
         let corners = wall.capacity_corners(worst.sign);
         let corners = corners.iter().map(|point| (point.spectral_displacement, point.spectral_acceleration));
         Ok(Self {
@@ -231,19 +231,12 @@ pub struct SideCheck {
     pub displacement_ratio: f64,
 }
 
-impl SideCheck {
-    /// The smaller of both ratios.
-    pub fn ratio(&self) -> f64 {
-        self.acceleration_ratio.min(self.displacement_ratio)
-    }
-}
-
 /// Returns the side with the smallest ratio, which governs.
 ///
 /// # Panics
 /// If there is no side.
-pub fn governing(sides: &[SideCheck]) -> &SideCheck {
-    let worst = sides.iter().min_by(|a, b| a.ratio().total_cmp(&b.ratio()));
+pub fn governing(sides: &[SideCheck], ratio: fn(&SideCheck) -> f64) -> &SideCheck {
+    let worst = sides.iter().min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
     worst.expect("a wall has a side")
 }
 

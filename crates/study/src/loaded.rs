@@ -8,7 +8,7 @@ use rocking_wall::scene::{Scene, SceneError, read_text};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall, Warning};
 
 use crate::document::{
-    RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text,
+    RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text, walls_of,
 };
 use crate::ida::{NamedRecord, NamedWall, Study};
 use crate::model::Model;
@@ -139,6 +139,24 @@ impl LoadedStudy {
             .map_err(|error| in_file(error.to_string()))?;
         Ok(Self { title, study, report, inputs: Vec::new(), warnings: Vec::new(), text })
     }
+}
+
+/// Reads the walls of a study's text, or of a text with walls only; scenes and tables that it names are looked
+/// up beside its file. Returns them and the files that were read.
+///
+/// # Errors
+/// [`SceneError`], with file, line, value and remedy.
+pub(crate) fn read_walls(text: &str, path: &Path) -> Result<(Vec<NamedWall>, Vec<PathBuf>), SceneError> {
+    let name = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let (mut walls, mut inputs) = (Vec::new(), vec![path.to_owned()]);
+    for entry in walls_of(&name, text)? {
+        // a check uses neither the motion nor the damping of a scene
+        walls.extend(wall(entry, folder, &name, &mut inputs, &mut Vec::new())?);
+    }
+    check_unique("walls", walls.iter().map(|wall| &wall.name))
+        .map_err(|reason| SceneError::File { file: name, reason })?;
+    Ok((walls, inputs))
 }
 
 /// Reads the walls of an entry.

@@ -15,24 +15,29 @@
 //! | `verdict` | the outcome |
 //! | `dynamic` | runs under records |
 //! | `warnings` | what the engineer should know |
+//! | `find` | the smallest wall that passes |
+//! | `walls` | many walls |
 
 mod checks;
 mod curve;
 mod demand;
 mod dynamic;
 mod error;
+mod find;
 mod floor;
 mod ground;
 mod records;
 mod statement;
 mod table;
 mod verdict;
+mod walls;
 mod warnings;
 
 pub use checks::check;
 pub use demand::MEAN_COUNTS_FROM;
 pub use dynamic::{DynamicCheck, DynamicRun, DynamicState};
 pub use error::CheckError;
+pub use find::{Found, Sought, find};
 pub use floor::{FloorSpectrum, Mode};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use records::Records;
@@ -44,6 +49,7 @@ pub use table::{
 pub use verdict::{
     ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, Verdict,
 };
+pub use walls::{WallVerdict, Walls};
 
 /// The code, in `[check]`.
 pub const CODE: &str = "circolare-2019";

@@ -180,6 +180,47 @@ struct WallText {
     supports: Option<Spanned<SupportsTable>>,
 }
 
+/// A file of walls for a check, which needs nothing else of a study.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallsDocument {
+    #[serde(rename = "title")]
+    _title: Option<IgnoredAny>,
+    #[serde(rename = "check")]
+    _check: Option<IgnoredAny>,
+    #[serde(default)]
+    storeys: Vec<Spanned<StoreyTable>>,
+    supports: Option<Spanned<SupportsTable>>,
+    walls: Vec<Spanned<WallTable>>,
+}
+
+/// Reads the walls of a study's text, or of a text with walls, storeys and `[check]` only.
+///
+/// # Errors
+/// [`SceneError`] with file, line, value and remedy.
+pub(crate) fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, SceneError> {
+    let place = &Place::new(name, text);
+    let keys: toml::Table = parse_toml(place)?;
+    if keys.contains_key("models") || keys.contains_key("levels") {
+        return Ok(StudyFile::parse(name, text)?.walls);
+    }
+    let WallsDocument { storeys, supports, walls, .. } = parse_toml(place)?;
+    entries(&walls, &storeys, supports.as_ref(), place)
+}
+
+fn entries(
+    walls: &[Spanned<WallTable>],
+    storeys: &[Spanned<StoreyTable>],
+    supports: Option<&Spanned<SupportsTable>>,
+    place: &Place<'_>,
+) -> Result<Vec<WallEntry>, SceneError> {
+    let entry = |table: &Spanned<WallTable>| {
+        let supports = table.get_ref().supports.as_ref().or(supports);
+        Ok(WallEntry { floors: read_floors(storeys, supports, place)?, ..wall(table, place)? })
+    };
+    walls.iter().map(entry).collect()
+}
+
 impl StudyFile {
     /// Reads a study from its text; `name` stands for the file in messages. Walls and records may be missing,
     /// since a program can supply them itself.
@@ -197,11 +238,7 @@ impl StudyFile {
                 return Err(place.error(document.models[index].span(), message));
             }
         }
-        let walls = document.walls.iter().map(|table| {
-            let supports = table.get_ref().supports.as_ref().or(document.supports.as_ref());
-            Ok(WallEntry { floors: read_floors(&document.storeys, supports, place)?, ..wall(table, place)? })
-        });
-        let walls = walls.collect::<Result<_, SceneError>>()?;
+        let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
         let tail = document.tail.as_ref().map_or(DEFAULT_TAIL, |tail| *tail.get_ref());
         if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=1000.0).contains(&tail)) {
             return Err(place.error(given.span(), format!("tail = {tail} s must be from 0 to 1000 s")));

@@ -1,0 +1,289 @@
+//! `wall check` without a table `[check]`: capacity against demand, from a wall's own capacity curve.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
+use figures::capacity::over_demand;
+use figures::escaped;
+use figures::plot::Plot;
+use ground_motion::spectrum::DAMPING;
+use ground_motion::{RecordOptions, Unit};
+use rocking_wall::scene::{Floors, read_text};
+use rocking_wall::wall::Wall;
+use serde_json::{Value, json};
+use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
+
+use crate::args::read_record;
+use crate::output;
+use crate::output::capacity::significant;
+use figures::template;
+
+#[derive(Debug, Args)]
+pub(super) struct SpectrumArguments {
+    /// Demand: a response spectrum as CSV, T in s and Sa, from T = 0 on; of the ground or of a floor
+    #[arg(long, value_name = "FILE", conflicts_with = "records")]
+    spectrum: Option<PathBuf>,
+    /// Demand: the median spectrum of these records, felt on the floor of a scene with storeys
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    records: Vec<PathBuf>,
+    /// Unit of a spectrum or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
+    #[arg(long)]
+    unit: Option<String>,
+    /// Damping ratio of the spectrum [default: 0.05]
+    #[arg(long, value_name = "RATIO")]
+    damping: Option<f64>,
+    /// Displacement capacity over the displacement at which the force of the wall vanishes [default: 0.4]
+    #[arg(long, value_name = "FRACTION")]
+    displacement_fraction: Option<f64>,
+    /// Displacement of the secant period over the displacement capacity [default: 0.4]
+    #[arg(long, value_name = "FRACTION")]
+    secant_fraction: Option<f64>,
+}
+
+impl SpectrumArguments {
+    /// Refuses these options beside a table `[check]`, which has its own.
+    pub(super) fn refuse(&self, name: &str) -> Result<()> {
+        let given = [
+            ("--spectrum", self.spectrum.is_some()),
+            ("--records", !self.records.is_empty()),
+            ("--unit", self.unit.is_some()),
+            ("--damping", self.damping.is_some()),
+            ("--displacement-fraction", self.displacement_fraction.is_some()),
+            ("--secant-fraction", self.secant_fraction.is_some()),
+        ];
+        match given.iter().find(|(_, given)| *given) {
+            Some((option, _)) => {
+                bail!("{name}: {option} is for a scene without a table [check]; leave it out")
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn damping(&self) -> f64 {
+        self.damping.unwrap_or(DAMPING)
+    }
+
+    fn fractions(&self) -> Fractions {
+        let Fractions { displacement, secant } = Fractions::default();
+        Fractions {
+            displacement: self.displacement_fraction.unwrap_or(displacement),
+            secant: self.secant_fraction.unwrap_or(secant),
+        }
+    }
+}
+
+pub(super) fn run(all: &super::Arguments) -> Result<()> {
+    let arguments = &all.spectrum;
+    if arguments.spectrum.is_none() && arguments.records.is_empty() {
+        bail!(
+            "there is no demand; give the scene a table [check] with code = \"circolare-2019\", or give \
+             --spectrum or --records"
+        );
+    }
+    let mut scene = all.scene.load_unshaken()?;
+    all.scene.apply(&mut scene)?;
+    let inputs = all.scene.inputs(&scene).chain(&arguments.spectrum).chain(&arguments.records);
+    output::check_distinct(inputs, &all.html)?;
+    let wall = all.scene.named(Wall::new(&scene.parameters))?;
+    let source = Source::read(arguments, scene.floors.as_ref(), &wall)?;
+    let sides = check(&wall, arguments.fractions(), |period| source.demand.at(period))?;
+    let alike = wall.has_equal_sides();
+    if let Some(path) = &all.html {
+        let table = escaped(&table(&scene.title, &source, arguments, &sides, alike));
+        let wide = over_demand(&CapacityOverDemand::new(&wall, &source.demand, &sides)?);
+        // on a narrow screen the legend would hide the curves
+        let mut narrow = Plot { size: [390.0, 330.0], ..wide.clone() };
+        narrow.series.iter_mut().for_each(|series| series.name.clear());
+        let [wide, narrow] = [wide.svg(), narrow.svg()];
+        let title = format!("{}: capacity against demand", escaped(&scene.title));
+        let parts = [("title", &*title), ("wide", &wide), ("narrow", &narrow), ("table", &table)];
+        output::to_file(path, template::page(include_str!("../../pages/check.html"), &parts).as_bytes())?;
+    }
+    let text = if all.json {
+        serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"
+    } else {
+        let mut text = table(&scene.title, &source, arguments, &sides, alike);
+        if let Some(path) = &all.html {
+            let _ = writeln!(text, "\nwritten {}", path.display());
+        }
+        text
+    };
+    output::to_stdout(&text)
+}
+
+/// Where the demand comes from.
+struct Source {
+    name: String,
+    damping: f64,
+    demand: Demand,
+}
+
+/// Largest spectrum file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+impl Source {
+    fn read(arguments: &SpectrumArguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
+        let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
+        let damping = arguments.damping();
+        if let Some(path) = &arguments.spectrum {
+            if floors.is_some() {
+                output::warn(
+                    "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
+                );
+            }
+            let (unit, demand) = points(path, unit)?;
+            return Ok(Self { name: format!("{}, Sa in {unit}", path.display()), damping, demand });
+        }
+        let options = RecordOptions { unit, ..RecordOptions::default() };
+        let motion = |path: &PathBuf| Ok(read_record(path, &options)?.motion);
+        let motions = arguments.records.iter().map(motion).collect::<Result<Vec<_>>>()?;
+        let count = motions.len();
+        let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+        if let Some(floors) = floors {
+            floors.warning(wall).iter().for_each(|warning| output::warn(warning));
+            let _ = write!(name, " {}", floors.note());
+        }
+        Ok(Self { name, damping, demand: Demand::of_records(motions, floors, wall, damping)? })
+    }
+}
+
+/// Reads a spectrum and its unit, which the file states in its header line, or the arguments do.
+fn points(path: &Path, given: Option<Unit>) -> Result<(Unit, Demand)> {
+    let text = read_text(path, "a spectrum (CSV)", MAX_FILE_BYTES)?;
+    let unit = match (stated_unit(&text), given) {
+        (Some(stated), Some(given)) if stated != given => {
+            bail!("{}: line 1: states {stated}, and --unit {given}; leave --unit out", path.display());
+        }
+        (stated, given) => stated.or(given).with_context(|| {
+            let path = path.display();
+            format!("{path}: states no unit; give --unit, or write it into a header line, T [s],Sa [g]")
+        })?,
+    };
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
+    for (index, line) in text.lines().enumerate() {
+        let number = |field: &str| field.trim().parse::<f64>().ok();
+        let fields: Vec<_> = line.split([',', ';', '\t']).collect();
+        let pair = match fields[..] {
+            [period, value] => number(period).zip(number(value)),
+            _ => None,
+        };
+        let Some((period, value)) = pair else {
+            if index == 0 || line.trim().is_empty() {
+                continue;
+            }
+            bail!("{}: line {}: expected T in s and Sa, such as 0.5,0.42", path.display(), index + 1);
+        };
+        points.push((period, unit.to_si(value)));
+        lines.push(index + 1);
+    }
+    let demand = Demand::of_points(points).map_err(|error| match error {
+        CheckError::Point { number, .. } => {
+            anyhow!("{}: line {}: expected {POINTS}", path.display(), lines[number - 1])
+        }
+        other => anyhow!("{}: {other}", path.display()),
+    })?;
+    Ok((unit, demand))
+}
+
+/// Finds the unit in brackets at the end of a header line, `T [s],Sa [g]`; `Sa (5 %)` states none.
+fn stated_unit(text: &str) -> Option<Unit> {
+    let header = text.lines().next()?.trim().trim_end_matches('"');
+    let bracket = |(opening, closing)| header.strip_suffix(closing)?.rsplit_once(opening);
+    [('[', ']'), ('(', ')')].into_iter().find_map(bracket)?.1.parse().ok()
+}
+
+fn side_name(side: &SideCheck) -> &'static str {
+    if side.sign > 0.0 { "u > 0" } else { "u < 0" }
+}
+
+/// A name, a unit, and the number of a side.
+type Line = (&'static str, &'static str, fn(&SideCheck) -> f64);
+
+fn table(
+    title: &str,
+    source: &Source,
+    arguments: &SpectrumArguments,
+    sides: &[SideCheck],
+    alike: bool,
+) -> String {
+    let shown = if alike { &sides[..1] } else { sides };
+    let name = |side: &SideCheck| if alike { "both sides" } else { side_name(side) };
+    let mut text = format!("{title}\n");
+    let _ = writeln!(text, "demand   {}, {} % damping", source.name, 100.0 * source.damping);
+    let Fractions { displacement, secant } = arguments.fractions();
+    let _ =
+        writeln!(text, "fractions: d_u* at {displacement} of the zero of F, secant at {secant} of d_u*\n");
+    let heads = shown.iter().fold(String::new(), |names, side| names + &format!("{:>13} ", name(side)));
+    let _ = writeln!(text, "{:<22}{:>6}{heads}", "", "");
+    let rows: [Line; 10] = [
+        ("onset a0*", "m/s2", |side| side.onset_acceleration),
+        ("zero of F d0*", "m", |side| side.zero_displacement),
+        ("capacity d_u*", "m", |side| side.displacement_capacity),
+        ("secant d_s*", "m", |side| side.secant[0]),
+        ("secant a_s*", "m/s2", |side| side.secant[1]),
+        ("secant period T_s", "s", |side| side.secant_period),
+        ("demand Sa(0)", "m/s2", |side| side.peak_acceleration),
+        ("demand Sd(T_s)", "m", |side| side.displacement_demand),
+        ("a0*/Sa(0)", "-", |side| side.acceleration_ratio),
+        ("d_u*/Sd(T_s)", "-", |side| side.displacement_ratio),
+    ];
+    for (name, unit, value) in rows {
+        let values: Vec<_> = shown.iter().map(|side| significant(value(side))).collect();
+        let _ = writeln!(text, "{name:<22}{unit:>6}{}", values.join(" "));
+    }
+    text.push('\n');
+    for (what, ratio, [holds, fails]) in VERDICTS {
+        let worst = governing(sides, ratio);
+        let side = if alike { "both sides alike" } else { side_name(worst) };
+        let verdict = if ratio(worst) >= 1.0 { holds } else { fails };
+        let _ = writeln!(text, "{what}: {verdict}, ratio {} ({side})", significant(ratio(worst)).trim());
+    }
+    for side in shown.iter().filter(|side| side.limited_by_tie) {
+        let _ = writeln!(text, "{}: the strength of the tie limits d_u*", name(side));
+    }
+    text
+}
+
+/// A name, its ratio, and what it says.
+type Named = (&'static str, fn(&SideCheck) -> f64, [&'static str; 2]);
+
+/// Both verdicts: they mean different things, and neither stands for the other.
+const VERDICTS: [Named; 2] = [
+    ("onset", |side| side.acceleration_ratio, ["the wall does not rock", "the wall rocks"]),
+    ("displacement", |side| side.displacement_ratio, ["within the capacity", "beyond the capacity"]),
+];
+
+fn json(title: &str, source: &Source, arguments: &SpectrumArguments, sides: &[SideCheck]) -> Value {
+    let side = |side: &SideCheck| {
+        json!({
+            "side": side_name(side),
+            "onset_acceleration": side.onset_acceleration,
+            "zero_displacement": side.zero_displacement,
+            "displacement_capacity": side.displacement_capacity,
+            "limited_by_tie": side.limited_by_tie,
+            "secant_displacement": side.secant[0],
+            "secant_acceleration": side.secant[1],
+            "secant_period": side.secant_period,
+            "peak_acceleration": side.peak_acceleration,
+            "displacement_demand": side.displacement_demand,
+            "acceleration_ratio": side.acceleration_ratio,
+            "displacement_ratio": side.displacement_ratio,
+        })
+    };
+    let governs = VERDICTS.map(|(name, ratio, _)| {
+        let worst = governing(sides, ratio);
+        (name.to_owned(), json!({ "side": side_name(worst), "ratio": ratio(worst) }))
+    });
+    let Fractions { displacement, secant } = arguments.fractions();
+    json!({
+        "title": title,
+        "demand": source.name,
+        "damping": source.damping,
+        "displacement_fraction": displacement,
+        "secant_fraction": secant,
+        "sides": sides.iter().map(side).collect::<Vec<_>>(),
+        "governs": governs.into_iter().collect::<serde_json::Map<_, _>>(),
+    })
+}
