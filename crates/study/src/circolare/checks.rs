@@ -99,8 +99,8 @@ pub(super) fn demand(
     }
 }
 
-/// The modes of the storeys of a scene at the wall's supports, `γ_k` `ψ_k` by the weights of the supports; their
-/// periods in proportion where the limit state has its own T₁.
+/// The modes of the storeys of a scene, `γ_k` `ψ_k` by the weights of the wall's supports. Their periods are
+/// in proportion where the limit state has its own T₁.
 fn modes_of_storeys(
     given: &StateStatement,
     floors: Option<&Floors>,

@@ -204,7 +204,7 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// Returns whether the law has a plateau or points of its own: its corners are not those of a line from `a_0`.
+/// Returns whether the law has a plateau or points of its own, not only a line from `a_0`.
 fn has_plateau(parameters: &Parameters) -> bool {
     parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear
 }
@@ -240,8 +240,8 @@ fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f6
         ),
         (Mechanism::VerticalSpanning, _) => Ok(0.0),
         (Mechanism::Parapet, None) if parameters.overburden > 0.0 => refused(
-            "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia goes \
-             elsewhere) to 1 (it moves with the wall)",
+            "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia \
+             goes elsewhere) to 1 (it moves with the wall)",
         ),
         (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
     }

@@ -92,6 +92,7 @@ impl Demand {
             }
             // the largest S_d from T0 to T
             Self::Points(..) | Self::Records(_) => {
+                let acceleration = self.acceleration(state, period, xi)?;
                 let mut largest = 0.0_f64;
                 for part in 0..=SEARCHED {
                     let at = t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED);
@@ -100,7 +101,6 @@ impl Demand {
                         largest = largest.max(self.acceleration(state, at, xi)? * (at / TAU).powi(2));
                     }
                 }
-                let acceleration = self.acceleration(state, period, xi)?;
                 Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
             }
         }

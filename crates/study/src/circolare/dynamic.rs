@@ -147,8 +147,7 @@ impl DynamicCheck {
         }
         if parameters.overburden > 0.0 && statement.overburden_mass.is_some_and(|r| r > 0.0) {
             warnings.push(
-                "the dynamic model has no mass on top: the overburden loads the wall, its inertia goes elsewhere"
-                    .into(),
+                "the dynamic model has no mass on top: the overburden loads the wall without inertia".into(),
             );
         }
         for (name, state) in self.states().filter(|(_, state)| state.passed && state.zeta < 1.0) {

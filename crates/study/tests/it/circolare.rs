@@ -13,7 +13,7 @@ use study::circolare::{
 
 const DIGITS: f64 = 1e-5;
 
-fn near(found: f64, expected: f64, what: &str) {
+pub(crate) fn near(found: f64, expected: f64, what: &str) {
     assert!((found / expected - 1.0).abs() < DIGITS, "{what}: {found}, expected {expected}");
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn checked(text: &str) -> Result<Verdict, String> {
         .map_err(|error| in_table(error, &place).to_string())
 }
 
-const PARAPET: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
+pub(crate) const PARAPET: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
 
 /// The table `[check]` of the examples on the ground, or at z/H of a building of three storeys.
@@ -40,7 +40,8 @@ fn table(activation: &str, height_ratio: Option<f64>, more: &str) -> String {
         format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio} }}\n")
     });
     format!(
-        "[check]\ncode = \"circolare-2019\"\nbefore_activation = {activation:?}\nsoil = \"B\"\n{more}\n{building}\
+        "[check]\ncode = \"circolare-2019\"\nbefore_activation = {activation:?}\nsoil = \"B\"\n{more}\n\
+         {building}\
          SLD = {{ {SITE}{} }}\nSLV = {{ {SITE}{} }}\nSLC = {{ {SITE}{} }}\n",
         damping(0.05),
         damping(0.10),
@@ -88,7 +89,8 @@ fn site_of_the_examples() {
     }
 }
 
-/// Example (a): T0, `d_y`, `a_y`, capacity; demand, ζ and `a_g` of SLD, ζ with q, on the ground and on the roof.
+/// Example (a): T0, `d_y`, `a_y`, capacity; then demand, ζ and `a_g` of SLD and ζ with q, on the
+/// ground and on the roof.
 #[test]
 fn parapet_at_activation() {
     let rigid = [0.0, 0.0, 0.981, 0.726667];
@@ -187,8 +189,7 @@ fn parapet_by_displacement() {
     }
 }
 
-/// Example (b): a loaded strip wall under the roof; on a rigid one `a_g` of SLD is larger and replaces that of
-/// SLV.
+/// Example (b): a loaded strip wall under the roof. On a rigid one `a_g` of SLD replaces that of SLV.
 #[test]
 fn strip_wall() {
     for (activation, more, branch, sld, with_q, zeta) in [

@@ -8,6 +8,9 @@ use std::path::Path;
 mod accuracy;
 mod calibration;
 mod circolare;
+mod circolare_dynamic;
+mod circolare_properties;
+mod circolare_refusals;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod extremes;

@@ -1,0 +1,200 @@
+//! What a check by Circolare 7/2019 refuses, and what it warns of.
+
+use crate::circolare::{PARAPET, checked};
+
+const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
+const STRIP: &str =
+    "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\noverburden = 1e4\n";
+
+/// A table `[check]` on soil B of a rigid wall, with more keys.
+fn table(more: &str) -> String {
+    format!("[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nbefore_activation = \"rigid\"\n{more}\n")
+}
+
+/// A table that states the activation itself.
+fn open(more: &str) -> String {
+    format!("[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nSLV = {SITE}\n{more}\n")
+}
+
+#[test]
+fn what_cannot_be_used_is_refused_with_the_remedy() {
+    let slv = |site: &str| table(&format!("SLV = {{ {site} }}"));
+    let with = |more: &str| table(&format!("SLV = {SITE}\n{more}"));
+    let building = "building = { storeys = 3, period = 0.3, height_ratio = 1 }";
+    let at_height = |more: &str, building: &str| {
+        table(&format!("SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32{more} }}\nbuilding = {building}"))
+    };
+    let cases: &[(String, &str)] = &[
+        (slv("ag = 0, F0 = 2.45, TC = 0.3"), "SLV: a_g = 0 must be above 0 and at most 1 g; give it in g"),
+        (slv("ag = 1.5, F0 = 2.45, TC = 0.3"), "a_g = 1.5 must be above 0 and at most 1 g"),
+        (slv("ag = 0.15, F0 = 2.1, TC = 0.3"), "F0 = 2.1 is below 2.2 (NTC 3.2.3.2.1)"),
+        (slv("ag = 0.15, F0 = 2.45, TC = 0"), "T_C* = 0 s must be above 0"),
+        (slv("ag = 0.15, F0 = 2.45"), "F0 and TC go together; give both"),
+        (slv("ag = 0.15"), "needs its site: [check.SLV] with ag, F0 and TC"),
+        (table(""), "SLV needs its site: [check.SLV] with ag, F0 and TC"),
+        (slv("ag = 0.15, F0 = 2.45, TC = 0.3, damping = 8"), "damping = 8 is a ratio, such as 0.08"),
+        (slv("ag = 0.15, F0 = 2.45, TC = 0.3, displacement = 0.1"), "belongs to SLC (C8.7.1.2.1.6)"),
+        (with("topography = 1.5"), "topography = 1.5 must be \"T1\" to \"T4\", or S_T from 1 to 1.4"),
+        (with("topography = \"T5\""), "topography = \"T5\" must be"),
+        (with("behaviour_factor = 0.5"), "behaviour_factor = 0.5 must be at least 1"),
+        (with("confidence_factor = 0.9"), "confidence_factor = 0.9 must be at least 1"),
+        (with("confidence_factor = 1.2"), "FC of LC1, 1.35, applies where compression is neglected"),
+        (with("knowledge_level = \"LC3\""), "state compression_considered = true"),
+        (with("confidence_factor = 1.35\nknowledge_level = \"LC1\""), "state the same; leave one out"),
+        (with("overburden_mass = -1"), "overburden_mass = -1 must be at least 0"),
+        (with("method = \"linear\"\n").replace("SLV", "SLC"), "SLV needs its site"),
+        (with("method = \"dynamic\""), "needs records; add [check.records] with files"),
+        (at_height("", "{ storeys = 0, period = 0.3, height_ratio = 1 }"), "storeys = 0 must be at least 1"),
+        (at_height("", "{ storeys = 3, period = 0, height_ratio = 1 }"), "period = 0 s must be above 0"),
+        (at_height("", "{ storeys = 3, period = 0.3, height_ratio = 2 }"), "height_ratio = 2 is z/H"),
+        (at_height("", "{ storeys = 3 }"), "give storeys, period and height_ratio, or modes"),
+        (at_height("", "{ modes = [] }"), "each mode needs a period above 0 s"),
+        (with(building), "state building_damping, the damping of the building"),
+        (
+            at_height(
+                ", building_damping = 0.5, damping = 0.5",
+                "{ storeys = 3, period = 0.3, height_ratio = 1 }",
+            ),
+            "xi_k = 0.5 leaves no amplification: [C7.2.6] does not hold",
+        ),
+        (open("").replace("soil = \"B\"\n", "before_activation = \"rigid\"\n"), "soil is missing"),
+        (open("").replace("\"B\"", "\"F\""), "soil \"F\": NTC 3.2.2 has formulas for A to E"),
+        (open(""), "before_activation is missing: state \"rigid\""),
+        (open("before_activation = \"beam\""), "beam needs young_modulus, E in Pa"),
+        (with("young_modulus = 1e9"), "young_modulus counts only with before_activation = \"beam\""),
+        (with("record_scale = \"g\""), "unknown variant `g`"),
+        (with("soll = 1"), "did you mean \"soil\"?"),
+        (with("records = { synthetic = { count = 2 } }"), "found 2; at least 3 records (NTC 7.3.5)"),
+    ];
+    for (text, message) in cases {
+        let error = checked(&format!("{PARAPET}{text}")).expect_err(message);
+        assert!(error.contains(message), "{error}\nfor {text}");
+        assert!(error.starts_with("scene.toml, line"), "{error}");
+    }
+}
+
+/// Walls that the check cannot take.
+#[test]
+fn walls_that_do_not_go_with_the_statements_are_refused() {
+    let with = |more: &str| table(&format!("SLV = {SITE}\nSLC = {SITE}\n{more}"));
+    let law = |more: &str| open(&format!("before_activation = \"law\"\n{more}"));
+    let full = format!(
+        "{PARAPET}kinematics = \"trigonometric\"\n[force_law]\nforce_law = \"rigid_linear\"\na3 = 1\n\
+         [damping]\ndamping_model = \"none\"\n[impact]\nimpact = \"restitution\"\n"
+    );
+    let cases = [
+        (
+            format!("{PARAPET}overburden = 5e3\n{}", with("")),
+            "state whether the overburden's mass moves along",
+        ),
+        (format!("{STRIP}{}", with("overburden_mass = 1")), "the top of a strip wall is held"),
+        (
+            format!(
+                "{PARAPET}[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n{}",
+                law("")
+            ),
+            "has no elastic branch",
+        ),
+        (
+            format!(
+                "{PARAPET}[force_law]\nforce_law = \"trilinear\"\na1 = 0.03\na3 = 1\nd1 = 0.7\n{}",
+                with("")
+            ),
+            "state \"law\"",
+        ),
+        (format!("{full}{}", with("")), "small rotations"),
+        (
+            format!("{PARAPET}{}", with("").replace("SLC = { ", "SLC = { displacement = 0.3, ")),
+            "SLC.displacement = 0.3 m must be above 0 and below u_0 = 0.2",
+        ),
+        (
+            format!("{PARAPET}{}", with("").replace("SLC = { ", "SLC = { displacement = 0.05, ")),
+            "SLC comes before SLV: d_SLC = 0.05 m is below d_SLV = 0.08",
+        ),
+        (
+            format!("{PARAPET}[force_law]\na1 = 0.5\n{}", law("")),
+            "the elastic branch reaches d_SLV: the wall does not rock before SLV",
+        ),
+    ];
+    refuses_all(&cases);
+}
+
+/// Spectra and records that do not go with the limit state.
+#[test]
+fn demands_that_do_not_serve_are_refused() {
+    let with = |more: &str| table(&format!("SLV = {SITE}\nSLC = {SITE}\n{more}"));
+    let spectrum = |points: &str, damping: f64| {
+        let given = format!("SLC = {{ ag = 0.2, spectrum = {points}, spectrum_damping = {damping} }}");
+        format!("{PARAPET}{}", table(&format!("SLV = {SITE}\n{given}")))
+    };
+    let [to_nine, to_two] = ["[[0, 0.2], [9, 0.01]]", "[[0, 0.2], [2, 0.01]]"];
+    let building = "building = { modes = [{ period = 0.3, participation = 1 }] }";
+    let damped = "{ ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }";
+    let records = "method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }";
+    refuses_all(&[
+        (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),
+        (spectrum(to_two, 0.1), "SLC needs the spectrum up to T = 3.1"),
+        (spectrum("[[1, 0.2], [2, 0.01]]", 0.1), "T from 0 on that rises"),
+        (format!("{}{building}", spectrum(to_nine, 0.1).replace(SITE, damped)), "leave [check.building] out"),
+        (format!("{PARAPET}{}", with(records).replace(SITE, "{ ag = 0.15 }")), "needs S of F0 and TC"),
+    ]);
+}
+
+fn refuses_all(cases: &[(String, &str)]) {
+    for (text, message) in cases {
+        let error = checked(text).expect_err(message);
+        assert!(error.contains(message), "{error}\nfor {text}");
+    }
+}
+
+#[test]
+fn what_the_engineer_should_know_is_warned_of() {
+    let state = |name: &str, more: &str| format!("{name} = {{ ag = 0.15, F0 = 2.45, TC = 0.32{more} }}\n");
+    let roof = "building = { storeys = 3, period = 0.3, height_ratio = 1.0 }";
+    let low = "building = { modes = [{ period = 0.3, participation = 0.1 }] }";
+    let damped = ", building_damping = 0.1";
+    let cases = [
+        (
+            table(&(state("SLV", "") + &state("SLC", ""))),
+            "a_g does not rise from SLV to SLC: 0.15 and 0.15 g",
+        ),
+        (table(&state("SLV", "").replace("0.32", "1.2")), "T_C* = 1.2 s is above 1 s; is it in s?"),
+        (table(&(state("SLV", "") + "use_class = \"IV\"")), "use class IV is checked for SLD too"),
+        (table(&(state("SLV", damped) + low)), "SLV: a_Z = "),
+        (
+            table(&(state("SLV", "") + "records = { synthetic = { count = 3 } }")),
+            "3 records: the least favourable one counts",
+        ),
+        (
+            table(&(state("SLV", "") + "records = { synthetic = { count = 7 } }")),
+            "7 records: the mean counts",
+        ),
+        (
+            format!("[tie]\ntie_height = 3\ntie_stiffness = 2e4\n{}", table(&(state("SLV", damped) + roof))),
+            "the tie has no tie_strength: it never breaks",
+        ),
+        (
+            open("before_activation = \"beam\"\nyoung_modulus = 3e11")
+                .replace("TC = 0.32 }", "TC = 0.32, building_damping = 0.1 }")
+                + low,
+            "S_eZ(T0) = ",
+        ),
+    ];
+    for (text, message) in cases {
+        let verdict = checked(&format!("{PARAPET}{text}")).unwrap();
+        assert!(
+            verdict.warnings.iter().any(|warning| warning.contains(message)),
+            "{:?} for {text}",
+            verdict.warnings
+        );
+    }
+    let tall = "[geometry]\nheight = 8\nthickness = 0.4\n";
+    let verdict = checked(&format!("{tall}{}", table(&state("SLC", "")))).unwrap();
+    assert!(
+        verdict.warnings[0].contains("NTC 3.2.3.2 admits its spectra up to 4 s"),
+        "{:?}",
+        verdict.warnings
+    );
+    let quiet = checked(&format!("{PARAPET}{}", table(&state("SLV", "")))).unwrap();
+    assert!(quiet.warnings.is_empty(), "{:?}", quiet.warnings);
+}
