@@ -94,7 +94,8 @@ impl FloorSpectrum {
         }
     }
 
-    /// Both terms of `S_d` in [C8.7.1.12]: `S_eZ` T²/(4π²), and beyond b T₁ the least value, `S_eZ`(T₁) b² T₁²/(4π²) \[m\].
+    /// Both terms of `S_d` in [C8.7.1.12] \[m\]: `S_eZ` T²/(4π²), and behind b T₁ the value that it does not
+    /// fall below, `S_eZ`(T₁) b² T₁²/(4π²).
     pub fn displacement(&self, period: f64, xi: f64) -> (f64, Option<f64>) {
         let at = |period: f64, reached: f64| self.acceleration(period, xi) * (reached / TAU).powi(2);
         let first = self.first_period();

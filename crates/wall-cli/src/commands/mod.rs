@@ -41,7 +41,7 @@ enum Command {
     Building(building::Arguments),
     /// Print what follows from a wall's parameters: masses, F0, `u_ins`, omega1, e, xi ...
     Describe(describe::Arguments),
-    /// Check capacity against demand: onset and displacement of the wall's own curve over a spectrum
+    /// Check a wall by Circolare 7/2019, or its capacity curve over a spectrum
     Check(check::Arguments),
     /// Compute the force of a parapet's tie and the displacement of the wall over the tie's stiffness
     Tie(tie::Arguments),

@@ -43,6 +43,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 /// compare the keys with those that the readers accept.
 fn scene() -> Result<Value> {
     let mut schema: Value = serde_json::from_str(include_str!("scene.schema.json"))?;
+    add_check(&mut schema)?;
+    let of_study: Value = serde_json::from_str(include_str!("study.schema.json"))?;
+    for table in ["Records", "Synthetic"] {
+        schema["$defs"][table] = of_study["$defs"][table].clone();
+    }
     let properties = &mut schema["properties"];
     properties["inputs"]["items"]["enum"] = input_names().collect();
     properties["thresholds"]["default"] = json!(DEFAULT_THRESHOLDS);
@@ -53,9 +58,19 @@ fn scene() -> Result<Value> {
     Ok(schema)
 }
 
+/// Adds the tables of a check by a code, which scenes and studies may have.
+fn add_check(schema: &mut Value) -> Result<()> {
+    let tables: Map<String, Value> = serde_json::from_str(include_str!("check.schema.json"))?;
+    for (name, table) in tables {
+        schema["$defs"][name] = table;
+    }
+    Ok(())
+}
+
 /// Makes the schema of studies, whose walls take some tables of a scene.
 fn study() -> Result<Value> {
     let mut schema: Value = serde_json::from_str(include_str!("study.schema.json"))?;
+    add_check(&mut schema)?;
     let of_scene: Value = serde_json::from_str(include_str!("scene.schema.json"))?;
     for table in ["StoreyTable", "SupportsTable"] {
         schema["$defs"][table] = of_scene["$defs"][table].clone();
@@ -159,7 +174,7 @@ fn parameter(variable: &Variable) -> Option<Value> {
 mod tests {
     use super::*;
     use ::building::Building;
-    use rocking_wall::scene::Scene;
+    use rocking_wall::scene::{Place, Scene};
     use study::document::StudyFile;
 
     /// The keys that an object of a schema lists, in order.
@@ -194,6 +209,19 @@ mod tests {
         }
         let error = Scene::parse("scene", "x = 1", ".".as_ref()).unwrap_err().to_string();
         assert_keys(&scene().unwrap(), &error);
+    }
+
+    #[test]
+    fn the_schema_has_the_keys_of_checks() {
+        for (table, text) in [
+            ("Check", "[check]\nx = 1"),
+            ("LimitState", "[check]\ncode = \"\"\nSLV = { x = 1 }"),
+            ("CheckBuilding", "[check]\ncode = \"\"\nbuilding = { x = 1 }"),
+            ("CheckMode", "[check]\ncode = \"\"\nbuilding = { modes = [{ x = 1 }] }"),
+        ] {
+            let error = study::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
+            assert_keys(&scene().unwrap()["$defs"][table], &error);
+        }
     }
 
     #[test]

@@ -124,3 +124,105 @@ fn ties_of_several_stiffnesses() {
     assert!(u[0] > u[1] && u[1] > u[2], "{u:?}");
     refused(&folder, &["tie", scene], &["tie_height"]);
 }
+
+/// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.
+const TIED: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n[force_law]\na1 = 0.03\n\
+    [tie]\ntie_stiffness = 200e3\ntie_height = 3\ntie_slack = 0.03\ntie_strength = 5e3\n\
+    [check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n\
+    building = { storeys = 3, period = 0.3, height_ratio = 1 }\n\
+    SLV = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n";
+
+/// JSON has the keys that programs rely on, the table the same numbers, and `--set` another wall.
+#[test]
+fn a_check_by_the_code() {
+    let folder = folder("check_code");
+    std::fs::write(folder.join("scene.toml"), TIED).unwrap();
+    let json = |more: &[&str]| -> serde_json::Value {
+        serde_json::from_str(&printed(&folder, &[&["check", "scene.toml", "--json"], more].concat())).unwrap()
+    };
+    let value = json(&[]);
+    assert_eq!((&value["code"], &value["passed"]), (&"circolare-2019".into(), &false.into()));
+    assert_eq!(value["governs"]["side"], "positive");
+    assert_eq!(value["governs"]["limit_state"], "SLV");
+    let side = &value["sides"]["positive"];
+    for (found, expected) in [
+        (&value["governs"]["zeta_E"], 0.727_534),
+        (&side["alpha0"], 0.1),
+        (&side["e_star"], 1.0),
+        (&side["M_star"], 2880.0),
+        (&side["a0"], 0.981),
+        (&side["d0"], 0.2),
+        (&side["T0"], 0.498_925),
+        (&side["SLV_q"]["ratio"], 0.184_604),
+        (&side["SLV"]["d"], 0.036_666_7),
+        (&side["SLV"]["a"], 2.522_46),
+        (&side["SLV"]["T"], 0.636_331),
+        (&side["SLV"]["demand"], 0.050_398_5),
+        (&side["SLV"]["ratio"], 0.727_534),
+        (&side["SLV"]["ag"], 0.109_13),
+    ] {
+        // six digits are printed
+        assert!((found.as_f64().unwrap() / expected - 1.0).abs() < 1e-5, "{found} for {expected}");
+    }
+    assert_eq!(side["SLV"]["limited_by_tie"], true);
+    assert_eq!(value["sides"]["negative"]["SLV"]["limited_by_tie"], false);
+    let table = printed(&folder, &["check", "scene.toml"]);
+    assert!(table.contains("NOT PASSED: SLV governs with zeta_E = 0.728 (u > 0)"), "{table}");
+    assert!(table.contains("u > 0: the tie breaks at d_SLV"), "{table}");
+    let thick = json(&["--set", "thickness=1.2"]);
+    assert_eq!(thick["passed"], true);
+    let one_side = printed(&folder, &["check", "scene.toml", "--set", "tie_stiffness=0"]);
+    assert!(one_side.contains("(both sides alike)"), "{one_side}");
+    refused(&folder, &["check", "scene.toml", "--records", "a.AT2"], &["scene.toml", "--records", "[check]"]);
+    refused(&folder, &["check"], &["there is no demand", "[check]", "--spectrum"]);
+}
+
+/// The wall that is found passes, and one a millionth thinner does not.
+#[test]
+fn the_smallest_wall_that_passes_is_found() {
+    let folder = folder("check_find");
+    std::fs::write(folder.join("scene.toml"), TIED).unwrap();
+    let arguments = ["check", "scene.toml", "--set", "tie_stiffness=0"];
+    for (sought, smaller) in [("thickness", 1.0 - 1e-6), ("height", 1.0 + 1e-6)] {
+        let find = ["--find", sought, "--json", "--plot", "find.svg"];
+        let text = printed(&folder, &[&arguments[..], &find].concat());
+        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let value = found["value"].as_f64().unwrap();
+        for (factor, passes) in [(1.0, true), (smaller, false)] {
+            let set = format!("{sought}={}", value * factor);
+            let text = printed(&folder, &[&arguments[..], &["--set", &set, "--json"]].concat());
+            let verdict: serde_json::Value = serde_json::from_str(&text).unwrap();
+            assert_eq!(verdict["passed"], passes, "{sought} = {set}");
+        }
+        assert!(found["curve"].as_array().unwrap().len() > 100);
+        assert!(std::fs::read_to_string(folder.join("find.svg")).unwrap().contains("ζ_E"));
+    }
+    let words = ["tie_strength is sought, but the wall has no tie"];
+    refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);
+    let output = wall(&folder, &[&arguments[..], &["--find", "width"]].concat());
+    assert!(text(&output.stderr).contains("expected thickness, height"));
+}
+
+/// One row a wall, the worst first; a wall that cannot be checked stands above them with the reason.
+#[test]
+fn many_walls_are_checked() {
+    let folder = folder("check_walls");
+    let walls = "name,height,thickness,overburden\nlow,1,0.4,0\n\"tall, thin\",6,0.4,0\nloaded,3,0.4,5000\n";
+    std::fs::write(folder.join("walls.csv"), walls).unwrap();
+    let table = TIED.split("[check]").nth(1).unwrap();
+    let study = format!("walls = [{{ table = \"walls.csv\" }}]\n[check]{table}");
+    std::fs::write(folder.join("walls.toml"), study.replace("law", "rigid")).unwrap();
+    let arguments = ["check", "walls.toml", "--csv", "out.csv", "--html", "out.html"];
+    let output = wall(&folder, &arguments);
+    assert!(!output.status.success());
+    assert!(text(&output.stderr).contains("1 of 3 walls could not be checked"));
+    let rows = std::fs::read_to_string(folder.join("out.csv")).unwrap();
+    let rows: Vec<&str> = rows.lines().collect();
+    assert!(rows[1].starts_with("loaded,") && rows[1].contains("overburden_mass is missing"), "{rows:?}");
+    assert!(rows[2].starts_with("\"tall, thin\",no,") && rows[3].starts_with("low,yes,"), "{rows:?}");
+    let page = std::fs::read_to_string(folder.join("out.html")).unwrap();
+    assert!(page.contains("1 of 3 walls pass") && page.contains("tall, thin"));
+    std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
+    refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);
+    refused(&folder, &["check", "walls.toml", "--find", "height"], &["take one wall"]);
+}
