@@ -141,8 +141,8 @@ impl LoadedStudy {
     }
 }
 
-/// Reads the walls of a study's text, or of a text with walls only; scenes and tables that it names are looked
-/// up beside its file. Returns them and the files that were read.
+/// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
+/// looked up beside its file. Returns them and the files that were read.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.

@@ -1,4 +1,5 @@
-//! The check of local out-of-plane mechanisms by the Italian code: Circolare 7/2019, C8.7.1.2.1 and C7.2.3, with the spectra of NTC 2018, 3.2.3.2. Numbers in brackets are equations of the code.
+//! The check of local out-of-plane mechanisms by the Italian code: Circolare 7/2019, C8.7.1.2.1 and C7.2.3,
+//! with the spectra of NTC 2018, 3.2.3.2. Numbers in brackets are equations of the code.
 //!
 //! docs/model.md states the rule and the readings taken where the code can be read in two ways.
 //!
