@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking_wall::scene::{Place, SceneError, read_text};
+use rocking_wall::wall::Wall;
 
 use super::error::CheckError;
 use super::{CheckTable, Records, Statement, Verdict, check, in_table, read_table};
@@ -29,6 +30,8 @@ pub struct Walls {
 pub struct WallVerdict {
     /// Name of the wall.
     pub name: String,
+    /// Whether both sides are alike.
+    pub alike: bool,
     /// Its verdict, or why there is none.
     pub verdict: Result<Verdict, CheckError>,
 }
@@ -67,7 +70,8 @@ impl Walls {
         let one = |index: usize| {
             let NamedWall { name, parameters, floors } = &self.walls[index];
             let verdict = check(parameters, floors.as_ref(), &self.statement, &self.records);
-            Ok::<_, std::convert::Infallible>(WallVerdict { name: name.clone(), verdict })
+            let alike = Wall::new(parameters).is_ok_and(|wall| wall.has_equal_sides());
+            Ok::<_, std::convert::Infallible>(WallVerdict { name: name.clone(), alike, verdict })
         };
         let Ok(mut verdicts) = parallel::map(self.walls.len(), threads, one);
         verdicts.sort_by(|a, b| a.zeta().total_cmp(&b.zeta()));

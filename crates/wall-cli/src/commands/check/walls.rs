@@ -59,7 +59,8 @@ fn cells(wall: &WallVerdict) -> Result<[String; 9], [String; 2]> {
             let governs = verdict.governs;
             let [sld, slv_q, slv, slc] = zetas(verdict).map(number);
             let passed = if verdict.passed { "yes" } else { "no" };
-            let (state, side) = (governs.limit_state.name(), governs.side.name());
+            let side = if wall.alike { "both" } else { governs.side.name() };
+            let state = governs.limit_state.name();
             let zeta = number(Some(governs.zeta));
             Ok([wall.name.clone(), passed.into(), zeta, state.into(), side.into(), sld, slv_q, slv, slc])
         }
