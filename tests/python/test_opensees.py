@@ -11,7 +11,8 @@ from conftest import ROOT
 
 def has_opensees():
     # its import fails with more than ImportError, and ends the process in some versions
-    return subprocess.run([sys.executable, "-c", "import openseespy.opensees"], capture_output=True).returncode == 0
+    command = [sys.executable, "-c", "import openseespy.opensees"]
+    return subprocess.run(command, capture_output=True).returncode == 0
 
 
 @pytest.mark.skipif(not has_opensees(), reason="not run: openseespy is not installed")

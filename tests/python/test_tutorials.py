@@ -1,0 +1,38 @@
+"""Runs the tutorials: their files are written, their commands run, and what they show is printed."""
+
+import os
+import re
+import shlex
+import subprocess
+
+import pytest
+
+from conftest import ROOT
+
+TUTORIALS = sorted((ROOT / "docs/tutorials").glob("*.md"))
+BLOCK = re.compile(r"(?:<!-- file: (?P<file>\S+) -->\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.S)
+
+
+@pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
+def test_a_tutorial_does_what_it_says(path, wall, tmp_path):
+    printed, commands, shown = "", 0, 0
+    environment = os.environ | {"PATH": f"{wall.parent}{os.pathsep}{os.environ['PATH']}"}
+    for block in BLOCK.finditer(path.read_text()):
+        kind, text = block["kind"], block["text"]
+        if block["file"]:
+            (tmp_path / block["file"]).write_text(text)
+        elif kind == "sh":
+            printed = ""
+            for line in text.splitlines():
+                command = shlex.split(line, comments=True)
+                run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+                assert run.returncode == 0, f"{line}\n{run.stderr}"
+                printed += run.stdout + run.stderr
+                commands += 1
+        elif kind == "text":
+            for line in text.splitlines():
+                assert line in printed, f"{line!r} is not in\n{printed}"
+                shown += 1
+        else:
+            pytest.fail(f"a block of {kind} that is no file")
+    assert commands > 0 and shown + len(list(tmp_path.iterdir())) > 2
