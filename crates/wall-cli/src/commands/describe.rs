@@ -85,9 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for warning in wall.warnings() {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
-    for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
-        let _ = writeln!(text, "\nwritten {}", path.display());
-    }
+    text += &output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
     output::to_stdout(&text)
 }
 

@@ -207,9 +207,5 @@ fn finish(folder: &Folder, threads: usize) -> Result<()> {
     if let Some(warning) = &report.warning {
         output::warn(warning);
     }
-    let mut text = report.summary;
-    for path in &report.files {
-        let _ = writeln!(text, "written  {}", path.display());
-    }
-    output::to_stdout(&text)
+    output::to_stdout(&(report.summary + &output::written("written  ", &report.files)))
 }

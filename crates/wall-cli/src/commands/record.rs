@@ -103,15 +103,10 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
 }
 
 fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
-    let mut written = Vec::new();
     if let Some(path) = &arguments.plot {
         output::picture(path, || picture(rows, spectrum, arguments.damping))?;
-        written.push(path);
     }
-    if let Some(path) = &arguments.csv {
-        output::to_file(path, csv(rows, &arguments.periods).as_bytes())?;
-        written.push(path);
-    }
+    output::save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
     if arguments.json {
         let value = json!({
             "damping": arguments.damping,
@@ -122,11 +117,8 @@ fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
         });
         return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
-    let mut text = table(rows, arguments);
-    for path in written {
-        let _ = writeln!(text, "written  {}", path.display());
-    }
-    output::to_stdout(&text)
+    let written = output::written("written  ", arguments.plot.iter().chain(&arguments.csv));
+    output::to_stdout(&(table(rows, arguments) + &written))
 }
 
 impl Row {

@@ -22,7 +22,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let scene = arguments.scene()?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
-    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.html).chain(&arguments.svg))?;
+    let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
+    output::check_distinct(inputs, outputs.into_iter().flatten())?;
     // checked before the run, which may take long
     output::expect_svg(arguments.svg.as_ref())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
@@ -47,11 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let text = if arguments.json {
         json(&scene, &response)?
     } else {
-        let mut text = table(&scene, &response);
-        for path in [&arguments.csv, &arguments.html, &arguments.svg].into_iter().flatten() {
-            let _ = writeln!(text, "written        {}", path.display());
-        }
-        text
+        table(&scene, &response) + &output::written("written        ", outputs.into_iter().flatten())
     };
     output::to_stdout(&text)
 }

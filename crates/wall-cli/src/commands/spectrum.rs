@@ -98,11 +98,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::save(arguments.csv.as_ref(), || table(&shown))?;
     output::save(arguments.html.as_ref(), || page(&shown))?;
     output::save(arguments.svg.as_ref(), || svg(&shown))?;
-    let mut text = summary(&shown);
-    for path in outputs.into_iter().flatten() {
-        let _ = writeln!(text, "written    {}", path.display());
-    }
-    output::to_stdout(&text)
+    output::to_stdout(&(summary(&shown) + &output::written("written    ", outputs.into_iter().flatten())))
 }
 
 fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {

@@ -70,11 +70,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&study, &rows))? + "\n"
     } else {
-        let mut text = table(study.scene(), &rows) + study.polarities().note();
-        for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
-            let _ = writeln!(text, "\nwritten {}", path.display());
-        }
-        text
+        let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
+        table(study.scene(), &rows) + study.polarities().note() + &written
     };
     output::to_stdout(&text)
 }

@@ -69,12 +69,7 @@ pub(super) fn run(
     if options.json {
         return Ok(serde_json::to_string_pretty(&json(building, parts, &run))? + "\n");
     }
-    let mut text = table(building, parts, &run, note);
-    for path in options.outputs() {
-        // writing to a String cannot fail
-        let _ = writeln!(text, "written  {}", path.display());
-    }
-    Ok(text)
+    Ok(table(building, parts, &run, note) + &output::written("written  ", options.outputs()))
 }
 
 fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> String {

@@ -76,11 +76,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         });
         return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
-    let mut text = format!("{}\n{}{}", first.title, table(&rows), polarities.note());
-    if let Some(path) = &arguments.csv {
-        let _ = writeln!(text, "written  {}", path.display());
-    }
-    output::to_stdout(&text)
+    let text = format!("{}\n{}{}", first.title, table(&rows), polarities.note());
+    output::to_stdout(&(text + &output::written("written  ", &arguments.csv)))
 }
 
 /// Reads the records and scales them.
