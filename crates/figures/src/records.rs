@@ -9,6 +9,8 @@
 //! assert!(picture(&[record], 0.05).svg().contains("Sa (g) at 5 % damping"));
 //! ```
 
+use study::counted;
+
 use crate::axes::number;
 use crate::palette::{BLACK, PALE, SERIES};
 use crate::plot::{Axis, Picture, Plot, Series};
@@ -55,7 +57,7 @@ pub fn picture(records: &[Record], damping: f64) -> Picture {
         if level.is_empty() {
             level.extend(records);
         }
-        let name = format!("median of {} {which}records", level.len());
+        let name = format!("median of {}", counted(level.len(), &format!("{which}record")));
         spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(&level)) });
     }
     let longest = records.iter().map(|record| end(&record.spectrum)).fold(0.0, f64::max);

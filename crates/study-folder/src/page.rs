@@ -6,6 +6,7 @@ use figures::escaped;
 use figures::many_lines::STYLE;
 use figures::palette::sign;
 use figures::template;
+use study::counted;
 use study::fragility::Interval;
 use study::ida::Exceedance;
 use study::results::WallResults;
@@ -24,13 +25,12 @@ const MOST_LISTED: usize = 200;
 pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
     let contents = &manifest.contents;
     let facts = format!(
-        "{} {}, {} records, {} damping models: {} runs. Intensity: {}. A run stops when the wall overturns, \
-         |u| &gt; u<sub>ins</sub>; the lowest level at which it does is the collapse.",
-        contents.walls.len(),
-        if contents.walls.len() == 1 { "wall" } else { "walls" },
-        contents.records.len(),
-        contents.models.len(),
-        runs,
+        "{}, {}, {}: {}. Intensity: {}. A run stops when the wall overturns, |u| &gt; \
+         u<sub>ins</sub>; the lowest level at which it does is the collapse.",
+        counted(contents.walls.len(), "wall"),
+        counted(contents.records.len(), "record"),
+        counted(contents.models.len(), "damping model"),
+        counted(runs, "run"),
         measure_words(manifest),
     );
     template::page(

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use ground_motion::STANDARD_GRAVITY;
+use study::counted;
 use study::ida::{Curve, Exceedance};
 use study::parallel;
 use study::results::{Fitting, WallResults};
@@ -207,11 +208,11 @@ impl<'a> Output<'a> {
             return String::new();
         };
         let mut text = format!(
-            "{} runs; collapse {} in g, 95 % intervals of {} resamples of {} records\n",
-            self.runs,
+            "{}; collapse {} in g, 95 % intervals of {} resamples of {}\n",
+            counted(self.runs, "run"),
             contents.measure,
             report.resamples,
-            contents.records.len()
+            counted(contents.records.len(), "record")
         );
         if is_large {
             text.push_str(&self.population.text(manifest, collapse));
@@ -234,9 +235,9 @@ impl<'a> Output<'a> {
         if self.resurrected > 0 {
             let _ = writeln!(
                 text,
-                "{} of {} curves stand again above their first overturning, which counts as the collapse",
+                "{} of {} stand again above their first overturning, which counts as the collapse",
                 self.resurrected,
-                contents.count()
+                counted(contents.count(), "curve")
             );
         }
         text

@@ -58,3 +58,13 @@ mod wall_table;
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of
 /// other crates. Builds with equal fingerprints compute the same runs, on every machine.
 pub const SOURCES: &str = env!("SOURCES");
+
+/// Returns a count with its noun.
+///
+/// ```
+/// assert_eq!([1, 2].map(|count| study::counted(count, "record")), ["1 record", "2 records"]);
+/// ```
+pub fn counted(count: impl std::fmt::Display, noun: &str) -> String {
+    let text = format!("{count} {noun}");
+    if text.starts_with("1 ") { text } else { text + "s" }
+}

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
+use crate::counted;
 use crate::model::Model;
 use rocking_wall::scene::{Place, SceneError, suggestion};
 
@@ -76,7 +77,8 @@ impl WallClass {
         let Self { name, walls: own, weights } = self;
         let count = if own.is_empty() { walls.clone().count() } else { own.len() };
         if !weights.is_empty() && weights.len() != count {
-            return Err(format!("class {name:?}: {} weights for {count} walls", weights.len()));
+            let weights = counted(weights.len(), "weight");
+            return Err(format!("class {name:?}: {weights} for {}", counted(count, "wall")));
         }
         let known: std::collections::BTreeSet<_> = walls.clone().collect();
         if known.contains(name.as_str()) {

@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 
 use crate::chart::{Axis, Chart, Series};
+use crate::counted;
 use crate::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
 use crate::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
 use crate::model::{Model, color};
@@ -91,9 +92,10 @@ fn figure(count: usize, charts: Vec<Chart>, walls: &[Vec<Summary>]) -> Figure {
         title: "Collapse fragilities of the walls of Table 5",
         notes: vec![
             format!(
-                "{count} records, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty \
-                 of RINTC for L'Aquila are not public: medians cannot be compared with print, only how the \
-                 models compare with each other."
+                "{}, scaled by AvgSA, the geometric mean of Sa at 0.2, 0.4 … 1.4 s. The forty of RINTC for \
+                 L'Aquila are not public: medians cannot be compared with print, only how the models \
+                 compare with each other.",
+                counted(count, "record")
             ),
             format!(
                 "Over that of CR the median collapse AvgSA is {} for CDC, CDR and SDR, and {} for CDR with \
@@ -153,8 +155,9 @@ fn table(count: usize, rows: Vec<Vec<Cell>>) -> Table {
         name: "Medians",
         title: "Median collapse AvgSA of CR, and that of each damping model over it",
         notes: vec![format!(
-            "In brackets 95 % of {RESAMPLES} resamples of the {count} records. Collapse is the first \
-             overturning found while the records are scaled up, to 1 % of its intensity."
+            "In brackets 95 % of {RESAMPLES} resamples of {}. Collapse is the first overturning found while \
+             the records are scaled up, to 1 % of its intensity.",
+            counted(count, "record")
         )],
         columns: columns(
             "wall | type | CR: median (g) | CDC / CR | CDR / CR | SDR / CR | CDR with Eq. (14) / CR | \

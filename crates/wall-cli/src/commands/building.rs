@@ -12,6 +12,7 @@ use anyhow::{Result, bail};
 use building::trial::{Trial, trial};
 use building::{Building, Parts};
 use clap::Args;
+use study::counted;
 
 use crate::args::RecordArguments;
 use crate::output;
@@ -63,9 +64,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         let (units, connections) = parts.counts();
         let _ = writeln!(
             text,
-            "{}: {}, {units} units, {connections} connections",
+            "{}: {}, {}, {}",
             path.display(),
-            building.title
+            building.title,
+            counted(units, "unit"),
+            counted(connections, "connection")
         );
         text.push_str(&advice(&trial, step));
     }

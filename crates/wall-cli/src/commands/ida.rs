@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use study::ida::Study;
 use study::loaded::LoadedStudy;
-use study::parallel;
+use study::{counted, parallel};
 use study_folder::Folder;
 
 use crate::output;
@@ -187,7 +187,8 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
     outcome?;
     let shares = shares.into_inner().unwrap_or_default();
     let runs: usize = shares.iter().map(|share| share.runs).sum();
-    let mut text = format!("{runs} runs in {:.1} s on {threads} threads\n", start.elapsed().as_secs_f64());
+    let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
+    let mut text = format!("{runs} in {seconds:.1} s on {}\n", counted(threads, "thread"));
     let _ =
         writeln!(text, "{:<16}{:>10}{:>18}{:>22}", "model", "runs", "runs/s a core", "ns a sample and run");
     for (model, share) in study.models().iter().zip(&shares).filter(|(_, share)| share.runs > 0) {

@@ -8,6 +8,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use ground_motion::CSV_HEADER;
+use study::counted;
 
 use crate::args::RecordArguments;
 use crate::output;
@@ -35,9 +36,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     output::to_file(&arguments.csv, csv.as_bytes())?;
     output::to_stdout(&format!(
-        "{}: {note}, {} samples of {} s, peak {:.4} m/s²\n",
+        "{}: {note}, {} of {} s, peak {:.4} m/s²\n",
         arguments.csv.display(),
-        motion.samples().len(),
+        counted(motion.samples().len(), "sample"),
         figures::number(motion.step(), 6),
         motion.peak()
     ))

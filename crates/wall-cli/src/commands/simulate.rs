@@ -8,8 +8,10 @@ use std::fmt::Write;
 use anyhow::Result;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
+use rocking_wall::solver::Work;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
+use study::counted;
 
 use crate::output::{self, demands};
 use crate::pages;
@@ -83,13 +85,10 @@ fn table(scene: &Scene, response: &Response) -> String {
     line("largest |u|", demands::largest(summary, "m", 6));
     line("overturned", demands::overturned(summary.fate, 4));
     line("run", format!("{} s", figures::number(summary.end_time, 6)));
-    line(
-        "work",
-        format!(
-            "{} pieces of motion, {} corners, {} impacts",
-            summary.work.pieces, summary.work.corners, summary.work.impacts
-        ),
-    );
+    let Work { pieces, corners, impacts } = summary.work;
+    let [pieces, corners, impacts] = [(pieces, "piece"), (corners, "corner"), (impacts, "impact")]
+        .map(|(count, noun)| counted(count, noun));
+    line("work", format!("{pieces} of motion, {corners}, {impacts}"));
     if let Some(until) = demands::until(response) {
         line("demands", until.to_owned());
     }

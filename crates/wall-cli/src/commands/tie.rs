@@ -12,9 +12,9 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use serde_json::{Value, json};
-use study::parallel;
 use study::polarity::Polarities;
 use study::tie::{COLUMNS, Row, TieStudy};
+use study::{counted, parallel};
 
 use crate::args::{SceneArguments, read_record};
 use crate::output;
@@ -106,9 +106,8 @@ fn table(scene: &Scene, rows: &[Row]) -> String {
         TieSide::Negative => "u < 0",
         TieSide::Both => "both sides",
     };
-    let count = rows[0].outcomes.len();
-    let motions = if count == 1 { "motion" } else { "motions" };
-    let mut text = format!("{}, tie at {tie_height} m against {side}, {count} {motions}\n\n", scene.title);
+    let motions = counted(rows[0].outcomes.len(), "motion");
+    let mut text = format!("{}, tie at {tie_height} m against {side}, {motions}\n\n", scene.title);
     for heads in HEADS {
         let cells = heads.iter().zip(WIDTHS).map(|(head, width)| format!("{head:>width$}"));
         text += &(cells.collect::<Vec<_>>().join(" ") + "\n");

@@ -8,6 +8,7 @@ use figures::palette::sign;
 use figures::plot::{Picture, Plot};
 use figures::work_precision::{SOLVERS, TOOLS, Tool, plot};
 use study::accuracy::{Measurement, WorkPrecision};
+use study::counted;
 
 use figures::template;
 
@@ -128,14 +129,13 @@ fn peers(csv: &str) -> String {
 fn hover(study: &WorkPrecision, row: &Measurement) -> String {
     let Measurement { seconds, error_max, error_rms, error_peak, work, .. } = row;
     format!(
-        "{}, {}: max error {error_max:.1e}, rms {error_rms:.1e}{}; {:.3} ms, {} pieces, {} \
-         corners, {} impacts",
+        "{}, {}: max error {error_max:.1e}, rms {error_rms:.1e}{}; {:.3} ms, {}, {}, {}",
         row.setting.solver(),
         row.setting.describe(study.step),
         error_peak.map_or_else(String::new, |error| format!(", peak {error:.1e}")),
         seconds * 1e3,
-        work.pieces,
-        work.corners,
-        work.impacts
+        counted(work.pieces, "piece"),
+        counted(work.corners, "corner"),
+        counted(work.impacts, "impact")
     )
 }

@@ -8,7 +8,7 @@ use ground_motion::GroundMotion;
 use rocking_wall::response::{Response, Summary};
 use rocking_wall::wall::Wall;
 use serde_json::json;
-use study::parallel;
+use study::{counted, parallel};
 
 use super::arguments::Arguments;
 use crate::output::progress::Progress;
@@ -123,10 +123,10 @@ fn table(rows: &[Row]) -> String {
     }
     let count = |is: fn(&Summary) -> bool| rows.iter().filter(|row| is(&row.summary)).count();
     let overturned = count(|summary| summary.overturned);
-    let _ = write!(text, "{overturned} of {} runs overturn", rows.len());
+    let _ = write!(text, "overturned: {overturned} of {}", counted(rows.len(), "run"));
     let back = overturned - count(|summary| summary.fate.falls());
     if back > 0 {
-        let _ = write!(text, ", {back} of them come back");
+        let _ = write!(text, ", of which {back} came back");
     }
     text.push('\n');
     text
