@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
+use super::motion::LONGEST_TAIL;
 use crate::simulation::RunError;
 use crate::wall::ParameterError;
 use ground_motion::GroundMotionError;
@@ -85,11 +86,43 @@ impl<'a> Place<'a> {
     ) -> Result<f64, SceneError> {
         let Some(value) = given else { return Ok(natural) };
         let number = *value.get_ref();
-        if number > 0.0 && number <= limit {
-            Ok(number)
-        } else {
-            let message = format!("{key} = {number} s must be above 0 and at most {limit} s");
-            Err(self.error(value.span(), message))
+        match check_duration(key, number, limit) {
+            Ok(()) => Ok(number),
+            Err(error) => Err(self.error(value.span(), error.to_string())),
         }
     }
+}
+
+/// Checks a duration \[s\], which must be above 0.
+///
+/// # Errors
+/// [`SceneError::Value`].
+///
+/// ```
+/// use rocking_wall::scene::{LONGEST_RUN, check_duration};
+///
+/// let error = check_duration("stop_time", 0.0, LONGEST_RUN).unwrap_err();
+/// assert_eq!(error.to_string(), "stop_time = 0 s must be above 0 and at most 1e7 s");
+/// ```
+pub fn check_duration(name: &str, value: f64, limit: f64) -> Result<(), SceneError> {
+    if value > 0.0 && value <= limit {
+        return Ok(());
+    }
+    Err(SceneError::Value { message: format!("{name} = {value} s must be above 0 and at most {limit:e} s") })
+}
+
+/// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
+///
+/// # Errors
+/// [`SceneError::Value`].
+///
+/// ```
+/// let error = rocking_wall::scene::check_tail(-1.0).unwrap_err();
+/// assert_eq!(error.to_string(), "tail = -1 s must be from 0 to 1e6 s");
+/// ```
+pub fn check_tail(tail: f64) -> Result<(), SceneError> {
+    if (0.0..=LONGEST_TAIL).contains(&tail) {
+        return Ok(());
+    }
+    Err(SceneError::Value { message: format!("tail = {tail} s must be from 0 to {LONGEST_TAIL:e} s") })
 }

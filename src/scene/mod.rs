@@ -25,14 +25,13 @@ use crate::wall::{COMPUTABLE, Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
-pub use error::SceneError;
-pub use motion::{DEFAULT_TAIL, fingerprint};
+pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::{parse_toml, read_text};
-pub use error::Place;
+pub use error::{Place, SceneError, check_duration, check_tail};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;
@@ -106,8 +105,10 @@ pub fn check_thresholds(fractions: &[f64]) -> Result<(), SceneError> {
 
 /// Output step of a scene without motion \[s\].
 const DEFAULT_OUTPUT_STEP: f64 = 0.01;
-/// Limits on a run's length \[s\] and its output points. They catch typing errors.
-const LONGEST_RUN: f64 = 1e7;
+/// Longest run \[s\]; a longer one is a typing error, like a longer step or more points of output.
+pub const LONGEST_RUN: f64 = 1e7;
+/// Longest step of the output \[s\].
+pub const LONGEST_OUTPUT_STEP: f64 = 1e3;
 const MOST_POINTS: f64 = 2e7;
 
 impl Scene {
@@ -180,7 +181,12 @@ impl Scene {
             parameters,
             inputs,
             stop_time: place.within("stop_time", document.stop_time.as_ref(), natural_stop, LONGEST_RUN)?,
-            output_step: place.within("output_step", document.output_step.as_ref(), natural_step, 1e3)?,
+            output_step: place.within(
+                "output_step",
+                document.output_step.as_ref(),
+                natural_step,
+                LONGEST_OUTPUT_STEP,
+            )?,
             excitation,
             floors,
             thresholds,

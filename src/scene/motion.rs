@@ -12,10 +12,12 @@ use ground_motion::{
     Unit, read,
 };
 
-use super::error::{Place, SceneError};
+use super::error::{Place, SceneError, check_tail};
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
+/// Longest free vibration after a motion \[s\].
+pub const LONGEST_TAIL: f64 = 1e6;
 
 /// `[motion]`: exactly one of `record`, `ricker`, `harmonic`, `sine_cycle`, `half_sine`, `synthetic`.
 #[derive(Debug, Default, Deserialize)]
@@ -171,9 +173,7 @@ impl From<GroundMotionError> for Problem {
 
 fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded, Problem> {
     let tail = spec.tail.unwrap_or(DEFAULT_TAIL);
-    if !(0.0..=1e6).contains(&tail) {
-        return Err(Problem::Table(format!("tail = {tail} s must be between 0 and 1e6 s")));
-    }
+    check_tail(tail).map_err(|error| Problem::Table(error.to_string()))?;
     let mut notes = Vec::new();
     let bottom = scale(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
     let top = spec.top.as_ref().map(|top| {

@@ -8,6 +8,7 @@ use fmu_export::Step;
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_wall::response::Fate;
+use rocking_wall::scene::{SceneError, check_tail};
 use rocking_wall::solver::reported_peak;
 use rocking_wall::wall::Wall;
 
@@ -32,6 +33,21 @@ pub struct Settings {
     pub end: f64,
     /// Change of a peak by halving the step, over the peak, at which the step is short enough (-).
     pub tolerance: f64,
+}
+
+impl Settings {
+    /// Settings of a run through a motion of the ground and a tail \[s\] of free vibration.
+    ///
+    /// # Errors
+    /// [`BuildingError::Document`] for a tail or a tolerance out of range.
+    pub fn new(ground: &GroundMotion, tail: f64, tolerance: f64) -> Result<Self, BuildingError> {
+        check_tail(tail)?;
+        if !(1e-6..=1.0).contains(&tolerance) {
+            let message = format!("tolerance = {tolerance} must be from 1e-6 to 1");
+            return Err(SceneError::Value { message }.into());
+        }
+        Ok(Self { end: ground.duration() + tail, tolerance })
+    }
 }
 
 /// A largest absolute value, and when it came.

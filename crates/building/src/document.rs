@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use fmu_export::{Causality, Kind, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
-use rocking_wall::scene::{Group, Place, SceneError, check_limits, number, parse_toml, read_text};
+use rocking_wall::scene::{
+    Group, LONGEST_RUN, Place, SceneError, check_limits, number, parse_toml, read_text,
+};
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
@@ -14,7 +16,6 @@ const GROUND: &str = "ground";
 const MAX_FILE_BYTES: u64 = 1 << 20;
 /// Bounds against mistyped numbers.
 const MOST_MEMBERS: usize = 10_000;
-const LONGEST_RUN: f64 = 1e7;
 /// Length of the run where the file states none [s].
 const DEFAULT_STOP_TIME: f64 = 10.0;
 

@@ -70,13 +70,8 @@ impl Building {
         tail: f64,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        if !(0.0..=1e6).contains(&tail) || !(1e-6..=1.0).contains(&tolerance) {
-            return Err(refused(format!(
-                "tail = {tail} s must be from 0 to 1e6 s, tolerance = {tolerance} from 1e-6 to 1"
-            )));
-        }
         let ground = motion(&ground)?;
-        let settings = Settings { end: ground.duration() + tail, tolerance };
+        let settings = Settings::new(&ground, tail, tolerance).map_err(refused)?;
         let Self { building, parts } = self;
         let work = |is_wanted: &(dyn Fn() -> bool + Sync)| {
             Coupled::run_while(building, parts, &ground, settings, is_wanted)

@@ -11,8 +11,8 @@ use pyo3::types::PyDict;
 use record::{Outcome, RecordSolver};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_thresholds, parameter_text,
-    to_toml,
+    Floors, GROUPS, KINEMATICS, LONGEST_OUTPUT_STEP, LONGEST_RUN, POINTS, Scene, StoreyTable, SupportsTable,
+    check_duration, check_tail, check_thresholds, parameter_text, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Method, Motion};
@@ -26,9 +26,6 @@ use crate::responses;
 
 /// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
 const RUNS_AT_ONCE: usize = 1024;
-/// Longest run and longest free vibration after a record \[s\].
-const LONGEST: f64 = 1e7;
-const LONGEST_TAIL: f64 = 1e6;
 
 /// A wall, valid since it was made.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -194,7 +191,7 @@ impl Wall {
         let mut scene = self.scene.clone();
         if let Some(record) = &record {
             let top = top.as_ref().map(motion).transpose()?;
-            check("tail", tail, LONGEST_TAIL)?;
+            check_tail(tail).map_err(of_scene)?;
             scene.shake(Excitation::new(motion(record)?, top), tail, Vec::new());
             scene.parameters.u_start = self.start.unwrap_or(0.0);
         } else if top.is_some() {
@@ -203,12 +200,12 @@ impl Wall {
         if hold {
             scene.excitation = scene.excitation.map(Excitation::held);
         }
-        for (name, given, value) in [
-            ("stop_time", stop_time, &mut scene.stop_time),
-            ("output_step", output_step, &mut scene.output_step),
+        for (name, given, value, limit) in [
+            ("stop_time", stop_time, &mut scene.stop_time, LONGEST_RUN),
+            ("output_step", output_step, &mut scene.output_step, LONGEST_OUTPUT_STEP),
         ] {
             if let Some(given) = given {
-                check(name, given, LONGEST)?;
+                check_duration(name, given, limit).map_err(of_scene)?;
                 *value = given;
             }
         }
@@ -233,7 +230,7 @@ impl Wall {
         tail: f64,
     ) -> PyResult<[Numbers<'py>; 3]> {
         let (record, factors) = (motion(&record)?, samples(factors)?);
-        check("tail", tail, LONGEST_TAIL)?;
+        check_tail(tail).map_err(of_scene)?;
         let pga = record.peak();
         if let Some(factor) = factors.iter().find(|factor| !(*factor * pga).is_finite()) {
             return Err(refused(format!(
@@ -335,14 +332,4 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
 fn not_a_value(name: &str, value: &Bound<'_, PyAny>) -> PyErr {
     let found = value.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
     PyTypeError::new_err(format!("{name} must be a number or a name, found a value of the type {found}"))
-}
-
-/// Refuses a time that is not from 0 to a limit \[s\].
-fn check(name: &str, value: f64, limit: f64) -> PyResult<()> {
-    let least = if name == "tail" { 0.0 } else { f64::MIN_POSITIVE };
-    if (least..=limit).contains(&value) {
-        return Ok(());
-    }
-    let from = if name == "tail" { "from 0 to" } else { "above 0 and at most" };
-    Err(refused(format!("{name} = {value} s must be {from} {limit:e} s")))
 }

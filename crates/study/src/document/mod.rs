@@ -27,12 +27,12 @@ use toml::{Spanned, Value};
 
 use ground_motion::{Format, RecordOptions, SyntheticMotion, Unit};
 use rocking_wall::scene::{
-    Floors, GROUPS, Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml,
-    read_floors, to_toml,
+    DEFAULT_TAIL, Floors, GROUPS, Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group,
+    parse_toml, read_floors, to_toml,
 };
 use rocking_wall::wall::Parameters;
 
-use crate::ida::{DEFAULT_TAIL, IntensityMeasure, Levels, NamedWall};
+use crate::ida::{IntensityMeasure, LONGEST_TAIL, Levels, NamedWall};
 use crate::model::Model;
 
 use levels::{IntensityTable, LevelsTable, levels, measure};
@@ -240,8 +240,10 @@ impl StudyFile {
         }
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), place)?;
         let tail = document.tail.as_ref().map_or(DEFAULT_TAIL, |tail| *tail.get_ref());
-        if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=1000.0).contains(&tail)) {
-            return Err(place.error(given.span(), format!("tail = {tail} s must be from 0 to 1000 s")));
+        if let Some(given) = document.tail.as_ref().filter(|_| !(0.0..=LONGEST_TAIL).contains(&tail)) {
+            return Err(
+                place.error(given.span(), format!("tail = {tail} s must be from 0 to {LONGEST_TAIL} s"))
+            );
         }
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),

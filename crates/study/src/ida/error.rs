@@ -25,7 +25,7 @@ pub enum IdaError {
     #[error("{name} of the levels is {value}; it must be {limit}")]
     Levels { name: &'static str, value: String, limit: String },
     /// The free vibration after a record is outside its limits.
-    #[error("the tail is {value} s; it must be from 0 to 1000 s")]
+    #[error("the tail is {value} s; it must be from 0 to {limit} s", limit = super::LONGEST_TAIL)]
     Tail { value: f64 },
     /// A wall does not go with its floors.
     #[error("wall {wall:?}, record {record:?}: {source}")]

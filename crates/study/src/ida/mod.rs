@@ -34,6 +34,7 @@ use crate::model::Model;
 use crate::parallel;
 use ground_motion::{GroundMotion, Warning};
 use record::{Outcome, RecordSolver};
+pub use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Motion, SolverError};
@@ -45,8 +46,8 @@ pub use levels::Levels;
 pub use measure::IntensityMeasure;
 pub use shaking::Shaking;
 
-/// Default free vibration after a record \[s\].
-pub const DEFAULT_TAIL: f64 = 10.0;
+/// Longest free vibration after a record of a study \[s\].
+pub const LONGEST_TAIL: f64 = 1000.0;
 
 /// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,9 +136,9 @@ impl Study {
     /// Sets the free vibration after each record \[s\].
     ///
     /// # Errors
-    /// [`IdaError::Tail`] outside 0 to 1000 s.
+    /// [`IdaError::Tail`] outside 0 to [`LONGEST_TAIL`].
     pub fn with_tail(self, tail: f64) -> Result<Self, IdaError> {
-        if (0.0..=1000.0).contains(&tail) {
+        if (0.0..=LONGEST_TAIL).contains(&tail) {
             Ok(Self { tail, ..self })
         } else {
             Err(IdaError::Tail { value: tail })

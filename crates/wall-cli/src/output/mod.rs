@@ -30,7 +30,7 @@ pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Res
 /// Lists files that were written, a line for each after `label`; standard output is no file.
 pub(crate) fn written<'a>(label: &str, paths: impl IntoIterator<Item = &'a PathBuf>) -> String {
     let files = paths.into_iter().filter(|path| path.as_os_str() != distinct::STDOUT);
-    files.map(|path| format!("{label}{}\n", path.display())).collect()
+    files.map(|path| [label, &path.display().to_string(), "\n"].concat()).collect()
 }
 
 /// Refuses any ending but .svg for a picture that is written as SVG only. Names without an ending, such as

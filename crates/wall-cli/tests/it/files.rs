@@ -172,7 +172,7 @@ fn messages_are_short() {
     for (arguments, number) in [
         (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
         (["simulate", "--set", "height=1e-300"], "height = 1e-300 m is"),
-        (["simulate", "--stop-time", "1e300"], "--stop-time 1e300:"),
+        (["simulate", "--stop-time", "1e300"], "--stop-time = 1e300 s"),
         (["simulate", "--thresholds", "1e22"], "1e22 is not"),
         (["simulate", "--set", "xi=10.000000000000002"], "limit 10"),
     ] {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result};
 use building::coupled::{Coupled, History, Peak, Settings};
 use building::document::Floor;
 use building::{Building, Parts};
@@ -53,15 +53,12 @@ pub(super) fn run(
     options: &Options,
 ) -> Result<String> {
     let &Options { tail, tolerance, .. } = options;
-    if !(0.0..=1e6).contains(&tail) || !(1e-6..=1.0).contains(&tolerance) {
-        bail!("--tail must be between 0 and 1e6 s, --tolerance between 1e-6 and 1");
-    }
+    let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
     output::expect_svg(options.svg.as_ref())?;
     let moving = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
     for floor in building.floors.iter().filter(moving) {
         output::warn(&format!("floor {:?} does not start at rest, as its file says", floor.name));
     }
-    let settings = Settings { end: ground.duration() + tail, tolerance };
     let run = Coupled::run(building, parts, ground, settings)?;
     output::save(options.csv.as_ref(), || csv(building, &run))?;
     output::save(options.html.as_ref(), || render(building, parts, &run, note))?;

@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{DEFAULT_TAIL, Floors, Scene, StoreyTable, SupportsTable, check_thresholds};
+use rocking_wall::scene::{
+    DEFAULT_TAIL, Floors, LONGEST_OUTPUT_STEP, LONGEST_RUN, Scene, StoreyTable, SupportsTable,
+    check_duration, check_tail, check_thresholds,
+};
 use rocking_wall::simulation::Excitation;
 
 use crate::args::{RecordArguments, SceneArguments};
@@ -79,9 +82,7 @@ impl Arguments {
             let of = if scene.floors.is_some() { "ground " } else { "" };
             let peak = format!("peak {of}acceleration {:.4} m/s²", motion.peak());
             let tail = self.tail.unwrap_or(DEFAULT_TAIL);
-            if !(0.0..=1e6).contains(&tail) {
-                bail!("--tail {tail}: must be between 0 and 1e6 s");
-            }
+            check_tail(tail).context("--tail")?;
             scene.shake(Excitation::new(motion, None), tail, vec![note, peak]);
             if self.scene.scene.is_none() {
                 scene.title = "The default parapet, shaken".into();
@@ -99,14 +100,12 @@ impl Arguments {
             scene.excitation = Some(excitation.held());
             scene.motion_notes.push("each sample held until the next".into());
         }
-        for (name, given, value) in [
-            ("--stop-time", self.stop_time, &mut scene.stop_time),
-            ("--output-step", self.output_step, &mut scene.output_step),
+        for (name, given, value, limit) in [
+            ("--stop-time", self.stop_time, &mut scene.stop_time, LONGEST_RUN),
+            ("--output-step", self.output_step, &mut scene.output_step, LONGEST_OUTPUT_STEP),
         ] {
             if let Some(given) = given {
-                if !(given > 0.0 && given <= 1e7) {
-                    bail!("{name} {given}: must be above 0 and at most 1e7 s");
-                }
+                check_duration(name, given, limit)?;
                 *value = given;
             }
         }
