@@ -80,6 +80,27 @@ impl Fate {
         }
     }
 
+    /// Describes a fate beyond `u_ins`, with its times to a number of decimals; `None` for a wall that stands.
+    ///
+    /// ```
+    /// use rocking_wall::response::Fate;
+    ///
+    /// let fate = Fate::Falls { exceeds: 2.0, falls: 3.5 };
+    /// assert_eq!(fate.words(1).unwrap(), "exceeds u_ins at 2.0 s, comes back and falls at 3.5 s");
+    /// ```
+    pub fn words(&self, decimals: usize) -> Option<String> {
+        match *self {
+            Self::Stands => None,
+            Self::ComesBack { exceeds } => {
+                Some(format!("exceeds u_ins at {exceeds:.decimals$} s and comes back"))
+            }
+            Self::Falls { exceeds, falls } if falls > exceeds => Some(format!(
+                "exceeds u_ins at {exceeds:.decimals$} s, comes back and falls at {falls:.decimals$} s"
+            )),
+            Self::Falls { falls, .. } => Some(format!("falls at {falls:.decimals$} s")),
+        }
+    }
+
     /// Returns whether the wall falls.
     pub fn falls(&self) -> bool {
         self.falling().is_some()

@@ -15,19 +15,10 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
     let summary = &response.summary;
     let peak = response.demands.displacement.largest();
     let u_ins = wall.body().instability.of(peak.value);
-    let (state, headline) = match summary.fate {
-        Fate::Falls { exceeds, falls } if falls > exceeds => (
-            "falls",
-            format!("The wall exceeds u_ins at {exceeds:.2} s, comes back and falls at {falls:.2} s"),
-        ),
-        Fate::Falls { falls, .. } => ("falls", format!("The wall falls at {falls:.2} s")),
-        Fate::ComesBack { exceeds } => {
-            ("falls", format!("The wall exceeds u_ins at {exceeds:.2} s and comes back"))
-        }
-        Fate::Stands if summary.u_ratio_max < STILL => {
-            ("stands", "The wall stands and hardly moves".to_owned())
-        }
-        Fate::Stands => {
+    let (state, headline) = match summary.fate.words(2) {
+        Some(words) => ("falls", format!("The wall {words}")),
+        None if summary.u_ratio_max < STILL => ("stands", "The wall stands and hardly moves".to_owned()),
+        None => {
             let percent = number(100.0 * summary.u_ratio_max, 2);
             ("stands", format!("The wall stands: it reaches {percent} % of u_ins"))
         }

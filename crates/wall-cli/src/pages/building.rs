@@ -12,7 +12,7 @@ use rocking_wall::response::Fate;
 use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
-use super::moving::{Moving, factors, fate, frames, page, plot, rounded, verdict};
+use super::moving::{Moving, factors, frames, page, plot, rounded, verdict};
 
 /// Height of a storey without a wall that spans it \[m\].
 const STOREY: f64 = 3.0;
@@ -169,7 +169,7 @@ pub(super) fn said(building: &Building, run: &Coupled) -> String {
         }
         (overturned, _) => {
             let part =
-                |&(_, wall, own): &(f64, &str, Fate)| Some(format!("the {} {}", name(wall), fate(own)?));
+                |(_, wall, fate): &(f64, &str, Fate)| Some(format!("the {} {}", name(wall), fate.words(1)?));
             let text = overturned.iter().filter_map(part).collect::<Vec<_>>().join("; ");
             format!("{}{}.", text[..1].to_uppercase(), &text[1..])
         }

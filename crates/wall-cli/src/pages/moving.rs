@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use figures::plot::Plot;
 use figures::{escaped, template};
-use rocking_wall::response::Fate;
 use serde_json::Value;
 
 /// Frames the slider moves through.
@@ -80,18 +79,6 @@ pub(crate) fn rounded(values: impl Iterator<Item = f64>) -> Vec<f64> {
 pub(crate) fn verdict(text: &str, falls: bool) -> String {
     let class = if falls { "verdict falls" } else { "verdict" };
     format!("<p class=\"{class}\">{}</p>", escaped(text))
-}
-
-/// Describes when a wall exceeds `u_ins` and what becomes of it; `None` for a wall that never does.
-pub(crate) fn fate(fate: Fate) -> Option<String> {
-    match fate {
-        Fate::Stands => None,
-        Fate::ComesBack { exceeds } => Some(format!("exceeds u_ins at {exceeds:.1} s and comes back")),
-        Fate::Falls { exceeds, falls } if falls > exceeds => {
-            Some(format!("exceeds u_ins at {exceeds:.1} s, comes back and falls at {falls:.1} s"))
-        }
-        Fate::Falls { falls, .. } => Some(format!("falls at {falls:.1} s")),
-    }
 }
 
 /// A plot with what moves over it: a cursor on histories, a dot on what is no history. It has a narrow form

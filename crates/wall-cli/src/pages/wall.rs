@@ -12,7 +12,7 @@ use rocking_wall::wall::{Parameters, Wall, usage};
 use crate::output::demands;
 use study::accuracy::counterpart::Counterpart;
 
-use super::moving::{Moving, factors, fate, frames, page, plot, rounded, verdict};
+use super::moving::{Moving, factors, frames, page, plot, rounded, verdict};
 
 /// Seconds that are drawn after a fall.
 const AFTER_FALL: f64 = 2.0;
@@ -92,7 +92,7 @@ fn telling(frames: &[&Sample], falls: Option<f64>) -> usize {
 /// Describes what becomes of the wall.
 fn said(response: &Response) -> String {
     let ratio = 100.0 * response.summary.u_ratio_max;
-    match fate(response.summary.fate) {
+    match response.summary.fate.words(1) {
         Some(words) => verdict(&format!("The wall {words}."), true),
         None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
         None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),

@@ -8,7 +8,6 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::pages::animation::{GROUND, MOST_FRAMES, Shape, history, picture};
-use crate::pages::moving::fate;
 
 /// Room of the wall: width, and height above the ground \[px\].
 const ROOM: [f64; 2] = [220.0, 196.0];
@@ -50,7 +49,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
         history(&[(line, BLUE, String::new())], span, &period)
     );
     let scale = if factor == 1.0 { String::new() } else { format!(", rotation × {factor}") };
-    let (said, colour) = match fate(response.summary.fate) {
+    let (said, colour) = match response.summary.fate.words(1) {
         Some(words) => (words, RED),
         None => (format!("stands: {:.0} % of u_ins{scale}", 100.0 * response.summary.u_ratio_max), BLUE),
     };
