@@ -80,7 +80,7 @@ impl Fate {
         }
     }
 
-    /// Describes a fate beyond `u_ins`, with its times to a number of decimals; `None` for a wall that stands.
+    /// Describes a fate beyond `u_ins`, its times to a number of decimals; `None` for a wall that stands.
     ///
     /// ```
     /// use rocking_wall::response::Fate;

@@ -60,9 +60,7 @@ impl LoadedStudy {
         for entry in std::mem::take(&mut file.walls) {
             walls.extend(wall(entry, folder, &name, &mut inputs, &mut warnings)?);
         }
-        for wall in &walls {
-            warn(wall, &file.models, &mut warnings);
-        }
+        warn(&walls, &file.models, &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths);
@@ -83,9 +81,7 @@ impl LoadedStudy {
         let name = "the study";
         let file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
-        for wall in &walls {
-            warn(wall, &file.models, &mut warnings);
-        }
+        warn(&walls, &file.models, &mut warnings);
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
 
@@ -217,16 +213,21 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
 }
 
-/// Adds warnings of improbable parameters of a wall, and of parameters without effect.
-fn warn(NamedWall { name, parameters, floors }: &NamedWall, models: &[Model], warnings: &mut Vec<String>) {
-    let unused = unused(parameters, models);
-    warnings.extend(unused.iter().map(|warning| format!("wall {name:?}: {warning}")));
-    let made = Wall::new(parameters);
-    let about_work = made.iter().flat_map(|wall| wall.warnings().to_vec()).filter(Warning::is_about_work);
-    warnings.extend(about_work.map(|warning| format!("wall {name:?}: {warning}")));
-    warnings.extend(Warning::unusual(parameters).map(|warning| format!("wall {name:?}: {warning}")));
-    let heavy = made.ok().and_then(|wall| floors.as_ref()?.warning(&wall));
-    warnings.extend(heavy.map(|warning| format!("wall {name:?}: {warning}")));
+/// Adds warnings of improbable walls and models, and of parameters without effect.
+fn warn(walls: &[NamedWall], models: &[Model], warnings: &mut Vec<String>) {
+    for NamedWall { name, parameters, floors } in walls {
+        let made = Wall::new(parameters).ok();
+        let about_work =
+            made.iter().flat_map(Wall::warnings).filter(|warning| warning.is_about_work()).cloned();
+        let found =
+            unused(parameters, models).into_iter().chain(about_work).chain(Warning::unusual(parameters));
+        let heavy = floors.as_ref().zip(made.as_ref()).and_then(|(floors, wall)| floors.warning(wall));
+        let all = found.map(|warning| warning.to_string()).chain(heavy);
+        warnings.extend(all.map(|warning| format!("wall {name:?}: {warning}")));
+    }
+    for model in models {
+        warnings.extend(model.unusual().map(|warning| format!("model {:?}: {warning}", model.name)));
+    }
 }
 
 /// Lists the record files of a study, in the order of its patterns.

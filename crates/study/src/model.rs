@@ -9,7 +9,7 @@
 //! ```
 
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
-use rocking_wall::wall::{Damping, ParameterError, Parameters, Wall, equivalence};
+use rocking_wall::wall::{Damping, ParameterError, Parameters, Wall, Warning, equivalence};
 
 /// How a damping model is called and shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -218,6 +218,22 @@ impl Model {
             }
         }
         Ok(parameters)
+    }
+
+    /// Returns the warning of a ratio that walls rarely have, such as one in per cent.
+    ///
+    /// ```
+    /// use rocking_wall::{variables::DampingModel, wall::Damping};
+    /// use study::model::{EnergyLoss, Model};
+    ///
+    /// let with = |ratio| EnergyLoss::Viscous(Damping::given(DampingModel::ConstantRatio, ratio));
+    /// let warning = Model::new(with(5.0)).unusual().unwrap();
+    /// assert!(warning.to_string().starts_with("xi = 5 is unusual: 0 to 0.5 is usual"));
+    /// assert_eq!(Model::new(with(0.05)).unusual(), None);
+    /// ```
+    pub fn unusual(&self) -> Option<Warning> {
+        // the default wall has nothing unusual itself
+        Warning::unusual(&self.applied_to(&Parameters::default()).ok()?).next()
     }
 }
 

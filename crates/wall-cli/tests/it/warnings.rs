@@ -294,6 +294,18 @@ fn a_study_warns_of_much_work() {
     }
 }
 
+/// A ratio in per cent is unusual in a study, too.
+#[test]
+fn a_study_warns_of_an_unusual_ratio() {
+    let message = warned_of_study(
+        "percent",
+        "models = [\"CR\", { model = \"CDC\", xi = 5 }]\nlevels = { method = \"grid\", values = [0.1] }\n\
+         records = { synthetic = { count = 1 } }\n[[walls]]\nname = \"a\"\n",
+    );
+    assert_eq!(message.matches("is unusual").count(), 1, "{message}");
+    assert!(message.contains("model \"CDC 5\": xi = 5 is unusual: 0 to 0.5 is usual"), "{message}");
+}
+
 /// A study shakes its walls with its own records.
 #[test]
 fn a_study_says_that_it_ignores_a_motion() {
