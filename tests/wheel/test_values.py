@@ -32,12 +32,19 @@ WAYS = [copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value)
 def test_a_wall_is_copied_and_sent(name, way, record):
     wall = WALLS[name]
     other = way(wall)
-    assert other.parameters == wall.parameters
+    assert other == wall and hash(other) == hash(wall) and other.parameters == wall.parameters
     assert other._native.sent()[0] == wall._native.sent()[0]
     assert other.describe()["warnings"] == wall.describe()["warnings"]
     np.testing.assert_array_equal(other.simulate(record).u, wall.simulate(record).u)
     if name in ("motion", "floor", "floors"):
         np.testing.assert_array_equal(other.simulate().u, wall.simulate().u)
+
+
+def test_walls_are_compared_by_value():
+    assert len({*WALLS.values(), *map(copy.deepcopy, WALLS.values())}) == len(WALLS)
+    wall = rw.Wall(height=3, thickness=0.25)
+    assert wall == wall.replace(height=4).replace(height=3)
+    assert wall != wall.replace(u_start=0.01) and wall != "wall"
 
 
 def peak(wall, record):

@@ -116,6 +116,18 @@ impl Wall {
         Ok(Self { scene, equation, start })
     }
 
+    /// Returns whether another wall has the same parameters, start, storeys, motion, inputs and times.
+    fn equals(&self, other: &Self) -> bool {
+        let (a, b) = (&self.scene, &other.scene);
+        self.start == other.start
+            && a.parameters == b.parameters
+            && a.floors == b.floors
+            && a.excitation == b.excitation
+            && a.inputs == b.inputs
+            && [a.stop_time, a.output_step] == [b.stop_time, b.output_step]
+            && a.thresholds == b.thresholds
+    }
+
     #[getter]
     fn title(&self) -> &str {
         &self.scene.title

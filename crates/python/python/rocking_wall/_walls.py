@@ -89,6 +89,15 @@ class Wall(Calculated):
     def __setstate__(self, state: Any) -> None:
         object.__setattr__(self, "_native", _native.Wall.received(state))
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same parameters, storeys, motion and times; titles do not count."""
+        if not isinstance(other, Wall):
+            return NotImplemented
+        return self._native.equals(other._native)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.parameters.values()))
+
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Wall:
         """Reads a scene: a wall and, if it has one, its motion."""
@@ -97,7 +106,7 @@ class Wall(Calculated):
     def replace(self, **parameters: Unpack[Parameters]) -> Wall:
         """Returns the same wall with other values of some parameters.
 
-        >>> Wall(height=3).replace(height=4).parameters == Wall().parameters
+        >>> Wall(height=3).replace(height=4) == Wall(height=4)
         True
         """
         return self._of(self._native.replaced(dict(parameters)))
