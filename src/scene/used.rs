@@ -29,17 +29,14 @@ impl Scene {
     fn uses_real(&self, variable: RealVariable) -> bool {
         use RealVariable as V;
         let p = &self.parameters;
-        // what is 0 for "none"
-        let is_none = match variable {
-            V::Overburden => p.overburden == 0.0,
-            V::TieStiffness => p.tie_stiffness == 0.0,
-            V::TieStrength => p.tie_strength == 0.0,
-            _ => false,
-        };
         let matters = || usage(p).any(|usage| usage.name == variable.variable().name && usage.matters);
         match variable {
             V::AG | V::ABottom | V::ATop | V::Drift => self.inputs.contains(&variable),
-            real_parameter!() | real_output!() | real_calculated!() => !is_none && matters(),
+            // 0 stands for "none"
+            V::Overburden if p.overburden == 0.0 => false,
+            V::TieStiffness if p.tie_stiffness == 0.0 => false,
+            V::TieStrength if p.tie_strength == 0.0 => false,
+            real_parameter!() | real_output!() | real_calculated!() => matters(),
         }
     }
 }
