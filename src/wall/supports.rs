@@ -35,11 +35,6 @@ impl Support {
             drift: f(self.drift, other.drift),
         }
     }
-
-    /// Returns whether every component is a finite number.
-    pub fn is_finite(self) -> bool {
-        self.bottom.is_finite() && self.top.is_finite() && self.drift.is_finite()
-    }
 }
 
 /// A quantity at the bottom and at the top support.
