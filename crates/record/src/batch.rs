@@ -175,9 +175,9 @@ impl Batch<'_> {
         let lanes = Lanes::new(self.solver, &self.record, starts, until_overturning, Unseen);
         match &self.side_by_side {
             #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx2(simd), way)) => abreast(*simd, way, lanes),
+            Some((Vectors::Avx2(simd), steps)) => abreast(*simd, steps, lanes),
             #[cfg(target_arch = "x86_64")]
-            Some((Vectors::Avx512(simd), way)) => abreast(*simd, way, lanes),
+            Some((Vectors::Avx512(simd), steps)) => abreast(*simd, steps, lanes),
             _ => lanes.one_by_one(),
         }
     }
@@ -186,26 +186,26 @@ impl Batch<'_> {
 /// Follows runs side by side.
 pub(crate) fn abreast<S: Simd>(
     simd: S,
-    way: &SideBySide,
+    steps: &SideBySide,
     lanes: Lanes<'_, Unseen>,
 ) -> Result<Vec<Outcome>, SolverError> {
     simd.vectorize(
         #[inline(always)]
-        || match (way, lanes.solver.table.law) {
+        || match (steps, lanes.solver.table.law) {
             (SideBySide::Affine(responses), _) => lanes.side_by_side(
                 Way::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine::<Eight<S>>(simd, 0, busy, Some(responses)),
+                |lanes, busy| lanes.affine_steps::<Eight<S>>(simd, 0, busy, Some(responses)),
             ),
             (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(
                 Way::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.parts::<Eight<S>, ByRatio>(simd, 0, busy),
+                |lanes, busy| lanes.take_parts::<Eight<S>, ByRatio>(simd, 0, busy),
             ),
             (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(
                 Way::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.parts::<Eight<S>, ByStiffness>(simd, 0, busy),
+                |lanes, busy| lanes.take_parts::<Eight<S>, ByStiffness>(simd, 0, busy),
             ),
         },
     )

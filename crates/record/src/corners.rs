@@ -5,16 +5,15 @@ use crate::number::{BranchRow, Number, Row, index};
 use crate::solver::{Observer, RecordSolver};
 use crate::table::{Table, exit};
 
-/// Corners of one step that are passed here.
+/// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
 /// Largest correction δ of a first guess, over the length of the part.
 const SMALL_SHIFT: f64 = 1e-4;
-/// Largest ü δ/(2 u̇) of a correction on the way to a corner. Only where u all but turns at the corner is it
-/// larger.
+/// Largest ü δ/(2 u̇) of the last correction. It is larger only where u all but turns at the corner.
 const SMALL_BEND: f64 = 1e-4;
-/// Evaluations of the motion on the way to a corner.
+/// Most evaluations of the motion to find a corner.
 const MOST_GUESSES: u32 = 4;
-/// Ratios of the mean velocity of a passage to those at its ends for which time is well told from u.
+/// Ratios of the mean velocity of a passage to those at its ends between which a quintic is close to t(u).
 const EVEN: [f64; 2] = [0.3, 3.0];
 
 /// 1/n!.
@@ -39,13 +38,13 @@ pub(crate) struct Line<N> {
 
 impl<N: Number> Line<N> {
     #[inline(always)]
-    pub(crate) fn of(token: N::Token, table: &Table, branches: N::Branches) -> Self {
-        let of = |row: &BranchRow| N::of(token, row, branches);
+    pub(crate) fn look_up(token: N::Token, table: &Table, branches: N::Branches) -> Self {
+        let look_up = |row: &BranchRow| N::look_up(token, row, branches);
         Self {
-            c: of(&table.damping),
-            k: of(&table.stiffness),
-            force_at_zero: of(&table.force_at_zero),
-            growth: of(&table.growth),
+            c: look_up(&table.damping),
+            k: look_up(&table.stiffness),
+            force_at_zero: look_up(&table.force_at_zero),
+            growth: look_up(&table.growth),
         }
     }
 
@@ -72,7 +71,7 @@ impl<N: Number> Line<N> {
     fn after(&self, terms: usize, time: N, [u, v, a]: [N; 3], rate: N) -> [N; 3] {
         let Self { c, k, .. } = *self;
         let (p, q) = (-(c * time), -(k * time * time));
-        // two terms a turn: the chain of those that wait for each other is half as long
+        // two terms at a time: the chain of terms that depend on each other is half as long
         let (p2, q2) = (p * p + q, p * q);
         let (mut even, mut odd) = (a, time * (rate - c * a - k * v));
         let mut sum_v = a + odd * 0.5;
@@ -224,7 +223,12 @@ impl<N: Number> Part<N> {
 impl<O: Observer> Lanes<'_, O> {
     /// Goes through the corners of a step as long as u̇ keeps its sign.
     #[inline(always)]
-    pub(crate) fn pass<N: Number>(&self, token: N::Token, first: usize, mut part: Part<N>) -> Arrival<N> {
+    pub(crate) fn pass_corners<N: Number>(
+        &self,
+        token: N::Token,
+        first: usize,
+        mut part: Part<N>,
+    ) -> Arrival<N> {
         let (rows, table) = (&self.rows, &self.solver.table);
         let lowest = N::load(token, &rows.limits[0], first);
         let highest = N::load(token, &rows.limits[1], first);
@@ -248,8 +252,8 @@ impl<O: Observer> Lanes<'_, O> {
                 continue;
             }
             let (u, branches) = (part.to[0], part.branch.branches());
-            let lower = N::of(token, &table.ends[0], branches).max(lowest);
-            let upper = N::of(token, &table.ends[1], branches).min(highest);
+            let lower = N::look_up(token, &table.ends[0], branches).max(lowest);
+            let upper = N::look_up(token, &table.ends[1], branches).min(highest);
             let inside = lower.below(u) & u.below(upper);
             let (low, high) = (u.min(part.from[0]) - margin, u.max(part.from[0]) + margin);
             let near = lower.at_most(low) & high.at_most(upper);
@@ -270,7 +274,7 @@ impl<O: Observer> Lanes<'_, O> {
         let branches = part.branch.branches();
         let upwards = part.from[0].below(part.to[0]);
         let side = |rows: &[BranchRow; 2]| {
-            N::select(upwards, N::of(token, &rows[1], branches), N::of(token, &rows[0], branches))
+            N::select(upwards, N::look_up(token, &rows[1], branches), N::look_up(token, &rows[0], branches))
         };
         let (corner, exit) = (side(&table.ends), side(&table.exits));
         let (found, time, velocity) = part.find(corner, table.terms);
@@ -282,7 +286,7 @@ impl<O: Observer> Lanes<'_, O> {
             found & (is(exit::ORDINARY) | is(exit::CURVED) | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
         let branch = N::select(lanes, other, part.branch);
-        let line = Line::of(token, table, branch.branches());
+        let line = Line::look_up(token, table, branch.branches());
         let forcing = part.forcing + part.rate * time;
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
@@ -322,7 +326,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solver);
         let load = |row| N::load(token, row, first);
         let (branch, share) = (load(&rows.branch), load(&rows.share));
-        let line = Line::of(token, table, branch.branches());
+        let line = Line::look_up(token, table, branch.branches());
         let samples = self.record.forcing.from(index(rows.index[first]), 2);
         let [p0, p1] = [load(&rows.factor) * samples[0], load(&rows.factor) * samples[1]];
         let (length, rate) = (load(&rows.share) * -step + *step, (p1 - p0) * (1.0 / step));
@@ -332,7 +336,7 @@ impl<O: Observer> Lanes<'_, O> {
         let to = line.after(table.terms, length, from, rate);
         let (lanes, impacts) = (N::mask(token, 1), N::splat(token, 0.0));
         let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts };
-        let arrival = self.pass(token, first, part);
+        let arrival = self.pass_corners(token, first, part);
         self.arrive(token, first, &arrival);
         let stuck = 1 & !N::bits(arrival.lanes);
         if O::SEES && self.rows.share[first] == 0.0 && stuck == 0 {

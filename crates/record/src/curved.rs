@@ -10,20 +10,19 @@ use crate::regularised::Regularised;
 use crate::solver::Observer;
 use crate::table::{Law, Table, exit, get};
 
-/// The way of a part of eight lanes, as a share of |u|: there the terms of a series fall fast enough to end
-/// at its order.
-const REACH: f64 = 0.2;
-/// By which the next way is longer where the series reached, and shorter where it did not: of eight lanes,
-/// and of one.
+/// The stride of eight lanes, by how much u changes in a part as a share of |u|: with it the terms of a
+/// series fall fast enough to end at its order.
+const STRIDE: f64 = 0.2;
+/// Factors on the next stride where the series reached, and where it did not: of eight lanes, and of one.
 const LONGER: [f64; 2] = [1.1, 1.3];
 const SHORTER: [f64; 2] = [0.7, 0.6];
-/// The way so short that the run goes on by itself.
+/// The stride from which on down a lane waits for its run to go on by itself.
 const SHORTEST: f64 = 1e-3;
-/// Lanes that wait while the others go on.
+/// Most lanes that wait while the others go on.
 const WAITING: u32 = 1;
-/// Parts between two looks at what waits.
+/// Most parts before lanes that wait are served.
 const MOST_PARTS: usize = 256;
-/// The share of u by which it changes in a part from which on a regularised series costs less, as measured.
+/// The stride from which on a regularised series costs less, as measured.
 const FAST: f64 = 0.1;
 /// Lengths of a part within which its corner is looked for.
 const MOST_TIME: f64 = 2.0;
@@ -34,7 +33,7 @@ const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.
 pub(crate) trait OneLane: SecantLaw {
-    /// The largest way, as a share of u, that one series may reach.
+    /// The largest stride of one series.
     const FARTHEST: f64;
 
     /// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part; `None` where no series reaches.
@@ -160,17 +159,17 @@ fn end_of_part<N: Number, L: OneLane>(token: N::Token, start: Start<N>, most: N)
     (series.end::<10>(), within)
 }
 
-/// Returns the law of the branch of each lane, looked up by `of`.
+/// Returns the law of the branch of each lane, looked up by `look_up`.
 #[inline(always)]
-fn law<N>(table: &Table, of: impl Fn(&BranchRow) -> N) -> SecantBranch<N> {
+fn law<N>(table: &Table, look_up: impl Fn(&BranchRow) -> N) -> SecantBranch<N> {
     let SecantBranch { anchor, force, stiffness, own, force_at_zero, factor } = &table.secant;
     SecantBranch {
-        anchor: of(anchor),
-        force: of(force),
-        stiffness: of(stiffness),
-        own: [of(&own[0]), of(&own[1]), of(&own[2])],
-        force_at_zero: of(force_at_zero),
-        factor: of(factor),
+        anchor: look_up(anchor),
+        force: look_up(force),
+        stiffness: look_up(stiffness),
+        own: [look_up(&own[0]), look_up(&own[1]), look_up(&own[2])],
+        force_at_zero: look_up(force_at_zero),
+        factor: look_up(factor),
     }
 }
 
@@ -184,8 +183,8 @@ struct Reached<N> {
     fastest: N,
     /// The share of the step taken already.
     share: N,
-    /// The way of the next part, as a share of u.
-    way: N,
+    /// The stride of the next part.
+    stride: N,
 }
 
 impl<N: Number> Reached<N> {
@@ -199,7 +198,7 @@ impl<N: Number> Reached<N> {
             lowest: load(&rows.lowest).min(u),
             fastest: load(&rows.fastest),
             share: load(&rows.share),
-            way: load(&rows.way),
+            stride: load(&rows.stride),
         }
     }
 
@@ -211,7 +210,7 @@ impl<N: Number> Reached<N> {
         self.lowest.store(&mut rows.lowest, first);
         self.fastest.store(&mut rows.fastest, first);
         self.share.store(&mut rows.share, first);
-        self.way.store(&mut rows.way, first);
+        self.stride.store(&mut rows.stride, first);
     }
 }
 
@@ -245,7 +244,7 @@ impl<N: Number> Bounds<N> {
 impl<O: Observer> Lanes<'_, O> {
     /// Takes parts of steps of lanes, from one on, until some wait; returns which.
     #[inline(always)]
-    pub(crate) fn parts<N: Number, L: OneLane>(
+    pub(crate) fn take_parts<N: Number, L: OneLane>(
         &mut self,
         token: N::Token,
         first: usize,
@@ -255,10 +254,13 @@ impl<O: Observer> Lanes<'_, O> {
         let (law, bounds) = self.laws::<N>(token, first);
         let mut reached = Reached::<N>::load(token, &self.rows, first);
         let (zero, one) = (N::splat(token, 0.0), N::splat(token, 1.0));
-        let (farthest, longer, shorter) =
-            if N::LANES == 1 { (L::FARTHEST, LONGER[1], SHORTER[1]) } else { (REACH, LONGER[0], SHORTER[0]) };
+        let (farthest, longer, shorter) = if N::LANES == 1 {
+            (L::FARTHEST, LONGER[1], SHORTER[1])
+        } else {
+            (STRIDE, LONGER[0], SHORTER[0])
+        };
         let farthest = zero + farthest;
-        reached.way = reached.way.min(farthest);
+        reached.stride = reached.stride.min(farthest);
         // p at both ends of the step
         let mut ends = [[0.0; WIDTH]; 2];
         let mut ended = 0;
@@ -267,11 +269,11 @@ impl<O: Observer> Lanes<'_, O> {
         }
         let mut goes = N::mask(token, busy & !ended);
         for _ in 0..MOST_PARTS {
-            let Reached { now: [u, v], share, way, .. } = reached;
+            let Reached { now: [u, v], share, stride, .. } = reached;
             let (rest, speed) = (-share + 1.0, v.abs());
             // the share of u by which it changes in all of the step
             let whole = speed * h / u.abs();
-            let most = rest.min(way / whole.max(zero + f64::MIN_POSITIVE));
+            let most = rest.min(stride / whole.max(zero + f64::MIN_POSITIVE));
             let length = most * h;
             let fits = bounds.hold([u, v], length);
             let [p0, p1] = [N::load(token, &ends[0], 0), N::load(token, &ends[1], 0)];
@@ -282,7 +284,8 @@ impl<O: Observer> Lanes<'_, O> {
             // also where the sum rounds to the whole step
             let finished = taken & (rest.at_most(most) | one.at_most(share + most));
             let now = [N::select(taken, u + u * end[0], u), N::select(taken, u / length * end[1], v)];
-            let next_way = N::select(taken, (way * longer).min(farthest), way.min(whole * most) * shorter);
+            let next_stride =
+                N::select(taken, (stride * longer).min(farthest), stride.min(whole * most) * shorter);
             reached = Reached {
                 now,
                 highest: reached.highest.max(now[0]),
@@ -290,9 +293,9 @@ impl<O: Observer> Lanes<'_, O> {
                 fastest: reached.fastest.max(N::select(taken, speed, zero)),
                 share: N::select(taken, N::select(finished, zero, share + most), share),
                 // a lane that waits is as it was
-                way: N::select(goes, next_way, way),
+                stride: N::select(goes, next_stride, stride),
             };
-            goes = goes & fits & (zero + SHORTEST).below(reached.way);
+            goes = goes & fits & (zero + SHORTEST).below(reached.stride);
             for lane in each(N::bits(finished)) {
                 self.rows.index[first + lane] += 1.0;
                 if O::SEES {
@@ -327,17 +330,17 @@ impl<O: Observer> Lanes<'_, O> {
     fn laws<N: Number>(&self, token: N::Token, first: usize) -> (SecantBranch<N>, Bounds<N>) {
         let (rows, table) = (&self.rows, &self.solver.table);
         // of any number of branches: this is not done often
-        let of =
+        let look_up =
             |row: &BranchRow| N::of_lanes(token, |lane| get(row, index(rows.branch[(first + lane) % WIDTH])));
         let load = |row| N::load(token, row, first);
         let bounds = Bounds {
             driving: load(&rows.driving),
-            damping: of(&table.damping),
-            growth: of(&table.growth),
-            lower: of(&table.ends[0]).max(load(&rows.limits[0])),
-            upper: of(&table.ends[1]).min(load(&rows.limits[1])),
+            damping: look_up(&table.damping),
+            growth: look_up(&table.growth),
+            lower: look_up(&table.ends[0]).max(load(&rows.limits[0])),
+            upper: look_up(&table.ends[1]).min(load(&rows.limits[1])),
         };
-        (law(table, of), bounds)
+        (law(table, look_up), bounds)
     }
 
     /// Takes a lane along a branch with secant damping to the end of the step or to the corner ahead, where

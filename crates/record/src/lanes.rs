@@ -1,4 +1,4 @@
-//! Runs in lanes: how each is on its way through its record, block by block, with its bounds and extremes.
+//! Runs in lanes: how far each has come in its record, block by block, with its bounds and extremes.
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
@@ -7,9 +7,9 @@ use crate::number::{Row, WIDTH, index};
 use crate::solver::{Observer, Outcome, RecordSolver, RunStart};
 use crate::table::Way;
 
-/// The |u| up to which f̂ is taken, over the largest so far.
+/// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
 const ROOM: f64 = 4.0;
-/// Most of the |u| up to which f̂ is taken, over the largest so far, for f̂ to serve another block.
+/// The largest such ratio at which f̂ serves another block.
 const MOST_ROOM: f64 = 16.0;
 
 /// A block that a run has entered, and the extremes at the ends of its steps.
@@ -86,8 +86,8 @@ pub(crate) struct Rows {
     /// Corners passed here, and of these the passages of u = 0.
     pub(crate) corners: Row,
     pub(crate) impacts: Row,
-    /// The way of the next part on a curved branch, as a share of u.
-    pub(crate) way: Row,
+    /// The change of u in the next part on a curved branch, as a share of u.
+    pub(crate) stride: Row,
 }
 
 /// What a call is for.
@@ -203,7 +203,7 @@ impl<O: Observer> Lanes<'_, O> {
         rows.limit[lane] = end.min((run.last + 1).saturating_sub(AT_ONCE)) as f64;
         rows.forcing[lane] = forcing;
         (rows.highest[lane], rows.lowest[lane]) = (f64::NEG_INFINITY, f64::INFINITY);
-        (rows.fastest[lane], rows.way[lane]) = (0.0, f64::INFINITY);
+        (rows.fastest[lane], rows.stride[lane]) = (0.0, f64::INFINITY);
         let largest = self.largest(lane);
         let run = &self.runs[lane];
         // f̂ serves on while u is far below `reach`, yet not too far

@@ -8,13 +8,14 @@
 //! general search for events, the one of `wall.fmu`.
 //!
 //! One code serves a run by itself and eight side by side: a number is a vector of one lane.
-//! docs/record-path.md has the bounds, their proofs and the way of a run.
+//! docs/record-path.md has the bounds, their proofs and the course of a run.
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
 )]
 #![cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "other processors have no wide vectors"))]
 
+mod affine;
 mod batch;
 mod corners;
 mod curved;

@@ -49,7 +49,7 @@ pub(crate) trait Number: secant::Number {
     /// Takes whole numbers below [`MOST_BRANCHES`], in a vector below [`WIDTH`].
     fn branches(self) -> Self::Branches;
     /// Looks up the number that belongs to the branch of each lane.
-    fn of(token: Self::Token, row: &BranchRow, branches: Self::Branches) -> Self;
+    fn look_up(token: Self::Token, row: &BranchRow, branches: Self::Branches) -> Self;
 }
 
 impl Number for f64 {
@@ -124,7 +124,7 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn of((): (), row: &BranchRow, branch: usize) -> Self {
+    fn look_up((): (), row: &BranchRow, branch: usize) -> Self {
         row.as_flattened()[branch]
     }
 }
@@ -289,7 +289,7 @@ impl<S: Simd> Number for Eight<S> {
     }
 
     #[inline(always)]
-    fn of(simd: S, [row, _]: &BranchRow, Places { indices, bytes }: Places<S>) -> Self {
+    fn look_up(simd: S, [row, _]: &BranchRow, Places { indices, bytes }: Places<S>) -> Self {
         if S::f64s::LEN == WIDTH {
             Self(f64x8::load_array_ref(simd, row).swizzle_dyn(bytes))
         } else {

@@ -9,8 +9,8 @@ use crate::responses::{ROWS_AHEAD, Responses};
 use crate::solver::Observer;
 use crate::table::get;
 
-/// Lanes that go on by plain steps while the others wait, at most: a round of those that wait costs as much
-/// as some thirty of plain steps, however few they are.
+/// The number of lanes at which plain steps stop until those that wait are served: that costs as much as some
+/// thirty plain steps, however few lanes wait.
 const FEW: u32 = 1;
 
 /// Where plain steps may start and end: u from `low` to `high`, |u̇| up to `speed`.
@@ -82,14 +82,14 @@ impl<N: Number> Reached<N> {
 
 /// Looks up the numbers of several rows.
 #[inline(always)]
-fn look_up<N: Number, const ROWS: usize>(
+fn look_up_rows<N: Number, const ROWS: usize>(
     token: N::Token,
     rows: &[BranchRow; ROWS],
     branches: N::Branches,
 ) -> [N; ROWS] {
     let mut found = [N::splat(token, 0.0); ROWS];
     for (found, row) in found.iter_mut().zip(rows) {
-        *found = N::of(token, row, branches);
+        *found = N::look_up(token, row, branches);
     }
     found
 }
@@ -97,14 +97,14 @@ fn look_up<N: Number, const ROWS: usize>(
 /// Returns the change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
 #[inline(always)]
 fn change<N: Number>([by_u, by_v, by_q0, by_q1]: [N; 4], [u, v]: [N; 2], q: [N; 2]) -> N {
-    // the products with the state last: they are what the next step waits for
+    // the products with the state last: the next step depends on them
     (by_q0 * q[0] + by_q1 * q[1]) + (by_u * u + by_v * v)
 }
 
 impl<O: Observer> Lanes<'_, O> {
     /// Takes steps of lanes, from one on, until some wait for more than is done here; returns which.
     #[inline(always)]
-    pub(crate) fn affine<N: Number>(
+    pub(crate) fn affine_steps<N: Number>(
         &mut self,
         token: N::Token,
         first: usize,
@@ -145,7 +145,7 @@ impl<O: Observer> Lanes<'_, O> {
         } else if self.is_at_end(first) {
             (ended, waiting) = (waiting, 0);
         }
-        let stuck = if waiting == 0 { 0 } else { self.single(token, first, &bounds, waiting) };
+        let stuck = if waiting == 0 { 0 } else { self.single_steps(token, first, &bounds, waiting) };
         Waiting { ended, stuck: grown & !ended | stuck }
     }
 
@@ -154,15 +154,15 @@ impl<O: Observer> Lanes<'_, O> {
     fn bounds<N: Number>(&self, token: N::Token, first: usize) -> Bounds<N> {
         let (rows, table, step) = (&self.rows, &self.solver.table, self.solver.step);
         let branches = N::load(token, &rows.branch, first).branches();
-        let of = |row: &BranchRow| N::of(token, row, branches);
+        let look_up = |row: &BranchRow| N::look_up(token, row, branches);
         let driving = N::load(token, &rows.driving, first);
-        let bounded = driving + of(&table.damping_share) * driving;
-        let [most, most4] = [of(&table.growth) * bounded, of(&table.plain_growth) * bounded];
-        let step4 = of(&table.at_once) * step;
+        let bounded = driving + look_up(&table.damping_share) * driving;
+        let [most, most4] = [look_up(&table.growth) * bounded, look_up(&table.plain_growth) * bounded];
+        let step4 = look_up(&table.at_once) * step;
         let (margin, margin4) = (most * (0.125 * step * step), most4 * (step4 * step4 * 0.125));
-        let lower = of(&table.ends[0]).max(N::load(token, &rows.limits[0], first));
-        let upper = of(&table.ends[1]).min(N::load(token, &rows.limits[1], first));
-        let speed = of(&table.speed_share) * driving;
+        let lower = look_up(&table.ends[0]).max(N::load(token, &rows.limits[0], first));
+        let upper = look_up(&table.ends[1]).min(N::load(token, &rows.limits[1], first));
+        let speed = look_up(&table.speed_share) * driving;
         Bounds {
             range: Range { low: lower + margin, high: upper - margin, speed },
             range4: Range { low: lower + margin4, high: upper - margin4, speed },
@@ -191,7 +191,9 @@ impl<O: Observer> Lanes<'_, O> {
             let at_once = index(get(&self.solver.table.at_once, branch));
             *ahead = responses.ahead(index(start), index(rows.index[lane]), at_once);
         }
-        self.plain(token, first, bounds, ready, ROWS_AHEAD, |row| N::unzip(token, |lane| ahead[lane][row]))
+        self.plain_steps(token, first, bounds, ready, ROWS_AHEAD, |row| {
+            N::unzip(token, |lane| ahead[lane][row])
+        })
     }
 
     /// Takes plain steps of one lane.
@@ -209,7 +211,7 @@ impl<O: Observer> Lanes<'_, O> {
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
         let p = record.forcing.from(sample, (count - 1) * at_once + AT_ONCE + 1);
-        self.plain(token, first, bounds, (ready, 0), count, |row| {
+        self.plain_steps(token, first, bounds, (ready, 0), count, |row| {
             let response = map.respond(&p[row * at_once..][..=AT_ONCE]);
             N::unzip(token, |_| response)
         })
@@ -218,7 +220,7 @@ impl<O: Observer> Lanes<'_, O> {
     /// Takes plain steps, four at once, until few lanes go on; returns which do. `response` is the change by
     /// the record, of each four steps after the other.
     #[inline(always)]
-    fn plain<N: Number>(
+    fn plain_steps<N: Number>(
         &mut self,
         token: N::Token,
         first: usize,
@@ -230,10 +232,10 @@ impl<O: Observer> Lanes<'_, O> {
         let (rows, table) = (&self.rows, &self.solver.table);
         let branches = N::load(token, &rows.branch, first).branches();
         let [[uu, uv, u_force], [vu, vv, v_force]] = [
-            look_up::<N, _>(token, &table.plain_steps[0], branches),
-            look_up::<N, _>(token, &table.plain_steps[1], branches),
+            look_up_rows::<N, _>(token, &table.plain_steps[0], branches),
+            look_up_rows::<N, _>(token, &table.plain_steps[1], branches),
         ];
-        let at_once = N::of(token, &table.at_once, branches);
+        let at_once = N::look_up(token, &table.at_once, branches);
         let factor = N::load(token, &rows.factor, first);
         let room = N::load(token, &rows.limit, first) - N::load(token, &rows.index, first);
         let started = N::mask(token, ready);
@@ -266,8 +268,8 @@ impl<O: Observer> Lanes<'_, O> {
         let (table, rows) = (&self.solver.table, &self.rows);
         let (branch, factor) = (rows.branch[lane].branches(), rows.factor[lane]);
         let map = [
-            look_up::<f64, _>((), &table.one_step[0], branch),
-            look_up::<f64, _>((), &table.one_step[1], branch),
+            look_up_rows::<f64, _>((), &table.one_step[0], branch),
+            look_up_rows::<f64, _>((), &table.one_step[1], branch),
         ];
         for sample in sample..sample + count {
             let q = [0, 1]
@@ -280,12 +282,19 @@ impl<O: Observer> Lanes<'_, O> {
     /// Takes one to four steps of lanes that wait, the last of them past corners if need be; returns which
     /// took none.
     #[inline(always)]
-    fn single<N: Number>(&mut self, token: N::Token, first: usize, bounds: &Bounds<N>, waiting: u8) -> u8 {
+    fn single_steps<N: Number>(
+        &mut self,
+        token: N::Token,
+        first: usize,
+        bounds: &Bounds<N>,
+        waiting: u8,
+    ) -> u8 {
         let waits = N::mask(token, waiting);
         let mut reached = Reached::start(token, &self.rows, first);
         let before = reached.now;
         let part = self.stay(token, first, bounds, waits, &mut reached);
-        let arrival = if N::bits(part.lanes) == 0 { None } else { Some(self.pass(token, first, part)) };
+        let arrival =
+            if N::bits(part.lanes) == 0 { None } else { Some(self.pass_corners(token, first, part)) };
         if O::SEES {
             let sample = index(self.rows.index[first]);
             self.see_steps(first, sample, before.map(|x| x.lane(0)), index(reached.steps.lane(0)));
@@ -317,11 +326,11 @@ impl<O: Observer> Lanes<'_, O> {
         let branch = N::load(token, &rows.branch, first);
         let branches = branch.branches();
         let [u_by, v_by] = [
-            look_up::<N, _>(token, &table.one_step[0], branches),
-            look_up::<N, _>(token, &table.one_step[1], branches),
+            look_up_rows::<N, _>(token, &table.one_step[0], branches),
+            look_up_rows::<N, _>(token, &table.one_step[1], branches),
         ];
-        let [lower, upper] = look_up::<N, _>(token, &table.ends, branches);
-        let line = Line::of(token, table, branches);
+        let [lower, upper] = look_up_rows::<N, _>(token, &table.ends, branches);
+        let line = Line::look_up(token, table, branches);
         let eighth = 0.125 * self.solver.step * self.solver.step;
         let furthest = self.record.forcing.count() - 1;
         // lanes that do not wait may be near the end

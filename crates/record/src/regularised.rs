@@ -120,9 +120,9 @@ impl Regularised {
         self.reaches::<HIGHEST>(sigma, most).then_some(HIGHEST)
     }
 
-    /// Tells whether a series to the even order N leaves out little enough at `sigma`: as `within` does, but
-    /// a pair of terms does not count as less than a hundredth of the pair before. Here one can be small by
-    /// chance (docs/record-path.md, §7).
+    /// Returns whether a series to the even order N leaves out little enough at `sigma`: as `within` does,
+    /// but a pair of terms does not count as less than a hundredth of the pair before. Here one can be small
+    /// by chance (docs/record-path.md, §7).
     #[inline(always)]
     fn reaches<const N: usize>(&self, sigma: f64, most: f64) -> bool {
         let mut power = sigma;

@@ -6,9 +6,10 @@
 
 use rocking_wall::solver::Motion;
 
+use crate::affine::Affine;
 use crate::forcing::{AT_ONCE, BLOCK, Forcing};
 use crate::number::{BranchRow, WIDTH, index};
-use crate::table::{Affine, LONGEST, Table, Way, get, set};
+use crate::table::{LONGEST, Table, Way, get, set};
 
 /// Rows a lane may read on, from wherever it is: those of a block, and one.
 pub(crate) const ROWS_AHEAD: usize = BLOCK / AT_ONCE + 1;
@@ -24,7 +25,7 @@ pub(crate) struct Responses {
     /// 9, …, and so on.
     rows: Vec<[f64; 2]>,
     /// Rows of the response from one offset on, where two steps are taken at once and where four.
-    strides: [usize; 2],
+    lengths: [usize; 2],
 }
 
 impl Responses {
@@ -39,8 +40,8 @@ impl Responses {
         {
             return None;
         }
-        let strides = [2, AT_ONCE].map(|at_once| count / at_once + 1 + ROWS_AHEAD);
-        let mut responses = Self { starts: BranchRow::default(), rows: Vec::new(), strides };
+        let lengths = [2, AT_ONCE].map(|at_once| count / at_once + 1 + ROWS_AHEAD);
+        let mut responses = Self { starts: BranchRow::default(), rows: Vec::new(), lengths };
         let oscillators = motion.oscillators();
         for (branch, oscillator) in oscillators.iter().enumerate() {
             let known = oscillators[..branch].iter().position(|known| known == oscillator);
@@ -56,9 +57,9 @@ impl Responses {
 
     /// Adds the response of an oscillator.
     fn respond(&mut self, map: &Affine, forcing: Forcing<'_>, at_once: usize) {
-        let (start, stride) = (self.rows.len(), self.strides[usize::from(at_once == AT_ONCE)]);
-        self.rows.resize(start + at_once * stride, [0.0; 2]);
-        for (offset, rows) in self.rows[start..].chunks_exact_mut(stride).enumerate() {
+        let (start, length) = (self.rows.len(), self.lengths[usize::from(at_once == AT_ONCE)]);
+        self.rows.resize(start + at_once * length, [0.0; 2]);
+        for (offset, rows) in self.rows[start..].chunks_exact_mut(length).enumerate() {
             // all samples that count are within the record
             let count = (forcing.count() - offset).saturating_sub(AT_ONCE).div_ceil(at_once);
             for (n, row) in rows.iter_mut().enumerate().take(count) {
@@ -72,7 +73,7 @@ impl Responses {
     pub(crate) fn ahead(&self, start: usize, sample: usize, at_once: usize) -> &[[f64; 2]] {
         // without divisions, which would take as long as the steps
         let four = usize::from(at_once == AT_ONCE);
-        let first = (sample & (at_once - 1)) * self.strides[four] + (sample >> (1 + four));
+        let first = (sample & (at_once - 1)) * self.lengths[four] + (sample >> (1 + four));
         &self.rows[start + first..][..ROWS_AHEAD]
     }
 }

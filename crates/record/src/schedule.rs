@@ -138,23 +138,23 @@ impl<O: Observer> Lanes<'_, O> {
             // its instructions take three operands; they round alike
             return avx2.vectorize(
                 #[inline(always)]
-                || self.go(lane),
+                || self.go_alone(lane),
             );
         }
-        self.go(lane)
+        self.go_alone(lane)
     }
 
     #[inline(always)]
-    fn go(&mut self, lane: usize) -> bool {
+    fn go_alone(&mut self, lane: usize) -> bool {
         while self.in_block(lane) {
             let way = self.way(lane);
             if Some(way) == self.joins && self.rows.index[lane] < self.rows.limit[lane] {
                 return true;
             }
             let waiting = match way {
-                Way::Affine => self.affine::<f64>((), lane, 1, None),
-                Way::Curved => self.parts_by_law(lane),
-                Way::General => Waiting { ended: 0, stuck: u8::from(!self.rest(lane)) },
+                Way::Affine => self.affine_steps::<f64>((), lane, 1, None),
+                Way::Curved => self.take_parts_by_law(lane),
+                Way::General => Waiting { ended: 0, stuck: u8::from(!self.rest_on(lane)) },
             };
             if waiting.stuck != 0 && !self.unblock(lane) {
                 return false;
@@ -173,10 +173,10 @@ impl<O: Observer> Lanes<'_, O> {
     }
 
     #[inline(always)]
-    fn parts_by_law(&mut self, lane: usize) -> Waiting {
+    fn take_parts_by_law(&mut self, lane: usize) -> Waiting {
         match self.solver.table.law {
-            Law::Ratio => self.parts::<f64, ByRatio>((), lane, 1),
-            Law::Stiffness => self.parts::<f64, ByStiffness>((), lane, 1),
+            Law::Ratio => self.take_parts::<f64, ByRatio>((), lane, 1),
+            Law::Stiffness => self.take_parts::<f64, ByStiffness>((), lane, 1),
         }
     }
 
@@ -186,7 +186,7 @@ impl<O: Observer> Lanes<'_, O> {
             self.bound_force(lane);
             return true;
         }
-        self.rows.way[lane] = f64::INFINITY;
+        self.rows.stride[lane] = f64::INFINITY;
         if self.way(lane) == Way::Curved && self.pass_curved_corner(lane) {
             return true;
         }
@@ -199,7 +199,7 @@ impl<O: Observer> Lanes<'_, O> {
     }
 
     /// Takes the steps of its block through which a wall rests; returns whether there are any.
-    fn rest(&mut self, lane: usize) -> bool {
+    fn rest_on(&mut self, lane: usize) -> bool {
         let [lowest, highest] = self.solver.motion.rest_band();
         let first = self.sample(lane);
         if self.runs[lane].phase != Phase::Resting {

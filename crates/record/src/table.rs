@@ -5,6 +5,7 @@ use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::{Branch, Corner};
 
+use crate::affine::Affine;
 use crate::forcing::AT_ONCE;
 use crate::number::{BranchRow, MOST_BRANCHES, WIDTH};
 
@@ -50,54 +51,6 @@ pub(crate) mod exit {
     pub(crate) const IMPACT: f64 = 2.0;
     /// At an ordinary corner, to a branch with secant damping.
     pub(crate) const CURVED: f64 = 3.0;
-}
-
-/// An affine map over some steps, by the forcing less the branch's force at u = 0, q = p − f(0): the
-/// change of u and of u̇ for each of u₀, u̇₀ and the q at the samples.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Affine {
-    pub(crate) of_state: [[f64; 2]; 2],
-    pub(crate) of_forcing: [[f64; 2]; AT_ONCE + 1],
-}
-
-impl Affine {
-    fn one_step(oscillator: &Oscillator, step: f64) -> Self {
-        let (c, k) = (oscillator.damping(), oscillator.stiffness());
-        let green = oscillator.green(step);
-        let (g, h, j) = (green.g, green.h, green.j / step);
-        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
-        [of_forcing[0], of_forcing[1]] = [[h - j, g - h / step], [j, h / step]];
-        Self { of_state: [[-k * h, -k * g], [g, -(k * h + c * g)]], of_forcing }
-    }
-
-    /// Makes the map of some steps, four at most: the closed form for the state, and the forcing step by
-    /// step.
-    fn steps(one: &Self, count: usize, oscillator: &Oscillator, step: f64) -> Self {
-        let of_state = Self::one_step(oscillator, count as f64 * step).of_state;
-        let [by_u, by_v] = one.of_state;
-        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
-        for n in 0..count {
-            // what came before, moved on by one step
-            for [u, v] in &mut of_forcing[..=n] {
-                (*u, *v) = (*u + (by_u[0] * *u + by_v[0] * *v), *v + (by_u[1] * *u + by_v[1] * *v));
-            }
-            for (end, term) in one.of_forcing[..2].iter().enumerate() {
-                of_forcing[n + end][0] += term[0];
-                of_forcing[n + end][1] += term[1];
-            }
-        }
-        Self { of_state, of_forcing }
-    }
-
-    /// Returns the change of u and u̇ by the forcing at five samples.
-    #[inline(always)]
-    pub(crate) fn respond(&self, p: &[f64]) -> [f64; 2] {
-        let [a, b, c, d, e] = self.of_forcing;
-        [
-            ((a[0] * p[0] + b[0] * p[1]) + (c[0] * p[2] + d[0] * p[3])) + e[0] * p[4],
-            ((a[1] * p[0] + b[1] * p[1]) + (c[1] * p[2] + d[1] * p[3])) + e[1] * p[4],
-        ]
-    }
 }
 
 /// Returns γ(L) = 1/(1 − c L/2 − |k| L²/8), by which P + c V + f̂ is multiplied to bound |ü| over a length L;

@@ -229,7 +229,7 @@ fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
     let numbers = [a + b, a - b, a * b, a / b, a + 0.3, a * 0.3, -a, a.abs(), a.abs().sqrt()];
     let more = [a.max(b), a.min(b), a.like(0.7), N::splat(token, -0.2), zipped, other];
     let of_lanes = N::of_lanes(token, |lane| stored[first + lane]);
-    let found = N::of(token, &branches, branch.branches());
+    let found = N::look_up(token, &branches, branch.branches());
     let chosen = masks.map(|mask| N::select(mask, a, b));
     let lanes = |number: N| (0..N::LANES).map(|lane| number.lane(lane).to_bits()).collect();
     let bits = |mask| (0..N::LANES).map(|lane| u64::from(N::bits(mask) >> lane & 1)).collect();
