@@ -18,6 +18,14 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
+/// Returns whether a text has a name that is no part of a longer one.
+fn has_name(text: &str, name: &str) -> bool {
+    let goes_on = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    text.match_indices(name).any(|(at, _)| {
+        !goes_on(text[..at].chars().next_back()) && !goes_on(text[at + name.len()..].chars().next())
+    })
+}
+
 #[test]
 fn documents_name_what_exists() {
     let is_document = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "md");
@@ -44,7 +52,7 @@ fn documents_name_what_exists() {
             let Some(file) = quoted(first).find(|word| is_path(word)) else { continue };
             let source = std::fs::read_to_string(root().join(file)).unwrap();
             for name in quoted(second) {
-                assert!(source.contains(name), "{place}: {file} has no {name}");
+                assert!(has_name(&source, name), "{place}: {file} has no {name}");
                 rows += 1;
             }
         }
@@ -58,5 +66,24 @@ fn every_equation_of_the_paper_has_its_place() {
     let section = text.split("\n### ").find(|section| section.starts_with("Equations of the paper")).unwrap();
     for equation in 1..=23 {
         assert!(section.contains(&format!("({equation})")), "Eq. ({equation}) is not in the table");
+    }
+}
+
+/// The modules of a crate are those that its head lists, in the same order.
+#[test]
+fn modules_are_listed_as_in_the_source() {
+    let text = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    for (title, source) in [("rocking-wall", "src/lib.rs"), ("study", "crates/study/src/lib.rs")] {
+        let source = std::fs::read_to_string(root().join(source)).unwrap();
+        let modules = |lines: &str, start: &str| -> Vec<String> {
+            let rows = lines.lines().filter_map(|line| line.strip_prefix(start)?.split('|').next());
+            rows.flat_map(quoted).map(str::to_owned).collect()
+        };
+        let start = format!("Modules of `{title}`");
+        let section = text.split("\n### ").find(|section| section.starts_with(&start)).unwrap();
+        let listed = modules(&source, "//! | ");
+        assert!(listed.len() > 7, "{listed:?}");
+        let table = section.split("\n\n").find(|part| part.starts_with("| module")).unwrap();
+        assert_eq!(modules(table, "| "), listed, "{title}");
     }
 }
