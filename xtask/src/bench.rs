@@ -29,9 +29,6 @@ const MANY: u32 = 15;
 
 /// Measures the time of each path beside a bare oscillator, then counts instructions by valgrind, which do
 /// not depend on the machine's load.
-///
-/// # Errors
-/// If a benchmark fails.
 pub(crate) fn paths(record: Option<&str>) -> Result<()> {
     let remedy = "see its message above";
     succeed(cargo().args(["bench", "--locked", "--bench", "step"]), remedy)?;
@@ -45,20 +42,8 @@ pub(crate) fn paths(record: Option<&str>) -> Result<()> {
         println!("valgrind is not installed: instructions are not counted");
         return Ok(());
     }
-    let built = output(
-        cargo().args([
-            "bench",
-            "--locked",
-            "--package",
-            "rocking-record",
-            "--bench",
-            "record",
-            "--no-run",
-            "--message-format",
-            "json",
-        ]),
-        remedy,
-    )?;
+    let no_run = "bench --locked --package rocking-record --bench record --no-run --message-format json";
+    let built = output(cargo().args(no_run.split(' ')), remedy)?;
     let binary = executable(&built).ok_or("cargo names no benchmark in its messages")?;
     println!("\ninstructions a sample, walls of Table 5 under the embedded motion");
     for path in ["segments", "record", "batch", "adaptive"] {
@@ -94,10 +79,7 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
 /// motion.
 ///
-/// Returns the table it prints.
-///
-/// # Errors
-/// If the Rust part fails. A peer that cannot be installed or fails is named in the table.
+/// Returns the table it prints, which names a peer that cannot be installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     if folder.exists() {

@@ -37,10 +37,7 @@ pub(crate) fn find(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&paths).map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
-/// Runs a command to its end.
-///
-/// # Errors
-/// If it cannot start or does not succeed; `remedy` says what to do then.
+/// Runs a command to its end; `remedy` says what to do where it cannot start or does not succeed.
 pub(crate) fn succeed(command: &mut Command, remedy: &str) -> Result<()> {
     let shown = shown(command);
     match command.status() {
@@ -50,10 +47,7 @@ pub(crate) fn succeed(command: &mut Command, remedy: &str) -> Result<()> {
     }
 }
 
-/// Runs a command and returns what it prints.
-///
-/// # Errors
-/// As [`succeed`].
+/// Runs a command as [`succeed`] does, and returns what it prints.
 pub(crate) fn output(command: &mut Command, remedy: &str) -> Result<String> {
     let shown = shown(command);
     match command.output() {

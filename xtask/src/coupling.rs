@@ -10,9 +10,6 @@ const DOCUMENT: &str = "docs/coupling.md";
 const MARK: &str = "figures";
 
 /// Measures, writes the page, the CSV file and the figures of the document.
-///
-/// # Errors
-/// If a program fails, or the document lacks its mark.
 pub(crate) fn run() -> Result<()> {
     let wall = fmu::build(fmu::WALL)?;
     let floor = fmu::build(fmu::FLOOR)?;

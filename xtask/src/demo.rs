@@ -7,9 +7,6 @@ use crate::fmu::{self, Linker};
 use crate::python::Environment;
 
 /// Runs the demo with the embedded motion, then with the user's record if there is one.
-///
-/// # Errors
-/// If a step of it fails.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
     // side by side: one of the three waits for a linker, one for the network
     let (library, programs, python) = std::thread::scope(|scope| {

@@ -15,9 +15,6 @@ const TESTS: &str = "tests/data/validation";
 const ROTATIONS: &str = "small rotations: their period";
 
 /// Measures and writes everything; `record` is the motion of the walls of Table 5.
-///
-/// # Errors
-/// If a program fails, or the document lacks a mark.
 pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let peers = bench::peers(record)?;
     let mut accuracy = vec!["accuracy", "--csv", "fmu_out/accuracy.csv", "--html", "fmu_out/accuracy.html"];
@@ -50,9 +47,6 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
 }
 
 /// Compares the model with each published test: its numbers and its picture.
-///
-/// # Errors
-/// As [`run`].
 pub(crate) fn validation() -> Result<()> {
     let failed = |name: &'static str| move |error: std::io::Error| format!("{name}: {error}");
     let mut text = std::fs::read_to_string(root().join(VALIDATION)).map_err(failed(VALIDATION))?;
@@ -73,9 +67,6 @@ fn fenced(text: &str) -> String {
 }
 
 /// Replaces the text between `<!-- mark -->` and `<!-- end mark -->` in a document.
-///
-/// # Errors
-/// If the marks are not there.
 pub(crate) fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<String> {
     let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end {mark} -->"));
     let missing = || format!("{document}: expected the marks `{}` and `{end}`", begin.trim_end());

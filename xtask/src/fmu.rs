@@ -41,18 +41,12 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
-///
-/// # Errors
-/// If the library does not build or the archive cannot be written.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
     let library = library(unit, Linker::System)?;
     pack(unit, &[(host(), library)], &programs("dev", &["fmu-export-build"])?)
 }
 
 /// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
-///
-/// # Errors
-/// As [`build`], or if a platform is unknown or its Rust library is missing.
 pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
     let platforms = names.map(Platform::named).transpose()?;
     let mut built = Vec::new();
@@ -89,9 +83,6 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
 }
 
 /// Builds the programs of some packages with a profile, without Parquet, and returns their folder.
-///
-/// # Errors
-/// If they do not build.
 pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
     build.args(["build", "--locked", "--bins", "--no-default-features"]);
@@ -103,9 +94,6 @@ pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
 }
 
 /// Builds the library, without the command line's crates, and returns its path.
-///
-/// # Errors
-/// If it does not build.
 pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let (mut build, built, (beginning, ending)) = match linker {
@@ -127,18 +115,12 @@ pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
 /// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 and, below `fmi3/`, for FMI 3.0. Returns
 /// the path of the first. `libraries` are platforms by their names in FMI 2.0, if they have one there, with
 /// their libraries.
-///
-/// # Errors
-/// If an archive cannot be written.
 pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
     pack_version(unit, libraries, programs, "3")?;
     pack_version(unit, libraries, programs, "2")
 }
 
 /// Zips the FMU for one version of FMI, and returns its path.
-///
-/// # Errors
-/// If the archive cannot be written.
 pub(crate) fn pack_version(
     unit: Unit,
     libraries: &[(&str, PathBuf)],

@@ -28,9 +28,6 @@ const COVERAGE: &str = "--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-saniti
 const ADDRESS: &str = "-Zsanitizer=address";
 
 /// Runs all of it, with fixed seeds.
-///
-/// # Errors
-/// If a reader or a call is at fault.
 pub(crate) fn run() -> Result<()> {
     let host = host()?;
     println!("== calls, as FMUs are built");

@@ -3,9 +3,6 @@
 use crate::command::{Result, cargo, output, root};
 
 /// Draws the pictures into `docs/images`.
-///
-/// # Errors
-/// If the program fails.
 pub(crate) fn run() -> Result<()> {
     let folder = root().join("docs/images");
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -30,9 +27,6 @@ pub(crate) fn run() -> Result<()> {
 }
 
 /// Runs `wall` as released, from the root, and returns what it prints.
-///
-/// # Errors
-/// If the program fails.
 pub(crate) fn wall(arguments: &[&str]) -> Result<String> {
     let mut run = cargo();
     run.current_dir(root()).args(["run", "--release", "--locked", "--quiet", "--bin", "wall", "--"]);

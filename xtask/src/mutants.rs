@@ -19,10 +19,8 @@ struct Sample<'a> {
 }
 
 /// Tests a sample of mutants by cargo-mutants: every n-th from a place that the seed gives, so that samples
-/// of the first n seeds have none in common. `.cargo/mutants.toml` leaves out those without effect.
-///
-/// # Errors
-/// If cargo-mutants is not installed, the paths have no mutants, or a mutant is missed or runs out of time.
+/// of the first n seeds have none in common. `.cargo/mutants.toml` leaves out those without effect. A mutant
+/// that is missed or runs out of time is an error.
 pub(crate) fn run(arguments: &[&str]) -> Result<()> {
     let Sample { count, seed, paths } = parse(arguments)?;
     if find("cargo-mutants").is_none() {
@@ -43,12 +41,8 @@ pub(crate) fn run(arguments: &[&str]) -> Result<()> {
     let mut tests = program("cargo");
     // built once, not for each run
     tests.env("CARGO_TARGET_DIR", folder.join("build"));
-    tests.args(chosen).args([
-        "--sharding",
-        "round-robin",
-        "--shard",
-        &format!("{}/{samples}", seed % samples),
-    ]);
+    let shard = format!("{}/{samples}", seed % samples);
+    tests.args(chosen).args(["--sharding", "round-robin", "--shard", &shard]);
     // some tests ask git for the files of the project
     tests.args(["--copy-vcs", "true"]).args(TESTED.map(|name| format!("--cargo-arg=--package={name}")));
     std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;

@@ -78,9 +78,6 @@ const OLDEST_MACOS: &str = "11.0";
 impl Platform {
     /// Returns the platforms of a list of names such as `linux64,win64`, in the order of the table. A name is
     /// that of FMI 2.0 or of FMI 3.0.
-    ///
-    /// # Errors
-    /// If a name is not in the table, or the Rust library for a platform is not installed.
     pub(crate) fn named(names: &str) -> Result<Vec<&'static Self>> {
         let is_named = |platform: &Self, name| platform.fmi2 == Some(name) || platform.fmi3 == name;
         for name in names.split(',') {
@@ -94,9 +91,6 @@ impl Platform {
     }
 
     /// Prepares a job of cargo for this platform, linked with zig.
-    ///
-    /// # Errors
-    /// If zig cannot be installed.
     pub(crate) fn cargo(&self, subcommand: &str) -> Result<Command> {
         let mut build = Environment::of("zig", "xtask/locks/zig.lock")?.program("cargo-zigbuild");
         build.args([subcommand, "--target", &format!("{}{}", self.target, self.glibc)]);
@@ -105,9 +99,6 @@ impl Platform {
     }
 
     /// Lets a job of cargo or maturin find zig, and makes its bytes independent of the folder.
-    ///
-    /// # Errors
-    /// If zig cannot be installed.
     pub(crate) fn link_with_zig(&self, build: &mut Command) -> Result<()> {
         let zig = Environment::of("zig", "xtask/locks/zig.lock")?;
         let mut path = zig.programs().into_os_string();
@@ -145,9 +136,6 @@ fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>
 }
 
 /// Returns whether this machine has the Rust library for a target.
-///
-/// # Errors
-/// If there is no rustc.
 pub(crate) fn has_rust_library(target: &str) -> Result<bool> {
     let mut rustc = program("rustc");
     rustc.args(["--print", "target-libdir", "--target", target]);

@@ -11,9 +11,6 @@ const PAGE: &str = "fmu_out/playground.html";
 const LARGEST: u64 = 1_500_000;
 
 /// Checks that this machine can compile to WebAssembly.
-///
-/// # Errors
-/// If it lacks the Rust library for it.
 pub(crate) fn check_target() -> Result<()> {
     if has_rust_library(TARGET)? {
         return Ok(());
@@ -22,9 +19,6 @@ pub(crate) fn check_target() -> Result<()> {
 }
 
 /// Builds the page.
-///
-/// # Errors
-/// If the Rust library for WebAssembly is missing, the build fails, or the page is too large.
 pub(crate) fn build() -> Result<PathBuf> {
     check_target()?;
     let mut build = cargo();

@@ -10,9 +10,6 @@ use crate::test::{TESTS, records};
 
 /// Builds the FMUs for all platforms into `fmu_out/` and tests them: the Linux library in FMPy, the Windows
 /// library and `wall.exe` under wine; the macOS library is only inspected.
-///
-/// # Errors
-/// If something does not build or a test fails.
 pub(crate) fn run() -> Result<()> {
     fmu::build_all(Some(fmu::PORTABLE))?;
     succeed(cargo().args(["build", "--locked", "--bin", "wall"]), "see the compiler's message above")?;

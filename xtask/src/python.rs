@@ -11,9 +11,6 @@ pub(crate) struct Environment {
 
 impl Environment {
     /// Returns the environment of a lock file (relative to the root), made again if the lock has changed.
-    ///
-    /// # Errors
-    /// If Python 3 with venv is missing or a package cannot be installed.
     pub(crate) fn of(name: &str, lock: &str) -> Result<Self> {
         let environment = Self { folder: target().join("python").join(name) };
         let lock = root().join(lock);
@@ -43,9 +40,6 @@ impl Environment {
     }
 
     /// Prepares an installation into the environment, by one pip for all of them.
-    ///
-    /// # Errors
-    /// If Python 3 with venv is missing.
     pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
         let installer = target().join("python").join("pip");
         let python = installer.join("bin/python");
@@ -65,9 +59,6 @@ impl Environment {
     }
 
     /// Returns the folder of an installed package.
-    ///
-    /// # Errors
-    /// If the package is missing.
     pub(crate) fn package(&self, name: &str) -> Result<PathBuf> {
         let code = format!("import {name}, os; print(list({name}.__path__)[0])");
         let remedy = "remove the target folder's python/ and run the job again";

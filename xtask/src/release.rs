@@ -16,9 +16,6 @@ const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", 
 /// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the Python package
 /// for all but Windows, the list of components (SBOM), the notices of third parties and the checksums into
 /// `target/release-files/`. The same commit gives the same bytes.
-///
-/// # Errors
-/// If files are not committed, `tag` is not that of the version, or something does not build.
 pub(crate) fn run(tag: Option<&str>) -> Result<()> {
     if let Some(tag) = tag {
         check(tag)?;

@@ -24,9 +24,6 @@ const CLANG: (&str, &str) = ("clang", "xtask/locks/clang.lock");
 type Part = fn() -> Result<()>;
 
 /// Runs every test; all parts run even where one fails.
-///
-/// # Errors
-/// If a part failed.
 pub(crate) fn run() -> Result<()> {
     let parts: [(&str, Part); 6] = [
         ("Rust tests", rust),

@@ -9,9 +9,6 @@ const MAGIC: u32 = 0xcafe_babe;
 const ALIGNMENT: u32 = 14;
 
 /// Joins Mach-O files of different processors into a universal one: a header, then the files.
-///
-/// # Errors
-/// If a file cannot be read or written.
 pub(crate) fn join(parts: &[&Path], output: &Path) -> Result<()> {
     let read = |path: &&Path| std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     let contents = parts.iter().map(read).collect::<Result<Vec<_>>>()?;

@@ -14,9 +14,6 @@ const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
 
 /// Builds the wheel and prints its path.
-///
-/// # Errors
-/// If the FMU or the wheel does not build.
 pub(crate) fn run() -> Result<()> {
     let unit = fmu::build(fmu::WALL)?;
     println!("{}", build("release", &unit, None)?.display());
@@ -25,9 +22,6 @@ pub(crate) fn run() -> Result<()> {
 
 /// Builds the wheel with a profile and a general FMU, for this machine or for a platform, and returns its
 /// path.
-///
-/// # Errors
-/// If it does not build.
 pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
     std::fs::copy(unit, root().join(UNIT)).map_err(|error| format!("{UNIT}: {error}"))?;
     for text in TEXTS {
@@ -58,9 +52,6 @@ pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> 
 }
 
 /// Installs the wheel into an environment that has what it needs.
-///
-/// # Errors
-/// If pip fails.
 pub(crate) fn install(wheel: &Path, environment: &Environment) -> Result<()> {
     let mut pip = environment.pip_install()?;
     output(pip.args(["--no-index", "--no-deps", "--force-reinstall"]).arg(wheel), "see its message above")

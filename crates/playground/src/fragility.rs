@@ -34,9 +34,6 @@ pub(crate) struct Fragility {
 
 impl Fragility {
     /// Prepares the fragility of a wall.
-    ///
-    /// # Errors
-    /// Why a study cannot have this wall.
     pub(crate) fn new(parameters: Parameters, width: f64, peak: Option<f64>) -> Result<Self, String> {
         let model = Model::new(energy_loss(&parameters)?);
         let walls = vec![NamedWall::new("the wall", parameters)];
@@ -59,9 +56,6 @@ impl Fragility {
     }
 
     /// Runs the next motion. Returns how many are done, and after the last one the result too.
-    ///
-    /// # Errors
-    /// Why a run failed.
     pub(crate) fn next(&mut self) -> Result<Value, String> {
         let done = self.curves.len();
         if done < self.study.count() {

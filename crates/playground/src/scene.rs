@@ -23,9 +23,6 @@ pub(crate) struct Prepared {
 }
 
 /// Prepares the scene that the inputs describe.
-///
-/// # Errors
-/// What is wrong, field by field.
 pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, Faults> {
     let (mut scene, motion) = shaken(&inputs.motion, upload)?;
     let mut faults = Faults::new();

@@ -26,9 +26,6 @@ impl Upload {
     }
 
     /// Returns the record, read with the options of a request. It is read again only if they have changed.
-    ///
-    /// # Errors
-    /// What is wrong with the file, or with an option.
     pub(crate) fn record(&mut self, motion: &Fields) -> Result<&Record, Faults> {
         let name = motion.get("record").cloned().unwrap_or_default();
         if self.bytes.is_empty() {

@@ -23,9 +23,6 @@ const LARGEST_DRAWN: f64 = 0.3;
 const HEIGHT: f64 = 250.0;
 
 /// The page of a run.
-///
-/// # Errors
-/// If the response is empty, or a number in it not finite.
 pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String> {
     let Some(end) = response.samples.last().map(|sample| sample.time).filter(|&end| end > 0.0) else {
         bail!("the response is empty: there is nothing to draw");

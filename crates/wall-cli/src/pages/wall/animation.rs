@@ -21,9 +21,6 @@ const LARGEST: f64 = 0.25;
 const FACTORS: [f64; 4] = [5.0, 3.0, 2.0, 1.0];
 
 /// Draws the run of a scene.
-///
-/// # Errors
-/// If the wall does not move.
 pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String> {
     let moving = |sample: &&Sample| sample.outputs.ratio.abs() > MOVING;
     let mut samples = response.samples.iter();
