@@ -76,61 +76,32 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &[&str]); 15] = [
-    ("fmu-export", &[]),
-    ("fmu-export-build", &["fmu-export"]),
-    ("rocking-oscillator", &[]),
-    ("ground-motion", &["rocking-oscillator"]),
-    ("rocking-floor", &["fmu-export", "rocking-oscillator"]),
-    ("rocking-wall", &["fmu-export", "ground-motion", "rocking-oscillator"]),
-    ("rocking-record", &["rocking-oscillator", "rocking-wall"]),
-    ("rocking-study", &["fmu-export", "ground-motion", "rocking-record", "rocking-wall"]),
-    ("rocking-figures", &["rocking-study"]),
-    ("rocking-study-folder", &["ground-motion", "rocking-figures", "rocking-study", "rocking-wall"]),
-    ("rocking-scene-fmu", &["fmu-export-build", "ground-motion", "rocking-wall"]),
+const KNOWN: [(&str, &str); 15] = [
+    ("fmu-export", ""),
+    ("fmu-export-build", "fmu-export"),
+    ("rocking-oscillator", ""),
+    ("ground-motion", "rocking-oscillator"),
+    ("rocking-floor", "fmu-export rocking-oscillator"),
+    ("rocking-wall", "fmu-export ground-motion rocking-oscillator"),
+    ("rocking-record", "rocking-oscillator rocking-wall"),
+    ("rocking-study", "fmu-export ground-motion rocking-record rocking-wall"),
+    ("rocking-figures", "rocking-study"),
+    ("rocking-study-folder", "ground-motion rocking-figures rocking-study rocking-wall"),
+    ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
         "rocking-building",
-        &[
-            "fmu-export",
-            "fmu-export-build",
-            "ground-motion",
-            "rocking-floor",
-            "rocking-scene-fmu",
-            "rocking-wall",
-        ],
+        "fmu-export fmu-export-build ground-motion rocking-floor rocking-scene-fmu rocking-wall",
     ),
-    (
-        "rocking-playground",
-        &["fmu-export", "ground-motion", "rocking-figures", "rocking-study", "rocking-wall"],
-    ),
+    ("rocking-playground", "fmu-export ground-motion rocking-figures rocking-study rocking-wall"),
     (
         "rocking-wall-python",
-        &[
-            "rocking-building",
-            "fmu-export",
-            "ground-motion",
-            "rocking-figures",
-            "rocking-record",
-            "rocking-scene-fmu",
-            "rocking-study",
-            "rocking-study-folder",
-            "rocking-wall",
-        ],
+        "fmu-export ground-motion rocking-building rocking-figures rocking-record rocking-scene-fmu \
+         rocking-study rocking-study-folder rocking-wall",
     ),
     (
         "rocking-wall-cli",
-        &[
-            "rocking-building",
-            "fmu-export",
-            "fmu-export-build",
-            "ground-motion",
-            "rocking-figures",
-            "rocking-floor",
-            "rocking-scene-fmu",
-            "rocking-study",
-            "rocking-study-folder",
-            "rocking-wall",
-        ],
+        "fmu-export fmu-export-build ground-motion rocking-building rocking-figures rocking-floor \
+         rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
     ),
 ];
 
@@ -150,7 +121,7 @@ fn arrows_between_crates_point_one_way() {
         for dependency in package["dependencies"].as_array().unwrap() {
             let other = dependency["name"].as_str().unwrap();
             if dependency["kind"].is_null() && ours.iter().any(|ours| ours["name"] == other) {
-                assert!(allowed.contains(&other), "{name} knows {other}");
+                assert!(allowed.split(' ').any(|known| known == other), "{name} knows {other}");
             }
         }
     }

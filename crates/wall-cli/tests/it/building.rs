@@ -1,10 +1,8 @@
 //! Tests what `wall building` prints and refuses. tests/masters tests what it makes, in other masters.
 
-use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{args, folder, refused, text, wall};
 
 const FLOOR: &str = "[[floor]]\nname = \"low\"\n";
 
@@ -39,58 +37,33 @@ fn the_first_fault_is_named_with_its_line_and_nothing_is_left() {
     }
 }
 
-const STOREYS: [(f64, f64); 3] = [(2.0e4, 4.0e7), (2.0e4, 3.0e7), (1.5e4, 2.0e7)];
-
-fn parapet(width: f64) -> String {
-    format!(
-        "inputs = [\"a_bottom\"]\n[geometry]\nheight = 1.2\nthickness = 0.3\nwidth = {width:?}\n\
-         [force_law]\na1 = 0.05\n[damping]\ndamping_model = \"constant_coefficient\"\n\
-         xi = 0.05\n"
-    )
-}
-
-/// Writes a building and returns its path.
-fn written(folder: &Path, storeys: &[(f64, f64)], damping_ratio: f64, walls: &[(&str, &str)]) -> PathBuf {
-    let mut building = String::from("title = \"a test\"\n");
-    let mut below = "ground".to_owned();
-    for (index, (mass, stiffness)) in storeys.iter().enumerate() {
-        let name = format!("floor_{}", index + 1);
-        // writing to a String cannot fail
-        let _ = write!(building, "[[floor]]\nname = \"{name}\"\non = \"{below}\"\nmass = {mass:?}\n");
-        let _ = write!(building, "stiffness = {stiffness:?}\ndamping_ratio = {damping_ratio:?}\n");
-        below = name;
-    }
-    for (name, keys) in walls {
-        let _ = write!(building, "[[wall]]\nname = \"{name}\"\nscene = \"{name}.toml\"\n{keys}\n");
-    }
-    let path = folder.join("b.toml");
-    fs::write(&path, building).unwrap();
-    path
-}
+/// Three storeys with a parapet and a thin one on the roof.
+const BUILDING: &str = r#"
+floor = [
+  { name = "floor_1", mass = 2e4, stiffness = 4e7, damping_ratio = 0.03 },
+  { name = "floor_2", on = "floor_1", mass = 2e4, stiffness = 3e7, damping_ratio = 0.03 },
+  { name = "floor_3", on = "floor_2", mass = 1.5e4, stiffness = 2e7, damping_ratio = 0.03 },
+]
+wall = [
+  { name = "light", scene = "light.toml", bottom = "floor_3" },
+  { name = "thin", scene = "thin.toml", bottom = "floor_3" },
+]
+"#;
+const PARAPET: &str = r#"
+inputs = ["a_bottom"]
+geometry = { height = 1.2, thickness = 0.3 }
+force_law = { a1 = 0.05 }
+damping = { damping_model = "constant_coefficient", xi = 0.05 }
+"#;
 
 #[test]
 fn the_program_prints_peaks_and_writes_histories() {
     let folder = folder("building_record");
-    fs::write(folder.join("light.toml"), parapet(1.0)).unwrap();
-    let thin = parapet(1.0).replace("thickness = 0.3", "thickness = 0.06");
-    fs::write(folder.join("thin.toml"), thin).unwrap();
-    let roof = "bottom = \"floor_3\"";
-    written(&folder, &STOREYS, 0.03, &[("light", roof), ("thin", roof)]);
-    let arguments = [
-        "building",
-        "b.toml",
-        "--synthetic",
-        "--scale",
-        "0.4",
-        "--csv",
-        "h.csv",
-        "--tail",
-        "2",
-        "--html",
-        "p.html",
-        "--svg",
-        "b.svg",
-    ];
+    fs::write(folder.join("light.toml"), PARAPET).unwrap();
+    fs::write(folder.join("thin.toml"), PARAPET.replace("0.3", "0.06")).unwrap();
+    fs::write(folder.join("b.toml"), BUILDING).unwrap();
+    let arguments =
+        args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html --svg b.svg");
     let output = wall(&folder, &arguments);
     let shown = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));

@@ -19,6 +19,11 @@ pub(crate) fn wall(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_wall")).current_dir(folder).args(arguments).output().unwrap()
 }
 
+/// Splits the arguments of a command.
+pub(crate) fn args(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }

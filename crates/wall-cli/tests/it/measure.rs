@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{args, folder, refused, text, wall};
 
 fn scene() -> String {
     crate::root().join("scenes/plain_parapet.toml").display().to_string()
@@ -20,19 +20,9 @@ fn accuracy_measures_a_scene() {
     let folder = folder("accuracy");
     let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
     std::fs::write(folder.join("peers.csv"), peers).unwrap();
-    let arguments = [
-        "accuracy",
-        &scene(),
-        "--budget",
-        "0",
-        "--csv",
-        "a.csv",
-        "--html",
-        "a.html",
-        "--linearisation",
-        "l.csv",
-    ];
-    let output = wall(&folder, &[&arguments[..], &["--peers", "peers.csv", "--plot", "a.svg"]].concat());
+    let outputs = args("--csv a.csv --html a.html --linearisation l.csv --plot a.svg");
+    let arguments = ["accuracy", &scene(), "--budget", "0", "--peers", "peers.csv"];
+    let output = wall(&folder, &[&arguments, &outputs[..]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     let rows = rows(&folder.join("a.csv"));
     let errors = |solver: &str| -> Vec<f64> {

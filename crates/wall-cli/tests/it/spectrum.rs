@@ -4,7 +4,7 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
 use study::spectrum::{Size, Slenderness, over_walls};
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{args, folder, refused, text, wall};
 
 /// A row of the CSV file as the program writes it: two axes, ratio, rocked, overturned, time.
 fn rows(path: &std::path::Path) -> Vec<Vec<String>> {
@@ -54,32 +54,16 @@ fn the_program_writes_a_table_and_a_page() {
     let page = std::fs::read_to_string(folder.join("w.html")).unwrap();
     assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 
-    let rigid =
-        ["--set", "force_law=rigid_linear", "--set", "damping_model=none", "--set", "impact=restitution"];
-    let pulse =
-        ["spectrum", "--pulse", "half_sine", "--frequency-ratios", "2:3:2", "--amplitude-ratios", "0.5:9:2"];
+    let rigid = args("--set force_law=rigid_linear --set damping_model=none --set impact=restitution");
+    let pulse = args("spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2");
     let output = wall(&folder, &[&pulse[..], &rigid, &["--csv", "p.csv"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     let outcomes: Vec<_> =
         rows(&folder.join("p.csv")).iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
     assert_eq!(outcomes, [["false", "false"], ["false", "false"], ["true", "true"], ["true", "true"]]);
     // a pulse with its frequency and amplitude is a motion like any other
-    let output = wall(
-        &folder,
-        &[
-            "spectrum",
-            "--pulse",
-            "ricker",
-            "--frequency",
-            "1",
-            "--amplitude",
-            "3",
-            "--radii",
-            "1:2:2",
-            "--angles",
-            "0.1:0.2:2",
-        ],
-    );
+    let pulse = args("spectrum --pulse ricker --frequency 1 --amplitude 3 --radii 1:2:2 --angles 0.1:0.2:2");
+    let output = wall(&folder, &pulse);
     assert!(text(&output.stdout).contains("semi-diagonal R (m)"), "{}", text(&output.stderr));
 }
 
