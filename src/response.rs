@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Serialize, Serializer};
+
 use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
@@ -31,6 +33,26 @@ pub struct Response {
     pub residual: f64,
     /// What the user should know about the parameters.
     pub warnings: Vec<Warning>,
+}
+
+/// The peaks, events and demands by their names in `wall simulate --json`.
+impl Serialize for Response {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct AndResidual<'a> {
+            #[serde(flatten)]
+            demands: &'a Demands,
+            residual: f64,
+        }
+        #[derive(Serialize)]
+        struct Named<'a> {
+            #[serde(flatten)]
+            summary: &'a Summary,
+            demands: AndResidual<'a>,
+        }
+        let Self { summary, demands, residual, .. } = self;
+        Named { summary, demands: AndResidual { demands, residual: *residual } }.serialize(serializer)
+    }
 }
 
 /// What becomes of a wall in a run (docs/model.md, Overturning); times in s.
@@ -108,13 +130,14 @@ impl Fate {
 }
 
 /// Peaks and events of a run; peaks of u include turning points between the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Largest |u|; `u_ins` of its side for a wall that falls \[m\].
     pub u_max: f64,
     /// Largest |u|/`u_ins` of its side; 1 for a wall that falls \[-\].
     pub u_ratio_max: f64,
-    /// What becomes of the wall.
+    /// What becomes of the wall; serialised, whether it falls.
+    #[serde(rename = "falls", serialize_with = "falls")]
     pub fate: Fate,
     /// |u| has exceeded `u_ins`.
     pub overturned: bool,
@@ -123,9 +146,15 @@ pub struct Summary {
     /// End of the run \[s\].
     pub end_time: f64,
     /// Work of the solver.
+    #[serde(flatten)]
     pub work: Work,
     /// The limit on impacts was reached, and the wall was put to rest.
     pub put_to_rest: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
+fn falls<S: Serializer>(fate: &Fate, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_bool(fate.falls())
 }
 
 impl Response {

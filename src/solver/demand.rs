@@ -1,9 +1,11 @@
 //! Demands on a wall: extremes with their times, first crossings of limit states, half cycles.
 
+use serde::{Serialize, Serializer};
+
 use crate::wall::{Ends, Wall};
 
 /// A value and its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Instant {
     /// The value, in SI units.
     pub value: f64,
@@ -12,7 +14,7 @@ pub struct Instant {
 }
 
 /// The highest and the lowest value of a quantity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Extremes {
     /// The highest value.
     pub highest: Instant,
@@ -50,36 +52,58 @@ pub struct Crossing {
     pub first: Option<Instant>,
 }
 
+impl Serialize for Crossing {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Named {
+            fraction: f64,
+            time: Option<f64>,
+            u: Option<f64>,
+        }
+        let Self { fraction, first } = *self;
+        Named { fraction, time: first.map(|at| at.time), u: first.map(|at| at.value) }.serialize(serializer)
+    }
+}
+
 /// The demands of a motion on a tie, until the wall leaves its supports.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TieDemands {
     /// The largest force \[N\].
+    #[serde(rename = "tie_force")]
     pub force: Instant,
     /// When the force first reached the strength \[N\]; `None` if it never did, or where none is given.
+    #[serde(rename = "tie_strength")]
     pub strength: Option<Instant>,
 }
 
-/// The demands of a motion on a wall, up to overturning; those on its tie beyond.
-#[derive(Clone, Debug, PartialEq)]
+/// The demands of a motion on a wall, up to overturning; those on its tie beyond. Serialised they have the
+/// names of the FMU's outputs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Demands {
     /// u \[m\].
+    #[serde(rename = "u")]
     pub displacement: Extremes,
     /// u̇ \[m/s\].
+    #[serde(rename = "u_dot")]
     pub velocity: Extremes,
     /// ü \[m/s²\].
+    #[serde(rename = "u_ddot")]
     pub acceleration: Extremes,
     /// Force of the bottom support on the wall \[N\].
     pub reaction_bottom: Extremes,
     /// Force of the top support on the wall \[N\]; 0 for a parapet.
     pub reaction_top: Extremes,
     /// First crossings, in the order of the fractions asked for.
+    #[serde(rename = "thresholds")]
     pub crossings: Vec<Crossing>,
     /// Rocking half cycles: excursions beyond the elastic branch with a passage of u = 0 between them. For
     /// the rigid-linear law each motion away from u = 0 is one.
     pub half_cycles: u64,
     /// Of the tie; `None` without one.
+    #[serde(flatten)]
     pub tie: Option<TieDemands>,
     /// The sign of an excursion that u = 0 has not ended yet.
+    #[serde(skip)]
     pub(super) excursion: Option<f64>,
 }
 

@@ -118,7 +118,7 @@ pub struct Report {
 }
 
 /// Work counters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Work {
     /// Pieces of motion evaluated.
     pub pieces: u64,

@@ -6,9 +6,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::{Response, Sample};
-use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
 
 use crate::arrays::samples;
+use crate::errors::failed;
 
 /// A column of the history and its value at a sample.
 type Column = (&'static str, fn(&Sample) -> f64);
@@ -28,7 +28,7 @@ const COLUMNS: [Column; 11] = [
     ("a_top", |sample| sample.support.top),
 ];
 
-/// Returns the history, the peaks and the demands of a run, and its warnings with `more` of them.
+/// Returns the history of a run, what `wall simulate --json` prints of it, and its warnings and `more`.
 pub(crate) fn values<'py>(
     py: Python<'py>,
     response: &Response,
@@ -42,63 +42,12 @@ pub(crate) fn values<'py>(
         let forces = response.samples.iter().map(|sample| sample.outputs.tie_force);
         history.set_item("tie_force", PyArray1::from_iter(py, forces))?;
     }
-    let summary = &response.summary;
+    let text = serde_json::to_string(response).map_err(failed)?;
+    let values = py.import("json")?.call_method1("loads", (text,))?.cast_into::<PyDict>()?;
     let warnings: Vec<_> = response.warnings.iter().map(ToString::to_string).chain(more).collect();
-    let values = PyDict::new(py);
     values.set_item("history", history)?;
-    values.set_item("u_max", summary.u_max)?;
-    values.set_item("u_ratio_max", summary.u_ratio_max)?;
-    values.set_item("overturned", summary.overturned)?;
-    values.set_item("overturn_time", summary.overturn_time)?;
-    values.set_item("put_to_rest", summary.put_to_rest)?;
-    values.set_item("pieces", summary.work.pieces)?;
-    values.set_item("corners", summary.work.corners)?;
-    values.set_item("impacts", summary.work.impacts)?;
-    values.set_item("demands", demands(py, response)?)?;
     values.set_item("warnings", warnings)?;
     Ok(values)
-}
-
-/// Returns the demands, as `wall simulate --json` prints them.
-fn demands<'py>(py: Python<'py>, response: &Response) -> PyResult<Bound<'py, PyDict>> {
-    let demands = &response.demands;
-    let values = PyDict::new(py);
-    for (name, Extremes { highest, lowest }) in [
-        ("u", demands.displacement),
-        ("u_dot", demands.velocity),
-        ("u_ddot", demands.acceleration),
-        ("reaction_bottom", demands.reaction_bottom),
-        ("reaction_top", demands.reaction_top),
-    ] {
-        let both = PyDict::new(py);
-        for (end, at) in [("highest", highest), ("lowest", lowest)] {
-            both.set_item(end, instant(py, at)?)?;
-        }
-        values.set_item(name, both)?;
-    }
-    let mut thresholds = Vec::new();
-    for Crossing { fraction, first } in &demands.crossings {
-        let threshold = PyDict::new(py);
-        threshold.set_item("fraction", fraction)?;
-        threshold.set_item("time", first.map(|first| first.time))?;
-        threshold.set_item("u", first.map(|first| first.value))?;
-        thresholds.push(threshold);
-    }
-    values.set_item("thresholds", thresholds)?;
-    if let Some(TieDemands { force, strength }) = demands.tie {
-        values.set_item("tie_force", instant(py, force)?)?;
-        values.set_item("tie_strength", strength.map(|at| instant(py, at)).transpose()?)?;
-    }
-    values.set_item("half_cycles", demands.half_cycles)?;
-    values.set_item("residual", response.residual)?;
-    Ok(values)
-}
-
-fn instant(py: Python<'_>, Instant { value, time }: Instant) -> PyResult<Bound<'_, PyDict>> {
-    let instant = PyDict::new(py);
-    instant.set_item("value", value)?;
-    instant.set_item("time", time)?;
-    Ok(instant)
 }
 
 /// Seconds that are drawn after a fall.

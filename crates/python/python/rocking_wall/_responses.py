@@ -98,6 +98,10 @@ class Response:
     """Whether |u| exceeded u_ins."""
     overturn_time: float | None
     """When |u| first exceeded u_ins [s]; None for never."""
+    falls: bool
+    """Whether the wall falls: |u| is not below u_ins at the end of the run."""
+    end_time: float
+    """End of the run [s]."""
     demands: Demands
     """Extremes, first crossings of thresholds, half cycles and the residual displacement."""
     pieces: int

@@ -56,20 +56,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 }
 
 fn json(scene: &Scene, response: &Response) -> Result<String> {
-    let summary = &response.summary;
-    let value = serde_json::json!({
-        "title": scene.title,
-        "u_max": summary.u_max,
-        "u_ratio_max": summary.u_ratio_max,
-        "overturned": summary.overturned,
-        "overturn_time": summary.overturn_time,
-        "falls": summary.fate.falls(),
-        "end_time": summary.end_time,
-        "pieces": summary.work.pieces,
-        "corners": summary.work.corners,
-        "impacts": summary.work.impacts,
-        "demands": demands::json(response),
-    });
+    let mut value = serde_json::to_value(response)?;
+    value["title"] = scene.title.clone().into();
     Ok(serde_json::to_string_pretty(&value)? + "\n")
 }
 

@@ -1,8 +1,7 @@
-//! Demands of a run as text, for the summary and the page, and as JSON.
+//! Demands of a run as text, for the summary and the page.
 
 use rocking_wall::response::{Fate, Response, Summary};
 use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
-use serde_json::{Value, json};
 
 /// The largest |u| of a run in m or mm.
 pub(crate) fn largest(summary: &Summary, unit: &str, digits: usize) -> String {
@@ -75,40 +74,4 @@ fn figure(value: f64) -> String {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6 decimals")]
     let decimals = (3.0 - digits).clamp(0.0, 6.0) as usize;
     format!("{value:+.decimals$}")
-}
-
-/// All demands in SI units; times in s.
-pub(crate) fn json(response: &Response) -> Value {
-    let demands = &response.demands;
-    let instant = |Instant { value, time }: &Instant| json!({ "value": value, "time": time });
-    let extremes = |extremes: &Extremes| {
-        let [highest, lowest] = [extremes.highest, extremes.lowest].map(|at| instant(&at));
-        json!({ "highest": highest, "lowest": lowest })
-    };
-    let crossings: Vec<Value> = demands
-        .crossings
-        .iter()
-        .map(|Crossing { fraction, first }| {
-            json!({
-                "fraction": fraction,
-                "time": first.map(|first| first.time),
-                "u": first.map(|first| first.value),
-            })
-        })
-        .collect();
-    let mut values = json!({
-        "u": extremes(&demands.displacement),
-        "u_dot": extremes(&demands.velocity),
-        "u_ddot": extremes(&demands.acceleration),
-        "reaction_bottom": extremes(&demands.reaction_bottom),
-        "reaction_top": extremes(&demands.reaction_top),
-        "thresholds": crossings,
-        "half_cycles": demands.half_cycles,
-        "residual": response.residual,
-    });
-    if let Some(TieDemands { force, strength }) = &demands.tie {
-        values["tie_force"] = instant(force);
-        values["tie_strength"] = strength.as_ref().map_or(Value::Null, instant);
-    }
-    values
 }
