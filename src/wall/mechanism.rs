@@ -106,4 +106,9 @@ impl Body {
             support_weights,
         })
     }
+
+    /// Returns the height of the hinge of a strip wall \[m\]; a parapet has none.
+    pub fn hinge(&self) -> Option<f64> {
+        (self.mechanism == Mechanism::VerticalSpanning).then_some(self.hinge_height)
+    }
 }

@@ -2,7 +2,6 @@
 
 use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
-use rocking_wall::variables::Mechanism;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -90,7 +89,7 @@ impl Session {
             "wall": {
                 "height": body.height,
                 "thickness": scene.parameters.thickness,
-                "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
+                "hinge": body.hinge(),
                 "overburden": body.overburden,
                 "u_ins": [body.instability.positive, body.instability.negative],
             },

@@ -33,9 +33,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let named = || arguments.scene.display().to_string();
     let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(&arguments.scene, &scene);
-    for warning in wall.warnings() {
-        output::warn(&warning.to_string());
-    }
+    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
     let unit = of_scene(&scene, general(&base, "--base")?).with_context(named)?;
     output::to_file(&arguments.output, &unit.archive.to_bytes()?)?;
     output::to_stdout(&format!(

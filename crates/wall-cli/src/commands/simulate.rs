@@ -29,9 +29,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     // checked before the run, which may take long
     output::expect_svg(arguments.svg.as_ref())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    for warning in wall.warnings() {
-        output::warn(&warning.to_string());
-    }
+    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
     let response = arguments.scene.named(Response::of(&scene))?;
     if let Some(warning) = scene.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
         output::warn(&warning);

@@ -9,7 +9,6 @@ use figures::palette::{DARK_GREY, RED, SERIES};
 use figures::plot::Plot;
 use figures::response::{cut, histories};
 use rocking_wall::response::Fate;
-use rocking_wall::variables::Mechanism;
 use serde_json::json;
 
 use super::moving::{Moving, factors, frames, page, plot, rounded, verdict};
@@ -113,7 +112,7 @@ fn walls(building: &Building, parts: &Parts, run: &Coupled, frames: &[usize]) ->
             "place": (place as f64 + 0.5) / beside.count() as f64,
             "height": body.height,
             "thickness": scene.parameters.thickness,
-            "hinge": (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height),
+            "hinge": body.hinge(),
             "u": rounded(frames.iter().map(|&frame| history.displacement.values[frame])),
             "falls": history.fate(times).falling(),
         })

@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use figures::{escaped, number, response as plots};
 use rocking_wall::response::{Fate, Response, Sample};
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::{Impact, Mechanism};
+use rocking_wall::variables::Impact;
 use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::output::demands;
@@ -37,7 +37,7 @@ pub(crate) fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<
     let frames: Vec<_> = frames(drawn).into_iter().map(|i| &response.samples[i]).collect();
     let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
     let u_ins = wall.body().instability;
-    let hinge = hinge(wall);
+    let hinge = wall.body().hinge();
     // the top of a parapet, or the rotation of a strip's lower body in %
     let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
     let data = serde_json::json!({
@@ -96,10 +96,6 @@ fn said(response: &Response) -> String {
     }
 }
 
-fn hinge(wall: &Wall) -> Option<f64> {
-    (wall.body().mechanism == Mechanism::VerticalSpanning).then_some(wall.body().hinge_height)
-}
-
 /// The wall at rest, to scale, y upwards; the script turns its bodies.
 fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let (h, b) = (wall.body().height, scene.parameters.thickness);
@@ -115,7 +111,7 @@ fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
         let look = format!("id=\"{id}\" style=\"fill:var(--wall);stroke:var(--edge)\"");
         rect([-b / 2.0, from], [b, height], &look)
     };
-    let bodies = match hinge(wall) {
+    let bodies = match wall.body().hinge() {
         None => body("lower", 0.0, h),
         Some(h1) => {
             let look = "style=\"fill:var(--ground);stroke:var(--frame)\"";
@@ -161,7 +157,7 @@ fn ties(wall: &Wall, far: f64, stroke: f64) -> String {
 
 /// The largest exaggeration of the drawn rotation that keeps it below its limit.
 fn factor(wall: &Wall, response: &Response) -> f64 {
-    let arm = hinge(wall).map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
+    let arm = wall.body().hinge().map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
     let largest = response.summary.u_max / arm;
     let fits = |factor: &&f64| largest * **factor <= LARGEST_DRAWN && !response.summary.overturned;
     FACTORS.iter().rev().find(fits).copied().unwrap_or(1.0)
@@ -220,7 +216,7 @@ fn row(name: &str, value: &str) -> String {
 }
 
 fn demands(wall: &Wall, response: &Response) -> String {
-    let lines = demands::lines(response, wall.body().mechanism == Mechanism::VerticalSpanning);
+    let lines = demands::lines(response, wall.body().hinge().is_some());
     let rows: String = lines.iter().map(|(name, value)| row(name, value)).collect();
     let until = demands::until(response).map_or_else(String::new, |until| format!(", {until}"));
     format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
@@ -237,7 +233,7 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
     let on_floors = scene.floors.is_some();
     let supports = match top_motion {
         Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
-        None if wall.body().mechanism == Mechanism::VerticalSpanning => "Acceleration of both supports",
+        None if wall.body().hinge().is_some() => "Acceleration of both supports",
         None if on_floors => "Acceleration of the floor",
         None => "Acceleration of the support",
     };

@@ -167,20 +167,11 @@ fn bad_scenes() {
     refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "UTF-8"]);
 }
 
-/// A record, its arguments, and words that the message must contain.
-const BAD_RECORDS: [(&str, &str, &[&str], &[&str]); 7] = [
+/// A record, its arguments, and words that the message must contain. The readers have tests of their own.
+const BAD_RECORDS: [(&str, &str, &[&str], &[&str]); 3] = [
     ("no_unit.csv", "time,a_g\n0,0\n0.01,1\n", &[], &["no_unit.csv", "unit"]),
     ("nan.csv", "time,a_g\n0,0\n0.01,nan\n", &["--unit", "g"], &["nan.csv", "line 3", "nan"]),
-    ("empty.csv", "", &["--unit", "g"], &["empty.csv", "empty"]),
-    ("uneven.csv", "time,a_g\n0,0\n0.01,1\n0.03,1\n", &["--unit", "g"], &["uneven.csv", "line 4", "0.02"]),
     ("unit.csv", "time,a_g\n0,0\n0.01,1\n", &["--unit", "furlong"], &["furlong", "m/s2"]),
-    (
-        "count.AT2",
-        "PEER\nevent\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n .1 .2 .3\n",
-        &[],
-        &["count.AT2", "4", "3"],
-    ),
-    ("no_unit.AT2", "PEER\nevent\nACCELERATION TIME SERIES\nNPTS= 2, DT= .01 SEC\n .1 .2\n", &[], &["unit"]),
 ];
 
 #[test]

@@ -44,9 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
-    for warning in wall.warnings() {
-        output::warn(&warning.to_string());
-    }
+    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
     if let Some(warning) = first.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
         output::warn(&warning);
     }

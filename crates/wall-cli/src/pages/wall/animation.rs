@@ -4,7 +4,6 @@ use anyhow::{Result, bail};
 use figures::palette::{BLUE, RED};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::pages::animation::{GROUND, MOST_FRAMES, Shape, history, picture};
@@ -62,7 +61,7 @@ fn shape(scene: &Scene, wall: &Wall, end: f64) -> Shape {
     } else {
         (room / height, width / 2.0)
     };
-    Shape { foot: [axis, GROUND], px, height, thickness, hinge: hinge(wall) }
+    Shape { foot: [axis, GROUND], px, height, thickness, hinge: wall.body().hinge() }
 }
 
 /// Transverse walls, on the side to which the wall cannot rock.
@@ -88,9 +87,5 @@ fn factor(wall: &Wall, response: &Response) -> f64 {
 
 /// Height over which u turns the lower body \[m\].
 fn arm(wall: &Wall) -> f64 {
-    hinge(wall).unwrap_or(wall.body().height / 2.0)
-}
-
-fn hinge(wall: &Wall) -> Option<f64> {
-    (wall.body().mechanism == Mechanism::VerticalSpanning).then_some(wall.body().hinge_height)
+    wall.body().hinge().unwrap_or(wall.body().height / 2.0)
 }
