@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks to its user")]
 
 mod bench;
+mod book;
 mod command;
 mod coupling;
 mod demo;
@@ -54,6 +55,7 @@ The jobs of the project.
                                    docs/images
   cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --validation only docs/validation.md and its pictures
+  cargo xtask book                 build the book of docs/ with mdBook into target/book/book: tutorials, reference
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page
   cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
         ["fmu", "--platforms", names] => fmu::build_all(Some(names)).map(drop),
         ["playground"] => playground::build().map(drop),
         ["wheel"] => wheel::run(),
+        ["book"] => book::run(),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", "--images"] => images::run(),

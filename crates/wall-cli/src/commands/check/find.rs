@@ -39,5 +39,6 @@ pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<
         let beyond = if sought == Sought::Height { "smaller" } else { "larger" };
         let _ = writeln!(text, "some {beyond} values fail; look at the chart (--plot)");
     }
+    text += &output::written("written  ", &arguments.plot);
     output::to_stdout(&text)
 }

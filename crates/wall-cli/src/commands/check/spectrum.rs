@@ -104,11 +104,7 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
     let text = if all.json {
         serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"
     } else {
-        let mut text = table(&scene.title, &source, arguments, &sides, alike);
-        if let Some(path) = &all.html {
-            let _ = writeln!(text, "\nwritten {}", path.display());
-        }
-        text
+        table(&scene.title, &source, arguments, &sides, alike) + &output::written("\nwritten  ", &all.html)
     };
     output::to_stdout(&text)
 }

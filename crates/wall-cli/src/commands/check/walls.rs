@@ -25,7 +25,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<()> {
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {
-        table(&verdicts)
+        table(&verdicts) + &output::written("written  ", arguments.csv.iter().chain(&arguments.html))
     };
     output::to_stdout(&text)?;
     let refused = verdicts.iter().filter(|wall| wall.verdict.is_err()).count();
