@@ -55,7 +55,7 @@ The jobs of the project.
                                    docs/images
   cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --validation only docs/validation.md and its pictures
-  cargo xtask book                 build the book of docs/ with mdBook into target/book/book: tutorials, reference
+  cargo xtask book                 build the book of docs/ with mdBook into target/book/book
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page
   cargo xtask bench [RECORD.AT2]   measure the time per sample of each path, and count instructions where
