@@ -27,6 +27,7 @@
 //! | [`stability`] | stability maps and extremes |
 //! | [`reproduce`] | the tables and figures of the paper |
 //! | [`validation`] | the model beside published tests |
+//! | [`verification`] | every formula against a reference of its own |
 //!
 //! Each module has a short example.
 
@@ -53,6 +54,8 @@ pub mod stability;
 pub mod tables;
 pub mod tie;
 pub mod validation;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod verification;
 mod wall_table;
 
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of

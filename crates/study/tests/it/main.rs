@@ -24,6 +24,7 @@ mod reproduce;
 mod rocking_spectrum;
 mod storeys;
 mod validation;
+mod verification;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {

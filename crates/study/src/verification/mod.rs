@@ -1,0 +1,59 @@
+//! The formulas of `docs/model.md`, each against a reference that does not come from this program.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `error` | the error |
+//! | `formula` | formulas and their checks as data |
+//! | `scenes` | formulas that the variables of a wall show, in scenes: data of `formulas.toml` |
+//! | `library` | variables of a scene, computed by this library |
+//! | `studies` | formulas of spectra, checks, fragilities, and the paper's tables |
+//!
+//! The references of `scenes` stand in `references.csv`. `tests/data/references.py` writes them, in decimal
+//! arithmetic of 40 digits, or takes them from the reference cases in 113-bit arithmetic.
+//!
+//! ```
+//! use study::verification::{library, verify};
+//!
+//! let formulas = verify(library)?;
+//! assert!(formulas.iter().all(|formula| formula.checks.iter().all(|check| check.passes())));
+//! # Ok::<(), study::verification::VerificationError>(())
+//! ```
+
+mod error;
+mod formula;
+mod library;
+mod scenes;
+mod studies;
+
+use rocking_wall::scene::Scene;
+
+pub use error::VerificationError;
+pub use formula::{Check, Formula};
+pub use library::library;
+pub use scenes::Quantity;
+
+/// Checks every formula; `values` computes the quantities of a scene, which come by rising times. It returns
+/// `None` for a quantity that it does not know. [`library`] is one such function, an FMU another.
+///
+/// # Errors
+/// Those of `values`, and [`VerificationError`] where a formula of `studies` cannot be computed.
+pub fn verify<E: From<VerificationError>>(
+    values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
+) -> Result<Vec<Formula>, E> {
+    let mut formulas = scenes::formulas(values)?;
+    for formula in studies::FORMULAS {
+        formulas.push(formula()?);
+    }
+    Ok(formulas)
+}
+
+/// Checks the formulas that the variables of a wall show, and nothing that only studies compute: what an FMU
+/// can be asked for.
+///
+/// # Errors
+/// Those of `values`, and [`VerificationError`] for a scene that cannot be read.
+pub fn verify_scenes<E: From<VerificationError>>(
+    values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
+) -> Result<Vec<Formula>, E> {
+    scenes::formulas(values)
+}

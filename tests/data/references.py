@@ -1,0 +1,330 @@
+"""Computes the references of `wall verify` from the mechanics, in decimal arithmetic of 40 digits.
+
+    python tests/data/references.py          # writes crates/study/src/verification/references.csv
+
+Scenes are those of formulas.toml beside that file. Forces follow from the potential energy of the bodies and
+masses from integrals over the height, so that this shares nothing with the library but the equations.
+References of the scenes named c*, t* and o* are rows of tests/data/cases.
+"""
+
+import csv
+import json
+import tomllib
+from decimal import Decimal, getcontext
+from pathlib import Path
+
+getcontext().prec = 40
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "crates/study/src/verification"
+CASES = ROOT / "tests/data/cases"
+# 45 units of rounding in double precision, 2.2e-16
+ROUNDING = Decimal("1e-14")
+START = {
+    "mechanism": "parapet", "height": 4.0, "thickness": 0.4, "width": 1.0, "density": 1800.0, "gravity": 9.81,
+    "hinge_ratio": 0.5, "overburden": 0.0, "overburden_eccentricity": 0.0,
+    "eccentricity_mode": "fixed_to_wall", "force_law": "bilinear", "a1": 0.03, "a3": 1.0, "d1": 0.85,
+    "softening": "parallel",
+    "restitution_source": "calibrated", "tie_stiffness": 0.0, "u_dot_start": 0.0,
+}  # fmt: skip
+STATIC = {
+    "parapet_loaded": "mass effective_mass participation F0 F0_negative u_ins u_ins_negative",
+    "parapet_pivot": "F0 F0_negative u_ins_negative",
+    "strip_loaded": "effective_mass participation F0 F0_negative u_ins u_ins_negative",
+    "parapet_shaken": "u_ddot reaction_bottom",
+    "strip_supports": "u_ddot reaction_bottom reaction_top",
+    "strip_drift": "restoring_force u_ddot reaction_bottom reaction_top",
+    "law_rigid": "restoring_force",
+    "law_elastic": "restoring_force omega1",
+    "law_plateau": "restoring_force omega1",
+    "tie_pulls": "tie_force restoring_force",
+    "tie_slack": "tie_force restoring_force",
+} | {f"law_{name}": "restoring_force omega1" for name in ["parallel", "rotated", "chord", "beyond_u3"]}
+
+
+def exp(x):
+    return x.exp()
+
+
+def cos_sin(x):
+    """Series of e^(ix)."""
+    sums, term, k = [Decimal(1), Decimal(0)], Decimal(1), 0
+    while abs(term) > Decimal("1e-45"):
+        k += 1
+        term *= x / k
+        sums[k % 2] += term if k % 4 < 2 else -term
+    return sums
+
+
+def acosh(x):
+    return (x + (x * x - 1).sqrt()).ln()
+
+
+def cosh(x):
+    return (exp(x) + exp(-x)) / 2
+
+
+def sinh(x):
+    return (exp(x) - exp(-x)) / 2
+
+
+class Wall:
+    """A wall from the energies of its bodies, for u on the side of `sign`."""
+
+    def __init__(self, scene, motion):
+        tables = [table for table in scene.values() if isinstance(table, dict)]
+        given = START | {name: value for table in tables for name, value in table.items()}
+        self.given = {k: Decimal(v) if isinstance(v, float) else v for k, v in given.items()}
+        p = self.given
+        self.support = [Decimal(motion.get(k, motion.get("bottom", [0.0]))[0]) for k in ["bottom", "top"]]
+        self.drift = Decimal(motion.get("drift", [0.0])[0])
+        self.h, self.b, self.parapet = p["height"], p["thickness"], p["mechanism"] == "parapet"
+        self.mass = p["density"] * self.h * self.b * p["width"]
+        self.weight = self.mass * p["gravity"]
+        self.h1 = self.h if self.parapet else p["hinge_ratio"] * self.h
+        self.sign = -1 if p["u_start"] < 0 else 1
+        self.u, self.v = p["u_start"], p["u_dot_start"]
+        # ∫φ² and ∫φ of the mass over the height: φ falls from its top at h₁ to 0 at the supports
+        top, scale = (2, 1) if self.parapet else (1, 2)
+        self.m_eff = scale * top * top * self.mass / 3
+        self.participation = scale * top * self.mass / 2 / self.m_eff
+
+    def strength(self, sign):
+        """F₀ and k₀ of V = Σ w (x θ − y θ²/2): a weight w at (x, y) from the point it turns about."""
+        p, b = self.given, self.b
+        flip = -1 if p["eccentricity_mode"] == "fixed_to_wall" and sign < 0 else 1
+        c, load = flip * p["overburden_eccentricity"], p["overburden"]
+        if self.parapet:
+            rate = 2 / self.h
+            parts = [(self.weight, b / 2, self.h / 2, rate), (load, b / 2 - c, self.h, rate)]
+        else:
+            h1, h2 = self.h1, self.h - self.h1
+            lower, upper = self.weight * h1 / self.h, self.weight * h2 / self.h
+            parts = [(2 * lower, b / 2, h1 / 2, 1 / h1)]
+            for weight, x, y in [(upper, b / 2, h2 / 2), (load, b / 2 + c, h2)]:
+                parts += [(2 * weight, b, h1, 1 / h1), (2 * weight, x, y, 1 / h2)]
+        return sum(w * x * r for w, x, y, r in parts), sum(w * y * r * r for w, x, y, r in parts)
+
+    def law(self):
+        """Corners (u, F) of the law, straight lines between."""
+        p = self.given
+        f0, k0 = self.strength(self.sign)
+        u_ins = f0 / k0
+        u1, u3 = p["a1"] * u_ins, p["a3"] * u_ins
+        lines = {
+            "parallel": lambda u: k0 * (u3 - u),
+            "rotated": lambda u: f0 * (1 - u / u3),
+            "chord": lambda u: f0 * (1 - p["a1"]) * (u3 - u) / (u3 - u1),
+        }
+        line = lines[p["softening"]]
+        if p["force_law"] == "rigid_linear":
+            return [(Decimal(0), line(Decimal(0))), (2 * u3, line(2 * u3))]
+        if p["force_law"] == "bilinear":
+            return [(Decimal(0), Decimal(0)), (u1, line(u1)), (2 * u3, line(2 * u3))]
+        slope = (line(u3) - line(u1)) / (u3 - u1)
+        end = u3 + p["d1"] * f0 / slope
+        return [(Decimal(0), Decimal(0)), (u1, p["d1"] * f0), (end, p["d1"] * f0), (2 * u3, line(2 * u3))]
+
+    def force(self):
+        u, corners = abs(self.u), self.law()
+        for (u0, f0), (u1, f1) in zip(corners, corners[1:]):
+            if u <= u1:
+                return self.sign * (f0 + (f1 - f0) * (u - u0) / (u1 - u0))
+
+    def omega1(self):
+        _, (u1, f1), *_ = self.law()
+        return (f1 / u1 / self.m_eff).sqrt()
+
+    def damping(self):
+        """C."""
+        p, m, omega1 = self.given, self.m_eff, self.omega1()
+        squared = self.force() / (self.u * m)
+        return {
+            "none": lambda: Decimal(0),
+            "constant_coefficient": lambda: 2 * m * omega1 * p["xi"],
+            "free_standing_block": lambda: m * (2 * p["gravity"] / self.h).sqrt() * p["c_bar"],
+            "constant_ratio": lambda: 2 * m * squared.sqrt() * p["xi"],
+            "stiffness_proportional": lambda: 2 * m * squared / omega1 * p["xi"],
+        }[p.get("damping_model", "none")]()
+
+    def ratio(self):
+        """ξ that e predicts, Eqs. (20) to (23)."""
+        p = self.given
+        a1, loss = p["a1"], -p["restitution"].ln()
+        power = lambda q, r: Decimal(q) * a1 ** Decimal(r) * loss
+        return {
+            "constant_coefficient": lambda: power("0.667", "0.450"),
+            "constant_ratio": lambda: power("0.350", "0.074"),
+            "stiffness_proportional": lambda: power("0.218", "-0.195"),
+            "free_standing_block": lambda: (
+                Decimal("1.55") * loss * (2 * p["gravity"] / self.h).sqrt() / (2 * self.omega1())
+            ),
+        }[p["damping_model"]]()
+
+    def restitution(self):
+        p, h, h1, b = self.given, self.h, self.h1, self.b
+        sine = b * b / (h1 * h1 + b * b)
+        analytic = 1 - Decimal("1.5") * sine if self.parapet else 1 - 2 * sine
+        if p.get("rocking", "two_sided") != "two_sided":
+            return -analytic**2 * (1 - Decimal("1.5") * (1 - sine))
+        return {
+            "analytic": analytic,
+            "calibrated": analytic * Decimal("0.95" if self.parapet else "0.90"),
+            "momentum": (h * h1 + h1 * h1 - 3 * b * b) / (h * h1 + h1 * h1 + 3 * b * b),
+        }[p["restitution_source"]]
+
+    def values(self):
+        """Every quantity at the start, with the scale of its error."""
+        p, m, h = self.given, self.m_eff, self.h
+        (f0, k0), (negative, k0_negative) = self.strength(1), self.strength(-1)
+        bottom, top = self.support
+        # ∫ a φ of a straight line of accelerations: φ is a triangle, its centroid known
+        centroid = 2 * h / 3 if self.parapet else (h + self.h1) / 3
+        effective = bottom if self.parapet else bottom + (top - bottom) * centroid / h
+        tie = Decimal(0)
+        if p["tie_stiffness"]:
+            arm = 2 * p["tie_height"] / h
+            tie = p["tie_stiffness"] * max(Decimal(0), self.u * arm - p["tie_slack"])
+        pull = self.weight * self.drift / h
+        force = self.force() + (2 * p["tie_height"] / h * tie if tie else 0) - pull
+        damping = self.damping() * self.v if self.v else Decimal(0)
+        acceleration = -(damping + force) / m - self.participation * effective
+        terms = max(abs(damping / m), abs(force / m), abs(self.participation * effective))
+        # moments of the inertia forces, a straight line and a triangle, about each end over h
+        straight = self.mass * (2 * bottom + top) / 6
+        triangle = self.mass * (1 - centroid / h) / 2
+        couple = Decimal(0)
+        if self.drift:
+            couple = -self.weight * self.u / (2 * h) - (self.weight / 2 + p["overburden"]) * self.drift / h
+        if self.parapet:
+            reactions = [self.mass * (bottom + acceleration), Decimal(0)]
+        else:
+            other = self.mass * (bottom + 2 * top) / 6 + self.mass * centroid / h / 2 * acceleration
+            reactions = [straight + triangle * acceleration - couple, other + couple]
+        inertia = self.mass * max(terms, abs(bottom), abs(top))
+        values = {
+            "mass": self.mass, "effective_mass": m, "participation": self.participation, "F0": f0,
+            "F0_negative": negative, "u_ins": f0 / k0, "u_ins_negative": negative / k0_negative,
+        }  # fmt: skip
+        values = {name: (value, abs(value)) for name, value in values.items()}
+        return values | {
+            "restoring_force": (force, max(f0, abs(force))),
+            "tie_force": (tie, max(tie, p["tie_stiffness"] * p.get("tie_slack", 0), Decimal(1))),
+            "u_ddot": (acceleration, terms),
+            "damping_force": (damping, abs(damping)),
+            "reaction_bottom": (reactions[0], inertia),
+            "reaction_top": (reactions[1], inertia),
+        }
+
+
+def elastic(wall, t):
+    """u of the damped oscillator."""
+    omega, xi = wall.omega1(), wall.given["xi"]
+    s = xi * omega
+    if xi == 1:
+        even, odd = Decimal(1), t
+    elif xi < 1:
+        damped = omega * (1 - xi * xi).sqrt()
+        even, odd = cos_sin(damped * t)
+        odd /= damped
+    else:
+        damped = omega * (xi * xi - 1).sqrt()
+        even, odd = cosh(damped * t), sinh(damped * t) / damped
+    return exp(-s * t) * (wall.u * even + (wall.v + s * wall.u) * odd)
+
+
+def rocking(wall, t):
+    """u of a rigid wall from impact to impact: from a peak over a zero to the next peak."""
+    f0, k0 = wall.strength(1)
+    p, u_ins, e = (k0 / wall.m_eff).sqrt(), f0 / k0, wall.given["restitution"]
+    peak, side, since = wall.u / u_ins, 1, Decimal(0)
+    for _ in range(1000):
+        quarter = acosh(1 / (1 - peak)) / p
+        if t <= since + quarter:
+            return side * u_ins * (1 - (1 - peak) * cosh(p * (t - since)))
+        since += quarter
+        peak = 1 - (1 - e * e * (1 - (1 - peak) ** 2)).sqrt()
+        side = side if "rocking" in wall.given else -side
+        since += acosh(1 / (1 - peak)) / p
+    # e^1000 is left: the wall has come to rest
+    return Decimal(0)
+
+
+def motions(name, wall):
+    """Rows (variable, time, reference, scale, bound) of a motion in closed form."""
+    f0, k0 = wall.strength(1)
+    p, u_ins = (k0 / wall.m_eff).sqrt(), f0 / k0
+    tight = Decimal("1e-12")
+    if name.startswith("elastic"):
+        return [("u", t, elastic(wall, Decimal(t)), wall.u, tight) for t in [0.37, 5.0]]
+    if name.startswith("rocking"):
+        times = [0.4, 5.0, 10.0, 20.0] if name == "rocking_rigid" else [2.0, 2.9, 6.0]
+        return [("u", t, rocking(wall, Decimal(t)), u_ins, tight * 10) for t in times]
+    if name == "uplift_ramp":
+        # the forcing is −λ a_g; the ramp ends at 1 s
+        rate, lift = wall.participation * Decimal(1.5), f0 / wall.m_eff
+        after = p * (1 - lift / rate)
+        return [("u", 1.0, rate / p**3 * (sinh(after) - after), u_ins, tight)]
+    if name == "overturning_constant":
+        excess = wall.participation * -wall.support[0] - f0 / wall.m_eff
+        time = acosh(1 + p * p * u_ins / excess) / p
+        return [("overturn_time", 2.0, time, time, tight)]
+    assert name == "full_rotations", name
+    b, h, g = wall.b, wall.h, wall.given["gravity"]
+    diagonal = (h * h + b * b).sqrt()
+    sine = (2 * wall.u - b) / diagonal
+    cosine = (1 - sine * sine).sqrt()
+    rate = 2 * wall.v / (diagonal * cosine)
+    # θ̈ = −p² [sin(α − θ) + (a_g/g) cos(α − θ)], and u = (b + D sin(θ − α))/2 twice differentiated
+    angular = 3 * g / (2 * diagonal) * (sine - wall.support[0] / g * cosine)
+    return [("u_ddot", 0.0, diagonal / 2 * (cosine * angular - sine * rate * rate), g, ROUNDING)]
+
+
+def case(name):
+    """Rows of a reference case: u at the middle and at the end of what can be compared."""
+    about = json.loads((CASES / f"{name}.json").read_text())
+    with open(CASES / f"{name}.csv", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if float(row["t"]) <= about["horizon"]]
+    least = 1e-12 if name in ["c02_free_cdc", "c05_free_cdcfs", "c06_fig5_cdc"] else 1e-9
+    for row in [rows[len(rows) // 2], rows[-1]]:
+        bound = max(least, 100 * 2.2e-16 * float(row["sensitivity"]), 100 * about["error_in_double"])
+        yield "u", float(row["t"]), Decimal(row["u"]), Decimal(about["u_ins"]), Decimal(bound)
+    if (time := about["overturn_time"]) is not None:
+        # Δt = Δu/u̇: 1e-9 of 0.2 m over 0.1 m/s, and as much for the pulse
+        yield "overturn_time", time + 0.1, Decimal(time), Decimal(time), Decimal("4e-9")
+
+
+def rows(name, scene, motion):
+    """Every reference of a scene."""
+    if name[0] in "cto" and name[1:3].isdigit():
+        return list(case(name))
+    wall = Wall(tomllib.loads(scene), motion)
+    if name.startswith("damped"):
+        wanted = ["damping_force"]
+    elif name.startswith("ratio"):
+        return [("xi_used", 0.0, wall.ratio(), wall.ratio(), ROUNDING)]
+    elif name.startswith("e_"):
+        return [("restitution_used", 0.0, wall.restitution(), wall.restitution(), ROUNDING)]
+    elif name in STATIC:
+        wanted = STATIC[name].split()
+    else:
+        return motions(name, wall)
+    values = wall.values()
+    if "omega1" in wanted:
+        values["omega1"] = (wall.omega1(), wall.omega1())
+    return [(variable, 0.0, *values[variable], ROUNDING) for variable in wanted]
+
+
+def text():
+    """The content of references.csv."""
+    formulas = tomllib.loads((FOLDER / "formulas.toml").read_text())["formula"]
+    lines = ["scene,variable,time,reference,scale,bound"]
+    for formula in formulas:
+        for name, scene in formula["scenes"].items():
+            for variable, time, reference, scale, bound in rows(name, scene, formula.get("motion", {})):
+                numbers = f"{time!r},{float(reference)!r},{float(scale):.3e},{float(bound):.1e}"
+                lines.append(f"{name},{variable},{numbers}")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    (FOLDER / "references.csv").write_text(text())
