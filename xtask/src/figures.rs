@@ -1,5 +1,6 @@
 //! `cargo xtask figures`: measures accuracy, stability and the peers, compares the model with published
-//! tests, and writes the figures into `docs/accuracy.md` and `docs/validation.md`.
+//! tests and each formula with its reference, and writes the figures into `docs/accuracy.md`,
+//! `docs/validation.md` and `docs/verification.md`.
 
 use std::fmt::Write as _;
 
@@ -9,6 +10,7 @@ use crate::images::{self, wall};
 
 const DOCUMENT: &str = "docs/accuracy.md";
 const VALIDATION: &str = "docs/validation.md";
+const VERIFICATION: &str = "docs/verification.md";
 /// Published tests, a TOML file and a mark of the document each.
 const TESTS: &str = "tests/data/validation";
 /// First words of the last table of `wall accuracy`.
@@ -43,6 +45,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
+    verification()?;
     images::run()
 }
 
@@ -59,6 +62,20 @@ pub(crate) fn validation() -> Result<()> {
     }
     std::fs::write(root().join(VALIDATION), text).map_err(failed(VALIDATION))?;
     println!("written {VALIDATION} and its pictures");
+    Ok(())
+}
+
+/// Writes the formulas that `wall verify` checks, with references and bounds.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn verification() -> Result<()> {
+    let formulas = wall(&["verify", "--markdown", "-"])?;
+    let failed = |error: std::io::Error| format!("{VERIFICATION}: {error}");
+    let text = std::fs::read_to_string(root().join(VERIFICATION)).map_err(failed)?;
+    let text = replaced(VERIFICATION, &text, "formulas", &format!("\n{formulas}"))?;
+    std::fs::write(root().join(VERIFICATION), text).map_err(failed)?;
+    println!("written {VERIFICATION}");
     Ok(())
 }
 

@@ -51,10 +51,12 @@ The jobs of the project.
                                    change the code in about N places, one at a time, and count what no
                                    Rust test notices, by cargo-mutants
   cargo xtask figures [RECORD.AT2] measure accuracy, stability and other tools, compare with published tests;
-                                   write docs/accuracy.md, docs/validation.md, the pages, and the pictures of
-                                   docs/images
+                                   write docs/accuracy.md, docs/validation.md, docs/verification.md, the
+                                   pages, and the pictures of docs/images
   cargo xtask figures --images     only the pictures of README and docs
   cargo xtask figures --validation only docs/validation.md and its pictures
+  cargo xtask figures --verification
+                                   only docs/verification.md
   cargo xtask book                 build the book of docs/ with mdBook into target/book/book
   cargo xtask coupling             measure walls on floors: schemes, steps, run time; write
                                    docs/coupling.md and its page
@@ -80,6 +82,7 @@ fn main() -> ExitCode {
         ["figures"] => figures::run(None),
         ["figures", "--images"] => images::run(),
         ["figures", "--validation"] => figures::validation(),
+        ["figures", "--verification"] => figures::verification(),
         ["figures", record] => figures::run(Some(record)),
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),

@@ -95,6 +95,11 @@ impl Description {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
+    /// The value reference of the variable `name`.
+    pub fn reference(&self, name: &str) -> Option<u32> {
+        self.variables.iter().find(|variable| variable.name == name).map(|variable| variable.reference)
+    }
+
     /// The text as it was read, with `guid` as its guid. Variables have no annotations; where they matter
     /// stands in their descriptions.
     pub fn text_with_guid(&self, guid: &str) -> String {

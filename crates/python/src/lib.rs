@@ -20,6 +20,7 @@
 //! | `studies` | the class `Study` |
 //! | `study_walls` | the walls of a study |
 //! | `folders` | the class `Folder` |
+//! | `verification` | every formula against a reference of its own |
 
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands over what it has made of the arguments")]
 #![allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -38,6 +39,7 @@ mod study_walls;
 mod tables;
 mod ties;
 mod variables;
+mod verification;
 mod walls;
 mod watch;
 
@@ -66,6 +68,8 @@ mod _native {
     use crate::ties::tie_of_wall;
     #[pymodule_export]
     use crate::variables::{calculated, variables};
+    #[pymodule_export]
+    use crate::verification::verify_formulas;
     #[pymodule_export]
     use crate::walls::Wall;
     #[pymodule_export]

@@ -32,6 +32,7 @@ from ._spectra import RockingSpectrum
 from ._studies import Study, StudyResults
 from ._tables import Table
 from ._ties import TieStudy
+from ._verification import verify
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
@@ -68,4 +69,5 @@ __all__ = [
     "ricker",
     "sine_cycle",
     "synthetic_record",
+    "verify",
 ]

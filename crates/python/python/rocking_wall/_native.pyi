@@ -45,6 +45,7 @@ __all__ = [
     "tie_of_wall",
     "trimmed",
     "variables",
+    "verify_formulas",
 ]
 
 class _Channel(TypedDict):
@@ -125,6 +126,7 @@ def tie_of_wall(
     both_polarities: bool,
     threads: int | None,
 ) -> tuple[dict[str, Any], _Columns, str, bool]: ...
+def verify_formulas() -> _Columns: ...
 def calibrate_wall(
     wall: Wall,
     models: list[str] | None,

@@ -124,6 +124,7 @@ fn scene(name: &str, text: &str, motion: Option<&Samples>) -> Result<Scene, Veri
 fn check(reference: &Reference, computed: Option<f64>) -> Check {
     let Reference { scene, quantity: Quantity { name, time }, value, scale, bound } = *reference;
     let quantity = if time == 0.0 { name.to_owned() } else { format!("{name} at {time:.3} s") };
-    let unit = RealVariable::from_name(name).and_then(|variable| variable.variable().unit).unwrap_or("-");
+    let unit = RealVariable::from_name(name).and_then(|variable| variable.variable().unit);
+    let unit = unit.filter(|unit| *unit != "1").unwrap_or("-");
     Check { case: scene.to_owned(), quantity, unit, reference: value, computed, scale, bound }
 }

@@ -175,7 +175,7 @@ fn demands() -> Result<Formula, VerificationError> {
     let hardest = -0.75 * 9.81 * 0.1;
     let demands = &response.demands;
     let of = |quantity, unit, computed, reference| {
-        Check::of(("release at 0.9 u_ins, e = 0.9", quantity, unit), computed, reference, 1e-12)
+        Check::of(("released, e = 0.9", quantity, unit), computed, reference, 1e-12)
     };
     Ok(formula(
         [

@@ -16,6 +16,9 @@ mod spectrum;
 mod stability;
 mod tie;
 mod validate;
+mod verify;
+
+use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -68,6 +71,8 @@ enum Command {
     Reproduce(reproduce::Arguments),
     /// Compare the model with a published test: a slow push or a free decay
     Validate(validate::Arguments),
+    /// Check every formula against a reference of its own, in this program or in an FMU
+    Verify(verify::Arguments),
     /// Print the JSON schema of scenes, studies or buildings
     Schema(schema::Arguments),
     /// Print a completion script for a shell
@@ -79,7 +84,7 @@ enum Command {
 
 impl Arguments {
     /// Runs the command with its arguments.
-    pub(crate) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<ExitCode> {
         match &self.command {
             Command::Simulate(arguments) => simulate::run(arguments),
             Command::Package(arguments) => package::run(arguments),
@@ -97,6 +102,7 @@ impl Arguments {
             Command::Calibrate(arguments) => calibrate::run(arguments),
             Command::Reproduce(arguments) => reproduce::run(arguments),
             Command::Validate(arguments) => validate::run(arguments),
+            Command::Verify(arguments) => return verify::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions { shell } => {
                 let mut script = Vec::new();
@@ -104,5 +110,6 @@ impl Arguments {
                 output::to_stdout(&String::from_utf8_lossy(&script))
             }
         }
+        .map(|()| ExitCode::SUCCESS)
     }
 }

@@ -24,6 +24,7 @@ mod spectrum;
 mod standard_output;
 mod study_parts;
 mod validate;
+mod verify;
 mod warnings;
 
 /// Returns the root of the workspace.

@@ -1,0 +1,48 @@
+//! Tests `wall verify`, and that `docs/verification.md` is its manual.
+
+use std::fs;
+
+use crate::command_line::{folder, refused, text, wall};
+use crate::root;
+
+#[test]
+fn the_manual_is_that_of_the_program() {
+    let folder = folder("verify");
+    let output = wall(&folder, &["verify", "--markdown", "manual.md", "--html", "manual.html"]);
+    let table = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{table}");
+    assert!(table.contains(" 0 FAIL") && !table.contains(" FAIL\n"), "{table}");
+    assert!(table.lines().filter(|line| line.ends_with("  PASS")).count() >= 130, "{table}");
+    let manual = fs::read_to_string(folder.join("manual.md")).unwrap();
+    let document = fs::read_to_string(root().join("docs/verification.md")).unwrap();
+    let remedy = "docs/verification.md: run cargo xtask figures --verification";
+    assert!(document.contains(&format!("<!-- formulas -->\n\n{manual}<!-- end formulas -->")), "{remedy}");
+    let page = fs::read_to_string(folder.join("manual.html")).unwrap();
+    let titles: Vec<_> = manual.lines().filter_map(|line| line.strip_prefix("### ")).collect();
+    assert!(titles.len() >= 28);
+    assert!(titles.iter().all(|title| page.contains(&format!("<h2>{title}</h2>"))));
+}
+
+#[test]
+fn results_are_also_json() {
+    let output = wall(&folder("verify_json"), &["verify", "--json"]);
+    let value: serde_json::Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert_eq!((&value["failed"], &value["missing"]), (&0.into(), &0.into()));
+    let of_formula = |formula: &serde_json::Value| formula["checks"].as_array().unwrap().clone();
+    let checks: Vec<_> = value["formulas"].as_array().unwrap().iter().flat_map(of_formula).collect();
+    assert_eq!(value["passed"], checks.len());
+    for check in checks {
+        let number = |name: &str| check[name].as_f64().unwrap();
+        let error = (number("computed") - number("reference")).abs() / number("scale");
+        assert!(error <= number("bound") && error == number("error"), "{check}");
+    }
+}
+
+#[test]
+fn files_that_are_not_an_fmu_are_refused() {
+    let folder = folder("verify_refused");
+    fs::write(folder.join("scene.toml"), "").unwrap();
+    refused(&folder, &["verify", "--fmu", "none.fmu"], &["none.fmu", "cannot be read"]);
+    refused(&folder, &["verify", "--fmu", "scene.toml"], &["scene.toml", "not a readable zip"]);
+    refused(&folder, &["verify", "--fmu", "a.fmu", "--html", "a.fmu"], &["a.fmu"]);
+}
