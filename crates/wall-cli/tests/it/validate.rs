@@ -29,7 +29,21 @@ fn the_document_shows_what_the_program_computes() {
         let kept = fs::read_to_string(root().join(format!("docs/images/{name}.svg"))).unwrap();
         assert!(drawn == kept, "docs/images/{name}.svg: {remedy}");
     }
-    assert_eq!(cases, 2);
+    assert_eq!(cases, 3);
+}
+
+/// The example for a laboratory is a test as it stands in the document.
+#[test]
+fn the_example_of_the_document_can_be_used() {
+    let document = fs::read_to_string(root().join("docs/validation.md")).unwrap();
+    let folder = folder("validation_example");
+    for (language, file) in [("toml", "my_wall.toml"), ("csv", "my_wall.csv")] {
+        let (_, rest) = document.split_once(&format!("```{language}\n")).unwrap();
+        fs::write(folder.join(file), rest.split_once("```").unwrap().0).unwrap();
+    }
+    let output = wall(&folder, &["validate", "my_wall.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("fitted to the peaks"), "{}", text(&output.stdout));
 }
 
 #[test]
