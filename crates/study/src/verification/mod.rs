@@ -6,6 +6,7 @@
 //! | `formula` | formulas and their checks as data |
 //! | `scenes` | formulas that the variables of a wall show, in scenes: data of `formulas.toml` |
 //! | `library` | variables of a scene, computed by this library |
+//! | `circolare` | the worked examples of the check by the code |
 //! | `studies` | formulas of spectra, checks, fragilities, and the paper's tables |
 //!
 //! The references of `scenes` stand in `references.csv`. `tests/data/references.py` writes them, in decimal
@@ -19,6 +20,7 @@
 //! # Ok::<(), study::verification::VerificationError>(())
 //! ```
 
+mod circolare;
 mod error;
 mod formula;
 mod library;

@@ -19,10 +19,11 @@ use crate::spectrum::{PulseForm, over_pulses};
 type Group = fn() -> Result<Formula, VerificationError>;
 
 /// Formulas in the order of the manual. Another one is a function here.
-pub(super) const FORMULAS: [Group; 9] = [
+pub(super) const FORMULAS: [Group; 10] = [
     equivalences,
     capacity_curve,
     capacity_against_demand,
+    super::circolare::examples,
     demands,
     response_spectrum,
     storeys,
@@ -34,7 +35,7 @@ pub(super) const FORMULAS: [Group; 9] = [
 /// 45 units of rounding.
 const ROUNDING: f64 = 1e-14;
 
-fn formula([title, section, statement, reference, why]: [&str; 5], checks: Vec<Check>) -> Formula {
+pub(super) fn formula([title, section, statement, reference, why]: [&str; 5], checks: Vec<Check>) -> Formula {
     let [title, section, statement, reference, why] =
         [title, section, statement, reference, why].map(str::to_owned);
     Formula { title, section, statement, reference, why, checks }
