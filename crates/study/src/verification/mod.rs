@@ -6,8 +6,9 @@
 //! | `formula` | formulas and their checks as data |
 //! | `scenes` | formulas that the variables of a wall show, in scenes: data of `formulas.toml` |
 //! | `library` | variables of a scene, computed by this library |
-//! | `circolare` | the worked examples of the check by the code |
-//! | `studies` | formulas of spectra, checks, fragilities, and the paper's tables |
+//! | `studies` | formulas of spectra, capacity, fragilities; the list of all that are not scenes |
+//! | `circolare` | the worked examples of the check by Circolare 7/2019 |
+//! | `paper` | the paper's tables of damping ratios |
 //!
 //! The references of `scenes` stand in `references.csv`. `tests/data/references.py` writes them, in decimal
 //! arithmetic of 40 digits, or takes them from the reference cases in 113-bit arithmetic.
@@ -24,6 +25,7 @@ mod circolare;
 mod error;
 mod formula;
 mod library;
+mod paper;
 mod scenes;
 mod studies;
 
@@ -32,7 +34,7 @@ use rocking_wall::scene::Scene;
 pub use error::VerificationError;
 pub use formula::{Check, Formula};
 pub use library::library;
-pub use scenes::Quantity;
+pub use scenes::{Quantity, verify_scenes};
 
 /// Checks every formula; `values` computes the quantities of a scene, which come by rising times. It returns
 /// `None` for a quantity that it does not know. [`library`] is one such function, an FMU another.
@@ -42,20 +44,9 @@ pub use scenes::Quantity;
 pub fn verify<E: From<VerificationError>>(
     values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
 ) -> Result<Vec<Formula>, E> {
-    let mut formulas = scenes::formulas(values)?;
+    let mut formulas = verify_scenes(values)?;
     for formula in studies::FORMULAS {
         formulas.push(formula()?);
     }
     Ok(formulas)
-}
-
-/// Checks the formulas that the variables of a wall show, and nothing that only studies compute: what an FMU
-/// can be asked for.
-///
-/// # Errors
-/// Those of `values`, and [`VerificationError`] for a scene that cannot be read.
-pub fn verify_scenes<E: From<VerificationError>>(
-    values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
-) -> Result<Vec<Formula>, E> {
-    scenes::formulas(values)
 }

@@ -84,8 +84,15 @@ fn references() -> impl Iterator<Item = Reference> {
     })
 }
 
-/// Computes the quantities of each scene by `values`.
-pub(super) fn formulas<E: From<VerificationError>>(
+/// Checks the formulas that the variables of a wall show, and nothing that only studies compute: what an FMU
+/// can be asked for. `values` computes the quantities of a scene, as for [`verify`](super::verify).
+///
+/// # Errors
+/// Those of `values`, and [`VerificationError`] for a scene that cannot be read.
+///
+/// # Panics
+/// If `values` returns more or fewer numbers than it is asked for.
+pub fn verify_scenes<E: From<VerificationError>>(
     mut values: impl FnMut(&Scene, &[Quantity]) -> Result<Vec<Option<f64>>, E>,
 ) -> Result<Vec<Formula>, E> {
     let document: Document = toml::from_str(FORMULAS).expect("formulas.toml is part of the program");
