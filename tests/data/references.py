@@ -38,6 +38,7 @@ STATIC = {
     "law_plateau": "restoring_force omega1",
     "tie_pulls": "tie_force restoring_force",
     "tie_slack": "tie_force restoring_force",
+    "law_multilinear": "restoring_force",
 } | {f"law_{name}": "restoring_force omega1" for name in ["parallel", "rotated", "chord", "beyond_u3"]}
 
 
@@ -109,6 +110,9 @@ class Wall:
         p = self.given
         f0, k0 = self.strength(self.sign)
         u_ins = f0 / k0
+        if p["force_law"] == "multilinear":
+            points = [[0.0, 0.0], *p["points"]]
+            return [(Decimal(x) * u_ins, Decimal(y) * f0) for x, y in points]
         u1, u3 = p["a1"] * u_ins, p["a3"] * u_ins
         lines = {
             "parallel": lambda u: k0 * (u3 - u),
@@ -249,6 +253,31 @@ def rocking(wall, t):
     return Decimal(0)
 
 
+def full_strip(wall):
+    """ü of a strip wall in full rotations: d/dt (M u̇) − M′u̇²/2 + V′ = −(m/2) a_g, for u > 0."""
+    m, b, g = wall.mass, wall.b, wall.given["gravity"]
+    heights = [wall.h1, wall.h - wall.h1]
+    masses = [m * height / wall.h for height in heights]
+
+    def inertia_and_slopes(u):
+        s = u - b
+        rises = [(height * height + b * b - s * s).sqrt() for height in heights]
+        # of the centres, whose horizontal position is s/2; θ̇ = ṡ/c, and m D²/12 about a centre
+        slopes = [-s / rises[0] / 2, -s / rises[0] - s / rises[1] / 2]
+        parts = zip(masses, slopes, heights, rises)
+        inertia = sum(
+            mass * (Decimal("0.25") + slope**2 + (height**2 + b * b) / 12 / rise**2)
+            for mass, slope, height, rise in parts
+        )
+        return inertia, slopes
+
+    inertia, slopes = inertia_and_slopes(wall.u)
+    small = Decimal("1e-12")
+    growth = (inertia_and_slopes(wall.u + small)[0] - inertia_and_slopes(wall.u - small)[0]) / (2 * small)
+    weight = g * sum(mass * slope for mass, slope in zip(masses, slopes))
+    return -(growth * wall.v**2 / 2 + weight + m / 2 * wall.support[0]) / inertia
+
+
 def motions(name, wall):
     """Rows (variable, time, reference, scale, bound) of a motion in closed form."""
     f0, k0 = wall.strength(1)
@@ -267,8 +296,15 @@ def motions(name, wall):
     if name == "overturning_constant":
         excess = wall.participation * -wall.support[0] - f0 / wall.m_eff
         time = acosh(1 + p * p * u_ins / excess) / p
-        return [("overturn_time", 2.0, time, time, tight)]
-    assert name == "full_rotations", name
+        # later it lies still at h/2, without reactions
+        return [
+            ("overturn_time", 2.0, time, time, tight),
+            ("u", 10.0, wall.h / 2, wall.h / 2, tight),
+            ("reaction_bottom", 10.0, Decimal(0), wall.weight, tight),
+        ]
+    if name == "full_strip":
+        return [("u_ddot", 0.0, full_strip(wall), wall.given["gravity"], ROUNDING)]
+    assert name == "full_parapet", name
     b, h, g = wall.b, wall.h, wall.given["gravity"]
     diagonal = (h * h + b * b).sqrt()
     sine = (2 * wall.u - b) / diagonal
