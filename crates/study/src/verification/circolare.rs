@@ -64,7 +64,9 @@ pub(super) fn examples() -> Result<Formula, VerificationError> {
         ("eta of 8 %", "-", damping_factor(0.08), 0.877_058),
     ]
     .into_iter()
-    .map(|(name, unit, found, expected)| Check::of(("site, soil B", name, unit), found, expected, SIX_DIGITS))
+    .map(|(name, unit, found, expected)| {
+        Check::of(("site, soil B", name, unit), [found, expected], SIX_DIGITS)
+    })
     .collect();
     let tied = format!("{PARAPET}{TIE}");
     for (name, wall, ratio, expected) in [
@@ -85,7 +87,7 @@ pub(super) fn examples() -> Result<Formula, VerificationError> {
         for (((quantity, unit), found), expected) in names.into_iter().zip(found).zip(expected) {
             // a tie has no number there in the examples
             if !expected.is_nan() {
-                checks.push(Check::of((name, quantity, unit), found, expected, SIX_DIGITS));
+                checks.push(Check::of((name, quantity, unit), [found, expected], SIX_DIGITS));
             }
         }
     }

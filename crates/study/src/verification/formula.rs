@@ -40,8 +40,7 @@ impl Check {
     /// Compares a number with a reference, relative to the reference.
     pub(super) fn of(
         (case, quantity, unit): (&str, &str, &'static str),
-        computed: f64,
-        reference: f64,
+        [computed, reference]: [f64; 2],
         bound: f64,
     ) -> Self {
         let (case, quantity, scale) = (case.to_owned(), quantity.to_owned(), reference.abs());

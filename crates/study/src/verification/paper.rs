@@ -57,7 +57,7 @@ fn worst(table: &Table, source: impl Fn(&[Cell], usize) -> (f64, f64)) -> Check 
             };
             let check = Check {
                 scale: 1.0,
-                ..Check::of((table.name, &name, "as printed"), computed, printed, bound)
+                ..Check::of((table.name, &name, "as printed"), [computed, printed], bound)
             };
             let part = |check: &Check| check.error().unwrap_or(f64::INFINITY) / check.bound;
             if worst.as_ref().is_none_or(|worst| part(worst) < part(&check)) {

@@ -55,8 +55,9 @@ const EQ_5: f64 = 11.972_891_384_505_525;
 
 #[allow(clippy::unnecessary_wraps, reason = "as the other formulas")]
 fn equivalences() -> Result<Formula, VerificationError> {
-    let of =
-        |quantity, computed, reference| Check::of(("e = 0.9", quantity, "-"), computed, reference, ROUNDING);
+    let of = |quantity, computed, reference| {
+        Check::of(("e = 0.9", quantity, "-"), [computed, reference], ROUNDING)
+    };
     Ok(formula(
         [
             "Equivalent damping ratios of other authors",
@@ -86,11 +87,11 @@ fn capacity_curve() -> Result<Formula, VerificationError> {
         let computed = wall.capacity_at(1.0, fraction).secant_period.unwrap_or(f64::NAN);
         let expected = TAU / rate * (fraction / (1.0 - fraction)).sqrt();
         let name = format!("secant period at {fraction} u_ins");
-        checks.push(Check::of(("bilinear", &name, "s"), computed, expected, ROUNDING));
+        checks.push(Check::of(("bilinear", &name, "s"), [computed, expected], ROUNDING));
     }
     let name = "rocking_onset";
-    checks.push(Check::of(("bilinear", name, "m/s2"), wall.rocking_onset(), 0.97 * onset, ROUNDING));
-    checks.push(Check::of(("trilinear", name, "m/s2"), trilinear.rocking_onset(), 0.6 * onset, ROUNDING));
+    checks.push(Check::of(("bilinear", name, "m/s2"), [wall.rocking_onset(), 0.97 * onset], ROUNDING));
+    checks.push(Check::of(("trilinear", name, "m/s2"), [trilinear.rocking_onset(), 0.6 * onset], ROUNDING));
     Ok(formula(
         [
             "Capacity curve",
@@ -140,7 +141,7 @@ fn capacity_against_demand() -> Result<Formula, VerificationError> {
             ("d_u*/Sd(T_s)", "-", side.displacement_ratio),
         ];
         for ((quantity, unit, computed), reference) in computed.into_iter().zip(references) {
-            checks.push(Check::of((name, quantity, unit), computed, reference, 5e-6));
+            checks.push(Check::of((name, quantity, unit), [computed, reference], 5e-6));
         }
     }
     Ok(formula(
@@ -174,7 +175,7 @@ fn demands() -> Result<Formula, VerificationError> {
     let hardest = -0.75 * 9.81 * 0.1;
     let demands = &response.demands;
     let of = |quantity, unit, computed, reference| {
-        Check::of(("released, e = 0.9", quantity, unit), computed, reference, 1e-12)
+        Check::of(("released, e = 0.9", quantity, unit), [computed, reference], 1e-12)
     };
     Ok(formula(
         [
@@ -203,10 +204,10 @@ fn response_spectrum() -> Result<Formula, VerificationError> {
     for period in [0.2, 1.0] {
         let name = format!("Sa({period} s)");
         let computed = spectrum.acceleration(&step, period)?;
-        checks.push(Check::of(("1 m/s2 for 5 s", &name, "m/s2"), computed, overshoot, 1e-11));
+        checks.push(Check::of(("1 m/s2 for 5 s", &name, "m/s2"), [computed, overshoot], 1e-11));
     }
     let computed = spectrum.average(&step, &AVERAGE_PERIODS)?;
-    checks.push(Check::of(("1 m/s2 for 5 s", "AvgSA", "m/s2"), computed, overshoot, 1e-11));
+    checks.push(Check::of(("1 m/s2 for 5 s", "AvgSA", "m/s2"), [computed, overshoot], 1e-11));
     Ok(formula(
         [
             "Response spectrum",
@@ -235,13 +236,12 @@ fn storeys() -> Result<Formula, VerificationError> {
         scale: 2.0 / (frequency * frequency),
         ..Check::of(
             ("one storey, 1 m/s2", "x in the middle of 0.9 s", "m"),
-            floor.displacement[node],
-            expected,
+            [floor.displacement[node], expected],
             1e-11,
         )
     };
     let of = |quantity, computed, reference| {
-        Check::of(("two equal storeys", quantity, "s"), computed, reference, 1e-13)
+        Check::of(("two equal storeys", quantity, "s"), [computed, reference], 1e-13)
     };
     Ok(formula(
         [
@@ -285,7 +285,7 @@ fn half_sine() -> Result<Formula, VerificationError> {
             "the root of the condition",
             "the pulse's samples, off by (ωΔt)³/80 = 4e-10 of a_p in the step of the uplift",
         ],
-        vec![Check::of(("ω_p/p = 2", "a_p/a0 that overturns", "-"), falls, expected, 4e-10)],
+        vec![Check::of(("ω_p/p = 2", "a_p/a0 that overturns", "-"), [falls, expected], 4e-10)],
     ))
 }
 
@@ -295,7 +295,7 @@ fn fragility() -> Result<Formula, VerificationError> {
     let class = FragilityFunction::of_class(&[0.5, 0.5], &[wall(1.0), wall(4.0)]);
     let two = std::f64::consts::LN_2;
     let of =
-        |case, quantity, computed, reference| Check::of((case, quantity, "-"), computed, reference, 1e-12);
+        |case, quantity, computed, reference| Check::of((case, quantity, "-"), [computed, reference], 1e-12);
     Ok(formula(
         [
             "Fragilities",

@@ -104,7 +104,7 @@ fn short(value: Option<f64>) -> String {
 
 fn table(formulas: &[Formula]) -> String {
     let mut text = format!(
-        "{:<25} {:<36} {:<10} {:>16} {:>16} {:>6} {:>6}\n",
+        "{:<28} {:<36} {:<10} {:>16} {:>16} {:>6} {:>6}\n",
         "case", "quantity", "unit", "reference", "computed", "error", "bound"
     );
     for formula in formulas {
@@ -113,7 +113,7 @@ fn table(formulas: &[Formula]) -> String {
             let Check { case, quantity, unit, reference, computed, bound, .. } = check;
             let _ = writeln!(
                 text,
-                "  {case:<23} {quantity:<36} {unit:<10} {:>16} {:>16} {:>6} {:>6}  {}",
+                "  {case:<26} {quantity:<36} {unit:<10} {:>16} {:>16} {:>6} {:>6}  {}",
                 number(Some(*reference)),
                 number(*computed),
                 short(check.error()),
