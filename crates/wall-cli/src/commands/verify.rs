@@ -50,13 +50,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&subject, &formulas, &counts))? + "\n"
     } else {
-        let mut text = format!("{subject}\n\n{}{}\n", table(&formulas), counts.words());
-        for path in [&arguments.html, &arguments.markdown].into_iter().flatten() {
-            if path.as_os_str() != "-" {
-                let _ = writeln!(text, "\nwritten {}", path.display());
-            }
-        }
-        text
+        let written = output::written("written ", arguments.html.iter().chain(&arguments.markdown));
+        format!("{subject}\n\n{}{}\n{written}", table(&formulas), counts.words())
     };
     output::to_stdout(&text)?;
     Ok(if counts.failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(FAILED) })
