@@ -2,9 +2,9 @@
 
     python xtask/book/prepare.py WALL REPOSITORY FOLDER
 
-They are docs/ and the README, and reference pages made of what the program and the descriptions say: the help
-of every command, the keys of the JSON schemas, the variables of both model descriptions. Links that leave docs/
-lead to the repository. A link to a page or a picture that does not exist is an error.
+They are docs/ and the README, and reference pages made of what the program and the descriptions say: the
+help of every command, the keys of the JSON schemas, the variables of both model descriptions. Links that
+leave docs/ lead to the repository. A link to a page or a picture that does not exist is an error.
 """
 
 import json
@@ -84,7 +84,8 @@ def keys(wall, name):
     page = f"# {schema['title']}\n\n{table(own, definitions)}"
     for key, value in [*inline.items(), *lists.items(), *definitions.items()]:
         if "properties" in value:
-            page += f"\n## {key}\n\n{value.get('description', '')}\n\n{table(value['properties'], definitions)}"
+            description = value.get("description", "")
+            page += f"\n## {key}\n\n{description}\n\n{table(value['properties'], definitions)}"
     return page
 
 
@@ -135,7 +136,7 @@ def main(wall, repository, folder):
         (folder / page.relative_to(ROOT / "docs")).write_text(led(page.read_text(), page, repository))
     readme = ROOT / "README.md"
     (folder / "introduction.md").write_text(led(readme.read_text(), readme, repository))
-    shutil.copy(ROOT / "xtask/book/SUMMARY.md", folder)
+    shutil.copy(ROOT / "xtask/book/summary.txt", folder / "SUMMARY.md")
     reference = folder / "reference"
     reference.mkdir()
     (reference / "commands.md").write_text(commands(wall))
@@ -144,7 +145,7 @@ def main(wall, repository, folder):
     (reference / "variables.md").write_text(variables())
     for target in LINK.findall((folder / "SUMMARY.md").read_text()):
         if not (folder / target[1]).exists():
-            sys.exit(f"xtask/book/SUMMARY.md: there is no {target[1]}")
+            sys.exit(f"xtask/book/summary.txt: there is no {target[1]}")
 
 
 if __name__ == "__main__":
