@@ -301,3 +301,24 @@ impl Runs<'_> {
         Ok(maxima)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Example (e) of the worked examples: eight maxima of a parapet with `d_SLV` = 0.08 m and `d_0` = 0.2 m.
+    #[test]
+    fn maxima_of_eight_records() {
+        let thresholds = Thresholds { limit: [0.08; 2], zero: [0.2; 2] };
+        let maxima = [0.031, 0.052, 0.066, 0.048, 0.090, 0.075, 0.058, 0.101];
+        let judged = thresholds.judge(&maxima.map(|d| [0.5 * d, d]));
+        assert!((judged.d - 0.065_125).abs() < 1e-15 && (judged.ratio - 1.228_41).abs() < 5e-6);
+        assert!(judged.passed() && judged.side == Side::Negative);
+        // one run beyond d_0 fails, whatever the mean
+        let beyond = Thresholds { zero: [0.2, 0.1], ..thresholds }.judge(&maxima.map(|d| [0.5 * d, d]));
+        assert!(!beyond.passed() && beyond.beyond_d0 == 1);
+        // each side by its own threshold
+        let sides = Thresholds { limit: [0.04, 0.12], zero: [0.2; 2] }.judge(&[[0.06, 0.06]; 7]);
+        assert!((sides.ratio - 0.04 / 0.06).abs() < 1e-15 && sides.side == Side::Positive);
+    }
+}

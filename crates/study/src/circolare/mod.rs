@@ -38,7 +38,7 @@ pub use demand::MEAN_COUNTS_FROM;
 pub use dynamic::{DynamicCheck, DynamicRun, DynamicState};
 pub use error::CheckError;
 pub use find::{Found, Sought, find};
-pub use floor::{FloorSpectrum, Mode};
+pub use floor::{FloorSpectrum, Mode, frame_acceleration};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
