@@ -15,6 +15,7 @@ mod fmu;
 mod fuzz;
 mod images;
 mod mutants;
+mod package;
 mod platform;
 mod playground;
 mod portable;
@@ -36,6 +37,9 @@ The jobs of the project.
   cargo xtask playground           write fmu_out/playground.html: one file that computes in the browser, with
                                    the library as WebAssembly
   cargo xtask wheel                build the Python package into target/wheels/release, with wall.fmu inside
+                                   --fmu FILE: with this wall.fmu
+                                   --portable: for Linux as old as glibc 2.17 and macOS, each with the FMU of
+                                   all platforms; --platforms as for fmu
   cargo xtask demo [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given,
                                    a record (UNIT if the file states none); write histories and pages
                                    to fmu_out/
@@ -43,8 +47,11 @@ The jobs of the project.
                                    interface against fmi-sys
   cargo xtask portable             build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the
                                    Windows library under wine
+  cargo xtask package              pack the crates as a registry gets them into target/package, and build each
+                                   from its archive
   cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` and
-                                   wheels for each platform, components, notices, checksums; TAG is checked
+                                   wheels for each platform, the source distribution, components, notices,
+                                   checksums; TAG is checked; --platforms as for fmu, to compare a part
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask mutants [--count N] [--seed S] [PATH...]
@@ -78,6 +85,10 @@ fn main() -> ExitCode {
         ["playground"] => playground::build().map(drop),
         ["wheel"] => wheel::run(),
         ["book"] => book::run(),
+        ["wheel"] => wheel::run(None),
+        ["wheel", "--fmu", unit] => wheel::run(Some(unit)),
+        ["wheel", "--portable"] => wheel::portable(fmu::PORTABLE),
+        ["wheel", "--platforms", names] => wheel::portable(names),
         ["demo", record @ ..] if record.len() <= 2 => demo::run(record),
         ["figures"] => figures::run(None),
         ["figures", "--images"] => images::run(),
@@ -87,8 +98,10 @@ fn main() -> ExitCode {
         ["coupling"] => coupling::run(),
         ["test"] => test::run(),
         ["portable"] => portable::run(),
-        ["release"] => release::run(None),
-        ["release", tag] => release::run(Some(tag)),
+        ["package"] => package::run(),
+        ["release"] => release::run(None, fmu::PORTABLE),
+        ["release", "--platforms", names] => release::run(None, names),
+        ["release", tag] => release::run(Some(tag), fmu::PORTABLE),
         ["fuzz"] => fuzz::run(),
         ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),

@@ -4,6 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::command::{Result, output, program, root, succeed, target};
 
+/// Python as it is called.
+const PYTHON: &str = if cfg!(windows) { "python" } else { "python3" };
+/// The folder of programs in an environment.
+const PROGRAMS: &str = if cfg!(windows) { "Scripts" } else { "bin" };
+
 /// A virtual environment with the packages of a lock file.
 pub(crate) struct Environment {
     folder: PathBuf,
@@ -42,7 +47,7 @@ impl Environment {
     /// Prepares an installation into the environment, by one pip for all of them.
     pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
         let installer = target().join("python").join("pip");
-        let python = installer.join("bin/python");
+        let python = installer.join(PROGRAMS).join("python");
         if output(program(&python).args(["-m", "pip", "--version"]), "").is_err() {
             let _ = std::fs::remove_dir_all(&installer);
             venv(&[], &installer)?;
@@ -55,7 +60,7 @@ impl Environment {
 
     /// Prepares a program of the environment.
     pub(crate) fn program(&self, name: &str) -> std::process::Command {
-        program(self.folder.join("bin").join(name))
+        program(self.programs().join(name))
     }
 
     /// Returns the folder of an installed package.
@@ -67,12 +72,12 @@ impl Environment {
 
     /// Returns the environment's folder of programs.
     pub(crate) fn programs(&self) -> PathBuf {
-        self.folder.join("bin")
+        self.folder.join(PROGRAMS)
     }
 }
 
 /// Makes a virtual environment.
 fn venv(options: &[&str], folder: &Path) -> Result<()> {
     let remedy = "install Python 3.11 or newer with its venv module";
-    succeed(program("python3").args(["-m", "venv"]).args(options).arg(folder), remedy)
+    succeed(program(PYTHON).args(["-m", "venv"]).args(options).arg(folder), remedy)
 }

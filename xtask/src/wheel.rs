@@ -1,6 +1,7 @@
 //! `cargo xtask wheel`: builds the Python package.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::command::{Result, output, root, succeed, target};
 use crate::fmu;
@@ -13,27 +14,43 @@ const UNIT: &str = "crates/python/python/rocking_wall/wall.fmu";
 const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/python/licenses"];
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
 
-/// Builds the wheel and prints its path.
-pub(crate) fn run() -> Result<()> {
-    let unit = fmu::build(fmu::WALL)?;
+/// Builds the wheel for this machine with a general FMU, or one that is built, and prints its path.
+///
+/// # Errors
+/// If the FMU or the wheel does not build.
+pub(crate) fn run(unit: Option<&str>) -> Result<()> {
+    let unit = unit.map_or_else(|| fmu::build(fmu::WALL), |path| Ok(root().join(path)))?;
     println!("{}", build("release", &unit, None)?.display());
     Ok(())
 }
 
+/// Builds the wheel for each of some platforms, all with the FMU of these platforms, and prints their paths.
+///
+/// # Errors
+/// As [`run`], or if a platform is unknown.
+pub(crate) fn portable(names: &str) -> Result<()> {
+    let [unit, _] = &fmu::build_all(Some(names))?[..] else { unreachable!("wall and floor") };
+    for platform in Platform::named(names)?.into_iter().filter(|platform| is_linked_here(platform)) {
+        println!("{}", build("release", unit, Some(platform))?.display());
+    }
+    Ok(())
+}
+
+/// Returns whether the wheel of a platform can be linked on another. That of Windows cannot: maturin hands
+/// its list of exports to every library, those of FMUs among them.
+pub(crate) fn is_linked_here(platform: &Platform) -> bool {
+    !platform.target.contains("windows")
+}
+
 /// Builds the wheel with a profile and a general FMU, for this machine or for a platform, and returns its
 /// path.
+///
+/// # Errors
+/// If it does not build.
 pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
-    std::fs::copy(unit, root().join(UNIT)).map_err(|error| format!("{UNIT}: {error}"))?;
-    for text in TEXTS {
-        let [from, to] = LICENCES.map(|folder| root().join(folder).join(text));
-        std::fs::copy(from, &to).map_err(|error| format!("{}: {error}", to.display()))?;
-    }
-    let maturin = Environment::of("maturin", "xtask/locks/maturin.lock")?;
-    let folder = target().join("wheels").join(profile);
-    // wheels of other versions and machines
-    let _ = std::fs::remove_dir_all(&folder);
-    let mut build = maturin.program("maturin");
-    build.args(["build", "--locked", "--manifest-path", "crates/python/Cargo.toml", "--profile", profile]);
+    let folder = target().join("wheels").join(platform.map_or(profile, |platform| platform.fmi3));
+    let mut build = maturin("build", unit)?;
+    build.args(["--locked", "--profile", profile]);
     if let Some(platform) = platform {
         build.args(["--zig", "--target", platform.target]);
         if platform.target.ends_with("linux-gnu") {
@@ -44,14 +61,44 @@ pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> 
         // the time in the archive
         build.env("SOURCE_DATE_EPOCH", "315532800").env("CARGO_TARGET_DIR", target().join("fmu"));
     }
-    succeed(build.arg("--out").arg(&folder), "see its message above")?;
+    written(&mut build, &folder, "whl")
+}
+
+/// Packs the sources, with a general FMU, and returns the path of the source distribution.
+///
+/// # Errors
+/// If maturin fails.
+pub(crate) fn sources(unit: &Path) -> Result<PathBuf> {
+    written(&mut maturin("sdist", unit)?, &target().join("wheels/sources"), "gz")
+}
+
+/// Prepares a job of maturin, with a general FMU and the licences of others in their places.
+fn maturin(job: &str, unit: &Path) -> Result<Command> {
+    std::fs::copy(unit, root().join(UNIT)).map_err(|error| format!("{}: {error}", unit.display()))?;
+    for text in TEXTS {
+        let [from, to] = LICENCES.map(|folder| root().join(folder).join(text));
+        std::fs::copy(from, &to).map_err(|error| format!("{}: {error}", to.display()))?;
+    }
+    let mut maturin = Environment::of("maturin", "xtask/locks/maturin.lock")?.program("maturin");
+    maturin.args([job, "--manifest-path", "crates/python/Cargo.toml"]);
+    Ok(maturin)
+}
+
+/// Runs a job of maturin into a folder, and returns the file that it leaves there.
+fn written(job: &mut Command, folder: &Path, ending: &str) -> Result<PathBuf> {
+    // files of other versions
+    let _ = std::fs::remove_dir_all(folder);
+    succeed(job.arg("--out").arg(folder), "see its message above")?;
     let failed = |error| format!("{}: {error}", folder.display());
-    let mut files = std::fs::read_dir(&folder).map_err(failed)?.map_while(std::result::Result::ok);
-    let wheel = files.find(|file| file.path().extension().is_some_and(|ending| ending == "whl"));
-    wheel.map(|file| file.path()).ok_or_else(|| format!("{} has no wheel", folder.display()))
+    let mut files = std::fs::read_dir(folder).map_err(failed)?.map_while(std::result::Result::ok);
+    let file = files.find(|file| file.path().extension().is_some_and(|found| found == ending));
+    file.map(|file| file.path()).ok_or_else(|| format!("{} has no .{ending}", folder.display()))
 }
 
 /// Installs the wheel into an environment that has what it needs.
+///
+/// # Errors
+/// If pip fails.
 pub(crate) fn install(wheel: &Path, environment: &Environment) -> Result<()> {
     let mut pip = environment.pip_install()?;
     output(pip.args(["--no-index", "--no-deps", "--force-reinstall"]).arg(wheel), "see its message above")

@@ -1,4 +1,6 @@
-//! Storeys and rocking walls as one system: run in process under a record, or written as SSP.
+#![doc = include_str!("../README.md")]
+//!
+//! # Modules
 //!
 //! ```text
 //! building.toml ─► Building ─► Parts ─┬─► Coupled   under a record, accelerations and reactions in one loop

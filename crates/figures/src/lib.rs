@@ -1,7 +1,6 @@
-//! Charts of rocking walls as SVG, drawn from plain values.
+#![doc = include_str!("../README.md")]
 //!
-//! The crate reads no file, writes none and computes no response: numbers go in, text comes out.
-//!
+//! # Modules
 //! ```text
 //! values ─► Plot ─► inline SVG for a page · picture (SVG or PNG) for a file
 //! ```

@@ -1,31 +1,11 @@
-//! Turns a modelDescription.xml into Rust variables, and files into an FMU.
+#![doc = include_str!("../README.md")]
 //!
+//! # Map
 //! The description is the one source of an FMU's variables. [`build_script`], the `build.rs` of a model,
 //! refuses a description that contradicts itself and names the line. It writes one enum per FMI base type, so
 //! that a variable which is declared but not wired does not compile. [`Description::reduced`] makes the
 //! description of an FMU with fewer variables, [`Description::to_fmi3`] that of an FMI 3.0 unit, and the
 //! feature `archive` reads and writes the FMU itself.
-//!
-//! ```
-//! use fmu_export_build::Description;
-//!
-//! let description = Description::parse(r#"
-//!     <fmiModelDescription fmiVersion="2.0" modelName="clock" guid="">
-//!       <CoSimulation modelIdentifier="clock"/>
-//!       <ModelVariables>
-//!         <ScalarVariable name="rate" valueReference="1" causality="parameter" variability="fixed">
-//!           <Real start="1"/>
-//!         </ScalarVariable>
-//!       </ModelVariables>
-//!       <ModelStructure/>
-//!     </fmiModelDescription>"#)?;
-//! assert_eq!(description.variable_names().collect::<Vec<_>>(), ["rate"]);
-//! assert_eq!(description.guid().len(), "{}".len() + 32);
-//!
-//! let fault = Description::parse("<fmiModelDescription/>").unwrap_err();
-//! assert_eq!(fault.to_string(), "line 1: <fmiModelDescription> needs the attribute `fmiVersion`");
-//! # Ok::<(), fmu_export_build::Fault>(())
-//! ```
 //!
 //! Each module uses those above it:
 //!

@@ -1,25 +1,6 @@
-//! Earthquake records: acceleration histories from files in the usual formats, their units, a quick check,
-//! response spectra; and motions made from a formula or a seed.
+#![doc = include_str!("../README.md")]
 //!
-//! ```
-//! use ground_motion::{RecordOptions, STANDARD_GRAVITY, Spectrum, Unit, parse};
-//!
-//! // from a file: `ground_motion::read("RSN1234_STATION.AT2", &RecordOptions::default())`
-//! let text = "time,a_g\n0.00,0.0\n0.01,0.12\n0.02,-0.30\n0.03,0.21\n0.04,0.0\n";
-//! let options = RecordOptions { unit: Some(Unit::StandardGravity), ..RecordOptions::default() };
-//! let record = parse("example.csv", text.into(), &options)?;
-//! assert_eq!(record.motion.step(), 0.01);
-//!
-//! // whatever the file's unit, a motion is in m/s²
-//! let pga = record.motion.peak();
-//! assert_eq!(pga, 0.3 * STANDARD_GRAVITY);
-//!
-//! // pseudo-spectral acceleration at 5 % damping; a stiff oscillator follows the ground
-//! let sa = Spectrum::default().accelerations(&record.motion, &[0.0, 0.001, 1.0])?;
-//! assert_eq!(sa[0], pga);
-//! assert!((sa[1] / pga - 1.0).abs() < 0.1 && sa[2] < 0.1 * pga);
-//! # Ok::<(), ground_motion::GroundMotionError>(())
-//! ```
+//! # Map
 //!
 //! | item | gives |
 //! |---|---|

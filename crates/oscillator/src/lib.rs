@@ -1,32 +1,4 @@
-//! The linear oscillator under a load that is linear in time, in closed form.
-//!
-//! ```text
-//! ü + c u̇ + k u = p₀ + p₁ t
-//! ```
-//!
-//! Damping c and stiffness k are per unit mass. Stiffness may be positive, zero or negative, and damping may
-//! be below, at or above the critical one. An [`Oscillator`] gives the motion exactly, whatever the duration:
-//! [its Green's functions](Oscillator::green), [the motion after a time](Oscillator::propagate), [its Taylor
-//! series](Oscillator::series_from), and [bounds on acceleration and jerk](Oscillator::bounds). All is plain
-//! data; the crate has no dependencies.
-//!
-//! ```
-//! use oscillator::{KinematicState, Oscillator};
-//!
-//! // one second in free vibration from u = 0.01 m at rest: T = 0.5 s, 5 % of critical damping
-//! let omega = std::f64::consts::TAU / 0.5;
-//! let oscillator = Oscillator::new(2.0 * 0.05 * omega, omega * omega);
-//! // ü₀ = p₀ − c u̇₀ − k u₀
-//! let start = KinematicState { displacement: 0.01, velocity: 0.0, acceleration: -omega * omega * 0.01 };
-//! let end = oscillator.propagate(start, 0.0, 1.0);
-//! // two cycles decay by e^{−2 · 2π ξ}
-//! assert!((end.displacement / 0.01 - 0.5335).abs() < 2e-3);
-//!
-//! // two steps make one
-//! let middle = oscillator.propagate(start, 0.0, 0.3);
-//! let again = oscillator.propagate(middle, 0.0, 0.7);
-//! assert!((again.displacement - end.displacement).abs() < 1e-15);
-//! ```
+#![doc = include_str!("../README.md")]
 //!
 //! # Formulas
 //! With G the response to a unit impulse, H = ∫G and J = ∫H, and ü₀ taken from the equation itself,

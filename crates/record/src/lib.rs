@@ -1,5 +1,7 @@
-//! Rocking walls through whole earthquake records: many steps of one length, of one run
-//! ([`RecordSolver::run`]) or of many ([`Batch`]).
+#![doc = include_str!("../README.md")]
+//!
+//! # How it works
+//! [`RecordSolver::run`] moves one run, [`Batch`] many.
 //!
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made
 //! once for each branch; so are four steps. A *plain* step applies the map and checks that u at both ends is

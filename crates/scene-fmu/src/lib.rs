@@ -1,18 +1,6 @@
-//! The FMU of a scene, made from the general FMU.
+#![doc = include_str!("../README.md")]
 //!
-//! It needs no compiler: the library stays, the description keeps the variables that the scene uses, and
-//! `resources/` gets the scene and its motion. The guid ends in the scene's fingerprint, so that the library
-//! refuses to run without it.
-//!
-//! ```no_run
-//! use rocking_wall::scene::Scene;
-//! use scene_fmu::{General, of_scene};
-//!
-//! let scene = Scene::read("scenes/shaken_parapet.toml".as_ref())?;
-//! let unit = of_scene(&scene, General::open("fmu_out/wall.fmu".as_ref())?)?;
-//! std::fs::write("parapet.fmu", unit.archive.to_bytes()?)?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! The guid ends in the scene's fingerprint, so that the library refuses to run without it.
 
 mod error;
 mod general;

@@ -1,5 +1,6 @@
-//! Studies kept in folders: runs in parts, and the tables and the page that are made of them.
+#![doc = include_str!("../README.md")]
 //!
+//! # Modules
 //! ```text
 //! study ─► Folder ─► parts (Parquet), in any order, by any process ─► finish ─► tables · page
 //! ```
@@ -24,28 +25,6 @@
 //! | `page` | the page of a study |
 //! | `population` | the walls of a large study together |
 //! | `report` | all results of a complete folder |
-//!
-//! ```
-//! use study::loaded::LoadedStudy;
-//! use study_folder::{Folder, finish, work};
-//!
-//! let place = std::env::temp_dir().join(format!("study-folder-{}", std::process::id()));
-//! std::fs::create_dir_all(&place)?;
-//! let text = r#"
-//! models = ["CR"]
-//! levels = { method = "step", step = 0.5, top = 4 }
-//! records = { synthetic = { count = 3, duration = 10 } }
-//! walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
-//! "#;
-//! std::fs::write(place.join("study.toml"), text)?;
-//! let loaded = LoadedStudy::read(&place.join("study.toml"))?;
-//! let folder = Folder::of_study(&place.join("results"), &loaded)?;
-//! let parts: Vec<usize> = (0..folder.contents().parts()).collect();
-//! work(&loaded.study, &folder, &parts, 1, |_, _, _| ())?;
-//! assert!(finish(&folder, 1, || ())?.summary.contains("collapse AvgSA in g"));
-//! # std::fs::remove_dir_all(&place)?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 
 mod comparison;
 mod contents;

@@ -1,5 +1,6 @@
-//! Studies of rocking walls: many runs, and the results that they give together.
+#![doc = include_str!("../README.md")]
 //!
+//! # Modules
 //! Nothing here prints, and only [`loaded`] and `wall_table` open files. Each module uses only modules above
 //! it in this table:
 //!
