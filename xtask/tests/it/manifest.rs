@@ -1,6 +1,7 @@
 //! What the manifests promise: metadata for a registry, walls between crates, the minimum Rust version.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -59,18 +60,49 @@ fn versions_agree() {
     }
     let changelog = read("CHANGELOG.md");
     let newest = changelog.lines().find_map(|line| line.strip_prefix("## ")).unwrap();
-    assert!(newest == "Unreleased" || newest.starts_with(&format!("{version} ")), "CHANGELOG.md: {newest}");
+    assert!(newest == "Unreleased" || newest.starts_with(&format!("{version} – ")), "CHANGELOG.md: {newest}");
+    let citation = read("CITATION.cff");
+    assert!(citation.contains(&format!("\nversion: {version}\n")), "CITATION.cff has another version");
+    let date = changelog.split(&format!("\n## {version} – ")).nth(1).and_then(|rest| rest.lines().next());
+    let date = date.unwrap_or_else(|| panic!("CHANGELOG.md does not know {version}"));
+    assert!(citation.contains(&format!("\ndate-released: {date}\n")), "CITATION.cff: not of {date}");
+}
+
+/// The project has no public home yet: its address is a placeholder.
+#[test]
+fn the_address_of_the_repository_stands_in_one_place() {
+    let root = std::fs::read_to_string(crate::root().join("Cargo.toml")).unwrap();
+    let address = root.lines().find_map(|line| line.strip_prefix("repository = ")).unwrap().trim_matches('"');
+    let list =
+        Command::new("git").args(["grep", "-l", "-F", "-e", address]).current_dir(crate::root()).output();
+    assert_eq!(String::from_utf8(list.unwrap().stdout).unwrap(), "Cargo.toml\n");
 }
 
 #[test]
 fn every_crate_has_what_a_registry_shows() {
-    for package in packages(&["--no-deps"]).iter().filter(|package| package["publish"].is_null()) {
-        for key in ["description", "license", "repository", "readme", "rust_version"] {
-            assert!(package[key].is_string(), "{} has no {key}", package["name"]);
+    let kept = std::fs::read_to_string(crate::root().join("xtask/src/package.rs")).unwrap();
+    for package in packages(&["--no-deps"]) {
+        let name = package["name"].as_str().unwrap();
+        let is_published = package["publish"].is_null();
+        assert_eq!(kept.contains(&format!("\"{name}\"")), !is_published, "{name} in xtask/src/package.rs");
+        if !is_published {
+            continue;
         }
-        for key in ["keywords", "categories"] {
-            let count = package[key].as_array().unwrap().len();
-            assert!((1..=5).contains(&count), "{} has {count} {key}", package["name"]);
+        for key in ["description", "license", "repository", "rust_version"] {
+            assert!(package[key].is_string(), "{name} has no {key}");
+        }
+        for (key, longest) in [("keywords", 20), ("categories", usize::MAX)] {
+            let words = package[key].as_array().unwrap();
+            let are_short = words.iter().all(|word| word.as_str().unwrap().len() <= longest);
+            assert!((1..=5).contains(&words.len()) && are_short, "{name}: {key} {words:?}");
+        }
+        assert!(package["metadata"]["docs"]["rs"]["targets"].is_array(), "{name} says nothing to docs.rs");
+        let folder = Path::new(package["manifest_path"].as_str().unwrap()).parent().unwrap();
+        assert_eq!(package["readme"], "README.md", "{name} shows another page");
+        let page = std::fs::read_to_string(folder.join("README.md")).unwrap();
+        assert!(page.starts_with(&format!("# {name}\n")), "{name}: README.md is not its own");
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            assert!(folder.join(licence).is_file(), "{name} has no {licence}");
         }
     }
 }
