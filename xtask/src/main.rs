@@ -24,6 +24,7 @@ mod release;
 mod test;
 mod universal;
 mod wheel;
+mod workflows;
 
 use std::process::ExitCode;
 
@@ -52,6 +53,7 @@ The jobs of the project.
   cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` and
                                    wheels for each platform, the source distribution, components, notices,
                                    checksums; TAG is checked; --platforms as for fmu, to compare a part
+  cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
   cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
                                    functions 10^6 times at random, also under AddressSanitizer (nightly)
   cargo xtask mutants [--count N] [--seed S] [PATH...]
@@ -103,6 +105,7 @@ fn main() -> ExitCode {
         ["release", "--platforms", names] => release::run(None, names),
         ["release", tag] => release::run(Some(tag), fmu::PORTABLE),
         ["fuzz"] => fuzz::run(),
+        ["workflows"] => workflows::check(),
         ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),
