@@ -32,6 +32,12 @@ def test_other_values():
         rw.Wall(solver="exact", damping_model="constant_ratio")
 
 
+def test_an_installation_without_the_general_fmu(tmp_path, monkeypatch):
+    monkeypatch.setattr("rocking_wall._walls.files", lambda package: tmp_path)
+    with pytest.raises(FileNotFoundError, match="run `cargo xtask fmu` and pass base='fmu_out/wall.fmu'"):
+        rw.package(rw.Wall(), tmp_path / "scene.fmu")
+
+
 def test_files(tmp_path):
     for read in (rw.read_record, rw.Wall.from_toml, rw.Study.from_toml):
         with pytest.raises(FileNotFoundError, match="none.toml: cannot be read"):

@@ -403,6 +403,11 @@ def package(
     wall = scene if isinstance(scene, Wall) else Wall.from_toml(scene)
     if base is not None:
         return wall._native.package(fspath(path), fspath(base))
+    if not (files(__package__) / "wall.fmu").is_file():
+        raise FileNotFoundError(
+            "this installation has no wall.fmu, because pip has built it from a checkout: install the wheel "
+            "of `cargo xtask wheel`, or run `cargo xtask fmu` and pass base='fmu_out/wall.fmu'"
+        )
     with as_file(files(__package__) / "wall.fmu") as general:
         return wall._native.package(fspath(path), fspath(general))
 
