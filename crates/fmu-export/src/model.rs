@@ -12,6 +12,9 @@ use std::path::Path;
 /// The layer has checked call order, references, causality, limits and finiteness before it calls any of
 /// these, and keeps the time. `Clone` is what resets an instance and saves its state, so a model is plain
 /// data; large constant data belongs in an `Arc`.
+///
+/// A function with a default need not be written by a model that has no use for it. Those of Integer,
+/// Boolean and String variables do not compile for a model whose description has such variables.
 pub trait Model: Clone + Send + Sized + 'static {
     /// Its Real variables.
     type Real: VariableId;
@@ -27,7 +30,8 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The `modelIdentifier` of the description.
     const IDENTIFIER: &'static str;
     /// The file under `resources/` whose hash is the second half of a guid `{base-payload}`; without folders.
-    const PAYLOAD: &'static str;
+    /// By default no such guid is accepted.
+    const PAYLOAD: &'static str = "";
 
     /// A model with its start values.
     ///
@@ -38,48 +42,73 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The value of a Real variable, in its unit.
     fn real(&self, variable: Self::Real) -> f64;
     /// The value of an Integer or Enumeration variable.
-    fn integer(&self, variable: Self::Integer) -> i32;
+    fn integer(&self, _variable: Self::Integer) -> i32 {
+        const { assert!(Self::Integer::ALL.is_empty(), "Model::integer is to be written") }
+        unreachable!("there is no such variable")
+    }
     /// The value of a Boolean variable.
-    fn boolean(&self, variable: Self::Boolean) -> bool;
+    fn boolean(&self, _variable: Self::Boolean) -> bool {
+        const { assert!(Self::Boolean::ALL.is_empty(), "Model::boolean is to be written") }
+        unreachable!("there is no such variable")
+    }
     /// The value of a String variable.
-    fn text(&self, variable: Self::Text) -> &str;
+    fn text(&self, _variable: Self::Text) -> &str {
+        const { assert!(Self::Text::ALL.is_empty(), "Model::text is to be written") }
+        unreachable!("there is no such variable")
+    }
 
     /// Sets a Real parameter or input, in its unit. Setting an input also clears its derivative.
     fn set_real(&mut self, variable: Self::Real, value: f64);
     /// Sets an Integer or Enumeration parameter or input.
-    fn set_integer(&mut self, variable: Self::Integer, value: i32);
+    fn set_integer(&mut self, _variable: Self::Integer, _value: i32) {
+        const { assert!(Self::Integer::ALL.is_empty(), "Model::set_integer is to be written") }
+    }
     /// Sets a Boolean parameter or input.
-    fn set_boolean(&mut self, variable: Self::Boolean, value: bool);
+    fn set_boolean(&mut self, _variable: Self::Boolean, _value: bool) {
+        const { assert!(Self::Boolean::ALL.is_empty(), "Model::set_boolean is to be written") }
+    }
     /// Sets a String parameter or input.
-    fn set_text(&mut self, variable: Self::Text, value: &str);
+    fn set_text(&mut self, _variable: Self::Text, _value: &str) {
+        const { assert!(Self::Text::ALL.is_empty(), "Model::set_text is to be written") }
+    }
 
     /// Sets the first time derivative of a continuous input for the next step, in its unit per second.
-    /// False, and nothing changes, if this input takes none.
-    fn set_input_derivative(&mut self, variable: Self::Real, value: f64) -> bool;
+    /// False, and nothing changes, if this input takes none: the default.
+    fn set_input_derivative(&mut self, _variable: Self::Real, _value: f64) -> bool {
+        false
+    }
 
-    /// The first time derivative of an output, in its unit per second. None if it has none.
-    fn output_derivative(&self, variable: Self::Real) -> Option<f64>;
+    /// The first time derivative of an output, in its unit per second. None if it has none: the default.
+    fn output_derivative(&self, _variable: Self::Real) -> Option<f64> {
+        None
+    }
 
     /// The partial derivative ∂unknown/∂known, in the quotient of their units. `None` if there is no such
-    /// derivative.
-    fn directional_derivative(&self, unknown: Self::Real, known: Self::Real) -> Option<f64>;
+    /// derivative: the default.
+    fn directional_derivative(&self, _unknown: Self::Real, _known: Self::Real) -> Option<f64> {
+        None
+    }
 
     /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before
     /// gets, and before [`initialize`](Self::initialize).
     ///
     /// # Errors
     /// When the parameters contradict each other.
-    fn calculate(&mut self) -> Result<(), Failure>;
+    fn calculate(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
 
     /// Takes the start, stop and tolerance of the simulation. Not called if the importer leaves them out: the
     /// simulation then starts at 0 s, without a stop time or a tolerance.
-    fn setup_experiment(&mut self, experiment: Experiment);
+    fn setup_experiment(&mut self, _experiment: Experiment) {}
 
     /// Ends Initialization Mode: checks what relates several variables and computes the start state.
     ///
     /// # Errors
     /// When the model cannot start; the message names variables, values and remedy.
-    fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure>;
+    fn initialize(&mut self, _log: &mut Log<'_>) -> Result<(), Failure> {
+        Ok(())
+    }
 
     /// Computes one step. It must be bounded, and should not allocate. A model exported for Model Exchange
     /// alone is never asked.
@@ -117,13 +146,15 @@ pub trait ModelExchange: Model {
     const EVENT_INDICATORS: usize;
 
     /// Sets the time \[s\]. Solvers go back and forth, and beyond the stop time.
-    fn set_time(&mut self, time: f64);
+    fn set_time(&mut self, _time: f64) {}
 
     /// Sets the states, and leaves the discrete state as it is.
     fn set_states(&mut self, states: &[f64]);
 
     /// The magnitude of a state, above 0, to which the solver relates its tolerance; in its unit.
-    fn nominal(&self, state: Self::Real) -> f64;
+    fn nominal(&self, _state: Self::Real) -> f64 {
+        1.0
+    }
 
     /// Writes the event indicators: an event is where one changes its sign. None is zero after an update.
     fn event_indicators(&self, indicators: &mut [f64]);
@@ -140,7 +171,9 @@ pub trait ModelExchange: Model {
     ///
     /// # Errors
     /// When the model cannot go on.
-    fn complete_step(&mut self, log: &mut Log<'_>) -> Result<bool, Failure>;
+    fn complete_step(&mut self, _log: &mut Log<'_>) -> Result<bool, Failure> {
+        Ok(false)
+    }
 }
 
 /// What an update in Event Mode did (`fmi2EventInfo`, `fmi3UpdateDiscreteStates`). The model never ends the
