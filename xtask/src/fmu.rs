@@ -34,7 +34,11 @@ pub(crate) const WALL: Unit =
 pub(crate) const FLOOR: Unit =
     Unit { package: "rocking-floor", file: "floor.fmu", description: "crates/floor/modelDescription" };
 
-/// All FMUs.
+/// The example of the export layer.
+pub(crate) const BALL: Unit =
+    Unit { package: "bouncing-ball", file: "ball.fmu", description: "examples/fmu" };
+
+/// All FMUs of the project.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 
 /// The platforms of portable FMUs and of releases.

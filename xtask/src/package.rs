@@ -5,7 +5,8 @@ use std::time::Instant;
 use crate::command::{Result, cargo, succeed, target};
 
 /// Packages that are not published: `publish = false` in their manifests, which a test compares.
-const KEPT: [&str; 4] = ["conformance", "rocking-playground", "rocking-wall-python", "xtask"];
+const KEPT: [&str; 5] =
+    ["bouncing-ball", "conformance", "rocking-playground", "rocking-wall-python", "xtask"];
 
 /// Packs every crate that is published into `target/package/`, in the order of their dependencies, and builds
 /// each from its archive alone against the archives before it.

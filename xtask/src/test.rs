@@ -135,6 +135,14 @@ fn packed(unit: fmu::Unit) -> Result<PathBuf> {
     fmu::pack(unit, &[(fmu::host(), library)], &programs())
 }
 
+/// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
+fn example() -> Result<PathBuf> {
+    succeed(cargo().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
+    let [beginning, ending] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
+    let library = programs().join(format!("{beginning}bouncing_ball{ending}"));
+    fmu::pack(fmu::BALL, &[(fmu::host(), library)], &programs())
+}
+
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of(TESTS.0, TESTS.1)?;
@@ -144,6 +152,7 @@ fn python() -> Result<()> {
     pytest.arg("tests/python");
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
+    pytest.env("ROCKING_WALL_BALL", example()?);
     if playground::check_target().is_ok() {
         pytest.env("ROCKING_WALL_PLAYGROUND", playground::build()?);
     }

@@ -87,3 +87,16 @@ fn modules_are_listed_as_in_the_source() {
         assert_eq!(modules(table, "| "), listed, "{title}");
     }
 }
+
+/// The page of the export layer holds the example, so that a reader needs nothing else.
+#[test]
+fn the_readme_of_the_export_layer_is_its_example() {
+    let read = |name: &str| std::fs::read_to_string(root().join(name)).unwrap();
+    let page = read("crates/fmu-export/README.md");
+    for (language, file) in [("xml", "modelDescription.xml"), ("rust", "build.rs"), ("rust", "src/lib.rs")] {
+        let text = read(&format!("examples/fmu/{file}"));
+        assert!(page.contains(&format!("```{language}\n{text}```\n")), "README.md has another {file}");
+    }
+    let lines = |name: &str| read(&format!("examples/fmu/{name}")).lines().count();
+    assert!(lines("modelDescription.xml") + lines("build.rs") + lines("src/lib.rs") < 150, "it is long");
+}
