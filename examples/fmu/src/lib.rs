@@ -4,7 +4,6 @@ use fmu_export::{Environment, Failure, Log, Model, ModelExchange, StateCodec, St
 
 include!(concat!(env!("OUT_DIR"), "/choices.rs"));
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));
-
 const GRAVITY: f64 = 9.81; // m/s²
 
 /// The parameters of the description, by their names.
@@ -24,9 +23,8 @@ struct Ball {
 
 impl Ball {
     fn bounce(&mut self, log: &mut Log<'_>) {
-        // just above the ground: no event indicator may be zero after an event
-        (self.h, self.v) = (f64::MIN_POSITIVE, -self.parameters.e * self.v);
-        self.rests = self.v < 1e-3; // m/s
+        (self.h, self.v) = (0.0, -self.parameters.e * self.v);
+        self.rests = self.v < 0.01; // m/s
         log.event(format_args!("the ball bounces with {} m/s", self.v));
     }
 
@@ -74,7 +72,6 @@ impl Model for Ball {
 
     fn do_step(&mut self, step: Step, log: &mut Log<'_>) -> Result<Option<f64>, Failure> {
         let mut left = step.duration;
-        // e <= 0.95: every bounce is slower
         while !self.rests && left > 0.0 {
             // h + v t - g t^2/2 = 0
             let impact = (self.v + (self.v * self.v + 2.0 * GRAVITY * self.h).sqrt()) / GRAVITY;
@@ -104,15 +101,19 @@ impl ModelExchange for Ball {
     }
 
     fn event_indicators(&self, indicators: &mut [f64]) {
-        indicators[0] = if self.rests { 1.0 } else { self.h };
+        indicators[0] = self.h + 1e-9; // a nanometre lower: none may be zero after an event
     }
 
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
-        let bounces = !self.rests && self.v < 0.0 && self.h < 1e-9;
+        let bounces = self.h < 0.0 && self.v < 0.0;
         if bounces {
             self.bounce(log);
         }
         Ok(Update { states_changed: bounces, ..Update::default() })
+    }
+
+    fn complete_step(&mut self, _: &mut Log<'_>) -> Result<bool, Failure> {
+        Ok(self.h < 0.0 && self.v < 0.0) // a solver may step over short bounces
     }
 }
 
