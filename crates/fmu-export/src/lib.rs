@@ -2,10 +2,13 @@
 //!
 //! # How a model becomes an FMU
 //!
+//! The page of the crate has a complete example, a bouncing ball with events.
+//!
 //! 1. Describe its variables in a `modelDescription.xml`; `fmu-export-build` turns that into enums that
 //!    implement [`VariableId`], and a guid.
 //! 2. Implement [`Model`]: get and set by exhaustive `match` over the enums, so that a variable described but
-//!    not wired does not compile; compute a step; write and read the state.
+//!    not wired does not compile; compute a step; write and read the state. What a model has no use for has a
+//!    default.
 //! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
 //! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be
 //!    `"unwind"`. A model for both kinds is exported for FMI 3.0 as well, by the same library.
@@ -42,25 +45,13 @@
 //!     type Real = Real; type Integer = None; type Boolean = None; type Text = None;
 //!     const GUID: &'static str = "{00000000000000000000000000000001}";
 //!     const IDENTIFIER: &'static str = "clock";
-//!     const PAYLOAD: &'static str = "clock.toml";
 //!
 //!     fn instantiate(_: Environment<'_>, _: &mut Log<'_>) -> Result<Self, Failure> {
 //!         Ok(Self { count: 0.0 })
 //!     }
 //!     fn real(&self, variable: Real) -> f64 { match variable { Real::Count => self.count } }
-//!     fn integer(&self, variable: None) -> i32 { match variable {} }
-//!     fn boolean(&self, variable: None) -> bool { match variable {} }
-//!     fn text(&self, variable: None) -> &str { match variable {} }
 //!     fn set_real(&mut self, variable: Real, _: f64) { match variable { Real::Count => {} } }
-//!     fn set_integer(&mut self, variable: None, _: i32) { match variable {} }
-//!     fn set_boolean(&mut self, variable: None, _: bool) { match variable {} }
-//!     fn set_text(&mut self, variable: None, _: &str) { match variable {} }
-//!     fn set_input_derivative(&mut self, _: Real, _: f64) -> bool { false }
 //!     fn output_derivative(&self, _: Real) -> Option<f64> { Some(1.0) }
-//!     fn directional_derivative(&self, _: Real, _: Real) -> Option<f64> { Option::None }
-//!     fn calculate(&mut self) -> Result<(), Failure> { Ok(()) }
-//!     fn setup_experiment(&mut self, _: Experiment) {}
-//!     fn initialize(&mut self, _: &mut Log<'_>) -> Result<(), Failure> { Ok(()) }
 //!     fn do_step(&mut self, step: Step, _: &mut Log<'_>) -> Result<Option<f64>, Failure> {
 //!         self.count += step.duration;
 //!         Ok(None)

@@ -15,6 +15,39 @@ use std::path::Path;
 ///
 /// A function with a default need not be written by a model that has no use for it. Those of Integer,
 /// Boolean and String variables do not compile for a model whose description has such variables.
+///
+/// ```compile_fail,E0080
+/// # use fmu_export::*;
+/// # macro_rules! variables { ($name:ident, $all:expr, $($item:ident)?) => {
+/// #     #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// #     enum $name { $($item)? }
+/// #     impl VariableId for $name {
+/// #         const ALL: &'static [Self] = $all;
+/// #         fn variable(self) -> &'static Variable { unimplemented!() }
+/// #         fn from_reference(_: u32) -> Option<Self> { None }
+/// #     }
+/// # } }
+/// # variables!(Count, &[Self::Bounces], Bounces);
+/// # variables!(Nothing, &[],);
+/// # #[derive(Clone)]
+/// # struct Counter;
+/// impl Model for Counter {
+///     type Integer = Count; // and neither `integer` nor `set_integer`
+/// #     type Real = Nothing;
+/// #     type Boolean = Nothing;
+/// #     type Text = Nothing;
+/// #     const GUID: &'static str = "";
+/// #     const IDENTIFIER: &'static str = "";
+/// #     fn instantiate(_: Environment<'_>, _: &mut Log<'_>) -> Result<Self, Failure> { Ok(Self) }
+/// #     fn real(&self, variable: Nothing) -> f64 { match variable {} }
+/// #     fn set_real(&mut self, variable: Nothing, _: f64) { match variable {} }
+/// #     fn do_step(&mut self, _: Step, _: &mut Log<'_>) -> Result<Option<f64>, Failure> { Ok(None) }
+/// #     fn transfer_state(&mut self, _: &mut StateCodec<'_>) -> Result<(), Failure> { Ok(()) }
+///     // …
+/// }
+/// # export_fmu!(Counter);
+/// # fn main() {}
+/// ```
 pub trait Model: Clone + Send + Sized + 'static {
     /// Its Real variables.
     type Real: VariableId;
