@@ -30,8 +30,13 @@ pub(crate) fn run(unit: Option<&str>) -> Result<()> {
 /// As [`run`], or if a platform is unknown.
 pub(crate) fn portable(names: &str) -> Result<()> {
     let [unit, _] = &fmu::build_all(Some(names))?[..] else { unreachable!("wall and floor") };
-    for platform in Platform::named(names)?.into_iter().filter(|platform| is_linked_here(platform)) {
-        println!("{}", build("release", unit, Some(platform))?.display());
+    for platform in Platform::named(names)? {
+        if is_linked_here(platform) {
+            println!("{}", build("release", unit, Some(platform))?.display());
+        } else {
+            let unit = unit.display();
+            println!("not built: that for Windows: run `cargo xtask wheel --fmu FILE` there with {unit}");
+        }
     }
     Ok(())
 }
