@@ -10,9 +10,6 @@ const KEPT: [&str; 5] =
 
 /// Packs every crate that is published into `target/package/`, in the order of their dependencies, and builds
 /// each from its archive alone against the archives before it.
-///
-/// # Errors
-/// If files are not committed, or a crate lacks a file that it needs.
 pub(crate) fn run() -> Result<()> {
     let start = Instant::now();
     let mut package = cargo();

@@ -17,9 +17,6 @@ const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", 
 /// for all but Windows and as sources, the list of components (SBOM), the notices of third parties and the
 /// checksums into `target/release-files/`, and the version's section of the changelog beside it. The same
 /// commit and compiler give the same bytes.
-///
-/// # Errors
-/// If files are not committed, `tag` is not that of the version, or something does not build.
 pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
     let notes = notes()?;
     if let Some(tag) = tag.filter(|tag| tag.strip_prefix('v') != Some(VERSION)) {

@@ -15,9 +15,6 @@ const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
 
 /// Builds the wheel for this machine with a general FMU, or one that is built, and prints its path.
-///
-/// # Errors
-/// If the FMU or the wheel does not build.
 pub(crate) fn run(unit: Option<&str>) -> Result<()> {
     let unit = unit.map_or_else(|| fmu::build(fmu::WALL), |path| Ok(root().join(path)))?;
     println!("{}", build("release", &unit, None)?.display());
@@ -25,9 +22,6 @@ pub(crate) fn run(unit: Option<&str>) -> Result<()> {
 }
 
 /// Builds the wheel for each of some platforms, all with the FMU of these platforms, and prints their paths.
-///
-/// # Errors
-/// As [`run`], or if a platform is unknown.
 pub(crate) fn portable(names: &str) -> Result<()> {
     let [unit, _] = &fmu::build_all(Some(names))?[..] else { unreachable!("wall and floor") };
     for platform in Platform::named(names)? {
@@ -49,9 +43,6 @@ pub(crate) fn is_linked_here(platform: &Platform) -> bool {
 
 /// Builds the wheel with a profile and a general FMU, for this machine or for a platform, and returns its
 /// path.
-///
-/// # Errors
-/// If it does not build.
 pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
     let folder = target().join("wheels").join(platform.map_or(profile, |platform| platform.fmi3));
     let mut build = maturin("build", unit)?;
@@ -70,9 +61,6 @@ pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> 
 }
 
 /// Packs the sources, with a general FMU, and returns the path of the source distribution.
-///
-/// # Errors
-/// If maturin fails.
 pub(crate) fn sources(unit: &Path) -> Result<PathBuf> {
     written(&mut maturin("sdist", unit)?, &target().join("wheels/sources"), "gz")
 }
@@ -101,9 +89,6 @@ fn written(job: &mut Command, folder: &Path, ending: &str) -> Result<PathBuf> {
 }
 
 /// Installs the wheel into an environment that has what it needs.
-///
-/// # Errors
-/// If pip fails.
 pub(crate) fn install(wheel: &Path, environment: &Environment) -> Result<()> {
     let mut pip = environment.pip_install()?;
     output(pip.args(["--no-index", "--no-deps", "--force-reinstall"]).arg(wheel), "see its message above")

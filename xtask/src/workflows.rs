@@ -4,9 +4,6 @@ use crate::command::{Result, find, program, succeed};
 use crate::python::Environment;
 
 /// Checks permissions, pins and injections of the workflows, and their syntax.
-///
-/// # Errors
-/// If a checker cannot be installed or finds something.
 pub(crate) fn check() -> Result<()> {
     let mut zizmor = Environment::of("workflows", "xtask/locks/workflows.lock")?.program("zizmor");
     zizmor.args(["--offline", "--no-progress", "--strict-collection", "--persona=pedantic", ".github"]);
