@@ -85,7 +85,6 @@ fn main() -> ExitCode {
         ["fmu", "--portable"] => fmu::build_all(Some(fmu::PORTABLE)).map(drop),
         ["fmu", "--platforms", names] => fmu::build_all(Some(names)).map(drop),
         ["playground"] => playground::build().map(drop),
-        ["wheel"] => wheel::run(),
         ["book"] => book::run(),
         ["wheel"] => wheel::run(None),
         ["wheel", "--fmu", unit] => wheel::run(Some(unit)),
