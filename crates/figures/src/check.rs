@@ -1,9 +1,10 @@
-//! `ζ_E` of a check over a parameter of the wall.
+//! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
 
-use study::circolare::{Found, Sought};
+use study::circolare::{CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought};
 
-use crate::palette::{BLUE, DARK_GREY, RED};
+use crate::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
 use crate::plot::{Axis, Look, Plot, Series};
+use crate::points::{simplified, within};
 
 /// Draws `ζ_E` over the values that were tried up to three times the one found, the limit 1, and that value.
 pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
@@ -26,4 +27,117 @@ pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
         Axis::over("ζ_E", [0.0, 1.05 * top]),
     ];
     Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
+}
+
+/// Size of spectra and of capacity over demand \[px\].
+const SIZE: [f64; 2] = [820.0, 400.0];
+/// Steps of a spectrum along the periods.
+const STEPS: u32 = 400;
+/// Mark of what a wall can take.
+pub const CAPACITY: Mark = Mark::Circle;
+/// Mark of what is demanded.
+pub const DEMAND: Mark = Mark::Triangle;
+
+/// The colour of a limit state.
+pub fn color(state: LimitState) -> &'static str {
+    match state {
+        LimitState::Sld => GREEN,
+        LimitState::Slv => BLUE,
+        LimitState::Slc => RED,
+    }
+}
+
+/// A demand as it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn<'a> {
+    /// Limit state.
+    pub state: LimitState,
+    /// Its demand.
+    pub demand: &'a Demand,
+    /// ξ \[-\].
+    pub damping: f64,
+    /// Period to mark; 0 for a rigid wall \[s\].
+    pub period: Option<f64>,
+}
+
+/// Periods of a spectrum from 0 to `last`.
+fn periods(last: f64) -> impl Iterator<Item = f64> {
+    (0..=STEPS).map(move |step| last * f64::from(step) / f64::from(STEPS))
+}
+
+/// Draws spectra over the period up to `last` \[s\], or where given points end.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, CheckError> {
+    let (mut lines, mut marks, mut top) = (Vec::new(), Vec::new(), 0.0_f64);
+    for Drawn { state, demand, damping, period } in demands {
+        let at = |period: f64| Ok((period, demand.acceleration(*state, period, *damping)?));
+        let end = last.min(demand.last_period());
+        let points = periods(end).map(at).collect::<Result<Vec<_>, CheckError>>()?;
+        top = points.iter().map(|point| point.1).fold(top, f64::max);
+        lines.push((color(*state), points));
+        if let Some(period) = period {
+            let place = vec![at(*period)?];
+            marks.push(Series { look: Look::Marks(DEMAND), ..Series::line(color(*state), 5.0, place) });
+        }
+    }
+    let axes = [Axis::over("T (s)", [0.0, last]), Axis::over(label, [0.0, 1.08 * top])];
+    let [width, height] = SIZE;
+    let scale = [width / last, height / top];
+    let lines = lines.into_iter().map(|(color, points)| Series::line(color, 1.8, simplified(&points, scale)));
+    Ok(Plot::new(SIZE, axes, lines.chain(marks).collect()))
+}
+
+/// Draws the curve a(d) of a side over the demands of SLV and SLC, in acceleration and displacement: the
+/// secants to `d_SLV` and `d_SLC` (dashed), the rays of `T_SLV` and `T_SLC` (dotted) and the demands on them.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+pub fn over_demand(side: &SideVerdict, demands: &[Drawn<'_>]) -> Result<Plot, CheckError> {
+    let check = |state: LimitState| match state {
+        LimitState::Sld => None,
+        LimitState::Slv => side.slv,
+        LimitState::Slc => side.slc,
+    };
+    // the demand on the ray of its period
+    let place = |check: &DisplacementCheck| {
+        (check.demand, check.demand * (std::f64::consts::TAU / check.period).powi(2))
+    };
+    let shown = demands.iter().filter_map(|drawn| Some((drawn, check(drawn.state)?)));
+    let shown: Vec<(&Drawn<'_>, DisplacementCheck)> = shown.collect();
+    let ends = shown.iter().map(|(_, check)| place(check)).chain(side.corners.iter().copied());
+    let (right, top) = ends.fold((0.0_f64, 0.0_f64), |(d, a), end| (d.max(end.0), a.max(end.1)));
+    // the plateau of a spectrum is far above what the wall takes
+    let (right, top) = (1.1 * right, 1.35 * top);
+    let [width, height] = SIZE;
+    let scale = [width / right, height / top];
+    let (mut series, mut marks) = (Vec::new(), Vec::new());
+    for (drawn, check) in shown {
+        let Drawn { state, demand, damping, .. } = *drawn;
+        let color = color(state);
+        let last = demand.last_period().min(2.0 * check.period);
+        let at = |period: f64| {
+            let displacement = demand.spectral_displacement(state, period, damping)?;
+            let acceleration = displacement * (std::f64::consts::TAU / period).powi(2);
+            Ok((displacement, acceleration))
+        };
+        let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
+        for piece in within(&points, [[0.0, right], [0.0, top]]) {
+            series.push(Series::line(color, 1.3, simplified(&piece, scale)));
+        }
+        let ray = |look, to| Series { look, ..Series::line(color, 1.2, vec![(0.0, 0.0), to]) };
+        series.push(ray(Look::Dashed, (check.d, check.a)));
+        series.push(ray(Look::Dotted, place(&check)));
+        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::line(color, 5.0, vec![at]) };
+        marks.extend([mark(CAPACITY, (check.d, check.a)), mark(DEMAND, place(&check))]);
+    }
+    series.push(Series::line(BLACK, 2.2, side.corners.clone()));
+    series.extend(marks);
+    let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
+    for line in &mut series {
+        line.points = line.points.iter().copied().map(in_mm).collect();
+    }
+    let axes = [Axis::over("d, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
+    Ok(Plot::new(SIZE, axes, series))
 }

@@ -1,7 +1,7 @@
 //! The static checks of a wall, side by side, and what governs.
 
 use rocking_wall::scene::Floors;
-use rocking_wall::wall::{Parameters, Tie, Wall};
+use rocking_wall::wall::{Parameters, Wall};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
@@ -11,7 +11,7 @@ use super::floor::Mode;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, UseClass};
 use super::verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, TieBreak, Verdict,
 };
 use super::{CODE, LimitState, Records};
 
@@ -54,11 +54,9 @@ pub fn check(
 ) -> Result<Verdict, CheckError> {
     let wall = Wall::new(parameters)?;
     let mut warnings = super::warnings::of_statement(statement, floors, &wall);
-    let mut demands = [const { None }; 3];
-    for given in statement.states.iter().flatten() {
-        let demand = demand(given, floors, &wall, records)?;
-        warnings.extend(super::warnings::of_demand(given.state, &demand));
-        demands[given.state as usize] = Some(demand);
+    let demands = demands(&wall, floors, statement, records)?;
+    for (state, demand) in LimitState::ALL.into_iter().zip(&demands) {
+        warnings.extend(demand.iter().flat_map(|demand| super::warnings::of_demand(state, demand)));
     }
     let mut sides = [None, None];
     for sign in wall.sides() {
@@ -78,8 +76,24 @@ pub fn check(
     Ok(Verdict { code: CODE, passed, governs, sides, dynamic, warnings })
 }
 
-/// Makes the demand of a limit state.
-pub(super) fn demand(
+/// Makes the demands of SLD, SLV and SLC at the place of a wall; `None` for one that is not stated.
+///
+/// # Errors
+/// [`CheckError`] of a statement that is missing, or of a record.
+pub fn demands(
+    wall: &Wall,
+    floors: Option<&Floors>,
+    statement: &Statement,
+    records: &Records,
+) -> Result<[Option<Demand>; 3], CheckError> {
+    let mut demands = [const { None }; 3];
+    for given in statement.states.iter().flatten() {
+        demands[given.state as usize] = Some(demand(given, floors, wall, records)?);
+    }
+    Ok(demands)
+}
+
+fn demand(
     given: &StateStatement,
     floors: Option<&Floors>,
     wall: &Wall,
@@ -161,6 +175,9 @@ fn side(
         slv_q,
         slv,
         slc,
+        acting_force: curve.acting,
+        pushed_weight: curve.pushed_weight,
+        tie_break: curve.tie_break(),
         corners: curve.corners(),
     })
 }
@@ -182,7 +199,7 @@ fn activation(
 
 /// Share of the largest a that a curve loses where a tie breaks, above which that displacement is `d_SLV`,
 /// C8.7.1.2.1.6 \[-\].
-const LARGEST_LOSS: f64 = 0.5;
+pub const LARGEST_LOSS: f64 = 0.5;
 
 /// Returns the displacement u of a limit state, and whether the tie breaks there, C8.7.1.2.1.6 \[m\].
 fn limit(curve: &Curve<'_>, given: &StateStatement) -> Result<(f64, bool), CheckError> {
@@ -195,15 +212,10 @@ fn limit(curve: &Curve<'_>, given: &StateStatement) -> Result<(f64, bool), Check
         return Ok((of_curve.min(local), false));
     }
     let of_curve = 0.40 * curve.zero;
-    let Some((tie, breaks)) = curve.tie().and_then(|tie| Some((tie, tie.strength_displacement()?))) else {
-        return Ok((of_curve, false));
-    };
-    let from = curve.elastic.displacement / curve.stretch;
-    let corners = [from, Tie::onset(tie), breaks];
-    let reached = corners.into_iter().filter(|u| (from..=breaks).contains(u));
-    let largest = reached.map(|u| curve.tied(u)).fold(0.0, f64::max);
-    let loss = (curve.tied(breaks) - curve.own(breaks)) / largest;
-    Ok(if breaks < of_curve && loss > LARGEST_LOSS { (breaks, true) } else { (of_curve, false) })
+    Ok(match curve.tie_break() {
+        Some(TieBreak { u, loss, .. }) if u < of_curve && loss > LARGEST_LOSS => (u, true),
+        _ => (of_curve, false),
+    })
 }
 
 fn displacement(

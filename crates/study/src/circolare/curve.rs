@@ -21,6 +21,7 @@ use rocking_wall::wall::{Kinematics, Parameters, Tie, Wall};
 use super::error::CheckError;
 use super::statement::Statement;
 use super::table::Activation;
+use super::verdict::TieBreak;
 
 /// κ of [C8.7.1.7] for a cantilever and for vertical bending \[-\].
 const CANTILEVER: f64 = 6.2;
@@ -44,8 +45,10 @@ pub(super) struct Curve<'a> {
     activation: Activation,
     confidence_factor: f64,
     /// Σ (P + Q) δ over the work of F per unit of u \[N\].
-    pushed_weight: f64,
+    pub(super) pushed_weight: f64,
     gravity: f64,
+    /// `F_act`, the force at u = 0 of the line from `a_0` to `d_0` \[N\].
+    pub(super) acting: f64,
     /// d/u \[-\].
     pub(super) stretch: f64,
     /// M* \[kg\].
@@ -95,6 +98,7 @@ impl<'a> Curve<'a> {
             confidence_factor: statement.confidence_factor,
             pushed_weight,
             gravity,
+            acting,
             stretch,
             mass: (body.weight + moved) / gravity,
             alpha0: acting / pushed_weight,
@@ -149,6 +153,19 @@ impl<'a> Curve<'a> {
         at.sort_by(f64::total_cmp);
         at.dedup();
         at.into_iter().map(|u| (self.stretch * u, self.tied(u))).collect()
+    }
+
+    /// What the curve loses where its tie breaks, over its largest a from the end of the elastic branch to
+    /// there; `None` without a tie that breaks.
+    pub(super) fn tie_break(&self) -> Option<TieBreak> {
+        let tie = self.tie()?;
+        let breaks = tie.strength_displacement()?;
+        let from = self.elastic.displacement / self.stretch;
+        let corners = [from, tie.onset(), breaks];
+        let reached = corners.into_iter().filter(|u| (from..=breaks).contains(u));
+        let largest = reached.map(|u| self.tied(u)).fold(0.0, f64::max);
+        let [before, after] = [self.tied(breaks), self.own(breaks)];
+        Some(TieBreak { u: breaks, before, after, largest, loss: (before - after) / largest })
     }
 
     fn own_force(&self, u: f64) -> f64 {

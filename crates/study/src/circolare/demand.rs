@@ -15,9 +15,9 @@ pub const MEAN_COUNTS_FROM: usize = 7;
 /// Periods at which the largest `S_d` between T0 and `T_SLV` is searched.
 const SEARCHED: u32 = 200;
 
-/// A demand.
+/// What a limit state demands at the place of a wall.
 #[derive(Clone, Debug)]
-pub(super) enum Demand {
+pub enum Demand {
     /// On the ground, NTC 3.2.3.2.
     Ground(GroundSpectrum),
     /// At a height, C7.2.3.
@@ -41,7 +41,7 @@ pub(super) struct DisplacementDemand {
 
 impl Demand {
     /// The acceleration at T = 0: `a_g` S, or `a_Z` \[m/s²\].
-    pub(super) fn peak(&self) -> f64 {
+    pub fn peak(&self) -> f64 {
         match self {
             Self::Ground(ground) => ground.acceleration(0.0, 0.05),
             Self::Floor(floor) => floor.peak_acceleration(),
@@ -50,8 +50,19 @@ impl Demand {
         }
     }
 
+    /// The longest period that it has a value for; infinite where there is no end \[s\].
+    pub fn last_period(&self) -> f64 {
+        match self {
+            Self::Points(points, _) => points[points.len() - 1].0,
+            Self::Ground(_) | Self::Floor(_) | Self::Records(_) => f64::INFINITY,
+        }
+    }
+
     /// The acceleration at a period, of the damping ξ \[m/s²\].
-    pub(super) fn acceleration(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
+    ///
+    /// # Errors
+    /// [`CheckError::Damping`] and [`CheckError::Period`] of points, [`CheckError::Motion`] of records.
+    pub fn acceleration(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
         match self {
             _ if period == 0.0 => Ok(self.peak()),
             Self::Ground(ground) => Ok(ground.acceleration(period, xi)),
@@ -67,6 +78,23 @@ impl Demand {
                 let spectrum = Spectrum::new(xi, Maxima::Everywhere)?;
                 let at = |motion| spectrum.acceleration(motion, period);
                 Ok(combined(records.iter().map(at).collect::<Result<_, _>>()?))
+            }
+        }
+    }
+
+    /// `S_d` at a period, of the damping ξ, with both terms of [C8.7.1.12] \[m\].
+    ///
+    /// # Errors
+    /// Those of [`acceleration`](Self::acceleration).
+    pub fn spectral_displacement(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
+        match self {
+            Self::Ground(ground) => Ok(ground.displacement(period, xi)),
+            Self::Floor(floor) => {
+                let (first, second) = floor.displacement(period, xi);
+                Ok(second.map_or(first, |second| first.max(second)))
+            }
+            Self::Points(..) | Self::Records(_) => {
+                Ok(self.acceleration(state, period, xi)? * (period / TAU).powi(2))
             }
         }
     }

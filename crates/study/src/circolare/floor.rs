@@ -102,8 +102,8 @@ impl FloorSpectrum {
         (at(period, period), (period > B * first).then(|| at(first, B * first)))
     }
 
-    /// `a_Z`,k of [C7.2.7] \[m/s²\].
-    fn mode_acceleration(&self, mode: &Mode) -> f64 {
+    /// `a_Z`,k of a mode, [C7.2.7] \[m/s²\].
+    pub fn mode_acceleration(&self, mode: &Mode) -> f64 {
         // 0.0004 ξ%² = 4 ξ²
         self.ground.acceleration(mode.period, self.xi)
             * mode.participation.abs()

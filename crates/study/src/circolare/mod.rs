@@ -33,8 +33,8 @@ mod verdict;
 mod walls;
 mod warnings;
 
-pub use checks::check;
-pub use demand::MEAN_COUNTS_FROM;
+pub use checks::{LARGEST_LOSS, check, demands};
+pub use demand::{Demand, MEAN_COUNTS_FROM};
 pub use dynamic::{DynamicCheck, DynamicRun, DynamicState};
 pub use error::CheckError;
 pub use find::{Found, Sought, find};
@@ -47,7 +47,7 @@ pub use table::{
     Topography, UseClass, in_table, read_table,
 };
 pub use verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, TieBreak, Verdict,
 };
 pub use walls::{WallVerdict, Walls};
 

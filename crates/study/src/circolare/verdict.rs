@@ -142,9 +142,33 @@ pub struct SideVerdict {
     /// SLC by displacement.
     #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
     pub slc: Option<DisplacementCheck>,
+    /// `F_act`, the force that α0 takes \[N\].
+    #[serde(skip)]
+    pub acting_force: f64,
+    /// Σ (P + Q) δ over the work of F per unit of u, the divisor of α0 \[N\].
+    #[serde(skip)]
+    pub pushed_weight: f64,
+    /// Where the tie breaks, if it does.
+    #[serde(skip)]
+    pub tie_break: Option<TieBreak>,
     /// Corners (d, a) of the curve, with FC and the tie \[m, m/s²\].
     #[serde(skip)]
     pub corners: Vec<(f64, f64)>,
+}
+
+/// What a curve loses where its tie breaks, C8.7.1.2.1.6; a with FC.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TieBreak {
+    /// u there \[m\].
+    pub u: f64,
+    /// a with the tie there \[m/s²\].
+    pub before: f64,
+    /// a without it \[m/s²\].
+    pub after: f64,
+    /// The largest a from the end of the elastic branch to there \[m/s²\].
+    pub largest: f64,
+    /// What is lost over the largest \[-\].
+    pub loss: f64,
 }
 
 /// A check of accelerations, C8.7.1.2.1.5 and C8.7.1.2.1.7.

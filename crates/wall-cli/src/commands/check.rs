@@ -36,24 +36,29 @@ pub(crate) struct Arguments {
     /// Write a page: the capacity curve over the demand, or the walls of a study
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
+    /// With `[check]`: write the report for a calculation file as a page
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// With --report: the date to print in it, in any form
+    #[arg(long, value_name = "TEXT", requires = "report")]
+    date: Option<String>,
 }
 
 /// Largest file that is looked into for its tables.
 const MAX_FILE_BYTES: u64 = 4 << 20;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let Some(path) = &arguments.scene.scene else { return spectrum::run(arguments) };
+    let Some(path) = &arguments.scene.scene else {
+        arguments.refuse_those_of_the_code("the default wall")?;
+        return spectrum::run(arguments);
+    };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     if is_study(&text) {
         return walls::run(arguments, path);
     }
     let place = Place::new(&name, &text);
     let Some(table) = read_table(&place)? else {
-        for (option, given) in [("--find", arguments.find.is_some()), ("--csv", arguments.csv.is_some())] {
-            if given {
-                bail!("{name}: {option} needs a table [check] with code = \"circolare-2019\"");
-            }
-        }
+        arguments.refuse_those_of_the_code(&name)?;
         return spectrum::run(arguments);
     };
     arguments.spectrum.refuse(&name)?;
@@ -62,8 +67,28 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let case = code::Case::read(arguments, &table, &place)?;
     match arguments.find {
+        Some(_) if arguments.report.is_some() => {
+            bail!("{name}: --report is about the wall as it is; leave --find out")
+        }
         Some(sought) => find::run(arguments, &case, sought),
         None => code::run(arguments, &case),
+    }
+}
+
+impl Arguments {
+    /// Refuses the options that need a table `[check]`.
+    fn refuse_those_of_the_code(&self, name: &str) -> Result<()> {
+        let given = [
+            ("--find", self.find.is_some()),
+            ("--csv", self.csv.is_some()),
+            ("--report", self.report.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) => {
+                bail!("{name}: {option} needs a table [check] with code = \"circolare-2019\"")
+            }
+            None => Ok(()),
+        }
     }
 }
 

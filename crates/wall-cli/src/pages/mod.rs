@@ -2,6 +2,7 @@
 
 mod animation;
 pub(crate) mod building;
+pub(crate) mod check_report;
 pub(crate) mod linearisation;
 mod moving;
 pub(crate) mod spectrum;

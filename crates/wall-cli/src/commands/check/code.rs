@@ -14,6 +14,7 @@ use study::circolare::{
 use super::Arguments;
 use crate::output;
 use crate::output::capacity::significant;
+use crate::pages::check_report::{Report, page};
 
 /// A scene and what its table `[check]` states.
 pub(super) struct Case {
@@ -34,7 +35,10 @@ impl Case {
         let records = Records::read(table, place, folder)?;
         records.warnings.iter().for_each(|warning| output::warn(warning));
         let inputs = arguments.scene.inputs(&scene).chain(&records.files);
-        output::check_distinct(inputs, arguments.html.iter().chain(&arguments.plot))?;
+        output::check_distinct(
+            inputs,
+            arguments.html.iter().chain(&arguments.plot).chain(&arguments.report),
+        )?;
         Ok(Self { scene, statement, records, name: place.name().into(), text: place.text().into() })
     }
 
@@ -50,11 +54,24 @@ pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
         bail!("{}: --html draws a spectrum, or the walls of a study", case.name);
     }
     let verdict = case.located(check(&scene.parameters, scene.floors.as_ref(), statement, records))?;
+    let alike = Wall::new(&scene.parameters).is_ok_and(|wall| wall.has_equal_sides());
+    if let Some(path) = &arguments.report {
+        let report = Report {
+            scene,
+            file: (&case.name, &case.text),
+            set: &arguments.scene.set,
+            statement,
+            records,
+            verdict: &verdict,
+            headline: &headline(&verdict, alike),
+            date: arguments.date.as_deref(),
+        };
+        output::to_file(path, page(&report)?.as_bytes())?;
+    }
     if arguments.json {
         return output::to_stdout(&(serde_json::to_string_pretty(&verdict)? + "\n"));
     }
     verdict.warnings.iter().for_each(|warning| output::warn(warning));
-    let alike = Wall::new(&scene.parameters).is_ok_and(|wall| wall.has_equal_sides());
     output::to_stdout(&text(&scene.title, statement, &verdict, alike))
 }
 

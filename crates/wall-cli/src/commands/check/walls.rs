@@ -14,8 +14,8 @@ use crate::output;
 
 pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<()> {
     arguments.spectrum.refuse(&path.display().to_string())?;
-    if arguments.find.is_some() || !arguments.scene.set.is_empty() {
-        bail!("{}: --find and --set take one wall; give a scene", path.display());
+    if arguments.find.is_some() || arguments.report.is_some() || !arguments.scene.set.is_empty() {
+        bail!("{}: --find, --report and --set take one wall; give a scene", path.display());
     }
     let walls = Walls::read(path)?;
     output::check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;

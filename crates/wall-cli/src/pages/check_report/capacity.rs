@@ -1,0 +1,176 @@
+//! The capacity curve: its numbers, and the curve over the demand.
+
+use std::f64::consts::TAU;
+
+use anyhow::Result;
+use figures::check::{CAPACITY, DEMAND, Drawn, color, over_demand};
+use figures::palette::{BLACK, sign};
+use rocking_wall::variables::Mechanism;
+use study::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+
+use super::Case;
+use super::markup::{Calculation, formula, number as n};
+use super::site::figure;
+
+pub(super) fn section(case: &Case<'_>) -> Result<String> {
+    let mut text = String::new();
+    for (name, side, verdict) in case.sides() {
+        if !case.alike {
+            text += &format!("<h3>Side {}</h3>\n", figures::escaped(name));
+        }
+        text += &numbers(case, side, verdict);
+    }
+    let demands: Vec<_> = case
+        .report
+        .statement
+        .states
+        .iter()
+        .flatten()
+        .filter_map(|given| {
+            let demand = case.demands[given.state as usize].as_ref()?;
+            Some(Drawn { state: given.state, demand, damping: given.damping, period: None })
+        })
+        .filter(|drawn| drawn.state != LimitState::Sld)
+        .collect();
+    for (name, _, side) in case.sides() {
+        if side.slv.is_none() && side.slc.is_none() {
+            continue;
+        }
+        let line = |color: &str, style: &str, name: &str| {
+            format!("<span><i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>{name}</span>")
+        };
+        let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
+        for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
+            if check.is_none() {
+                continue;
+            }
+            let color = color(state);
+            key += &format!("<span>{}{}</span>", sign(color, CAPACITY), formula(&format!("d_{state}")));
+            key += &format!("<span>{}demand of {state}</span>", sign(color, DEMAND));
+            key += &line(color, "dashed", &format!("secant to {}", formula(&format!("d_{state}"))));
+            key += &line(color, "dotted", &formula(&format!("T_{state}")));
+            key += &line(color, "solid", "its spectrum");
+        }
+        let caption = format!(
+            "Capacity curve over the demand, {}. A wall passes where its circle lies right of the triangle of \
+             the same colour. <span class=\"key\">{key}</span>",
+            figures::escaped(name)
+        );
+        text += &figure(&caption, &over_demand(side, &demands)?);
+    }
+    Ok(text)
+}
+
+/// The numbers of one side, from the force to the curve.
+fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
+    let parameters = &case.report.scene.parameters;
+    let body = case.wall.body();
+    let r = case.report.statement.overburden_mass.unwrap_or(0.0);
+    let o = body.overburden;
+    let SideVerdict { alpha0, mass, a0, d0, d_per_u, acting_force, pushed_weight, .. } = *verdict;
+    let mut lines = Calculation::default();
+    let [rho, h, b, l, g] =
+        [parameters.density, parameters.height, parameters.thickness, parameters.width, parameters.gravity]
+            .map(n);
+    lines.line(
+        ["Weight", ""],
+        ["W = ρ h b l g", &format!("{rho} · {h} · {b} · {l} · {g}")],
+        (body.weight, "N"),
+    );
+    lines.line(
+        ["Force of the line from u = 0 to its zero", "docs/model.md, Eq. (12)"],
+        ["F_act", ""],
+        (acting_force, "N"),
+    );
+    let is_parapet = body.mechanism == Mechanism::Parapet;
+    let loaded = is_parapet && o > 0.0;
+    let divisor = if loaded { "α0 = F_act/(W + 2 r O)" } else { "α0 = F_act/W" };
+    let put = format!("{}/{}", n(acting_force), n(pushed_weight));
+    lines.line(["Multiplier of activation", "[C8.7.1.1]"], [divisor, &put], (alpha0, ""));
+    lines.line(["One resultant on each body", "[C8.7.1.5]"], ["e*", ""], (verdict.e_star, ""));
+    let (formula_of, put) = if loaded {
+        ("M* = e* (W + r O)/g", format!("1 · ({} + {} · {})/{g}", n(body.weight), n(r), n(o)))
+    } else {
+        ("M* = e* W/g", format!("1 · {}/{g}", n(body.weight)))
+    };
+    lines.line(["Participating mass", ""], [formula_of, &put], (mass, "kg"));
+    let put = format!("{} · {g}/1", n(alpha0));
+    lines.line(["Acceleration of activation, without FC", ""], ["a_0 = α0 g/e*", &put], (a0, "m/s²"));
+    let ratio = match (is_parapet, loaded) {
+        (_, true) => "d/u = (W + 2 r O)/(W + r O)",
+        (true, false) => "d/u",
+        (false, _) => "d/u = 1/2 · W/W",
+    };
+    lines.line(["Displacement of the code over that of the model", "[C8.7.1.4]"], [ratio, ""], (d_per_u, ""));
+    let put = format!("{} · {}", n(d_per_u), n(d0 / d_per_u));
+    let words = "Zero of the curve of the wall without a tie";
+    lines.line([words, "C8.7.1.2.1.6"], ["d_0 = (d/u) u_0", &put], (d0, "m"));
+    elastic(case, verdict, &mut lines);
+    if let Some(broken) = &verdict.tie_break {
+        tie(case, verdict, broken, &mut lines);
+    }
+    let _ = side;
+    lines.table()
+}
+
+/// T0, `d_y` and `a_y`.
+fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
+    let parameters = &case.report.scene.parameters;
+    let SideVerdict { t0, dy, ay, a0, d0, .. } = *verdict;
+    match case.report.statement.before_activation {
+        None | Some(Activation::Rigid) => {
+            lines.line(["Period before activation: rigid", "C8.7.1.2.1.3"], ["T0", ""], (0.0, "s"));
+            return;
+        }
+        Some(Activation::Law) => {
+            let at_end = dy * (TAU / t0).powi(2);
+            let put = format!("2π √({}/{})", n(dy), n(at_end));
+            let words = "Period of the elastic branch of the force law, up to its end d_1, a_1";
+            lines.line([words, "[C8.7.1.6]"], ["T0 = 2π √(d_1/a_1)", &put], (t0, "s"));
+            lines.line(["End of the elastic branch", ""], ["d_y = d_1", ""], (dy, "m"));
+            lines.line(["Largest acceleration, without FC", ""], ["a_y", ""], (ay, "m/s²"));
+        }
+        Some(Activation::Beam) => {
+            let parapet = parameters.mechanism == Mechanism::Parapet;
+            let factor = if parapet { "6.2" } else { "2.2" };
+            let [h, b, rho] = [parameters.height, parameters.thickness, parameters.density].map(n);
+            let e = n(case.report.statement.young_modulus.unwrap_or(f64::NAN));
+            let put = format!("{factor} · ({h}/{b}) · {h} · √({rho}/{e})");
+            let words = "Period of a uniform beam";
+            lines.line([words, "[C8.7.1.7]"], ["T0 = κ λ L √(W_s/(E g))", &put], (t0, "s"));
+            let k = (TAU / t0).powi(2);
+            let put = format!("{}/({} + {}/{})", n(a0), n(k), n(a0), n(d0));
+            let words = "End of the elastic branch";
+            lines.line([words, "[C8.7.1.6]"], ["d_y = a_0/(4π²/T0² + a_0/d_0)", &put], (dy, "m"));
+            let put = format!("{} · {}", n(k), n(dy));
+            lines.line(["Acceleration there, without FC", ""], ["a_y = (4π²/T0²) d_y", &put], (ay, "m/s²"));
+        }
+    }
+}
+
+/// Where the tie breaks, and what the curve loses there.
+fn tie(case: &Case<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
+    let parameters = &case.report.scene.parameters;
+    let [n_s, k, g0, h, y] = [
+        parameters.tie_strength,
+        parameters.tie_stiffness,
+        parameters.tie_slack,
+        parameters.height,
+        parameters.tie_height,
+    ]
+    .map(n);
+    let TieBreak { u, before, after, largest, loss } = *broken;
+    let put = format!("({n_s}/{k} + {g0}) · {h}/(2 · {y})");
+    lines.line(["The tie breaks at", ""], ["u_r = (N_s/K + g_0) h/(2 y)", &put], (u, "m"));
+    let [before, after, most] = [before, after, largest].map(n);
+    let put = format!("({before} − {after})/{most}");
+    let words = "What the curve loses there, over its largest a from the end of the elastic branch";
+    lines.line([words, "C8.7.1.2.1.6"], ["Δa/a_max", &put], (loss, ""));
+    let early = verdict.slv.is_some_and(|check| check.limited_by_tie);
+    let decides = if early {
+        format!("more than {LARGEST_LOSS}, before 0.40 {}: {} is there", formula("d_0"), formula("d_SLV"))
+    } else {
+        format!("{} stays at 0.40 {}", formula("d_SLV"), formula("d_0"))
+    };
+    lines.say("Consequence", &decides);
+}

@@ -1,0 +1,104 @@
+//! The verdict: every check in one row a side.
+
+use figures::escaped;
+use study::circolare::{ActivationCheck, DisplacementCheck, LimitState, Method, UseClass};
+
+use super::Case;
+use super::markup::{formula, number};
+
+/// The verdict in one line as markup.
+pub(super) fn headline(text: &str) -> String {
+    escaped(text).replace("zeta_E", &formula("ζ_E"))
+}
+
+/// A check in a row.
+struct Row {
+    cells: [String; 7],
+    passes: bool,
+    decides: bool,
+}
+
+pub(super) fn section(case: &Case<'_>) -> String {
+    let statement = case.report.statement;
+    let class_iv = statement.use_class == Some(UseClass::IV);
+    let mut rows = Vec::new();
+    for (name, _, side) in case.sides() {
+        let activation = |check: ActivationCheck, state: LimitState, name: [&str; 3], decides: bool| {
+            let ends = [number(check.capacity) + " m/s²", number(check.demand) + " m/s²"];
+            row(case, state, name, ends, check.ratio, check.ag, decides)
+        };
+        if let Some(check) = side.sld {
+            let words = ["SLD, activation", "C8.7.1.2.1.5", name];
+            rows.push(activation(check, LimitState::Sld, words, class_iv));
+        }
+        if let Some(check) = side.slv_q {
+            let words = ["SLV with q", "C8.7.1.2.1.7", name];
+            rows.push(activation(check, LimitState::Slv, words, statement.method == Method::Linear));
+        }
+        let states = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)];
+        for (state, check) in states.into_iter().filter_map(|(state, check)| Some((state, check?))) {
+            let DisplacementCheck { d, demand, zeta, ag, .. } = check;
+            let ends = [d, demand].map(|end| number(1000.0 * end) + " mm");
+            let words = [&*format!("{state} by displacement"), "C8.7.1.2.1.8", name];
+            rows.push(row(case, state, words, ends, zeta, ag, statement.method == Method::Nonlinear));
+        }
+    }
+    if let Some(dynamic) = &case.report.verdict.dynamic {
+        let states = [(LimitState::Slv, &dynamic.slv), (LimitState::Slc, &dynamic.slc)];
+        for (state, check) in states.into_iter().filter_map(|(state, check)| Some((state, check.as_ref()?))) {
+            let side = if case.alike { "both sides" } else { check.side.name() };
+            let words = [&*format!("{state} under records"), "C8.7.1.2.1.9", side];
+            let ends = [number(1000.0 * check.d * check.ratio), number(1000.0 * check.d)];
+            let ag = statement.state(state).map_or(f64::NAN, |given| check.zeta * given.ag);
+            let decides = statement.method == Method::Dynamic;
+            let made = row(case, state, words, ends.map(|end| end + " mm"), check.zeta, ag, decides);
+            rows.push(Row { passes: check.passed, ..made });
+        }
+    }
+    let heads = ["check", "clause", "side", "capacity", "demand"].map(str::to_owned);
+    let heads = heads.into_iter().chain([formula("ζ_E"), formula("a_g,cap") + " / " + &formula("a_g")]);
+    let heads: Vec<String> = heads.chain(["result".to_owned()]).collect();
+    let mut text = format!(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>{}</th></tr></thead>\n",
+        heads.join("</th><th>")
+    );
+    for Row { cells, passes, decides } in rows {
+        let result = if passes { "passed" } else { "<span class=\"fails\">not passed</span>" };
+        let class = if decides { " class=\"decides\"" } else { "" };
+        text += &format!("<tr{class}><td>{}</td><td>{result}</td></tr>\n", cells.join("</td><td>"));
+    }
+    let method = match statement.method {
+        Method::Nonlinear => "SLV and SLC by displacement",
+        Method::Linear => "SLV with q",
+        Method::Dynamic => "the runs under records",
+    };
+    let class_iv = if class_iv { ", and SLD in use class IV" } else { "" };
+    text + "</table></div>\n"
+        + &format!(
+            "<p>{} is the ground acceleration that just brings the wall to the limit state, over that of \
+             the site: {} = {}/{} (NTC 8.3). A check passes from {} = 1 on. What decides is {method}{class_iv} \
+             (bold); the other rows are for information.</p>\n",
+            formula("ζ_E"),
+            formula("ζ_E"),
+            formula("a_g,cap"),
+            formula("a_g"),
+            formula("ζ_E"),
+        )
+}
+
+fn row(
+    case: &Case<'_>,
+    state: LimitState,
+    [check, clause, side]: [&str; 3],
+    [capacity, demand]: [String; 2],
+    zeta: f64,
+    ag: f64,
+    decides: bool,
+) -> Row {
+    let site = case.report.statement.state(state).map_or(f64::NAN, |given| given.ag);
+    let acceleration = format!("{} / {} g", figures::number(ag, 4), number(site));
+    let [check, side] = [check, side].map(escaped);
+    let zeta_text = figures::number(zeta, 4);
+    let cells = [check, clause.to_owned(), side, capacity, demand, zeta_text, acceleration];
+    Row { cells, passes: zeta >= 1.0, decides }
+}
