@@ -38,6 +38,7 @@ PAGES = {
     "stability": ("stability --columns 2 --html {}", 0),
     "calibrate": ("calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
     "reproduce": ("reproduce -o {}", 20),
+    "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check --spectrum spectrum.csv --unit m/s2 --html {}", 0),
     "accuracy": (f"accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
     "playground": (None, 0),

@@ -1,4 +1,15 @@
 //! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
+//!
+//! ```
+//! use figures::check::{Drawn, spectra};
+//! use study::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
+//!
+//! let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
+//! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
+//! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
+//! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
+//! # Ok::<(), study::circolare::CheckError>(())
+//! ```
 
 use study::circolare::{CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought};
 
@@ -113,10 +124,11 @@ pub fn over_demand(side: &SideVerdict, demands: &[Drawn<'_>]) -> Result<Plot, Ch
     let [width, height] = SIZE;
     let scale = [width / right, height / top];
     let (mut series, mut marks) = (Vec::new(), Vec::new());
+    let longest = shown.iter().map(|(_, check)| check.period).fold(0.0, f64::max);
     for (drawn, check) in shown {
         let Drawn { state, demand, damping, .. } = *drawn;
         let color = color(state);
-        let last = demand.last_period().min(2.0 * check.period);
+        let last = demand.last_period().min(2.0 * longest);
         let at = |period: f64| {
             let displacement = demand.spectral_displacement(state, period, damping)?;
             let acceleration = displacement * (std::f64::consts::TAU / period).powi(2);

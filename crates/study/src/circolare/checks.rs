@@ -78,6 +78,26 @@ pub fn check(
 
 /// Makes the demands of SLD, SLV and SLC at the place of a wall; `None` for one that is not stated.
 ///
+/// ```
+/// use rocking_wall::scene::Place;
+/// use rocking_wall::wall::{Parameters, Wall};
+/// use study::circolare::{LimitState, Records, demands, read_table};
+///
+/// let text = r#"
+/// [check]
+/// code = "circolare-2019"
+/// soil = "B"
+/// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
+/// "#;
+/// let statement = read_table(&Place::new("scene.toml", text))?.unwrap().statement()?;
+/// let wall = Wall::new(&Parameters::default())?;
+/// let [sld, slv, _] = demands(&wall, None, &statement, &Records::default())?;
+/// // a_g S
+/// let peak = slv.unwrap().acceleration(LimitState::Slv, 0.0, 0.08)?;
+/// assert!(sld.is_none() && (peak - 1.7658).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`CheckError`] of a statement that is missing, or of a record.
 pub fn demands(

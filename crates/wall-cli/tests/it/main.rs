@@ -7,6 +7,7 @@ use std::path::Path;
 
 mod building;
 mod check;
+mod check_report;
 mod command_line;
 mod describe;
 mod files;

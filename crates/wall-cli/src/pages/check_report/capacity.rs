@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::Result;
 use figures::check::{CAPACITY, DEMAND, Drawn, color, over_demand};
 use figures::palette::{BLACK, sign};
+use rocking_wall::choices::EccentricityMode;
 use rocking_wall::variables::Mechanism;
 use study::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
 
@@ -77,11 +78,8 @@ fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
         ["W = ρ h b l g", &format!("{rho} · {h} · {b} · {l} · {g}")],
         (body.weight, "N"),
     );
-    lines.line(
-        ["Force of the line from u = 0 to its zero", "docs/model.md, Eq. (12)"],
-        ["F_act", ""],
-        (acting_force, "N"),
-    );
+    let (left, put) = force(case, side, acting_force);
+    lines.line(["Force at u = 0 of the line that falls to its zero", ""], [left, &put], (acting_force, "N"));
     let is_parapet = body.mechanism == Mechanism::Parapet;
     let loaded = is_parapet && o > 0.0;
     let divisor = if loaded { "α0 = F_act/(W + 2 r O)" } else { "α0 = F_act/W" };
@@ -109,8 +107,32 @@ fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
     if let Some(broken) = &verdict.tie_break {
         tie(case, verdict, broken, &mut lines);
     }
-    let _ = side;
     lines.table()
+}
+
+/// The formula of `F_act` and the numbers put in, where it is F0 of Eq. (1).
+fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
+    let parameters = &case.report.scene.parameters;
+    let body = case.wall.body();
+    let sign = if side == Side::Negative { -1.0 } else { 1.0 };
+    let strength = body.strength.of(sign);
+    if (acting - strength).abs() > 1e-9 * strength {
+        return ("F_act", String::new());
+    }
+    let follows = parameters.eccentricity_mode == EccentricityMode::FollowsPivot;
+    let c = if follows { 1.0 } else { sign } * parameters.overburden_eccentricity;
+    let [w, o, b, h, c] = [body.weight, body.overburden, parameters.thickness, body.height, c + 0.0].map(n);
+    match body.mechanism {
+        Mechanism::Parapet if body.overburden == 0.0 => ("F_act = F0 = W b/h", format!("{w} · {b}/{h}")),
+        Mechanism::Parapet => {
+            ("F_act = F0 = [(W + O) b − 2 O c]/h", format!("[({w} + {o}) · {b} − 2 · {o} · ({c})]/{h}"))
+        }
+        Mechanism::VerticalSpanning => {
+            let [h1, h2] = [body.hinge_height, body.height - body.hinge_height].map(n);
+            let put = format!("2/{h1} · ({w} + {o}) · {b} + {o} · ({b} + 2 · ({c}))/{h2}");
+            ("F_act = F0 = (2/h_1) (W + O) b + O (b + 2 c)/h_2", put)
+        }
+    }
 }
 
 /// T0, `d_y` and `a_y`.
@@ -125,8 +147,9 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
         Some(Activation::Law) => {
             let at_end = dy * (TAU / t0).powi(2);
             let put = format!("2π √({}/{})", n(dy), n(at_end));
-            let words = "Period of the elastic branch of the force law, up to its end d_1, a_1";
-            lines.line([words, "[C8.7.1.6]"], ["T0 = 2π √(d_1/a_1)", &put], (t0, "s"));
+            let words =
+                format!("Period of the elastic branch of the force law, to its end {}", formula("d_1, a_1"));
+            lines.line([&words, "[C8.7.1.6]"], ["T0 = 2π √(d_1/a_1)", &put], (t0, "s"));
             lines.line(["End of the elastic branch", ""], ["d_y = d_1", ""], (dy, "m"));
             lines.line(["Largest acceleration, without FC", ""], ["a_y", ""], (ay, "m/s²"));
         }

@@ -9,15 +9,15 @@ use super::Case;
 use super::markup::{formula, number};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
-const SIZE: [f64; 2] = [480.0, 410.0];
+const SIZE: [f64; 2] = [500.0, 410.0];
 const AXIS: f64 = 215.0;
 const FOOT: f64 = 335.0;
 /// Room for the wall: width and height \[px\].
 const ROOM: [f64; 2] = [110.0, 265.0];
 /// Half the width of supports, and places of dimensions \[px\].
-const SUPPORT: f64 = 100.0;
-const OUTER: f64 = 400.0;
-const INNER: f64 = 330.0;
+const SUPPORT: f64 = 95.0;
+const OUTER: f64 = 408.0;
+const INNER: f64 = 318.0;
 /// Lengths of the bar that shows the scale \[m\].
 const BARS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
 
@@ -71,7 +71,7 @@ pub(super) fn figure(case: &Case<'_>) -> String {
     }
     format!(
         "<figure><figcaption>{said}</figcaption><svg class=\"wall\" viewBox=\"0 0 {width} {height}\" \
-         role=\"img\" aria-label=\"the wall to scale\" font-size=\"15\" font-family=\"system-ui, \
+         role=\"img\" aria-label=\"the wall to scale\" font-size=\"14\" font-family=\"system-ui, \
          sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
         drawing.svg
     )

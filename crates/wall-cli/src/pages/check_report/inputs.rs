@@ -66,6 +66,7 @@ const DYNAMIC: [&str; 3] = ["damping", "impact", "solver"];
 pub(super) fn wall(case: &Case<'_>) -> String {
     let parameters = &case.report.scene.parameters;
     let is_dynamic = case.report.verdict.dynamic.is_some();
+    let is_law = case.report.statement.before_activation == Some(Activation::Law);
     let mut rows = Vec::new();
     for (group, names) in GROUPS {
         if !(STATIC.contains(&group) || is_dynamic && DYNAMIC.contains(&group)) {
@@ -74,7 +75,9 @@ pub(super) fn wall(case: &Case<'_>) -> String {
         for name in names {
             let matters = usage(parameters).any(|usage| usage.name == *name && usage.matters);
             let no_tie = group == "tie" && case.wall.tie().is_none();
-            if matters && !no_tie {
+            // a wall that is rigid or a beam before it rocks has no elastic branch of its law
+            let replaced = *name == "a1" && !is_dynamic && !is_law;
+            if matters && !no_tie && !replaced {
                 rows.extend(parameter(case, group, name));
             }
         }
@@ -82,12 +85,13 @@ pub(super) fn wall(case: &Case<'_>) -> String {
     if let Some(points) = &parameters.multilinear {
         let points: Vec<_> =
             points.iter().map(|[u, f]| format!("({}, {})", number(*u), number(*f))).collect();
-        rows.push(["points u/u_ins, F/F0".into(), points.join(" "), "scene".into(), String::new()]);
+        let name = format!("Corners of the force law, {}", formula("u/u_ins, F/F0"));
+        rows.push([name, points.join(" "), "scene".into()]);
     }
-    table(&["parameter", "value", "from", "what it is"], &rows)
+    table(&["parameter", "value", "from"], &rows)
 }
 
-fn parameter(case: &Case<'_>, group: &str, name: &str) -> Option<[String; 4]> {
+fn parameter(case: &Case<'_>, group: &str, name: &str) -> Option<[String; 3]> {
     let parameters = &case.report.scene.parameters;
     let real = RealVariable::from_name(name).map(VariableId::variable);
     let variable = real.or(IntegerVariable::from_name(name).map(VariableId::variable))?;
@@ -101,7 +105,10 @@ fn parameter(case: &Case<'_>, group: &str, name: &str) -> Option<[String; 4]> {
         (value, case.given.parameter(group, name).to_owned())
     };
     let unit = unit.replace("m3", "m³");
-    Some([name.to_owned(), format!("{value} {unit}"), from, escaped(variable.description)])
+    // the conditions under which it matters hold
+    let description = variable.description.split("; where ").next().unwrap_or_default();
+    let value = format!("<span class=\"value\">{value} {unit}</span>");
+    Some([format!("{} <small>{name}</small>", escaped(description)), value, from])
 }
 
 /// The number that the geometry gives where a parameter leaves it to that.

@@ -42,7 +42,7 @@ pub(super) fn formula(text: &str) -> String {
         let index = match rest.strip_prefix('_') {
             Some(after) => {
                 rest = after;
-                leading(rest, |letter| letter.is_alphanumeric() || letter == ',')
+                leading(rest, |letter| letter.is_alphabetic() || letter.is_ascii_digit() || letter == ',')
             }
             None if is_symbol => leading(rest, |letter| letter.is_ascii_digit()),
             None => "",
@@ -108,6 +108,7 @@ mod tests {
             ("S_eZ(T_SLV, ξ)", "<i>S</i><sub>eZ</sub>(<i>T</i><sub>SLV</sub>, <i>ξ</i>)"),
             ("a_g,cap", "<i>a</i><sub>g,cap</sub>"),
             ("a_1, π", "<i>a</i><sub>1</sub>, π"),
+            ("T_1² T0²", "<i>T</i><sub>1</sub>² <i>T</i><sub>0</sub>²"),
         ] {
             assert_eq!(formula(text), markup);
         }

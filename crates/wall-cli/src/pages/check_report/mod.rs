@@ -98,8 +98,14 @@ pub(crate) fn page(report: &Report<'_>) -> Result<String> {
     let title = escaped(&report.scene.title);
     let passed = if report.verdict.passed { "holds" } else { "fails" };
     let headline = verdict::headline(report.headline);
-    let parts =
-        [("title", &*title), ("passed", passed), ("headline", &headline), ("sections", &sections.concat())];
+    let date = report.date.map_or_else(String::new, escaped);
+    let parts = [
+        ("title", &*title),
+        ("date", &date),
+        ("passed", passed),
+        ("headline", &headline),
+        ("sections", &sections.concat()),
+    ];
     Ok(template::page(include_str!("page.html"), &parts))
 }
 

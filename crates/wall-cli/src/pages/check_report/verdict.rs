@@ -11,7 +11,7 @@ pub(super) fn headline(text: &str) -> String {
     escaped(text).replace("zeta_E", &formula("ζ_E"))
 }
 
-/// A check in a row.
+/// A check in a row: its cells without the result, the fourth.
 struct Row {
     cells: [String; 7],
     passes: bool,
@@ -48,24 +48,28 @@ pub(super) fn section(case: &Case<'_>) -> String {
         for (state, check) in states.into_iter().filter_map(|(state, check)| Some((state, check.as_ref()?))) {
             let side = if case.alike { "both sides" } else { check.side.name() };
             let words = [&*format!("{state} under records"), "C8.7.1.2.1.9", side];
-            let ends = [number(1000.0 * check.d * check.ratio), number(1000.0 * check.d)];
+            let of_side = case.report.verdict.sides.iter().find(|(side, _)| *side == check.side);
+            let limit =
+                of_side.and_then(|(_, side)| if state == LimitState::Slc { side.slc } else { side.slv });
+            let ends = [limit.map_or(f64::NAN, |limit| limit.d), check.d].map(|end| number(1000.0 * end));
             let ag = statement.state(state).map_or(f64::NAN, |given| check.zeta * given.ag);
             let decides = statement.method == Method::Dynamic;
             let made = row(case, state, words, ends.map(|end| end + " mm"), check.zeta, ag, decides);
             rows.push(Row { passes: check.passed, ..made });
         }
     }
-    let heads = ["check", "clause", "side", "capacity", "demand"].map(str::to_owned);
-    let heads = heads.into_iter().chain([formula("ζ_E"), formula("a_g,cap") + " / " + &formula("a_g")]);
-    let heads: Vec<String> = heads.chain(["result".to_owned()]).collect();
+    let [zeta, ag] = [formula("ζ_E"), formula("a_g,cap") + " / " + &formula("a_g")];
+    let heads = ["check", "side", &zeta, "result", &ag, "capacity", "demand", "clause"];
     let mut text = format!(
-        "<div class=\"scroll\"><table>\n<thead><tr><th>{}</th></tr></thead>\n",
+        "<div class=\"scroll\"><table class=\"checks\">\n<thead><tr><th>{}</th></tr></thead>\n",
         heads.join("</th><th>")
     );
     for Row { cells, passes, decides } in rows {
         let result = if passes { "passed" } else { "<span class=\"fails\">not passed</span>" };
         let class = if decides { " class=\"decides\"" } else { "" };
-        text += &format!("<tr{class}><td>{}</td><td>{result}</td></tr>\n", cells.join("</td><td>"));
+        let (first, rest) = cells.split_at(3);
+        let cells = [first, &[result.to_owned()], rest].concat();
+        text += &format!("<tr{class}><td>{}</td></tr>\n", cells.join("</td><td>"));
     }
     let method = match statement.method {
         Method::Nonlinear => "SLV and SLC by displacement",
@@ -99,6 +103,6 @@ fn row(
     let acceleration = format!("{} / {} g", figures::number(ag, 4), number(site));
     let [check, side] = [check, side].map(escaped);
     let zeta_text = figures::number(zeta, 4);
-    let cells = [check, clause.to_owned(), side, capacity, demand, zeta_text, acceleration];
+    let cells = [check, side, zeta_text, acceleration, capacity, demand, clause.to_owned()];
     Row { cells, passes: zeta >= 1.0, decides }
 }

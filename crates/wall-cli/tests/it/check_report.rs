@@ -1,0 +1,187 @@
+//! The report of `wall check`.
+
+use std::path::Path;
+
+use crate::command_line::{folder, refused, text, wall};
+
+/// The tied parapet on the roof, example (c) of the check by Circolare 7/2019.
+const TIED: &str = "title = \"A <b>tied</b> parapet & \\\"its\\\" roof\"\n\
+    [geometry]\nheight = 4\nthickness = 0.4\n[force_law]\na1 = 0.03\n\
+    [tie]\ntie_stiffness = 200e3\ntie_height = 3\ntie_slack = 0.03\ntie_strength = 5e3\n\
+    [check]\ncode = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\n\
+    building = { storeys = 3, period = 0.3, height_ratio = 1 }\n\
+    SLD = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.05 }\n\
+    SLV = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n\
+    SLC = { ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }\n";
+
+/// A loaded parapet under three records, which decide.
+const SHAKEN: &str = "[geometry]\nheight = 2\nthickness = 0.4\noverburden = 3000\n\
+    overburden_eccentricity = 0.05\n\
+    [check]\ncode = \"circolare-2019\"\nmethod = \"dynamic\"\nbefore_activation = \"rigid\"\n\
+    overburden_mass = 0.5\nsoil = \"C\"\nknowledge_level = \"LC1\"\n\
+    SLV = { ag = 0.1, F0 = 2.45, TC = 0.32 }\n\
+    records = { synthetic = { count = 3, duration = 10, step = 0.02 } }\n";
+
+/// Writes the report of a scene, and returns it.
+fn report(folder: &Path, scene: &str, more: &[&str]) -> String {
+    std::fs::write(folder.join("scene.toml"), scene).unwrap();
+    let output = wall(folder, &[&["check", "scene.toml", "--report", "report.html"], more].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    std::fs::read_to_string(folder.join("report.html")).unwrap()
+}
+
+/// The text of a page without its markup.
+fn plain(markup: &str) -> String {
+    let mut text = String::new();
+    for part in markup.split('<') {
+        text.push_str(part.split_once('>').map_or(part, |(_, after)| after));
+    }
+    text.replace("&gt;", ">").replace("&lt;", "<").replace("&quot;", "\"").replace("&amp;", "&")
+}
+
+/// The sections of a report: their headlines and their texts.
+fn sections(page: &str) -> Vec<(String, String)> {
+    let parts = page.split("<h2>").skip(1).map(|part| part.split_once("</h2>").unwrap());
+    parts.map(|(title, content)| (plain(title), plain(content))).collect()
+}
+
+/// The text of the section whose headline begins with `title`.
+fn section(page: &str, title: &str) -> String {
+    let found = sections(page).into_iter().find(|(headline, _)| headline.starts_with(title));
+    found.unwrap_or_else(|| panic!("no section {title}")).1
+}
+
+/// One file that asks for nothing, with every tag closed, and nothing left of its template.
+fn check_whole(page: &str) {
+    // names of the page itself, and the empty icon
+    let own = ["http://www.w3.org/2000/svg", "href=\"data:,\"", "url(#"];
+    let links = own.iter().fold(page.to_owned(), |page, name| page.replace(name, ""));
+    for request in ["http:", "https:", "src=", "href=", "@import", "url(", "<script"] {
+        assert!(!links.contains(request), "the page has {request}");
+    }
+    for tag in ["section", "table", "tr", "td", "th", "figure", "svg", "div", "b", "i", "sub", "li", "p"] {
+        let [opened, bare] = [" ", ">"].map(|end| page.matches(&format!("<{tag}{end}")).count());
+        assert_eq!(opened + bare, page.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    for rest in ["{{", "}}", "NaN", "inf ", "Some("] {
+        assert!(!page.contains(rest), "the page has {rest}");
+    }
+    assert!(page.contains("<title>") && page.ends_with("</html>\n"));
+}
+
+/// Every section, and in it the numbers of the worked example.
+#[test]
+fn the_report_has_every_number_of_the_worked_example() {
+    let page = report(&folder("report_tied"), TIED, &["--date", "3 March 2027 <draft>"]);
+    check_whole(&page);
+    assert!(page.contains("A &lt;b&gt;tied&lt;/b&gt; parapet &amp; &quot;its&quot; roof</h1>"));
+    assert!(page.contains("3 March 2027 &lt;draft&gt;"));
+    assert!(plain(&page).contains("NOT PASSED: SLV governs with ζE = 0.728 (u > 0)"));
+    let titles: Vec<_> = sections(&page).into_iter().map(|(title, _)| title).collect();
+    assert_eq!(
+        titles,
+        [
+            "Verdict",
+            "Statements of the engineer",
+            "The wall",
+            "Site and building",
+            "Spectra",
+            "Capacity curve",
+            "SLD: activation C8.7.1.2.1.5",
+            "SLV with q C8.7.1.2.1.7",
+            "SLV by displacement C8.7.1.2.1.8",
+            "SLC by displacement C8.7.1.2.1.8",
+            "Readings of the code",
+            "Warnings",
+            "Document"
+        ]
+    );
+    for (title, numbers) in [
+        ("Verdict", "0.7275 0.7908 0.9131 0.07061 0.1846"),
+        ("Statements", "1.35 LC1 C8.7.1.2.1.3"),
+        ("Site", "1.2 1.38154 0.147364 0.442092 2.2 1.7658 1.28571 5.59001 4.63152 4.91935 3.05085 2.84019"),
+        ("Capacity", "28252.8 2825.28 0.1 2880 0.981 0.2 0.498925 0.006 0.95157 0.0366667 0.764736"),
+        ("SLD", "0.704867 9.98227 0.0706119 0.0105918 [C8.7.1.9] [C7.2.5]"),
+        ("SLV with q", "1.40973 7.63652 0.184604"),
+        ("SLV by", "0.0366667 2.52246 0.636331 4.91373 0.0503985 0.0389773 0.727534 0.10913 2.26079 0.79084"),
+        ("SLC by", "0.12 0.290667 3.14896 0.523227 0.131421 0.0362859 0.913095 0.136964 [C8.7.1.11]"),
+        ("Warnings", "a_g does not rise from SLD to SLV"),
+    ] {
+        let text = section(&page, title);
+        for number in numbers.split(' ') {
+            assert!(text.contains(number), "{title} has no {number}: {text}");
+        }
+    }
+    // the wall, two spectra and the curves of both sides; these with a form for phones
+    assert_eq!(page.matches("<svg").count(), 1 + 2 * 4);
+    assert!(page.contains("K = 200 kN/m") && page.contains("Nₛ = 5 kN"));
+    let readings = section(&page, "Readings");
+    assert!(readings.contains("A tie:") && readings.contains("Units of ξk"), "{readings}");
+    assert!(!readings.contains("several modes") && !readings.contains("Runs under records"), "{readings}");
+}
+
+/// Inputs say where they come from; the fingerprint follows them and not the name of the file.
+#[test]
+fn inputs_have_an_origin_and_a_fingerprint() {
+    let folder = folder("report_inputs");
+    let row = |page: &str, name: &str| {
+        let text =
+            plain(&page[page.find(&format!("<small>{name}</small>")).unwrap()..].replace("</tr>", "|"));
+        text.split('|').next().unwrap().to_owned()
+    };
+    let fingerprint = |page: &str| {
+        let document = section(page, "Document");
+        document.split("fingerprint of the inputs").nth(1).unwrap()[..32].to_owned()
+    };
+    let page = report(&folder, TIED, &[]);
+    assert_eq!(row(&page, "thickness"), "thickness0.4 mscene");
+    assert_eq!(row(&page, "density"), "density1800 kg/m³default");
+    assert!(section(&page, "Document").contains("datenot given"));
+    let thick = report(&folder, TIED, &["--set", "thickness=0.5"]);
+    assert_eq!(row(&thick, "thickness"), "thickness0.5 m--set");
+    let copy = report(&folder, TIED, &["--date", "today"]);
+    assert_eq!(fingerprint(&page), fingerprint(&copy));
+    assert_ne!(fingerprint(&page), fingerprint(&thick));
+    assert_ne!(fingerprint(&page), fingerprint(&report(&folder, &(TIED.to_owned() + "\n"), &[])));
+}
+
+/// Runs decide: their section has every record, and what the engineer stated of mass and FC.
+#[test]
+fn runs_under_records_stand_in_the_report() {
+    let page = report(&folder("report_shaken"), SHAKEN, &[]);
+    check_whole(&page);
+    let runs = section(&page, "Runs under records");
+    for record in ["synthetic 1", "synthetic 2", "synthetic 3"] {
+        assert!(runs.contains(record), "{runs}");
+    }
+    assert!(runs.contains("Largest of the maxima") && runs.contains("of 3"), "{runs}");
+    let statements = section(&page, "Statements");
+    for said in
+        ["r = 0.5 of the overburden", "FC = 1.35 (level of knowledge LC1)", "held by transverse walls"]
+    {
+        assert!(statements.contains(said), "no {said}: {statements}");
+    }
+    assert!(statements.contains("Not checked, for want of a site: SLD, SLC"), "{statements}");
+    assert!(section(&page, "Readings").contains("Runs under records"));
+    // both terms of an eccentric overburden
+    assert!(section(&page, "Capacity").contains("[(14126.4 + 3000) · 0.4 − 2 · 3000 · (-0.05)]/2"));
+}
+
+#[test]
+fn a_report_is_refused_without_one_wall_and_the_code() {
+    let folder = folder("report_refused");
+    std::fs::write(folder.join("plain.toml"), "[geometry]\nheight = 3\n").unwrap();
+    std::fs::write(folder.join("scene.toml"), TIED).unwrap();
+    let walls = TIED.split_once("[check]").unwrap().1;
+    std::fs::write(folder.join("walls.toml"), format!("walls = [{{ name = \"a\" }}]\n[check]{walls}"))
+        .unwrap();
+    let report = ["--report", "report.html"];
+    let refuses = |arguments: &[&str], words: &[&str]| {
+        refused(&folder, &[&["check"], arguments, &report[..]].concat(), words);
+    };
+    refuses(&["plain.toml"], &["plain.toml", "--report needs a table [check]"]);
+    refuses(&[], &["--report needs a table [check]"]);
+    refuses(&["walls.toml"], &["--report", "take one wall"]);
+    refuses(&["scene.toml", "--find", "thickness"], &["--report is about the wall as it is"]);
+    refused(&folder, &["check", "scene.toml", "--report", "scene.toml"], &["scene.toml"]);
+}
