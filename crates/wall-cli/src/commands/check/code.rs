@@ -72,7 +72,11 @@ pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
         return output::to_stdout(&(serde_json::to_string_pretty(&verdict)? + "\n"));
     }
     verdict.warnings.iter().for_each(|warning| output::warn(warning));
-    output::to_stdout(&text(&scene.title, statement, &verdict, alike))
+    let mut text = text(&scene.title, statement, &verdict, alike);
+    if let Some(path) = &arguments.report {
+        let _ = writeln!(text, "\nwritten {}", path.display());
+    }
+    output::to_stdout(&text)
 }
 
 /// The verdict in one line.

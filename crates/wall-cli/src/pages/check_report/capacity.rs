@@ -10,14 +10,14 @@ use rocking_wall::variables::Mechanism;
 use study::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
 
 use super::Case;
-use super::markup::{Calculation, formula, number as n};
+use super::markup::{Calculation, formula, number as n, side_head};
 use super::site::figure;
 
 pub(super) fn section(case: &Case<'_>) -> Result<String> {
     let mut text = String::new();
     for (name, side, verdict) in case.sides() {
         if !case.alike {
-            text += &format!("<h3>Side {}</h3>\n", figures::escaped(name));
+            text.push_str(&side_head(name));
         }
         text += &numbers(case, side, verdict);
     }
@@ -37,8 +37,9 @@ pub(super) fn section(case: &Case<'_>) -> Result<String> {
         if side.slv.is_none() && side.slc.is_none() {
             continue;
         }
+        let entry = |sample: String, name: &str| format!("<span>{sample}{name}</span>");
         let line = |color: &str, style: &str, name: &str| {
-            format!("<span><i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>{name}</span>")
+            entry(format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>"), name)
         };
         let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
         for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
@@ -46,15 +47,15 @@ pub(super) fn section(case: &Case<'_>) -> Result<String> {
                 continue;
             }
             let color = color(state);
-            key += &format!("<span>{}{}</span>", sign(color, CAPACITY), formula(&format!("d_{state}")));
-            key += &format!("<span>{}demand of {state}</span>", sign(color, DEMAND));
+            key += &entry(sign(color, CAPACITY), &formula(&format!("d_{state}")));
+            key += &entry(sign(color, DEMAND), &format!("demand of {state}"));
             key += &line(color, "dashed", &format!("secant to {}", formula(&format!("d_{state}"))));
             key += &line(color, "dotted", &formula(&format!("T_{state}")));
             key += &line(color, "solid", "its spectrum");
         }
         let caption = format!(
-            "Capacity curve over the demand, {}. A wall passes where its circle lies right of the triangle of \
-             the same colour. <span class=\"key\">{key}</span>",
+            "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies \
+             right of the triangle of the same colour. <span class=\"key\">{key}</span>",
             figures::escaped(name)
         );
         text += &figure(&caption, &over_demand(side, &demands)?);
@@ -142,7 +143,6 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
     match case.report.statement.before_activation {
         None | Some(Activation::Rigid) => {
             lines.line(["Period before activation: rigid", "C8.7.1.2.1.3"], ["T0", ""], (0.0, "s"));
-            return;
         }
         Some(Activation::Law) => {
             let at_end = dy * (TAU / t0).powi(2);

@@ -45,6 +45,9 @@ pub(super) fn figure(case: &Case<'_>) -> String {
     drawing.tie();
     drawing.dimensions();
     let [width, height] = SIZE;
+    // without an overburden nothing stands above the wall
+    let from = if body.overburden > 0.0 { 0.0 } else { drawing.top() - 20.0 };
+    let height = height - from;
     let mut said = String::from("The wall to scale.");
     if case.wall.sides().any(|sign| sign > 0.0) {
         said += " ● Hinges for u &gt; 0.";
@@ -70,9 +73,9 @@ pub(super) fn figure(case: &Case<'_>) -> String {
         );
     }
     format!(
-        "<figure><figcaption>{said}</figcaption><svg class=\"wall\" viewBox=\"0 0 {width} {height}\" \
-         role=\"img\" aria-label=\"the wall to scale\" font-size=\"14\" font-family=\"system-ui, \
-         sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
+        "<figure><figcaption>{said}</figcaption><svg class=\"wall\" \
+         viewBox=\"0 {from:.0} {width} {height:.0}\" role=\"img\" aria-label=\"the wall to scale\" \
+         font-size=\"14\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
         drawing.svg
     )
 }

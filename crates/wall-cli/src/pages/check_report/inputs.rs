@@ -185,9 +185,10 @@ fn activation(case: &Case<'_>) -> String {
                 .into()
         }
         Some(Activation::Beam) => format!(
-            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is a uniform beam with {} = {} Pa.",
+            "The wall is a free element (C8.7.1.2.1.5); before it rocks it is a uniform beam with {} = {} \
+             MPa.",
             formula("E"),
-            number(statement.young_modulus.unwrap_or(f64::NAN))
+            number(1e-6 * statement.young_modulus.unwrap_or(f64::NAN))
         ),
         Some(Activation::Rigid) => {
             "The wall is held by transverse walls before it rocks (C8.7.1.2.1.5): it is rigid.".into()

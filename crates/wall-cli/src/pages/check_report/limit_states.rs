@@ -1,12 +1,11 @@
 //! Every static check with its clause, equations, the numbers put in and the result.
 
-use figures::escaped;
 use study::circolare::{
     ActivationCheck, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict, StateStatement,
 };
 
 use super::Case;
-use super::markup::{Calculation, formula, number as n, section};
+use super::markup::{Calculation, formula, number as n, section, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;
@@ -47,8 +46,8 @@ fn one(case: &Case<'_>, title: &str, state: LimitState, check: &Check<'_>) -> St
     let mut text = String::new();
     for (name, _, side) in case.sides() {
         let Some(calculation) = check(side, given, demand) else { continue };
-        let head = if case.alike { String::new() } else { format!("<h3>Side {}</h3>\n", escaped(name)) };
-        text += &format!("<div class=\"together\">{head}{calculation}</div>\n");
+        let head = if case.alike { String::new() } else { side_head(name) };
+        text.push_str(&["<div class=\"together\">", &head, &calculation, "</div>\n"].concat());
     }
     if text.is_empty() { text } else { section(title, &text) }
 }

@@ -9,6 +9,11 @@ pub(super) fn section(title: &str, content: &str) -> String {
     format!("<section>\n<h2>{title}</h2>\n{content}</section>\n")
 }
 
+/// The headline of a side.
+pub(super) fn side_head(name: &str) -> String {
+    format!("<h3>Side {}</h3>\n", escaped(name))
+}
+
 /// A number as people write it, with six digits.
 pub(super) fn number(value: f64) -> String {
     figures::number(value, 6)

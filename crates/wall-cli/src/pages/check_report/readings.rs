@@ -5,87 +5,98 @@ use study::circolare::{Demand, Source};
 use super::Case;
 use super::markup::formula;
 
+fn any_demand(case: &Case<'_>, holds: fn(&Demand) -> bool) -> bool {
+    case.demands.iter().flatten().any(holds)
+}
+
+fn is_at_height(case: &Case<'_>) -> bool {
+    any_demand(case, |demand| matches!(demand, Demand::Floor(_)))
+}
+
+/// Whether there is a check of accelerations of a wall whose T0 is such.
+fn is_activated(case: &Case<'_>, such: fn(f64) -> bool) -> bool {
+    let sides = case.report.verdict.sides.iter();
+    sides.map(|(_, side)| side).any(|side| (side.sld.is_some() || side.slv_q.is_some()) && such(side.t0))
+}
+
+fn is_by_code(case: &Case<'_>) -> bool {
+    case.report.statement.states.iter().flatten().any(|given| matches!(given.source, Source::Code(_)))
+}
+
+/// Whether a reading bears on a check, and the reading; formulas are in braces.
+type Reading = (fn(&Case<'_>) -> bool, &'static str);
+
+const READINGS: [Reading; 13] = [
+    (
+        |_| true,
+        "Lumping: the definitions of C8.7.1.1 speak of one resultant of the forces on each body. Taken as \
+         that; distributed mass would give larger capacities.",
+    ),
+    (
+        is_at_height,
+        "Units of {ξ_k}: [C7.2.6] and [C7.2.9] are printed with per cent. Taken as a fraction in \
+         {ξ_k}<sup>−0.5</sup> and as per cent elsewhere; otherwise the spectrum dips at resonance.",
+    ),
+    (
+        |_| true,
+        "FC: [C8.7.1.3] has it in {a}, so that it lengthens {T_SLV} and {T_SLC}. {d_0}, {d_SLV}, {d_SLC} \
+         and {T0} are free of it.",
+    ),
+    (
+        |case| is_activated(case, |t0| t0 > 0.0),
+        "[C8.7.1.9] divides {a_y} by FC, which {a(d)} already has. {a_y} is read on the curve without FC \
+         and divided once.",
+    ),
+    (
+        |case| is_activated(case, |t0| t0 == 0.0) && is_at_height(case),
+        "Demand of the wall that is held: C8.7.1.2.1.5 points to [C7.2.11], C8.7.1.2.1.7 to [C7.2.8]. \
+         [C7.2.11] is for frames. Taken: [C7.2.8].",
+    ),
+    (
+        is_by_code,
+        "Scaling: {S_S} and {T_D} depend on {a_g}; {F0} and {T_C*} on the return period. Taken: the shape \
+         at the {a_g} of the site, so that {ζ_E} is a ratio. SLV with {q} takes the shape of SLV, the \
+         floor of SLD that of SLD.",
+    ),
+    (
+        |case| case.report.verdict.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some()),
+        "The acceleration of activation at SLD as the least one is printed for SLV. Taken for SLC too.",
+    ),
+    (
+        |case| case.wall.tie().is_some(),
+        "A tie: only {d_0} is asked of actions that last until collapse. {a(d)} is the curve as it is at \
+         {d_SLV}, at the rupture just before it.",
+    ),
+    (
+        |case| any_demand(case, |demand| matches!(demand, Demand::Floor(floor) if floor.modes().len() > 1)),
+        "{T_1} in the conditions of [C7.2.5] and [C8.7.1.12] with several modes: that of the first one.",
+    ),
+    (
+        is_at_height,
+        "Height {z}: not defined for walls; taken as given. The base of a parapet and the mid-height of a \
+         strip wall are recommended.",
+    ),
+    (
+        |case| any_demand(case, |demand| matches!(demand, Demand::Points(..) | Demand::Records(_))),
+        "Spectra that are given, or of records: the largest {S_d} from {T0} to {T_SLV} (SLC likewise), of \
+         the mean spectrum of 7 and more records, of the envelope of fewer.",
+    ),
+    (
+        |case| case.report.verdict.dynamic.is_some(),
+        "Runs under records: the skeleton is the capacity curve, which contains FC. Gravity, overburden, \
+         stiffness and strength of a tie are divided by FC; masses and thresholds are not.",
+    ),
+    (
+        |_| true,
+        "Scope: {α} is linear in the displacement (small rotations). Friction of transverse walls \
+         [C8.7.1.2], sliding, and the search for the hinge that minimises {α0} are not included; the \
+         height of the wall and of its hinge are the engineer's.",
+    ),
+];
+
 /// The readings that bear on this check, as a list.
 pub(super) fn section(case: &Case<'_>) -> String {
-    let statement = case.report.statement;
-    let verdict = case.report.verdict;
-    let any = |holds: fn(&Demand) -> bool| case.demands.iter().flatten().any(holds);
-    let at_height = any(|demand| matches!(demand, Demand::Floor(_)));
-    let modes = any(|demand| matches!(demand, Demand::Floor(floor) if floor.modes().len() > 1));
-    let by_code = statement.states.iter().flatten().any(|given| matches!(given.source, Source::Code(_)));
-    let given = any(|demand| matches!(demand, Demand::Points(..) | Demand::Records(_)));
-    let activated = || verdict.sides.iter().filter(|(_, side)| side.sld.is_some() || side.slv_q.is_some());
-    let held = activated().any(|(_, side)| side.t0 == 0.0);
-    let free = activated().any(|(_, side)| side.t0 > 0.0);
-    let floor_of_slc = verdict.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some());
-    let all = [
-        (
-            true,
-            "Lumping: the definitions of C8.7.1.1 speak of one resultant of the forces on each body. Taken as \
-             that; distributed mass would give larger capacities.",
-        ),
-        (
-            at_height,
-            "Units of {ξ_k}: [C7.2.6] and [C7.2.9] are printed with per cent. Taken as a fraction in \
-             {ξ_k}<sup>−0.5</sup> and as per cent elsewhere; otherwise the spectrum dips at resonance.",
-        ),
-        (
-            true,
-            "FC: [C8.7.1.3] has it in {a}, so that it lengthens {T_SLV} and {T_SLC}. {d_0}, {d_SLV}, {d_SLC} and \
-             {T0} are free of it.",
-        ),
-        (
-            free,
-            "[C8.7.1.9] divides {a_y} by FC, which {a(d)} already has. {a_y} is read on the curve without FC \
-             and divided once.",
-        ),
-        (
-            held && at_height,
-            "Demand of the wall that is held: C8.7.1.2.1.5 points to [C7.2.11], C8.7.1.2.1.7 to [C7.2.8]. \
-             [C7.2.11] is for frames. Taken: [C7.2.8].",
-        ),
-        (
-            by_code,
-            "Scaling: {S_S} and {T_D} depend on {a_g}; {F0} and {T_C*} on the return period. Taken: the shape at \
-             the {a_g} of the site, so that {ζ_E} is a ratio. SLV with {q} takes the shape of SLV, the floor of \
-             SLD that of SLD.",
-        ),
-        (
-            floor_of_slc,
-            "The acceleration of activation at SLD as the least one is printed for SLV. Taken for SLC too.",
-        ),
-        (
-            case.wall.tie().is_some(),
-            "A tie: only {d_0} is asked of actions that last until collapse. {a(d)} is the curve as it is at \
-             {d_SLV}, at the rupture just before it.",
-        ),
-        (
-            modes,
-            "{T_1} in the conditions of [C7.2.5] and [C8.7.1.12] with several modes: that of the first one.",
-        ),
-        (
-            at_height,
-            "Height {z}: not defined for walls; taken as given. The base of a parapet and the mid-height of a \
-             strip wall are recommended.",
-        ),
-        (
-            given,
-            "Spectra that are given, or of records: the largest {S_d} from {T0} to {T_SLV} (SLC likewise), of \
-             the mean spectrum of 7 and more records, of the envelope of fewer.",
-        ),
-        (
-            verdict.dynamic.is_some(),
-            "Runs under records: the skeleton is the capacity curve, which contains FC. Gravity, overburden, \
-             stiffness and strength of a tie are divided by FC; masses and thresholds are not.",
-        ),
-        (
-            true,
-            "Scope: {α} is linear in the displacement (small rotations). Friction of transverse walls \
-             [C8.7.1.2], sliding, and the search for the hinge that minimises {α0} are not included; the height \
-             of the wall and of its hinge are the engineer's.",
-        ),
-    ];
-    let taken = all.into_iter().filter(|(bears, _)| *bears);
+    let taken = READINGS.into_iter().filter(|(bears, _)| bears(case));
     let items: Vec<_> = taken.map(|(_, text)| format!("<li>{}</li>\n", filled(text))).collect();
     format!(
         "<p>Where the code can be read in two ways, this check takes:</p>\n<ul>\n{}</ul>\n",

@@ -113,8 +113,8 @@ fn place(case: &Case<'_>) -> String {
     let of = |key: &str| given.text(&["building", key]);
     if let (Some(storeys), Some(period), Some(ratio)) = (of("storeys"), of("period"), of("height_ratio")) {
         said.push(format!(
-            "building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at {} = \
-             {ratio}",
+            "building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
+             {} = {ratio}",
             formula("T_1"),
             formula("z/H")
         ));

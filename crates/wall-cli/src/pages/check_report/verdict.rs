@@ -69,7 +69,7 @@ pub(super) fn section(case: &Case<'_>) -> String {
         let class = if decides { " class=\"decides\"" } else { "" };
         let (first, rest) = cells.split_at(3);
         let cells = [first, &[result.to_owned()], rest].concat();
-        text += &format!("<tr{class}><td>{}</td></tr>\n", cells.join("</td><td>"));
+        text.push_str(&["<tr", class, "><td>", &cells.join("</td><td>"), "</td></tr>\n"].concat());
     }
     let method = match statement.method {
         Method::Nonlinear => "SLV and SLC by displacement",
@@ -80,8 +80,8 @@ pub(super) fn section(case: &Case<'_>) -> String {
     text + "</table></div>\n"
         + &format!(
             "<p>{} is the ground acceleration that just brings the wall to the limit state, over that of \
-             the site: {} = {}/{} (NTC 8.3). A check passes from {} = 1 on. What decides is {method}{class_iv} \
-             (bold); the other rows are for information.</p>\n",
+             the site: {} = {}/{} (NTC 8.3). A check passes from {} = 1 on. The rows in bold decide \
+             ({method}{class_iv}); the others are for information.</p>\n",
             formula("ζ_E"),
             formula("ζ_E"),
             formula("a_g,cap"),
