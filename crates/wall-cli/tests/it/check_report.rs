@@ -167,6 +167,62 @@ fn runs_under_records_stand_in_the_report() {
     assert!(section(&page, "Capacity").contains("[(14126.4 + 3000) · 0.4 − 2 · 3000 · (-0.05)]/2"));
 }
 
+/// Walls and demands of other kinds: a beam, one side, given spectra, a law of points, storeys, a strip.
+#[test]
+fn every_kind_of_wall_and_demand_has_its_report() {
+    let folder = folder("report_kinds");
+    let points = "spectrum = [[0, 0.3], [0.5, 0.6], [6, 0.05]], spectrum_damping";
+    let one_sided = format!(
+        "[geometry]\nheight = 3\nthickness = 0.5\n[damping]\ndamping_model = \"none\"\n\
+         [impact]\nimpact = \"restitution\"\nrestitution = 0.4\nrocking = \"one_sided_positive\"\n\
+         [check]\ncode = \"circolare-2019\"\nuse_class = \"IV\"\n\
+         SLD = {{ ag = 0.1, {points} = 0.05 }}\n\
+         SLC = {{ ag = 0.2, {points} = 0.1, displacement = 0.12 }}\n"
+    );
+    let page = report(&folder, &one_sided, &[]);
+    check_whole(&page);
+    for (title, words) in [
+        ("Verdict", "SLD in use class IV"),
+        ("Statements", "becomes unstable at u = 0.12 m"),
+        ("Statements", "rocks to one side"),
+        ("The wall", "transverse walls"),
+        ("Site", "given by 3 points at 10 % damping"),
+        ("SLC by", "the largest from T0 to TSLC"),
+    ] {
+        assert!(section(&page, title).contains(words), "{title}: no {words}");
+    }
+    // the wall, the spectra at its place, one side
+    assert_eq!(page.matches("<svg").count(), 1 + 2 * 2);
+    let law = "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.05, 0.6], [0.3, 0.7], [1, 0]]\n";
+    let storeys = "[[storeys]]\nmass = 50e3\nstiffness = 40e6\n".repeat(2);
+    let on_storeys = SHAKEN.replace("rigid", "law").replace("[check]", &(law.to_owned() + &storeys + "[check]"));
+    let page = report(&folder, &on_storeys.replace("TC = 0.32", "TC = 0.32, building_damping = 0.1"), &[]);
+    check_whole(&page);
+    for (title, words) in [
+        ("The wall", "(0.05, 0.6) (0.3, 0.7) (1, 0)"),
+        ("Site", "felt on 2 storeys"),
+        ("Capacity", "Largest force of the law"),
+        ("Readings", "several modes"),
+    ] {
+        assert!(section(&page, title).contains(words), "{title}: no {words}");
+    }
+    let strip = "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\n\
+         overburden = 10e3\nhinge_ratio = 0.6\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\n\
+         before_activation = \"beam\"\nyoung_modulus = 0.75e9\n\
+         SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
+    let page = report(&folder, strip, &[]);
+    check_whole(&page);
+    for (title, words) in [
+        ("Statements", "a uniform beam with E = 750 MPa"),
+        ("Capacity", "2/1.8 · (13243.5 + 10000) · 0.25 + 10000 · (0.25 + 2 · (0))/1.2"),
+        ("Capacity", "2.2 · (3/0.25) · 3 · √(1800/750000000)"),
+        ("Site", "the wall stands on the ground"),
+        ("SLV by", "[3.2.10]"),
+    ] {
+        assert!(section(&page, title).contains(words), "{title}: no {words} in {}", section(&page, title));
+    }
+}
+
 #[test]
 fn a_report_is_refused_without_one_wall_and_the_code() {
     let folder = folder("report_refused");

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::Result;
 use figures::check::{CAPACITY, DEMAND, Drawn, color, over_demand};
 use figures::palette::{BLACK, sign};
-use rocking_wall::choices::EccentricityMode;
-use rocking_wall::variables::Mechanism;
+use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 use study::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
 
 use super::Case;
@@ -80,7 +79,13 @@ fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
         (body.weight, "N"),
     );
     let (left, put) = force(case, side, acting_force);
-    lines.line(["Force at u = 0 of the line that falls to its zero", ""], [left, &put], (acting_force, "N"));
+    let has_plateau = parameters.multilinear.is_some() || parameters.force_law == ForceLaw::Trilinear;
+    let words = if has_plateau {
+        "Largest force of the law"
+    } else {
+        "Force at u = 0 of the line that falls to its zero"
+    };
+    lines.line([words, ""], [left, &put], (acting_force, "N"));
     let is_parapet = body.mechanism == Mechanism::Parapet;
     let loaded = is_parapet && o > 0.0;
     let divisor = if loaded { "α0 = F_act/(W + 2 r O)" } else { "α0 = F_act/W" };

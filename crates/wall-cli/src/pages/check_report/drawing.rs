@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use rocking_wall::choices::EccentricityMode;
-use rocking_wall::variables::Mechanism;
+use rocking_wall::variables::{EccentricityMode, Mechanism};
 
 use super::Case;
 use super::markup::{formula, number};

@@ -156,6 +156,11 @@ pub(super) fn statements(case: &Case<'_>) -> String {
         };
         state(scale, &["record_scale"]);
     }
+    if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
+        let said =
+            format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), number(u));
+        rows.push([said, "[check] SLC displacement".to_owned()]);
+    }
     let missing = LimitState::ALL.into_iter().filter(|state| statement.state(*state).is_none());
     let taken = |said: String| [said, "method of the check".to_owned()];
     let missing: Vec<_> = missing.map(|state| state.to_string()).collect();

@@ -84,7 +84,7 @@ pub(super) fn values(case: &Case<'_>) -> String {
         )
     };
     row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, &|floor, mode| floor.modes()[mode].period));
-    row("γ_k ψ_k", "[C7.2.10]", "", &|(_, demand)| {
+    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| {
         modes(demand, &|floor, mode| floor.modes()[mode].participation)
     });
     row("ξ_k", "C8.7.1.2.1.4", "", &|(_, demand)| some(floor(demand).map(|floor| floor.damping())));
@@ -121,7 +121,7 @@ fn place(case: &Case<'_>) -> String {
     } else if case.report.statement.has_building {
         said.push("modes of the building as given in [check.building]".into());
     } else if let Some(floors) = &case.report.scene.floors {
-        said.push(format!("storeys of the scene, {}", figures::escaped(&floors.note())));
+        said.push(format!("the motion of the ground is {}", figures::escaped(&floors.note())));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {
         said.push("the wall stands on the ground".into());
     }
