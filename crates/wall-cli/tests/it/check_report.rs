@@ -195,7 +195,8 @@ fn every_kind_of_wall_and_demand_has_its_report() {
     assert_eq!(page.matches("<svg").count(), 1 + 2 * 2);
     let law = "[force_law]\nforce_law = \"multilinear\"\npoints = [[0.05, 0.6], [0.3, 0.7], [1, 0]]\n";
     let storeys = "[[storeys]]\nmass = 50e3\nstiffness = 40e6\n".repeat(2);
-    let on_storeys = SHAKEN.replace("rigid", "law").replace("[check]", &(law.to_owned() + &storeys + "[check]"));
+    let on_storeys =
+        SHAKEN.replace("rigid", "law").replace("[check]", &(law.to_owned() + &storeys + "[check]"));
     let page = report(&folder, &on_storeys.replace("TC = 0.32", "TC = 0.32, building_damping = 0.1"), &[]);
     check_whole(&page);
     for (title, words) in [
