@@ -7,7 +7,7 @@ use super::dynamic::DynamicCheck;
 /// The outcome of a check. Serialized it is what `wall check --json` prints: SI units, `a_g` in g.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// [`CODE`].
+    /// [`CODE`](super::CODE).
     pub code: &'static str,
     /// Whether every limit state that decides holds on every side.
     pub passed: bool,
