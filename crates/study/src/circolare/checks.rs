@@ -113,7 +113,8 @@ pub fn demands(
     Ok(demands)
 }
 
-fn demand(
+/// Makes the demand of a limit state.
+pub(super) fn demand(
     given: &StateStatement,
     floors: Option<&Floors>,
     wall: &Wall,
