@@ -345,3 +345,6 @@ impl<O: Observer> Lanes<'_, O> {
         Waiting { ended: 0, stuck }
     }
 }
+
+#[cfg(test)]
+mod tests;

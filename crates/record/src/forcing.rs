@@ -83,3 +83,27 @@ impl<'a> Blocks<'a> {
         self.largest.get(index / BLOCK).copied().unwrap_or(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bound of a block is the largest |p| of its samples, and of those that its last plain steps reach.
+    #[test]
+    fn bounds_of_blocks_are_the_largest_of_their_samples() {
+        for count in [2, 17, BLOCK, BLOCK + 1, BLOCK + 3, 3 * BLOCK + 100] {
+            // signs alternate, and the largest samples lie everywhere
+            let sample =
+                |n: usize| (1.0 + (n * 37 % 101) as f64) * if n.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let samples: Vec<f64> = (0..count).map(sample).collect();
+            let blocks = Blocks::new(Forcing::Samples(&samples));
+            for first in (0..count - 1).step_by(BLOCK) {
+                let reached = &samples[first..(first + BLOCK + AT_ONCE).min(count)];
+                let wanted = reached.iter().map(|p| p.abs()).fold(0.0, f64::max);
+                assert_eq!(blocks.largest(first), wanted, "{first} of {count}");
+                assert_eq!(blocks.largest((first + BLOCK).min(count - 1) - 1), wanted, "{first} of {count}");
+            }
+        }
+        assert_eq!(Blocks::new(Forcing::Still(500)).largest(300), 0.0);
+    }
+}

@@ -263,10 +263,10 @@ mod tests {
     /// A step is that of sixteen series in time.
     #[test]
     fn steps_are_those_of_series_in_time() {
-        let (mut reached, mut worst) = (0, 0.0_f64);
+        let (mut reached, mut worst, most) = (0, 0.0_f64, 1e-13);
         for ([speed, length], [zero, stiffness], forcing) in starts() {
             let whole = Regularised::new(start([speed, length], [zero, stiffness], forcing));
-            let Some([rise, velocity]) = whole.end(1e-12) else { continue };
+            let Some([rise, velocity]) = whole.end(most) else { continue };
             reached += 1;
             let (mut u, mut v) = (1.0, speed);
             for part in 0..16 {
@@ -285,9 +285,21 @@ mod tests {
             }
             worst = worst.max((1.0 + rise - u).abs()).max((velocity - length * v).abs());
         }
-        assert!(reached > 150, "{reached}");
+        assert!(reached > 140, "{reached}");
         // the tolerance, of which the estimate takes a tenth; the sixteen leave out far less
-        assert!(worst <= 1e-12, "{worst:e}");
+        assert!(worst <= most, "{worst:e}");
+    }
+
+    /// The first guess of the end is so close that the expansion about it leads there at once.
+    #[test]
+    fn first_guesses_of_the_end_are_close() {
+        for ([speed, length], line, forcing) in starts() {
+            let mut series = Regularised::new(start([speed, length], line, forcing));
+            series.extend_to_8();
+            let sigma = series.guess();
+            let miss = series.at(8, sigma).theta - 1.0;
+            assert!(miss.abs() < SMALL_MISS, "{speed} on {line:?}: {miss:e}");
+        }
     }
 
     /// A series whose seventh and eighth terms are small by chance is not taken for exact.

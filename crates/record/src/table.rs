@@ -325,7 +325,7 @@ fn at_once(branch: &Branch, oscillator: &Oscillator, step: f64) -> usize {
 }
 
 /// Counts the terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.
-fn terms(reach: f64) -> usize {
+pub(crate) fn terms(reach: f64) -> usize {
     let (mut terms, mut share) = (0, 1.0);
     while share > NEGLIGIBLE {
         terms += 1;
@@ -335,18 +335,4 @@ fn terms(reach: f64) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The first term left out is negligible, the last one kept is not.
-    #[test]
-    fn series_end_where_their_terms_are_negligible() {
-        let left_out = |reach: f64, n: usize| (0..n).fold(1.0, |share, m| share * reach / (m as f64 + 2.0));
-        for reach in [1e-6, 0.01, 0.06, 0.25, LONGEST] {
-            let n = terms(reach);
-            assert!(left_out(reach, n) <= NEGLIGIBLE, "{reach}: {n}");
-            assert!(n == 2 || left_out(reach, n - 1) > NEGLIGIBLE, "{reach}: {n}");
-        }
-        assert_eq!([0.25, LONGEST].map(terms), [13, 16]);
-    }
-}
+mod tests;

@@ -3,16 +3,17 @@
 
 use fearless_simd::{Level, Simd};
 use rocking_wall::choices::{DampingModel, Impact};
-use rocking_wall::solver::secant::{ByStiffness, SecantBranch, Start};
-use rocking_wall::solver::{Memo, Motion};
+use rocking_wall::solver::{Memo, Motion, Peaks, State};
 use rocking_wall::wall::{Parameters, Support};
 
 use crate::batch::{SideBySide, Vectors, abreast};
-use crate::curved::OneLane;
 use crate::forcing::{Blocks, Forcing};
-use crate::lanes::Lanes;
+use crate::lanes::{Block, Lanes};
 use crate::number::{BranchRow, Eight, MOST_BRANCHES, Number, Row, WIDTH};
 use crate::solver::{Outcome, RecordSolver, RunStart, Unseen};
+
+mod passages;
+mod work;
 
 /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
 fn shaking() -> Vec<f64> {
@@ -88,8 +89,8 @@ fn steps_with_several_corners_are_those_of_single_runs() {
     }
 }
 
-/// Walls that turn shortly before a corner, within what four steps keep away from it but not one: the turning
-/// point is found, alone as beside others.
+/// Walls that turn shortly before a corner, on either side, within what four steps keep away from it but not
+/// one: the turning point is found, alone as beside others, as by the general search.
 #[test]
 fn extremes_before_a_corner_are_found() {
     let (motion, step) = (motion(0.018), 5e-3);
@@ -97,27 +98,66 @@ fn extremes_before_a_corner_are_found() {
     let corner =
         wall.corners().iter().map(|corner| corner.displacement).find(|u| *u > 0.0).expect("a corner");
     let pull = wall.branches()[wall.branch_of(0.5 * corner, 0.0)].restoring(corner);
-    let start = |u: f64, v: f64| {
-        let mut state = motion.start(u, v, Support::default());
+    let start = |side: f64, u: f64, v: f64| {
+        let mut state = motion.start(side * u, side * v, Support::default());
         // it has been further out on the other side: nothing there asks for a second look
-        state.peaks.negative = corner;
+        state.peaks.include(-side * corner);
         RunStart { state, factor: 1.0 }
     };
     let (still, solver) = ([0.0; 300], RecordSolver::new(&motion, step));
     let still = Forcing::Samples(&still);
-    let others = (1..8).map(|i| start(0.05 * corner * f64::from(i), 0.0));
-    for distance in (1..40).map(|i| 0.25 * f64::from(i)) {
+    for (side, distance) in (1..40).flat_map(|i| [1.0, -1.0].map(|side| (side, 0.25 * f64::from(i)))) {
+        let others = (1..8).map(|i| start(side, 0.05 * corner * f64::from(i), 0.0));
         for speed in (0..12).map(|i| 0.25 * f64::from(i)).take_while(|speed| 0.5 * speed * speed < distance) {
-            let turning = start(corner - distance * pull * step * step, speed * pull * step);
+            let turning = start(side, corner - distance * pull * step * step, speed * pull * step);
             let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
             let alone = narrow(&solver, still, &[turning])[0];
             assert_eq!(alone, narrow(&solver, still, &starts)[0]);
-            let single = solver.run(turning, still, false).expect("a bounded motion");
-            let missed = single.state.peaks.positive - alone.state.peaks.positive;
-            // a few roundings of u
-            assert!(missed.abs() <= 8.0 * f64::EPSILON * corner, "{distance} {speed}: {missed:e} m");
+            assert_eq!(alone, solver.run(turning, still, false).expect("a bounded motion"));
+            let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step)]
+                .map(|State { peaks: Peaks { positive, negative }, .. }| [positive, negative]);
+            for (found, wanted) in found.into_iter().zip(wanted) {
+                // a few roundings of u
+                let missed = (found - wanted).abs();
+                assert!(missed <= 8.0 * f64::EPSILON * corner, "{side} {distance} {speed}: {missed:e} m");
+            }
         }
     }
+}
+
+/// A block is searched for extremes where one may lie A h²/8 beyond the ends of its steps. A is that of plain
+/// steps or of curved branches, whichever is larger (docs/record-path.md, §5 and §7).
+#[test]
+fn blocks_are_searched_where_their_margin_exceeds_the_peaks() {
+    let (step, forcing, force) = (5e-3, 0.7, 0.9);
+    for (model, fastest) in [(DampingModel::ConstantCoefficient, 3.0), (DampingModel::ConstantRatio, 1e3)] {
+        let motion = losing(0.018, model, Impact::None);
+        let (solver, still) = (RecordSolver::new(&motion, step), Blocks::new(Forcing::Still(2)));
+        let lanes = Lanes::new(&solver, &still, &[], false, Unseen);
+        let table = &solver.table;
+        let plain = table.most_growth * 1.25 * (forcing + force);
+        let curved = table.curved_growth * (forcing + force + table.curved_damping * fastest);
+        assert_eq!(plain > curved, model == DampingModel::ConstantCoefficient);
+        let margin = plain.max(curved) * step * step / 8.0;
+        let state = motion.start(0.0, 0.0, Support::default());
+        let block = Block { highest: 0.04, lowest: -0.03, fastest, forcing, ..Block::new(0, 1.0, state) };
+        let exceeds = |positive: f64, negative: f64| {
+            lanes.may_exceed(&block, &Peaks { positive: 0.04 + positive, negative: 0.03 + negative }, force)
+        };
+        // by far more than rounding, and far less than the parts of A
+        let (less, more) = (margin * (1.0 - 1e-6), margin * (1.0 + 1e-6));
+        assert!(exceeds(less, more) && exceeds(more, less) && !exceeds(more, more), "{model:?}");
+    }
+}
+
+/// Moves a wall by the general search alone.
+fn searched(motion: &Motion, start: RunStart, samples: &[f64], step: f64) -> State {
+    let mut state = start.state;
+    for p in samples.windows(2) {
+        let p = [start.factor * p[0], start.factor * p[1]];
+        motion.advance_under(&mut state, step, p, &mut Memo::default()).expect("a bounded motion");
+    }
+    state
 }
 
 /// Steps that are long beside the wall's period, and few samples, make no lanes.
@@ -172,41 +212,6 @@ fn an_observed_run_is_the_same_run() {
             }
         }
     }
-}
-
-/// The motion from u = 1 on a line f = f₀ + k u, with damping that follows the stiffness.
-fn by_stiffness(velocity: f64, length: f64, [force_at_zero, stiffness]: [f64; 2]) -> Start<f64> {
-    let own = [0.0, force_at_zero, stiffness];
-    let (anchor, force, factor) = (0.0, force_at_zero, 0.02);
-    let branch = SecantBranch { anchor, force, stiffness, own, force_at_zero, factor };
-    branch.start::<ByStiffness>([1.0, velocity], [0.7, 0.3 * length], length).0
-}
-
-/// When u passes a value is found by halving the step, too.
-#[test]
-fn passages_are_found_by_halving() {
-    let (mut found, mut worst) = (0, 0.0_f64);
-    for speed in (-25..=50).filter(|speed: &i32| speed.abs() > 3) {
-        for line in [[1.0, -0.3], [1.0, 0.0], [0.4, 0.6]] {
-            let (velocity, length) = (0.1 * f64::from(speed), 0.05);
-            let rise = 0.03 * velocity;
-            let end = |share: f64| ByStiffness::end(by_stiffness(velocity, share * length, line), 1e-12);
-            let passage = ByStiffness::passage(by_stiffness(velocity, length, line), rise, 1e-12);
-            let Some([share, slope]) = passage else { continue };
-            found += 1;
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..50 {
-                let middle = 0.5 * (low + high);
-                let passed = (end(middle).expect("a series that reaches")[0] / rise) > 1.0;
-                if passed { high = middle } else { low = middle }
-            }
-            let [_, velocity] = end(high).expect("a series that reaches");
-            worst = worst.max(((share - high) * slope).abs()).max((velocity - high * slope).abs());
-        }
-    }
-    assert!(found > 150, "{found}");
-    // the tolerance of both
-    assert!(worst <= 2e-12, "{worst:e}");
 }
 
 /// Numbers of lanes, ordinary and not, and their branches.
@@ -272,10 +277,5 @@ fn many_branches_go_by_the_general_search() {
     let solver = RecordSolver::new(&motion, 5e-3);
     let start = starts(&motion)[10];
     let outcome = solver.run(start, Forcing::Samples(samples), false).expect("a bounded motion");
-    let mut state = start.state;
-    for p in samples.windows(2) {
-        let p = [start.factor * p[0], start.factor * p[1]];
-        motion.advance_under(&mut state, 5e-3, p, &mut Memo::default()).expect("a bounded motion");
-    }
-    assert_eq!(outcome.state, state);
+    assert_eq!(outcome.state, searched(&motion, start, samples, 5e-3));
 }

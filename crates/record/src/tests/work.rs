@@ -1,0 +1,72 @@
+//! Pins the work of batches. Most errors of a bound or a guess are mended by a step of another kind, at the
+//! price of speed: only the work shows them.
+
+use std::cell::Cell;
+
+use rocking_wall::solver::secant::{ByRatio, ByStiffness};
+
+use super::*;
+use crate::lanes::Waiting;
+use crate::table::{Law, Way};
+
+/// What a batch takes.
+#[derive(Debug, PartialEq)]
+struct Counts {
+    /// Calls that take steps side by side, until lanes wait.
+    rounds: u32,
+    /// Times that a lane has to go on by itself.
+    stuck: u32,
+    pieces: u64,
+    corners: u64,
+    overturned: usize,
+}
+
+/// Follows a wall under 21 factors by the vectors that every processor has.
+fn counts(model: DampingModel, impact: Impact) -> Counts {
+    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
+    let motion = losing(0.018, model, impact);
+    // rounded, so that another library of sines changes no count
+    let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
+    let (solver, forcing) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
+    let (record, starts) = (Blocks::new(forcing), starts(&motion));
+    let lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+    let (rounds, stuck) = (Cell::new(0), Cell::new(0));
+    let count = |waiting: Waiting| {
+        rounds.set(rounds.get() + 1);
+        stuck.set(stuck.get() + waiting.stuck.count_ones());
+        waiting
+    };
+    let outcomes = match (SideBySide::new(&solver, forcing).expect("a wall for lanes"), solver.table.law) {
+        (SideBySide::Affine(responses), _) => lanes.side_by_side(Way::Affine, |lanes, busy| {
+            count(lanes.affine::<Eight<_>>(simd, 0, busy, Some(&responses)))
+        }),
+        (SideBySide::Curved, Law::Ratio) => lanes
+            .side_by_side(Way::Curved, |lanes, busy| count(lanes.parts::<Eight<_>, ByRatio>(simd, 0, busy))),
+        (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(Way::Curved, |lanes, busy| {
+            count(lanes.parts::<Eight<_>, ByStiffness>(simd, 0, busy))
+        }),
+    };
+    let outcomes = outcomes.expect("bounded motions");
+    let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
+    Counts {
+        rounds: rounds.get(),
+        stuck: stuck.get(),
+        pieces: sum(|outcome| outcome.work.pieces),
+        corners: sum(|outcome| outcome.work.corners),
+        overturned: outcomes.iter().filter(|outcome| outcome.overturning.is_some()).count(),
+    }
+}
+
+#[test]
+fn the_work_of_batches_is_known() {
+    let [none, restitution] = [Impact::None, Impact::Restitution];
+    for (model, impact, [rounds, stuck], [pieces, corners], overturned) in [
+        (DampingModel::ConstantCoefficient, none, [322, 279], [126_805, 838], 12),
+        (DampingModel::None, restitution, [509, 316], [127_541, 1572], 10),
+        (DampingModel::ConstantRatio, none, [418, 620], [127_018, 852], 12),
+        (DampingModel::StiffnessProportional, none, [415, 632], [126_836, 867], 11),
+    ] {
+        let known = Counts { rounds, stuck, pieces, corners, overturned };
+        assert_eq!(counts(model, impact), known, "{model:?}");
+    }
+}
