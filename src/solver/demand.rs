@@ -139,3 +139,20 @@ impl Demands {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The time of an extreme is the first at which it was reached.
+    #[test]
+    fn extremes_keep_their_first_instant() {
+        let mut extremes = Extremes::at(0.0, 1.0);
+        for (value, time) in [(2.0, 2.0), (-3.0, 3.0), (2.0, 4.0), (-3.0, 5.0), (1.0, 6.0)] {
+            extremes.include(value, time);
+        }
+        assert_eq!(extremes.highest, Instant { value: 2.0, time: 2.0 });
+        assert_eq!(extremes.lowest, Instant { value: -3.0, time: 3.0 });
+        assert_eq!(extremes.largest(), extremes.lowest);
+    }
+}

@@ -192,6 +192,25 @@ mod tests {
         }
     }
 
+    /// The end of a step whose length is rounded is that of the step itself, also where ü is far below the
+    /// jerk over the step.
+    #[test]
+    fn ends_of_steps_are_those_of_their_own_length() {
+        let oscillator = Oscillator::new(0.4, 9.0);
+        for apart in [2047, 1000, 1] {
+            let length = f64::from_bits(rounded(0.7).to_bits() + apart);
+            let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
+            let found = Memo::default().end(0, &oscillator, start, 90.0, length);
+            let wanted = oscillator.propagate(start, 90.0, length);
+            // a few roundings of the largest terms; the rest of the length makes a thousand
+            let near =
+                |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-13, "{found}, {wanted}");
+            near(found.displacement, wanted.displacement);
+            near(found.velocity, wanted.velocity);
+            near(found.acceleration, wanted.acceleration);
+        }
+    }
+
     /// A motion is said to stay within bounds and peaks where its crests, decaying about an equilibrium that
     /// moves, do so; and only a bound closer than its decay and drift hides this.
     #[test]

@@ -159,3 +159,84 @@ impl State {
         self.peaks.include(self.displacement);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choices::{DampingModel, ForceLaw, Impact, Rocking};
+    use crate::wall::{Parameters, Support};
+
+    /// A rigid wall rests where its next bounce is lower than four margins of its own scale.
+    #[test]
+    fn bounces_of_less_than_four_margins_are_rest() {
+        for thickness in [0.1, 2.0] {
+            let parameters = Parameters {
+                thickness,
+                force_law: ForceLaw::RigidLinear,
+                damping_model: DampingModel::None,
+                impact: Impact::Restitution,
+                restitution: 0.9,
+                ..Parameters::default()
+            };
+            let motion = Motion::of(&parameters, 1e-8).unwrap();
+            let scale = motion.wall().displacement_scale();
+            let [_, pull] = motion.rest_band();
+            for (margins, rests) in [(3.9, true), (4.1, false), (100.0, false)] {
+                // as high as that after an impact at u = 0: u̇²/2 = p h
+                let leaving = (2.0 * pull * margins * MARGIN * scale).sqrt();
+                let mut state = motion.start(1e-3, 0.0, Support::default());
+                for side in [1.0, -1.0] {
+                    (state.displacement, state.velocity) =
+                        (0.0, side * leaving / motion.wall().passage_factor());
+                    let rebound = motion.late_rebound(&state, 0.0);
+                    assert_eq!(rebound.rests, rests, "{thickness} m, {margins} margins");
+                    assert!((rebound.velocity - side * leaving).abs() <= 1e-15 * leaving.max(1e-3));
+                }
+            }
+        }
+    }
+
+    /// A wall at transverse walls rests where its next bounce, with an energy of p h + ½ k h², is lower than
+    /// four margins. What it has gained on the way beyond u = 0 does not count.
+    #[test]
+    fn low_bounces_from_transverse_walls_are_rest() {
+        for (rocking, side) in [(Rocking::OneSidedPositive, 1.0), (Rocking::OneSidedNegative, -1.0)] {
+            for force_law in [ForceLaw::RigidLinear, ForceLaw::Bilinear] {
+                let (damping_model, impact) = (DampingModel::None, Impact::Restitution);
+                let parameters = Parameters {
+                    rocking,
+                    force_law,
+                    damping_model,
+                    u_start: 0.0,
+                    restitution: 0.8,
+                    impact,
+                    ..Parameters::default()
+                };
+                let motion = Motion::of(&parameters, 1e-8).unwrap();
+                let wall = motion.wall();
+                let mut state = motion.start(0.0, side * 0.1, Support::default());
+                let stiffness = wall.branches()[state.branch].stiffness.max(0.0);
+                let height = MARGIN * wall.displacement_scale();
+                let at_rest = side * wall.restoring(state.branch, 0.0);
+                // none, and one towards the transverse walls
+                for forcing in [0.0, -0.3 * side] {
+                    let pull = at_rest - side * forcing;
+                    for (margins, rests) in [(3.9, true), (4.1, false)] {
+                        let height = margins * height;
+                        let leaving = (2.0 * (pull + 0.5 * stiffness * height) * height).sqrt();
+                        let arriving = leaving / wall.passage_factor();
+                        let late = 0.5 * MARGIN;
+                        state.displacement = -side * late;
+                        state.velocity = -side * (arriving * arriving + 2.0 * pull * late).sqrt();
+                        let rebound = motion.late_rebound(&state, forcing);
+                        assert_eq!(
+                            rebound.rests, rests,
+                            "{rocking:?}, {force_law:?}, p = {forcing}: {margins}"
+                        );
+                        assert!((rebound.velocity / (side * leaving) - 1.0).abs() < 1e-12);
+                    }
+                }
+            }
+        }
+    }
+}

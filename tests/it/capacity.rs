@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
+use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, TieSide};
 use rocking_wall::wall::{Parameters, Wall};
 
 fn made(parameters: &Parameters) -> Wall {
@@ -49,6 +49,7 @@ fn the_rigid_curve_starts_at_the_onset_of_rocking() {
     assert_eq!(corners.len(), 2);
     assert_near(corners[0].spectral_acceleration, 9.81 * 0.1);
     assert_eq!((corners[0].displacement, corners[0].force_ratio), (0.0, 1.0));
+    assert_eq!((corners[0].secant_stiffness, corners[0].secant_period), (None, None));
     assert_eq!((corners[1].displacement_ratio, corners[1].force), (1.0, 0.0));
 }
 
@@ -103,5 +104,48 @@ fn corners_are_those_of_the_law() {
                 }
             }
         }
+    }
+}
+
+/// The curve that is drawn goes through the corners on both sides.
+#[test]
+fn the_backbone_goes_through_the_corners() {
+    for model in [DampingModel::None, DampingModel::ConstantRatio] {
+        let parameters = Parameters { damping_model: model, overburden: 3000.0, ..Parameters::default() };
+        let wall = made(&parameters);
+        let points = wall.backbone();
+        assert!(points.windows(2).all(|ends| ends[0].0 <= ends[1].0), "{points:?}");
+        for sign in [1.0, -1.0] {
+            for corner in wall.capacity_corners(sign).iter().filter(|corner| corner.displacement > 0.0) {
+                let (u, force) = (sign * corner.displacement, sign * corner.force);
+                let near = |point: &&(f64, f64)| (point.0 - u).abs() <= 1e-12;
+                let (_, found) = points.iter().find(near).unwrap_or_else(|| panic!("{u} in {points:?}"));
+                assert!(
+                    (found - force).abs() <= 1e-12 * wall.body().strength.of(sign),
+                    "{found} for {force}"
+                );
+            }
+        }
+    }
+}
+
+/// A tie adds (2y/h) N to the curve.
+#[test]
+fn a_tie_adds_its_force_times_its_lever() {
+    let tie_side = TieSide::Both;
+    let tied = Parameters {
+        tie_height: 3.0,
+        tie_stiffness: 2e5,
+        tie_slack: 0.02,
+        tie_side,
+        ..Parameters::default()
+    };
+    let (alone, wall) = (made(&Parameters { tie_stiffness: 0.0, ..tied.clone() }), made(&tied));
+    let lever = 2.0 * 3.0 / tied.height;
+    for (sign, fraction) in [1.0, -1.0].into_iter().flat_map(|sign| [0.01, 0.3, 0.9].map(|f| (sign, f))) {
+        let [with, without] = [&wall, &alone].map(|wall| wall.capacity_at(sign, fraction));
+        let force = lever * (2e5 * (lever * with.displacement - 0.02)).max(0.0);
+        let rounding = 1e-14 * (with.force.abs() + without.force.abs());
+        assert!((with.force - without.force - force).abs() <= rounding, "{sign}, {fraction}: {force}");
     }
 }

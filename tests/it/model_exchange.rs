@@ -36,6 +36,24 @@ fn event_at(simulation: &mut Simulation, displacement: f64, velocity: f64) -> Ha
     handled
 }
 
+/// At a corner the velocity decides: outwards the wall is on the branch beyond, inwards it stays.
+#[test]
+fn a_wall_at_a_corner_goes_where_it_moves() {
+    let mut simulation = start(&Parameters { u_start: 0.0, ..Parameters::default() });
+    for side in [1.0, -1.0] {
+        let places = simulation.wall().corners().iter().map(|corner| corner.displacement);
+        let corner = places.filter(|place| place * side > 0.0).fold(f64::INFINITY, |a, b| a.min(b.abs()));
+        event_at(&mut simulation, 0.0, 0.0);
+        let inner = simulation.progress().state.branch;
+        event_at(&mut simulation, side * corner, -0.1 * side);
+        assert_eq!(simulation.progress().state.branch, inner);
+        event_at(&mut simulation, side * corner, 0.1 * side);
+        assert_ne!(simulation.progress().state.branch, inner);
+        event_at(&mut simulation, side * corner, -0.1 * side);
+        assert_eq!(simulation.progress().state.branch, inner);
+    }
+}
+
 /// Beyond u = 0 by δ the wall has gained p δ of energy on the old side, and lost as much on the new one.
 #[test]
 fn an_impact_reports_its_jump_and_impulse() {

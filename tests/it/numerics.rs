@@ -4,9 +4,9 @@ use proptest::prelude::*;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
-use rocking_wall::simulation::Simulation;
+use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
-use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Softening};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Softening, Solver};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
 use crate::configuration::mostly;
@@ -266,4 +266,60 @@ fn work_of_the_scenes() {
     for (name, expected) in expected {
         assert_eq!(work(name), expected, "{name}");
     }
+}
+
+/// A Newmark step goes through ordinary corners: it is one piece, whatever branches it crosses.
+#[test]
+fn newmark_locates_no_ordinary_corner() {
+    let free = Parameters { solver: Solver::Newmark, newmark_step: 0.01, u_start: 0.15, ..parapet() };
+    let still = Support::default();
+    let mut simulation = Simulation::new(&free, None, 0.0, still).unwrap();
+    for _ in 0..500 {
+        simulation.advance(&Segment { duration: 0.01, from: still, to: still }).unwrap();
+    }
+    let Progress { state, work, .. } = *simulation.progress();
+    assert!(state.peaks.negative > 0.04, "{state:?}");
+    assert_eq!(work, Work { pieces: 500, corners: 0, impacts: 0 });
+}
+
+/// On the elastic branch the adaptive solver has the closed form, whatever its tolerance.
+#[test]
+fn the_adaptive_solver_takes_the_elastic_branch_exactly() {
+    let by = |solver: Solver| {
+        let elastic = Parameters { solver, tolerance: 1e-3, a1: 0.5, u_start: 0.05, ..parapet() };
+        let mut simulation = Simulation::new(&elastic, None, 0.0, Support::default()).unwrap();
+        for n in 0..200 {
+            let [from, to] = [n, n + 1].map(|n| Support::rigid(0.05 * libm::sin(0.1 * f64::from(n))));
+            simulation.advance(&Segment { duration: 0.02, from, to }).unwrap();
+        }
+        *simulation.progress()
+    };
+    let exact = by(Solver::Exact);
+    assert!(exact.state.peaks.negative > 0.0 && exact.work.corners == 0, "{exact:?}");
+    assert_eq!(by(Solver::Adaptive), exact);
+}
+
+/// One step of five minutes is that of thousands, for a wall that takes seconds from corner to corner.
+#[test]
+fn a_long_step_is_that_of_many() {
+    let slow = Parameters {
+        height: 40.0,
+        thickness: 2.0,
+        damping_model: DampingModel::None,
+        u_start: 0.5,
+        ..parapet()
+    };
+    let still = Support::default();
+    let after = |steps: u32| {
+        let mut simulation = Simulation::new(&slow, None, 0.0, still).unwrap();
+        for _ in 0..steps {
+            let duration = 300.0 / f64::from(steps);
+            simulation.advance(&Segment { duration, from: still, to: still }).unwrap();
+        }
+        *simulation.progress()
+    };
+    let (one, many) = (after(1), after(3000));
+    assert!(one.work.corners > 100 && one.work.corners == many.work.corners, "{one:?}");
+    // thousands of roundings of u and of the time
+    assert!((one.state.displacement - many.state.displacement).abs() <= 1e-10, "{one:?} {many:?}");
 }

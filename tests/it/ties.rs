@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::Segment;
+use rocking_wall::solver::{ACCURACY, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, TieSide};
 use rocking_wall::wall::{Parameters, Support, Wall, Warning};
 
@@ -236,4 +236,46 @@ fn a_tie_that_holds_the_wall_is_told() {
     assert_eq!(tied.body(), free.body());
     assert_eq!((tied.omega1(), tied.damping_ratio()), (free.omega1(), free.damping_ratio()));
     assert_eq!(tied.rocking_onset(), free.rocking_onset());
+}
+
+/// The tie pulls on its own side, from its slack on until the wall leaves its supports.
+#[test]
+fn the_tie_pulls_on_its_side_while_the_wall_is_on_its_supports() {
+    for (tie_side, sides) in
+        [(TieSide::Positive, [1.0, 0.0]), (TieSide::Negative, [0.0, 1.0]), (TieSide::Both, [1.0, 1.0])]
+    {
+        let parameters = Parameters { tie_side, ..tied_parapet() };
+        let wall = Wall::new(&parameters).unwrap();
+        let (tie, lever) = (wall.tie().unwrap(), 2.0 * parameters.tie_height / parameters.height);
+        for (sign, holds) in [1.0, -1.0].into_iter().zip(sides) {
+            let departure = wall.body().departure.of(sign);
+            for (u, pulls) in
+                [(0.9 * 0.02 / lever, 0.0), (0.1, 1.0), (0.999 * departure, 1.0), (1.001 * departure, 0.0)]
+            {
+                let wanted = holds * pulls * 2e6 * (lever * u - 0.02);
+                let found = tie.force(sign * u);
+                assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{tie_side:?} at {u}: {found}");
+            }
+        }
+    }
+}
+
+/// The largest force is that at the largest displacement, also where the tie turns the wall back hard.
+#[test]
+fn the_largest_force_is_at_the_turning_point() {
+    let hard =
+        Parameters { tie_stiffness: 1e9, tie_slack: 0.0, tie_side: TieSide::Positive, ..tied_parapet() };
+    let still = Support::default();
+    for u_start in [-0.03, -0.05, -0.08, -0.11] {
+        let mut simulation =
+            Simulation::new(&Parameters { u_start, ..hard.clone() }, None, 0.0, still).unwrap();
+        let mut demands = simulation.demands(still, &[]);
+        let segment = Segment { duration: 3.0, from: still, to: still };
+        simulation.advance_watched(&segment, &mut demands).unwrap();
+        let (tie, highest) = (demands.tie.unwrap(), demands.displacement.highest);
+        let wanted = simulation.wall().tie().unwrap().force(highest.value);
+        assert!(highest.value > 0.0 && wanted > 1e4, "{highest:?}");
+        // what both searches leave
+        assert!((tie.force.value - wanted).abs() <= 2.0 * ACCURACY * wanted, "{tie:?}: {wanted}");
+    }
 }

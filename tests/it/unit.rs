@@ -1,6 +1,8 @@
 //! Tests the derivatives that the unit states, against differences of what it computes.
 
-use fmu_export::{Environment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _};
+use fmu_export::{
+    Environment, Experiment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _,
+};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, IntegerVariable as I, Mechanism, RealVariable as V, TieSide,
@@ -211,6 +213,36 @@ fn a_completed_step_asks_for_the_event_it_passed() {
         if event {
             assert_eq!(unit.update(&mut Log::silent()).unwrap().states_changed, jumps, "{displacement} u1");
             assert!(!unit.complete_step(&mut Log::silent()).unwrap());
+        }
+    }
+}
+
+/// A step that may end early ends just after overturning, also where time itself is rounded to nanoseconds.
+#[test]
+fn a_step_ends_just_after_overturning() {
+    for start in [0.0, 1e7] {
+        // 0.1 ns, or four roundings of time; the second search for the time is a little off the first
+        let margin = f64::max(1e-10, 4.0 * f64::EPSILON * start);
+        for n in 0..20 {
+            let environment = Environment {
+                interface: Interface::CoSimulation,
+                instance_name: "wall",
+                resources: None,
+                payload: None,
+            };
+            let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+            unit.set_real(V::UStart, 0.19);
+            unit.set_real(V::UDotStart, 0.1 + 0.013 * f64::from(n));
+            unit.setup_experiment(Experiment { start, ..Experiment::default() });
+            unit.initialize(&mut Log::silent()).unwrap();
+            let step = Step { from: start, duration: 0.5, may_end_early: true };
+            let end = unit.do_step(step, &mut Log::silent()).unwrap().expect("an early end");
+            let overturned = unit.real(V::OverturnTime);
+            assert!(unit.real(V::URatio) >= 1.0 && end >= overturned, "{end} after {overturned}");
+            assert!(
+                end - overturned <= 1.001 * margin + 2.0 * f64::EPSILON * end,
+                "{end} after {overturned}"
+            );
         }
     }
 }

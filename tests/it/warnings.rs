@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::{IntegerVariable, RealVariable, Solver};
-use rocking_wall::wall::Wall;
+use rocking_wall::variables::{DampingModel, IntegerVariable, RealVariable, Solver};
+use rocking_wall::wall::{Kinematics, Parameters, Wall, usage};
 
 /// What a multilinear law replaces is warned of too.
 #[test]
@@ -84,4 +84,19 @@ fn model_exchange_warns_of_a_solver_that_is_set() {
     assert_eq!(told(Interface::ModelExchange, Solver::Automatic), warning("tolerance"));
     assert_eq!(told(Interface::ModelExchange, Solver::Adaptive), warning("solver") + &warning("tolerance"));
     assert_eq!(told(Interface::CoSimulation, Solver::Adaptive), "");
+}
+
+/// The tolerance counts where motion has no closed form: with secant damping, and in full rotations.
+#[test]
+fn the_tolerance_counts_where_there_is_no_closed_form() {
+    let matters = |kinematics: Kinematics, damping_model: DampingModel, solver: Solver| {
+        let parameters = Parameters { kinematics, damping_model, solver, ..Parameters::default() };
+        usage(&parameters).find(|usage| usage.name == "tolerance").unwrap().matters
+    };
+    for solver in [Solver::Automatic, Solver::Adaptive] {
+        assert!(matters(Kinematics::Linear, DampingModel::ConstantRatio, solver));
+        assert!(matters(Kinematics::Trigonometric, DampingModel::None, solver));
+    }
+    assert!(!matters(Kinematics::Linear, DampingModel::None, Solver::Automatic));
+    assert!(!matters(Kinematics::Linear, DampingModel::None, Solver::Exact));
 }

@@ -253,3 +253,37 @@ impl<O: Observer> Lanes<'_, O> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
+    use rocking_wall::solver::Motion;
+    use rocking_wall::wall::{Parameters, Support};
+
+    use super::*;
+    use crate::forcing::{Blocks, Forcing};
+    use crate::solver::{RecordSolver, Unseen};
+
+    /// A wall at rest passes over the samples within the band, up to the first beyond it.
+    #[test]
+    fn rest_lasts_as_long_as_the_band_holds() {
+        let rigid = Parameters {
+            force_law: ForceLaw::RigidLinear,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            ..Parameters::default()
+        };
+        let motion = Motion::of(&rigid, 1e-8).expect("a valid wall");
+        let (solver, [lowest, highest]) = (RecordSolver::new(&motion, 0.01), motion.rest_band());
+        for (beyond, factor) in [(1.01 * highest, 1.0), (1.01 * lowest, 1.0), (1.01 * highest, -1.0)] {
+            let samples: Vec<f64> = (0..100).map(|n| if n < 40 { 0.98 * beyond } else { beyond }).collect();
+            let record = Blocks::new(Forcing::Samples(&samples));
+            let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor }];
+            let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+            assert!(lanes.start_next(0) && lanes.in_block(0));
+            // the last step within the band ends at sample 39
+            assert!(lanes.rest(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
+            assert!(!lanes.rest(0));
+        }
+    }
+}

@@ -209,6 +209,10 @@ fn an_observed_run_is_the_same_run() {
                 assert_eq!((u, v), (outcome.state.displacement, outcome.state.velocity));
                 let stopped = until_overturning && outcome.overturning.is_some();
                 assert_eq!(last < samples.len() - 1, stopped);
+                if stopped && model == DampingModel::ConstantCoefficient {
+                    // each step is a piece, and each corner begins another
+                    assert_eq!(outcome.work.pieces, last as u64 + outcome.work.corners);
+                }
             }
         }
     }
