@@ -149,3 +149,22 @@ fn a_tie_adds_its_force_times_its_lever() {
         assert!((with.force - without.force - force).abs() <= rounding, "{sign}, {fraction}: {force}");
     }
 }
+
+/// A law of points goes through each of them, also where a falling line ends above zero.
+#[test]
+fn a_law_of_points_goes_through_them() {
+    let points = vec![[0.05, 0.8], [0.2, 1.0], [0.5, 0.9], [0.7, 0.3], [1.0, 0.0]];
+    let wall = made(&Parameters {
+        multilinear: Some(points.clone().into()),
+        damping_model: DampingModel::None,
+        ..Parameters::default()
+    });
+    for (sign, ends) in
+        [1.0, -1.0].into_iter().flat_map(|sign| points.windows(2).map(move |ends| (sign, ends)))
+    {
+        for share in [0.0, 0.3, 0.9] {
+            let [fraction, force] = [0, 1].map(|i| ends[0][i] + (ends[1][i] - ends[0][i]) * share);
+            assert_near(wall.capacity_at(sign, fraction).force_ratio, force);
+        }
+    }
+}
