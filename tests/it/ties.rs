@@ -279,3 +279,23 @@ fn the_largest_force_is_at_the_turning_point() {
         assert!((tie.force.value - wanted).abs() <= 2.0 * ACCURACY * wanted, "{tie:?}: {wanted}");
     }
 }
+
+/// A tie holds the wall for good where it still outweighs the wall's own force as the wall leaves its supports.
+#[test]
+fn a_tie_holds_that_outweighs_the_wall_to_the_end() {
+    // it begins to pull beyond u_ins, so that its force decides and not its slope
+    let free = Parameters { damping_model: DampingModel::None, tie_strength: 0.0, ..tied_parapet() };
+    let tied = Parameters { tie_slack: 0.36, ..free };
+    let wall = Wall::new(&tied).unwrap();
+    let (body, lever) = (wall.body(), 2.0 * tied.tie_height / tied.height);
+    let (end, u_ins) = (body.departure.positive, body.instability.positive);
+    assert!(u_ins < tied.tie_slack / lever && tied.tie_slack / lever < end);
+    // K (2y/h) ((2y/h) u − g₀) = F₀ (u/u_ins − 1)
+    let own = body.strength.positive * (end / u_ins - 1.0);
+    let threshold = own / (lever * (lever * end - tied.tie_slack));
+    for (share, holds) in [(0.999, false), (1.001, true), (100.0, true), (0.01, false)] {
+        let wall = Wall::new(&Parameters { tie_stiffness: share * threshold, ..tied.clone() }).unwrap();
+        let found = wall.warnings().iter().any(|warning| matches!(warning, Warning::TieHolds { .. }));
+        assert_eq!(found, holds, "{share}");
+    }
+}

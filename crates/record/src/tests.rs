@@ -3,7 +3,7 @@
 
 use fearless_simd::{Level, Simd};
 use rocking_wall::choices::{DampingModel, Impact};
-use rocking_wall::solver::{Memo, Motion, Peaks, State};
+use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
 use crate::batch::{SideBySide, Vectors, abreast};
@@ -114,7 +114,7 @@ fn extremes_before_a_corner_are_found() {
             let alone = narrow(&solver, still, &[turning])[0];
             assert_eq!(alone, narrow(&solver, still, &starts)[0]);
             assert_eq!(alone, solver.run(turning, still, false).expect("a bounded motion"));
-            let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step)]
+            let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step).0]
                 .map(|State { peaks: Peaks { positive, negative }, .. }| [positive, negative]);
             for (found, wanted) in found.into_iter().zip(wanted) {
                 // a few roundings of u
@@ -151,13 +151,27 @@ fn blocks_are_searched_where_their_margin_exceeds_the_peaks() {
 }
 
 /// Moves a wall by the general search alone.
-fn searched(motion: &Motion, start: RunStart, samples: &[f64], step: f64) -> State {
-    let mut state = start.state;
+fn searched(motion: &Motion, start: RunStart, samples: &[f64], step: f64) -> (State, Work) {
+    let (mut state, mut work) = (start.state, Work::default());
     for p in samples.windows(2) {
         let p = [start.factor * p[0], start.factor * p[1]];
-        motion.advance_under(&mut state, step, p, &mut Memo::default()).expect("a bounded motion");
+        let moved = motion.advance_under(&mut state, step, p, &mut Memo::default());
+        work.add(moved.expect("a bounded motion").work);
     }
-    state
+    (state, work)
+}
+
+/// Pieces, corners and impacts are those that the general search counts.
+#[test]
+fn work_is_counted_as_by_the_general_search() {
+    let motion = losing(0.018, DampingModel::None, Impact::Restitution);
+    let samples = &shaking()[..1000];
+    let (solver, forcing, mut impacts) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples), 0);
+    for (start, lane) in starts(&motion).into_iter().zip(narrow(&solver, forcing, &starts(&motion))) {
+        assert_eq!(lane.work, searched(&motion, start, samples, 5e-3).1);
+        impacts += lane.work.impacts;
+    }
+    assert!(impacts > 50, "{impacts}");
 }
 
 /// Steps that are long beside the wall's period, and few samples, make no lanes.
@@ -281,5 +295,5 @@ fn many_branches_go_by_the_general_search() {
     let solver = RecordSolver::new(&motion, 5e-3);
     let start = starts(&motion)[10];
     let outcome = solver.run(start, Forcing::Samples(samples), false).expect("a bounded motion");
-    assert_eq!(outcome.state, searched(&motion, start, samples, 5e-3));
+    assert_eq!((outcome.state, outcome.work), searched(&motion, start, samples, 5e-3));
 }
