@@ -282,8 +282,8 @@ mod tests {
             let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
             assert!(lanes.start_next(0) && lanes.in_block(0));
             // the last step within the band ends at sample 39
-            assert!(lanes.rest(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
-            assert!(!lanes.rest(0));
+            assert!(lanes.rest_on(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
+            assert!(!lanes.rest_on(0));
         }
     }
 }

@@ -38,12 +38,13 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     };
     let outcomes = match (SideBySide::new(&solver, forcing).expect("a wall for lanes"), solver.table.law) {
         (SideBySide::Affine(responses), _) => lanes.side_by_side(Way::Affine, |lanes, busy| {
-            count(lanes.affine::<Eight<_>>(simd, 0, busy, Some(&responses)))
+            count(lanes.affine_steps::<Eight<_>>(simd, 0, busy, Some(&responses)))
         }),
-        (SideBySide::Curved, Law::Ratio) => lanes
-            .side_by_side(Way::Curved, |lanes, busy| count(lanes.parts::<Eight<_>, ByRatio>(simd, 0, busy))),
+        (SideBySide::Curved, Law::Ratio) => lanes.side_by_side(Way::Curved, |lanes, busy| {
+            count(lanes.take_parts::<Eight<_>, ByRatio>(simd, 0, busy))
+        }),
         (SideBySide::Curved, Law::Stiffness) => lanes.side_by_side(Way::Curved, |lanes, busy| {
-            count(lanes.parts::<Eight<_>, ByStiffness>(simd, 0, busy))
+            count(lanes.take_parts::<Eight<_>, ByStiffness>(simd, 0, busy))
         }),
     };
     let outcomes = outcomes.expect("bounded motions");
