@@ -68,7 +68,7 @@ def test_edited_states_are_refused_or_work(request, archive, settings):
             unit.step(0.01)
         own = unit.slave.getFMUState()
         state = unit.slave.serializeFMUState(own)
-        start = 16 + 8 + len(unpacked.description.guid) + 8
+        start = 16 + 8 + len(unpacked.description.guid) + 8 + 8
         payload = state[start:-8]
         assert mended(state, start, payload) == state
         assert used(unit, state)
@@ -88,7 +88,7 @@ def test_a_parameter_beyond_its_limits_is_named(unpacked_floor):
     with Unit(unpacked_floor) as unit:
         unit.start(**BILINEAR, yield_force=54321.0)
         state = unit.slave.serializeFMUState(unit.slave.getFMUState())
-        start = 16 + 8 + len(unpacked_floor.description.guid) + 8
+        start = 16 + 8 + len(unpacked_floor.description.guid) + 8 + 8
         payload = state[start:-8].replace(struct.pack("<d", 54321.0), struct.pack("<d", -1.0))
         assert not used(unit, mended(state, start, payload))
         assert "yield_force = -1.0 N is below its minimum" in unit.messages[-1][2]

@@ -14,8 +14,9 @@ import pytest
 import test_cases
 from conftest import ROOT
 from library import problems
+from test_restart import BREAK, END, STEP, restart
 from unit import Unit
-from windows import RecordingUnit, Wine, windows_path
+from windows import RecordingUnit, Wine, digits, windows_path
 
 PLATFORMS = {"linux64": "so", "win64": "dll", "darwin64": "dylib"}
 DRIVER = "ROCKING_WALL_DRIVER"
@@ -94,6 +95,27 @@ def test_floor_on_windows(unpacked_floor, wine):
         for index in range(500):
             unit.set(a_g=3.0 * (-1) ** (index // 20)).step(0.01)
         check(unit, wine)
+
+
+def test_a_state_goes_to_windows_and_back(unpacked, fmu3, wine, tmp_path):
+    """`restart.py` saves and resumes on Linux; on Windows the driver does."""
+    linux, windows = tmp_path / "linux.state", tmp_path / "windows.state"
+    restart("save", unpacked.path, linux)
+    u = float(restart("resume", unpacked.path, linux))
+    (reference,) = (v.valueReference for v in unpacked.description.modelVariables if v.name == "u")
+
+    def steps(first, last):
+        return [f"step {digits(index * STEP)} {digits(STEP)}" for index in range(first, last)]
+
+    # from Linux to Windows
+    last = f"get {reference:x} {digits(u)}"
+    calls = [f"resume {windows_path(linux)}", *steps(BREAK, END), last]
+    assert wine.drive(unpacked, calls) == "1 compared\n"
+    # and back: Windows saves the bytes of Linux, which the FMI 3.0 unit resumes too
+    begin = [f"setup 0 {digits(0.0)} {digits(0.0)}", "enter", "exit"]
+    assert wine.drive(unpacked, [*begin, *steps(0, BREAK), f"save {windows_path(windows)}"]) == "0 compared\n"
+    assert windows.read_bytes() == linux.read_bytes()
+    assert float(restart("resume", fmu3, windows)) == u
 
 
 @pytest.mark.parametrize("scene", ["shaken_parapet", "plain_parapet"])

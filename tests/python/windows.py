@@ -92,11 +92,7 @@ class RecordingUnit(Unit):
     def repeat(self, wine):
         """Repeats all calls on Windows. Returns how many values were compared, and those that differ."""
         names = {variable.valueReference: name for name, variable in self.variables.items()}
-        folder = Path(self.unpacked.folder)
-        library = folder / f"binaries/win64/{self.description.coSimulation.modelIdentifier}.dll"
-        resources = "file:///Z:" + quote(str(folder / "resources"))
-        arguments = [windows_path(library), self.description.guid, resources]
-        printed = wine.run(wine.driver, *arguments, input="\n".join(self.slave.calls))
+        printed = wine.drive(self.unpacked, self.slave.calls)
         *different, count = [line.split() for line in printed.splitlines()]
         return int(count[0]), [(names[int(r)], real(linux), real(found)) for r, linux, found in different]
 
@@ -111,6 +107,14 @@ class Wine:
 
     def __init__(self, program, driver, wall):
         self.program, self.driver, self.wall = program, driver, wall
+
+    def drive(self, unpacked, calls):
+        """Makes calls of the Windows library of an unpacked FMU, and returns what the driver prints."""
+        folder = Path(unpacked.folder)
+        library = folder / f"binaries/win64/{unpacked.description.coSimulation.modelIdentifier}.dll"
+        resources = "file:///Z:" + quote(str(folder / "resources"))
+        arguments = [windows_path(library), unpacked.description.guid, resources]
+        return self.run(self.driver, *arguments, input="\n".join(calls))
 
     def run(self, program, *arguments, input=""):
         """Runs a program to its end and returns what it prints."""

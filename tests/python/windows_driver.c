@@ -6,7 +6,7 @@
  *
  *   setup TOLERANCE_DEFINED TOLERANCE START   enter   exit   step TIME SIZE
  *   real REFERENCE VALUE   integer REFERENCE VALUE   boolean REFERENCE VALUE   rate REFERENCE VALUE
- *   get REFERENCE EXPECTED   truth REFERENCE EXPECTED
+ *   get REFERENCE EXPECTED   truth REFERENCE EXPECTED   save FILE   resume FILE
  *
  * It prints each value that differs as `REFERENCE EXPECTED FOUND`, then the number of values compared. The
  * locale is one with a decimal comma, if there is one.
@@ -18,6 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <windows.h>
+
+#define MOST_BYTES 65536
 
 typedef void *Component;
 typedef unsigned int Reference;
@@ -80,6 +82,46 @@ static uint64_t bits(double value)
     return found;
 }
 
+/* Writes the state of a unit to a file. */
+static void save(Component unit, const char *path)
+{
+    int (*get)(Component, void **) = (void *)function("fmi2GetFMUstate");
+    int (*size_of)(Component, void *, size_t *) = (void *)function("fmi2SerializedFMUstateSize");
+    int (*serialize)(Component, void *, char *, size_t) = (void *)function("fmi2SerializeFMUstate");
+    int (*release)(Component, void **) = (void *)function("fmi2FreeFMUstate");
+    static char bytes[MOST_BYTES];
+    void *state = NULL;
+    size_t size = 0;
+    check(get(unit, &state));
+    check(size_of(unit, state, &size));
+    if (size > sizeof bytes)
+        fail("the state is too long");
+    check(serialize(unit, state, bytes, size));
+    check(release(unit, &state));
+    FILE *file = fopen(path, "wb");
+    if (!file || fwrite(bytes, 1, size, file) != size || fclose(file))
+        fail("the state cannot be written");
+}
+
+/* Puts a unit into the state that a file has. */
+static void resume(Component unit, const char *path)
+{
+    int (*deserialize)(Component, const char *, size_t, void **) =
+        (void *)function("fmi2DeSerializeFMUstate");
+    int (*set)(Component, void *) = (void *)function("fmi2SetFMUstate");
+    int (*release)(Component, void **) = (void *)function("fmi2FreeFMUstate");
+    static char bytes[MOST_BYTES];
+    void *state = NULL;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        fail("the state cannot be read");
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    check(deserialize(unit, bytes, size, &state));
+    check(set(unit, state));
+    check(release(unit, &state));
+}
+
 int main(int count, char **arguments)
 {
     if (count != 4)
@@ -108,7 +150,7 @@ int main(int count, char **arguments)
     Component unit = instantiate("unit", 1, arguments[2], arguments[3], &CALLBACKS, 0, 1);
     if (!unit)
         fail("fmi2Instantiate");
-    char word[16];
+    char word[16], path[256];
     uint64_t first, second, third;
     unsigned compared = 0;
     const int order = 1;
@@ -119,6 +161,12 @@ int main(int count, char **arguments)
         }
         if (!strcmp(word, "exit")) {
             check(leave(unit));
+            continue;
+        }
+        if (!strcmp(word, "save") || !strcmp(word, "resume")) {
+            if (scanf("%255s", path) != 1)
+                fail("a path is missing");
+            (word[0] == 's' ? save : resume)(unit, path);
             continue;
         }
         if (scanf("%" SCNx64 " %" SCNx64, &first, &second) != 2)

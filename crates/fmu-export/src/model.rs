@@ -65,6 +65,9 @@ pub trait Model: Clone + Send + Sized + 'static {
     /// The file under `resources/` whose hash is the second half of a guid `{base-payload}`; without folders.
     /// By default no such guid is accepted.
     const PAYLOAD: &'static str = "";
+    /// Version of the list of values that [`transfer_state`](Self::transfer_state) passes. A change of that
+    /// list raises it: a saved state of another version is refused instead of misread.
+    const STATE_VERSION: u64 = 1;
 
     /// A model with its start values.
     ///

@@ -159,8 +159,8 @@ fn bytes_that_are_damaged_are_refused_and_change_nothing() {
 
 /// `stored` with other bytes as its payload, and a length and checksum that suit them.
 fn with_payload(stored: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
-    // Magic, version, and the guid with its length; then the length of the payload.
-    let start = 8 + 8 + (8 + Spring::GUID.len());
+    // Magic, version, the guid with its length, version of the model's state; then the length of the payload.
+    let start = 8 + 8 + (8 + Spring::GUID.len()) + 8;
     let mut payload = stored[start + 8..stored.len() - 8].to_vec();
     change(&mut payload);
     let mut bytes = [&stored[..start], &(payload.len() as u64).to_le_bytes(), &payload].concat();
