@@ -88,6 +88,13 @@ def test_what_plays_no_part_is_not_there(packages, scene, there, absent):
     assert not absent & names
 
 
+def test_reference_results_stay_with_the_general_unit(fmu, packages):
+    for path, expected in ((fmu, 6), (packages["plain_parapet"], 0)):
+        with zipfile.ZipFile(path) as archive:
+            found = [name for name in archive.namelist() if "fmi-ls-ref" in name]
+        assert len(found) == expected, found
+
+
 def test_starts_are_the_scenes(packages):
     with Unit.unpack(packages["strip_between_floors"]) as unpacked, Unit(unpacked) as unit:
         unit.start()

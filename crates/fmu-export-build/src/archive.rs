@@ -104,6 +104,12 @@ impl Archive {
         self.files.remove(name)
     }
 
+    /// Takes out all files of the folder `name`, and of those inside.
+    pub fn remove_folder(&mut self, name: &str) {
+        let is_inside = |path: &str| path.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
+        self.files.retain(|path, _| !is_inside(path));
+    }
+
     /// The paths inside, sorted.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.files.keys().map(String::as_str)
@@ -185,6 +191,11 @@ mod tests {
         assert_eq!(archive.remove("a").map(|content| content.len()), Some(1000));
         assert_eq!(archive.names().collect::<Vec<_>>(), ["b", "c"]);
         assert_eq!(archive.get("a"), None);
+        archive.insert("d/e", *b"");
+        archive.insert("d/f/g", *b"");
+        archive.insert("de", *b"");
+        archive.remove_folder("d");
+        assert_eq!(archive.names().collect::<Vec<_>>(), ["b", "c", "de"]);
     }
 
     #[test]

@@ -39,7 +39,7 @@ const MAX_DEPTH: usize = 8;
 /// What goes into an FMU.
 #[derive(Clone, Debug, Default)]
 pub struct Package {
-    /// The model description; a `model.png` beside it goes in as well.
+    /// The model description; a `model.png` and a folder `extra` beside it go in as well.
     pub description: PathBuf,
     /// Platform by its name in FMI 2.0 (such as `linux64`), or `aarch64-linux`, and library.
     pub binaries: Vec<(String, PathBuf)>,
@@ -129,6 +129,10 @@ impl Package {
         archive.insert(PAGE, page);
         if let Some(resources) = &self.resources {
             add_folder(&mut archive, "resources", resources, MAX_DEPTH)?;
+        }
+        let extra = self.description.with_file_name("extra");
+        if extra.exists() {
+            add_folder(&mut archive, "extra", &extra, MAX_DEPTH)?;
         }
         Ok(archive)
     }

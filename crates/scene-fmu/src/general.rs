@@ -9,6 +9,9 @@ use rocking_wall::scene;
 
 use super::error::SceneFmuError;
 
+/// Reference results, after the layered standard fmi-ls-ref.
+const REFERENCES: &str = "extra/org.fmi-standard.fmi-ls-ref";
+
 /// The general FMU of a model.
 #[derive(Clone, Debug)]
 pub struct General {
@@ -52,11 +55,13 @@ impl General {
         Ok(Self { archive, description, sources, guid })
     }
 
-    /// Describes the archive as `reduced`, which was made from its description, in its version of FMI.
+    /// Describes the archive as `reduced`, which was made from its description, in its version of FMI. Takes
+    /// out the reference results, which are those of the general FMU.
     ///
     /// # Errors
     /// A variable that FMI 3.0 has another use for.
     pub fn describe(&mut self, reduced: &Description) -> Result<(), SceneFmuError> {
+        self.archive.remove_folder(REFERENCES);
         match &self.sources {
             None => self.archive.insert("modelDescription.xml", reduced.to_xml()),
             Some(sources) => sources

@@ -12,7 +12,8 @@ Puts an FMU together; the same files give the same bytes.
 fmu-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR [--resources DIR]
           [--fmi 3] --output FILE
 
-  --description FILE    the modelDescription.xml; its guid is filled in, and a model.png beside it goes in too
+  --description FILE    the modelDescription.xml; its guid is filled in, and a model.png and a folder extra/
+                        beside it go in too
   --binary LIBRARY      the shared library; may be repeated, each followed by its
   --platform NAME       linux64, win64, darwin64, linux32, win32 or darwin32; for FMI 3.0 also aarch64-linux
   --documentation DIR   becomes documentation/ and needs an index.html

@@ -16,6 +16,7 @@ impl Build {
         let root = std::env::temp_dir().join(format!("fmu-pack-{name}-{}", std::process::id()));
         fs::create_dir_all(root.join("documentation/licenses")).unwrap();
         fs::create_dir_all(root.join("resources")).unwrap();
+        fs::create_dir_all(root.join("extra/org.example")).unwrap();
         for (path, content) in [
             ("modelDescription.xml", BLOCK),
             ("model.png", "an icon"),
@@ -24,6 +25,7 @@ impl Build {
             ("documentation/licenses/notices.txt", "notices"),
             ("documentation/.gitignore", "*"),
             ("resources/scene.toml", "a scene"),
+            ("extra/org.example/notes.txt", "notes"),
         ] {
             fs::write(root.join(path), content).unwrap();
         }
@@ -74,6 +76,7 @@ fn an_fmu_has_its_files_in_their_places() {
             "binaries/linux64/block.so",
             "documentation/index.html",
             "documentation/licenses/notices.txt",
+            "extra/org.example/notes.txt",
             "model.png",
             "modelDescription.xml",
             "resources/scene.toml"
@@ -105,6 +108,7 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
             "documentation/licenses/notices.txt",
             "extra/fmu-export/fmi3.xml",
             "extra/fmu-export/modelDescription.xml",
+            "extra/org.example/notes.txt",
             "modelDescription.xml",
             "terminalsAndIcons/icon.png"
         ]
