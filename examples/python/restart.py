@@ -1,7 +1,7 @@
 """A simulation that goes on in another process, from the bytes of a saved state.
 
-    python examples/python/restart.py                      does it with both FMUs that `cargo xtask fmu` makes
-    python examples/python/restart.py save UNIT STATE      simulates UNIT for 2 s and writes its state to a file
+    python examples/python/restart.py                      both FMUs that `cargo xtask fmu` makes
+    python examples/python/restart.py save UNIT STATE      simulates UNIT for 2 s and writes its state
     python examples/python/restart.py resume UNIT STATE    goes on to 5 s, and prints u there
 
 `save` and `resume` may run on different platforms, and with the FMI 2.0 and the FMI 3.0 unit of one version.

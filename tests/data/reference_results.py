@@ -2,9 +2,9 @@
 
     python tests/data/reference_results.py
 
-The wall is the one of the start values: a parapet of height 4 m and thickness 0.4 m, bilinear, with a constant
-damping ratio. SciPy integrates Eq. (12) from corner to corner and from sample to sample at a tolerance of
-1e-13. It shares nothing with the library but the equations of docs/model.md.
+The wall is the one of the start values: a parapet of height 4 m and thickness 0.4 m, bilinear, with a
+constant damping ratio. SciPy integrates Eq. (12) from corner to corner and from sample to sample at a
+tolerance of 1e-13. It shares nothing with the library but the equations of docs/model.md.
 """
 
 import math

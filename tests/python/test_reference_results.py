@@ -1,7 +1,7 @@
 """Holds the FMUs to the reference results inside them (fmi-ls-ref), which come from the equations alone.
 
-The files say what to run: start values, input, steps and tolerance. FMPy reads them and compares. The format has
-no place for the largest error; the description of an experiment states it:
+The files say what to run: start values, input, steps and tolerance. FMPy reads them and compares. The format
+has no place for the largest error; the description of an experiment states it:
 
 - Co-Simulation is exact. The reference takes about 1000 steps at 1e-13: 1e-10.
 - In Model Exchange, CVODE takes about 1e4 steps at 1e-10, and rocking amplifies: 1e-5.
