@@ -26,3 +26,6 @@ pub mod variables;
 
 #[cfg(feature = "fmu")]
 fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
+
+#[cfg(feature = "component")]
+fmu_export::export_component!(unit::Unit);

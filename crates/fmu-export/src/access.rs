@@ -14,6 +14,11 @@ pub(crate) fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
+/// Refuses all references.
+pub(crate) fn none(references: &[u32]) -> Result<(), Failure> {
+    references.first().map_or(Ok(()), |&reference| Err(unknown(reference)))
+}
+
 /// Returns whether `variable` may be changed in `phase`, in which sets are allowed at all. With `event_mode`,
 /// inputs that are not continuous may change in Event Mode but not in Step Mode.
 pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -> bool {

@@ -227,7 +227,9 @@ calls! {
     ActivateModelPartition: NONE, never("fmi3ActivateModelPartition", NO_CLOCKS);
     EnterEventMode: me("fmi2EnterEventMode", EVENT | TIME), any("fmi3EnterEventMode", TIME | STEP);
     NewDiscreteStates: me("fmi2NewDiscreteStates", EVENT), any("fmi3UpdateDiscreteStates", EVENT);
-    SetRealInputDerivatives: cs("fmi2SetRealInputDerivatives", INIT | STEP), NONE;
+    // FMI 3.0 has none: the name is that of fmi-ls-wasm.
+    SetRealInputDerivatives: cs("fmi2SetRealInputDerivatives", INIT | STEP),
+        cs("set-input-derivatives", INIT | STEP);
     GetRealOutputDerivatives: cs("fmi2GetRealOutputDerivatives", STEP | END),
         cs("fmi3GetOutputDerivatives", STEP | END);
     EnterStepMode: NONE, cs("fmi3EnterStepMode", EVENT);

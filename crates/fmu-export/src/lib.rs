@@ -12,6 +12,8 @@
 //! 3. For Model Exchange, also implement [`ModelExchange`]: states, event indicators, what an event does.
 //! 4. Call [`export_fmu!`] once in a `cdylib`, and zip the library with its description. `panic` must be
 //!    `"unwind"`. A model for both kinds is exported for FMI 3.0 as well, by the same library.
+//! 5. A model for both kinds can also become a WebAssembly component: the feature `component` has
+//!    `export_component!` for that, in a `cdylib` for `wasm32-wasip2`.
 //!
 //! ```
 //! use fmu_export::*;

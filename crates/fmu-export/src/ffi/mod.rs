@@ -16,6 +16,8 @@
 mod arguments;
 pub mod co_simulation;
 pub mod common;
+#[cfg(feature = "component")]
+pub mod component;
 mod export;
 mod export3;
 pub mod fmi3;

@@ -18,4 +18,6 @@ pub use instantiation::{
 };
 pub use steps::*;
 pub use unsupported::*;
+#[cfg(feature = "component")]
+pub(super) use values::check_count;
 pub use values::*;

@@ -133,14 +133,11 @@ unused_types! {
 /// As for [`array`].
 unsafe fn none_served(references: *const ValueReference, count: usize) -> Result<(), Failure> {
     // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-    match unsafe { array("valueReferences", references, count) }?.first() {
-        Some(&reference) => Err(access::unknown(reference)),
-        None => Ok(()),
-    }
+    access::none(unsafe { array("valueReferences", references, count) }?)
 }
 
 /// Refuses a number of values that is not that of the scalars they belong to.
-pub(super) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
+pub(in crate::ffi) fn check_count(name: &str, given: usize, scalars: usize) -> Result<(), Failure> {
     if given == scalars {
         return Ok(());
     }

@@ -1,0 +1,141 @@
+//! An instance that a host has a handle of.
+
+use super::bindings::fmi::fmi3::callbacks::log_message;
+use super::bindings::fmi::fmi3::types::Status;
+use crate::call::{Call, Version};
+use crate::failure::Failure;
+use crate::ffi::fmi3::check_count;
+use crate::instance::{Instance, Purpose};
+use crate::log::{self, Category, Logger};
+use crate::model::{Interface, Model, ModelExchange};
+use std::cell::RefCell;
+use std::mem::MaybeUninit;
+use std::panic;
+
+/// An instance of the model. One call at a time has it.
+pub(super) struct Resource<M: Model>(RefCell<Instance<M>>);
+
+impl<M: ModelExchange> Resource<M> {
+    /// A new instance; none, after a log, if token, folder or model refuse.
+    pub(super) fn new(
+        function: &str,
+        [name, token, resources]: [String; 3],
+        logging_on: bool,
+        purpose: Purpose<M>,
+        warning: Option<&str>,
+    ) -> Option<Self> {
+        panic::set_hook(Box::new(|information| {
+            let message = format!("internal error, please report it: {information}");
+            log_message("", Status::Fatal, Category::Fatal.name(), &message);
+        }));
+        let logger = || {
+            let name = name.clone();
+            let sink = move |weight, category: Category, message: &str| {
+                log_message(&name, status(weight), category.name(), message);
+            };
+            Logger::new(Some(Box::new(sink)), logging_on)
+        };
+        if let Some(warning) = warning {
+            logger().log().warning(warning);
+        }
+        let resources = Some(&*resources).filter(|path| !path.is_empty());
+        match Instance::new(&name, &token, resources, purpose, logger()) {
+            Ok(instance) => Some(Self(RefCell::new(instance))),
+            Err(failure) => {
+                logger().log().error(format_args!("{function}: {failure}"));
+                None
+            }
+        }
+    }
+}
+
+impl<M: Model> Resource<M> {
+    /// Does what `call` asks for, if it is allowed in the present phase.
+    pub(super) fn run(
+        &self,
+        call: Call,
+        body: impl FnOnce(&mut Instance<M>) -> Result<(), Failure>,
+    ) -> Status {
+        // a call from inside the log is refused, as in C
+        self.0.try_borrow_mut().map_or(Status::Error, |mut instance| status(instance.call(call, body)))
+    }
+
+    /// Returns what `call` asks for, if it is allowed in the present phase.
+    pub(super) fn ask<T>(
+        &self,
+        call: Call,
+        body: impl FnOnce(&mut Instance<M>) -> Result<T, Failure>,
+    ) -> Result<T, Status> {
+        let mut answer = None;
+        let status = self.run(call, |instance| {
+            answer = Some(body(instance)?);
+            Ok(())
+        });
+        answer.ok_or(status)
+    }
+
+    /// Returns `count` values that `write` writes.
+    pub(super) fn values<T: Copy + Default>(
+        &self,
+        call: Call,
+        count: usize,
+        write: impl FnOnce(&mut Instance<M>, &mut [MaybeUninit<T>]) -> Result<(), Failure>,
+    ) -> Result<Vec<T>, Status> {
+        self.ask(call, |instance| {
+            let mut values = vec![MaybeUninit::new(T::default()); count];
+            write(instance, &mut values)?;
+            // SAFETY: every value was set above, and `write` can only replace it.
+            Ok(values.into_iter().map(|value| unsafe { value.assume_init() }).collect())
+        })
+    }
+
+    /// Returns `count` numbers that `write` writes.
+    pub(super) fn numbers(
+        &self,
+        call: Call,
+        count: usize,
+        write: impl FnOnce(&mut Instance<M>, &mut [f64]) -> Result<(), Failure>,
+    ) -> Result<Vec<f64>, Status> {
+        self.ask(call, |instance| {
+            let mut values = vec![0.0; count];
+            write(instance, &mut values)?;
+            Ok(values)
+        })
+    }
+
+    /// Does what `call` asks for with as many values as references.
+    pub(super) fn set<T>(
+        &self,
+        call: Call,
+        references: &[u32],
+        values: &[T],
+        set: impl FnOnce(&mut Instance<M>) -> Result<(), Failure>,
+    ) -> Status {
+        self.run(call, |instance| {
+            check_count("nValues", values.len(), references.len())?;
+            set(instance)
+        })
+    }
+}
+
+/// What an instance of this boundary is made for.
+pub(super) fn purpose<M: Model>(interface: Interface, states: &'static [M::Real]) -> Purpose<M> {
+    Purpose { version: Version::Fmi3, interface, states, event_mode: true, early_return: false }
+}
+
+/// Value references and orders of derivatives.
+pub(super) fn references_and_orders(requests: &[(u32, u32)]) -> (Vec<u32>, Vec<i32>) {
+    let order = |order| i32::try_from(order).unwrap_or(i32::MAX);
+    requests.iter().map(|&(reference, of)| (reference, order(of))).unzip()
+}
+
+/// A status as the draft has it.
+fn status(status: log::Status) -> Status {
+    match status {
+        log::Status::Ok => Status::Ok,
+        log::Status::Warning => Status::Warning,
+        log::Status::Discard => Status::Discard,
+        log::Status::Error => Status::Error,
+        log::Status::Fatal => Status::Fatal,
+    }
+}
