@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::command::{Result, cargo, program, root, succeed, target};
-use crate::platform::{self, Platform, reproducible};
+use crate::platform::{self, Platform, has_rust_library, reproducible};
 use crate::universal;
 
 /// The linker of the library.
@@ -40,6 +40,9 @@ pub(crate) const BALL: Unit =
 
 /// All FMUs of the project.
 pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
+
+/// The target of WebAssembly components, and their platform in FMI 3.0.
+const COMPONENT: &str = "wasm32-wasip2";
 
 /// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
@@ -116,11 +119,37 @@ pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     Ok(built.join("release").join(format!("{beginning}{name}{ending}")))
 }
 
+/// Checks that this machine can build WebAssembly components.
+pub(crate) fn check_component() -> Result<()> {
+    if has_rust_library(COMPONENT)? {
+        return Ok(());
+    }
+    Err(format!("the Rust library for {COMPONENT} is missing: run `rustup target add {COMPONENT}`"))
+}
+
+/// Builds the WebAssembly component of a unit, and returns its path.
+pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
+    let folder = target().join("fmu");
+    let mut build = cargo();
+    build.args(["rustc", "--release", "--locked", "--package", unit.package, "--lib"]);
+    build.args(["--crate-type", "cdylib", "--features", "component", "--target", COMPONENT]);
+    reproducible(build.env("CARGO_TARGET_DIR", &folder), &[]);
+    succeed(&mut build, "see the compiler's message above")?;
+    let name = format!("{}.wasm", unit.package.replace('-', "_"));
+    Ok(folder.join(COMPONENT).join("release").join(name))
+}
+
 /// Zips the FMU with `fmu-pack` of a folder of programs, for FMI 2.0 and, below `fmi3/`, for FMI 3.0. Returns
 /// the path of the first. `libraries` are platforms by their names in FMI 2.0, if they have one there, with
-/// their libraries.
+/// their libraries. FMI 3.0 also gets the WebAssembly component; where this machine cannot build it, that is
+/// said.
 pub(crate) fn pack(unit: Unit, libraries: &[(&str, PathBuf)], programs: &Path) -> Result<PathBuf> {
-    pack_version(unit, libraries, programs, "3")?;
+    let mut of_3 = libraries.to_vec();
+    match check_component() {
+        Ok(()) => of_3.push((COMPONENT, component(unit)?)),
+        Err(missing) => println!("{} has no WebAssembly component: {missing}", unit.file),
+    }
+    pack_version(unit, &of_3, programs, "3")?;
     pack_version(unit, libraries, programs, "2")
 }
 

@@ -27,6 +27,7 @@ pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
         return Err(format!("commit or remove these files first:\n{}", changed.trim_end()));
     }
     let platforms = Platform::named(names)?;
+    fmu::check_component()?;
     let folder = target().join("release-files");
     // nothing of an earlier release may stay
     let _ = std::fs::remove_dir_all(&folder);

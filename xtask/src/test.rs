@@ -81,6 +81,9 @@ fn not_run() -> Vec<String> {
     if let Err(message) = playground::check_target() {
         lines.push(format!("the playground: {message}"));
     }
+    if let Err(message) = fmu::check_component() {
+        lines.push(format!("the WebAssembly component: {message}"));
+    }
     lines.push("the FMUs of other platforms: `cargo xtask portable`".to_owned());
     lines
 }
@@ -103,6 +106,9 @@ fn prepare() {
     }
     for unit in fmu::UNITS {
         let _ = fmu::library(unit, Linker::System);
+        if fmu::check_component().is_ok() {
+            let _ = fmu::component(unit);
+        }
     }
     if playground::check_target().is_ok() {
         let _ = playground::build();

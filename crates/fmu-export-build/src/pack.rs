@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// FMI 2.0's platforms, the ending of their libraries, and FMI 3.0's folders for these. A library for
 /// `darwin64` is taken for both processors.
-const PLATFORMS: [(&str, &str, &[&str]); 7] = [
+const PLATFORMS: [(&str, &str, &[&str]); 8] = [
     ("linux64", "so", &["x86_64-linux"]),
     ("win64", "dll", &["x86_64-windows"]),
     ("darwin64", "dylib", &["x86_64-darwin", "aarch64-darwin"]),
@@ -31,7 +31,21 @@ const PLATFORMS: [(&str, &str, &[&str]); 7] = [
     ("win32", "dll", &["x86-windows"]),
     ("darwin32", "dylib", &["x86-darwin"]),
     ("aarch64-linux", "so", &["aarch64-linux"]),
+    (COMPONENT, "wasm", &[COMPONENT]),
 ];
+
+/// The platform of a WebAssembly component.
+const COMPONENT: &str = "wasm32-wasip2";
+
+/// The manifest that goes with a component. The draft of fmi-ls-wasm (section "Layered Standard Manifest")
+/// names the file `manifest.xml`, the schema of FMI 3.0.2 `fmi-ls-manifest.xml`: it goes in under both names.
+const MANIFEST: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmi-ls:fmiLayeredStandardManifest xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
+    fmi-ls:fmi-ls-name="org.modelica.fmi-ls-wasm" fmi-ls:fmi-ls-version="0.1.0"
+    fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
+"#;
+const MANIFESTS: [&str; 2] =
+    ["extra/org.modelica.fmi-ls-wasm/fmi-ls-manifest.xml", "extra/org.modelica.fmi-ls-wasm/manifest.xml"];
 
 /// Deeper folders than this are a mistake, or a link to a folder above.
 const MAX_DEPTH: usize = 8;
@@ -41,7 +55,8 @@ const MAX_DEPTH: usize = 8;
 pub struct Package {
     /// The model description; a `model.png` and a folder `extra` beside it go in as well.
     pub description: PathBuf,
-    /// Platform by its name in FMI 2.0 (such as `linux64`), or `aarch64-linux`, and library.
+    /// Platform by its name in FMI 2.0 (such as `linux64`), and library. FMI 3.0 also has `aarch64-linux`,
+    /// and `wasm32-wasip2` for a WebAssembly component.
     pub binaries: Vec<(String, PathBuf)>,
     /// Folder that becomes `documentation/`.
     pub documentation: PathBuf,
@@ -71,7 +86,7 @@ pub enum PackError {
     /// The platform is not one of FMI.
     #[error(
         "the platform {platform:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
-         darwin32"
+         darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0"
     )]
     UnknownPlatform { platform: String },
     /// The documentation does not have the page importers open.
@@ -120,6 +135,11 @@ impl Package {
             let name = description.model_identifier();
             for file in self.libraries(platform, name)? {
                 archive.insert(file, read(library)?);
+            }
+            if platform == COMPONENT {
+                for name in MANIFESTS {
+                    archive.insert(name, MANIFEST);
+                }
             }
         }
         add_folder(&mut archive, "documentation", &self.documentation, MAX_DEPTH)?;

@@ -58,6 +58,15 @@ fn every_linked_crate_is_named() {
 }
 
 #[test]
+fn every_crate_in_the_component_is_named() {
+    for (package, folder) in [("rocking-wall", ""), ("rocking-floor", "crates/floor/")] {
+        let [_, others] = crates(&[package, "--features", "component", "--target", "wasm32-wasip2"]);
+        check_names(&others, &format!("{folder}modelDescription/documentation/licenses/notices.txt"));
+        assert!(others.contains("wit-bindgen"), "{others:?}");
+    }
+}
+
+#[test]
 fn every_crate_in_the_python_package_is_named() {
     let [ours, others] = crates(&["rocking-wall-python"]);
     check_names(&others, "crates/python/licenses/notices.txt");

@@ -15,7 +15,8 @@ fmu-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR
   --description FILE    the modelDescription.xml; its guid is filled in, and a model.png and a folder extra/
                         beside it go in too
   --binary LIBRARY      the shared library; may be repeated, each followed by its
-  --platform NAME       linux64, win64, darwin64, linux32, win32 or darwin32; for FMI 3.0 also aarch64-linux
+  --platform NAME       linux64, win64, darwin64, linux32, win32 or darwin32; for FMI 3.0 also aarch64-linux,
+                        and wasm32-wasip2 for a WebAssembly component
   --documentation DIR   becomes documentation/ and needs an index.html
   --resources DIR       becomes resources/
   --fmi 3               an FMI 3.0 unit instead of FMI 2.0; a fmi3.xml beside the description says what that

@@ -128,6 +128,22 @@ fn an_fmi_3_unit_has_its_own_places_and_what_it_was_made_from() {
 }
 
 #[test]
+fn a_component_goes_in_with_its_manifest() {
+    let build = Build::new("component");
+    let output = build.path("a.fmu");
+    let done = build.pack(&output, &["--platform", "wasm32-wasip2", "--fmi", "3"]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let archive = Archive::open(&output).unwrap();
+    assert_eq!(archive.get("binaries/wasm32-wasip2/block.wasm"), Some(&b"a library"[..]));
+    // the draft's name, and that of FMI 3.0.2
+    let [manifest, other] = ["manifest.xml", "fmi-ls-manifest.xml"]
+        .map(|name| archive.get(&format!("extra/org.modelica.fmi-ls-wasm/{name}")).unwrap());
+    assert_eq!(manifest, other);
+    let text = std::str::from_utf8(manifest).unwrap();
+    assert!(text.contains("fmi-ls-name=\"org.modelica.fmi-ls-wasm\""), "{text}");
+}
+
+#[test]
 fn bad_input_gives_one_message_exit_code_2_and_no_file() {
     let build = Build::new("bad");
     let output = build.path("a.fmu");
@@ -146,13 +162,14 @@ fn bad_input_gives_one_message_exit_code_2_and_no_file() {
     refused(&["--platform", "linux64", "--output", "b"], "--output is given twice");
     refused(
         &["--platform", "linux"],
-        "the platform \"linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32",
+        "the platform \"linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32; \
+         aarch64-linux and wasm32-wasip2 are for FMI 3.0",
     );
     refused(&["--platform", "linux64", "--fmi", "1"], "--fmi 1: there are 2 and 3");
     refused(
         &["--platform", "aarch64-linux"],
         "the platform \"aarch64-linux\" is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
-         darwin32",
+         darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0",
     );
     fs::write(build.path("fmi3.xml"), "\n<fmi2/>").unwrap();
     refused(&["--platform", "linux64", "--fmi", "3"], "fmi3.xml:2: expected <fmi3>, found <fmi2>");
