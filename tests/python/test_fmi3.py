@@ -119,9 +119,9 @@ def test_both_versions_give_the_same_history(units, kind):
     assert np.abs(new[output[0]]).max() > 0.01, "it moves"
 
 
-def until_overturning(unpacked, settings, step, early):
+def until_overturning(unpacked, settings, step, early, kind=Unit):
     """Steps until the wall has overturned: whether the step ended early, its end, and variables there."""
-    with Unit(unpacked, earlyReturnAllowed=early, eventModeUsed=early) as unit:
+    with kind(unpacked, earlyReturnAllowed=early, eventModeUsed=early) as unit:
         unit.start(**OVERTURNING | settings)
         if early:
             unit.slave.updateDiscreteStates()

@@ -114,20 +114,25 @@ class Unit:
             if kind.items
         }
         self.messages = []
+        self.time = 0.0
+        self.slave = self.make(unpacked, name, logging, **options)
+
+    def make(self, unpacked, name, logging, **options):
+        """Returns an instance by FMPy."""
         self.callbacks = fmi2CallbackFunctions()
         self.callbacks.logger = _logger
         self.callbacks.componentEnvironment = next(_environments)
         _units[self.callbacks.componentEnvironment] = self
         addLoggerProxy(byref(self.callbacks))
         kind = Slave3 if self.description.fmiVersion == "3.0" else self.KIND
-        self.slave = kind(
+        slave = kind(
             guid=self.description.guid,
             unzipDirectory=unpacked.folder,
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
-        self.slave.instantiate(callbacks=self.callbacks, loggingOn=logging, **options)
-        self.time = 0.0
+        slave.instantiate(callbacks=self.callbacks, loggingOn=logging, **options)
+        return slave
 
     @staticmethod
     @contextlib.contextmanager
