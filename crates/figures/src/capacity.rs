@@ -9,13 +9,16 @@
 //! ```
 
 use study::check::CapacityOverDemand;
+use study::circolare::Plane;
 
-use crate::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
+use crate::palette::{AMBER, BLUE, DARK_GREY, GREEN, Mark, PURPLE, RED};
 use crate::plot::{Axis, Look, Plot, Series};
 
 /// Colours of the curves and of the secants, in turn.
 const CURVES: [&str; 2] = [BLUE, DARK_GREY];
 const SECANTS: [&str; 4] = [GREEN, AMBER, RED, PURPLE];
+/// Colours of SLV and SLC.
+const CODE: [&str; 2] = [RED, AMBER];
 
 /// The curve of one side of a wall.
 #[derive(Clone, Debug)]
@@ -79,4 +82,86 @@ pub fn over_demand(demand: &CapacityOverDemand) -> Plot {
     ];
     let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
     Plot::new([820.0, 460.0], axes, series)
+}
+
+/// Draws the a(d) plane of a check by the code: the curve of the side that governs, and for SLV and SLC the
+/// demand, the ray of its period, the displacement that it demands (a dot) and the one that it admits.
+///
+/// A dot left of its upright line passes.
+pub fn by_code(plane: &Plane) -> Plot {
+    let shown = |&(d, a): &(f64, f64)| (1000.0 * d, a);
+    let ends = plane.states.iter().flat_map(|state| [state.check.d, state.check.demand]);
+    let zero = plane.capacity.last().map_or(0.0, |corner| corner.0);
+    let right = 1000.0 * 1.08 * ends.fold(zero, f64::max);
+    let reached = plane.states.iter().map(|state| 1.5 * state.check.acceleration);
+    let top = 1.25 * reached.chain(plane.capacity.iter().map(|corner| corner.1)).fold(0.0, f64::max);
+    let named = |name: String, look: Look, line: Series| Series { name, look, ..line };
+    let mut series = Vec::new();
+    for (state, color) in plane.states.iter().zip(CODE) {
+        let (name, check) = (state.state, &state.check);
+        let demand: Vec<_> = state.demand.iter().map(shown).collect();
+        for (index, piece) in clipped(&demand, right, top).into_iter().rev().enumerate() {
+            let name = if index == 0 { format!("demand {name}") } else { String::new() };
+            series.push(named(name, Look::Solid, Series::line(color, 1.6, piece)));
+        }
+        let slope = check.acceleration / (1000.0 * check.demand_terms[0].unwrap_or(check.demand));
+        let end = right.min(top / slope);
+        let ray = Series::line(color, 1.0, vec![(0.0, 0.0), (end, slope * end)]);
+        series.push(named(format!("T_{name} = {:.3} s", check.period), Look::Dotted, ray));
+        let limit = 1000.0 * check.d;
+        let upright = Series::line(color, 1.3, vec![(limit, 0.0), (limit, top)]);
+        series.push(named(format!("d_{name} = {limit:.1} mm"), Look::Dashed, upright));
+    }
+    let curve = Series::line(BLUE, 2.0, plane.capacity.iter().map(shown).collect());
+    series.push(named("capacity curve a(d)".into(), Look::Solid, curve));
+    for (state, color) in plane.states.iter().zip(CODE) {
+        let (check, at) = (&state.check, (1000.0 * state.check.demand, state.check.acceleration));
+        let name = format!("S_d = {:.1} mm, ζ_E = {:.3}", at.0, check.zeta);
+        series.push(named(name, Look::Marks(Mark::Circle), Series::line(color, 5.0, vec![at])));
+    }
+    let axes = [Axis::over("d, S_d (mm)", [0.0, right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
+    Plot::new([820.0, 460.0], axes, series)
+}
+
+/// The pieces of a line within a right and a top end.
+fn clipped(points: &[(f64, f64)], right: f64, top: f64) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    for pair in points.windows(2) {
+        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+        let at = |part: f64| match part {
+            1.0 => pair[1],
+            part => (x0 + part * (x1 - x0), y0 + part * (y1 - y0)),
+        };
+        // where this part of the line enters and leaves
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        for (from, to, limit) in [(x0, x1, right), (y0, y1, top)] {
+            match (from > limit, to > limit) {
+                (true, true) => leaves = -1.0,
+                (true, false) => enters = enters.max((limit - from) / (to - from)),
+                (false, true) => leaves = leaves.min((limit - from) / (to - from)),
+                (false, false) => {}
+            }
+        }
+        if enters > leaves {
+            continue;
+        }
+        match pieces.last_mut() {
+            Some(piece) if enters == 0.0 && piece.last() == Some(&pair[0]) => piece.push(at(leaves)),
+            _ => pieces.push(vec![at(enters), at(leaves)]),
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clipped;
+
+    /// A line that leaves at the top and comes back is in two pieces.
+    #[test]
+    fn a_line_is_cut_at_its_ends() {
+        let points = [(0.0, 1.0), (1.0, 3.0), (2.0, 3.0), (3.0, 1.0), (5.0, 0.0)];
+        let pieces = [vec![(0.0, 1.0), (0.5, 2.0)], vec![(2.5, 2.0), (3.0, 1.0), (4.0, 0.5)]];
+        assert_eq!(clipped(&points, 4.0, 2.0), pieces);
+    }
 }
