@@ -1,4 +1,4 @@
-"""Static capacity against demand, on the ground and on a floor.
+"""Static capacity against demand, on the ground and on a floor, and the check by Circolare 7/2019.
 
     python examples/python/check.py
 """
@@ -10,9 +10,10 @@ records = [rw.synthetic_record(seed, pga=1.5) for seed in (1, 2, 3)]
 
 # %% The demand is the median spectrum of the records. In a notebook the check draws itself.
 check = wall.check(records)
-side = check.governing
 print(check)
+side = check.onset
 print(f"onset {side.onset_acceleration:.3f} m/s², Sa(0) {side.peak_acceleration:.3f} m/s²")
+side = check.displacement
 print(f"capacity {1000 * side.displacement_capacity:.0f} mm, demand {1000 * side.displacement_demand:.0f} mm")
 
 # %% On a storey of 0.3 s the demand is that of the floor.
@@ -22,3 +23,16 @@ print(on_floor.simulate(records[0]))
 
 # %% A spectrum of a code: periods and Sa.
 print(wall.check(spectrum=([0.0, 0.1, 0.5, 1.0, 2.0, 4.0], [2.0, 5.0, 5.0, 2.5, 1.25, 0.3])))
+
+# %% The Italian code: the site, and what the engineer states of the wall. In a notebook it draws itself.
+site = {"SLV": {"ag": 0.15, "F0": 2.45, "TC": 0.32, "building_damping": 0.10}}
+building = {"storeys": 3, "period": 0.3, "height_ratio": 1.0}
+verdict = wall.check(site=site, building=building, soil="B", before_activation="law")
+print(verdict)
+print(f"holds up to a_g = {verdict.sides.positive.SLV.ag:.3f} g, reference {site['SLV']['ag']} g")
+
+# %% With records the wall is run too: none beyond d_0, and the mean of the maxima within d_SLV.
+dynamic = wall.check(records, site=site, soil="B", before_activation="law", method="dynamic")
+print(dynamic)
+for run in dynamic.dynamic.SLV.runs:
+    print(f"{run.record}: times {run.factor:.3f}, d = {1000 * max(run.d):.0f} mm")

@@ -1,6 +1,8 @@
 """What the jobs of the program `wall` find, the methods of a wall find too."""
 
 import csv
+import dataclasses
+import json
 import pickle
 import warnings
 
@@ -51,8 +53,9 @@ def assert_check(check, told):
         assert ("u > 0" if side.sign > 0 else "u < 0") == there.pop("side")
         for name, value in there.items():
             assert getattr(side, name) == value, name
-    assert (check.governing.sign > 0) == (told["governing"] == "u > 0")
-    assert check.ratio == min(min(s["acceleration_ratio"], s["displacement_ratio"]) for s in told["sides"])
+    for name, ratio in (("onset", "acceleration_ratio"), ("displacement", "displacement_ratio")):
+        side, there = getattr(check, name), told["governs"][name]
+        assert (side.sign > 0) == (there["side"] == "u > 0") and getattr(side, ratio) == there["ratio"]
 
 
 @pytest.mark.parametrize("scene", [None, "scenes/parapet_on_a_roof.toml"])
@@ -86,7 +89,7 @@ def test_a_check_with_a_spectrum(program, tmp_path):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        ({}, "either records or a spectrum"),
+        ({}, "a site with a code, or either records or a spectrum"),
         ({"spectrum": ([0.1, 1.0], [1.0, 1.0])}, "no T = 0"),
         ({"spectrum": ([0.0, 1.0, 0.5], [1.0, 1.0, 1.0])}, "point 3 of the spectrum, T = 0.5 s"),
         ({"spectrum": ([0.0, 1.0], [1.0])}, "2 periods and 1 values of Sa"),
@@ -97,6 +100,108 @@ def test_a_check_with_a_spectrum(program, tmp_path):
 def test_what_cannot_be_checked(arguments, words):
     with pytest.raises(ValueError, match=words):
         rw.Wall(**SET).check(**arguments)
+
+
+HAZARD = {"ag": 0.15, "F0": 2.45, "TC": 0.32}
+SLV = {"site": {"SLV": HAZARD}, "soil": "B"}
+TIED_PARAPET = {"tie_height": 3.0, "tie_stiffness": 2e5, "tie_slack": 0.03, "tie_strength": 5e3}
+
+
+def written(folder, wall, checked):
+    """Writes the scene of a check."""
+    lines = [f"{name} = {value!r}\n" for name, value in wall.items() if not name.startswith("tie")]
+    lines = ["[geometry]\n", *lines, "[tie]\n"]
+    lines += [f"{name} = {value!r}\n" for name, value in wall.items() if name.startswith("tie")]
+    statements = {name: value for name, value in checked.items() if name not in ("site", "building")}
+    lines += ["[check]\n", *(f"{name} = {json.dumps(value)}\n" for name, value in statements.items())]
+    tables = {**checked["site"], **({"building": checked["building"]} if "building" in checked else {})}
+    for name, table in tables.items():
+        lines += [f"[check.{name}]\n", *(f"{key} = {value!r}\n" for key, value in table.items())]
+    path = folder / "scene.toml"
+    path.write_text("".join(lines), encoding="utf-8")
+    return path
+
+
+def assert_verdict(verdict, told):
+    """Compares a verdict with the program's JSON: every number that it has, and no other."""
+    values = dataclasses.asdict(verdict)
+    del values["_picture"]
+
+    def without_missing(value):
+        if isinstance(value, dict):
+            return {name: without_missing(each) for name, each in value.items() if each is not None}
+        return [without_missing(each) for each in value] if isinstance(value, (list, tuple)) else value
+
+    assert without_missing(values) == told
+
+
+DAMPED = {"SLD": 0.05, "SLV": 0.1, "SLC": 0.1}
+AT_HEIGHT = {
+    "site": {name: {**HAZARD, "building_damping": xi} for name, xi in DAMPED.items()},
+    "building": {"storeys": 3, "period": 0.3, "height_ratio": 1.0},
+    "soil": "B",
+    "before_activation": "law",
+}
+# a wall, its check, and ζ_E of SLV on the side u > 0
+CHECKED = {
+    "on the ground": ({}, {**SLV, "before_activation": "rigid"}, 0.855812),
+    "on the roof": ({}, AT_HEIGHT, 0.79084),
+    "tied, on the ground": (TIED_PARAPET, {**SLV, "before_activation": "law"}, 1.35612),
+    "tied, on the roof": (TIED_PARAPET, AT_HEIGHT, 0.727534),
+}
+
+
+@pytest.mark.parametrize("wall, checked, zeta", CHECKED.values(), ids=CHECKED)
+def test_a_check_by_the_code(program, tmp_path, wall, checked, zeta):
+    wall = {"height": 4.0, "thickness": 0.4, **wall}
+    verdict = rw.Wall(**wall).check(**checked)
+    # six digits
+    assert verdict.sides.positive.SLV.zeta_E == pytest.approx(zeta, abs=5e-6 if zeta > 1 else 5e-7)
+    assert verdict.passed == (verdict.zeta_E >= 1)
+    scene = written(tmp_path, wall, {"code": "circolare-2019", **checked})
+    told = program("check", scene, "--json")
+    assert_verdict(verdict, told)
+    assert rw.Wall.from_toml(scene).check(**checked) == verdict
+    html, governing = verdict._repr_html_(), getattr(verdict.sides, verdict.governs.side)
+    assert "<svg" in html and f"S_d = {1e3 * governing.SLV.demand:.1f} mm" in html
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        verdict.passed = True
+
+
+def test_a_dynamic_check_by_the_code(program, tmp_path):
+    paths = records(program, tmp_path, 3)
+    checked = {**SLV, "before_activation": "law", "method": "dynamic"}
+    scene = written(tmp_path, {"height": 4.0, "thickness": 0.4}, {"code": "circolare-2019", **checked})
+    names = ", ".join(json.dumps(path.name) for path in paths)
+    scene.write_text(f'{scene.read_text()}[check.records]\nfiles = [{names}]\nunit = "m/s2"\n')
+    told = program("check", scene, "--json")
+    motions = [rw.read_record(path, unit="m/s2") for path in paths]
+    verdict = rw.Wall(height=4, thickness=0.4).check(motions, **checked)
+    assert_verdict(verdict, told)
+    dynamic = verdict.dynamic.SLV
+    assert [run.record for run in dynamic.runs] == ["1.csv", "2.csv", "3.csv"]
+    assert verdict.zeta_E == dynamic.zeta_E and "SLV dynamic" in verdict.table["check"]
+    # records whose spectrum is the demand
+    of_spectrum = {**checked, "site": {"SLV": {"ag": 0.15}}, "method": "nonlinear"}
+    assert rw.Wall(height=4, thickness=0.4).check(motions, **of_spectrum).dynamic is None
+
+
+@pytest.mark.parametrize(
+    "arguments, error, words",
+    [
+        ({"soil": "B"}, ValueError, "SLV needs its site"),
+        (SLV, ValueError, "before_activation is missing: state \"rigid\""),
+        ({**SLV, "before_activation": "beam"}, ValueError, "beam needs young_modulus"),
+        ({**SLV, "code": "EC8"}, ValueError, 'code = "EC8" is unknown; the code is "circolare-2019"'),
+        ({**SLV, "sol": "B"}, TypeError, 'unknown field `sol`.*did you mean "soil"'),
+        ({**SLV, "building": {"storey": 3}}, ValueError, 'unknown field `storey`.*did you mean "storeys"'),
+        ({**SLV, "damping": 0.05}, ValueError, "damping is for a check without a code"),
+        ({**SLV, "method": "dynamic", "before_activation": "law"}, ValueError, "dynamic\" needs records"),
+    ],
+)
+def test_what_the_code_cannot_check(arguments, error, words):
+    with pytest.raises(error, match=words):
+        rw.Wall(height=4, thickness=0.4).check(**arguments)
 
 
 @pytest.mark.parametrize("axes", ["heights", "radii"])

@@ -113,7 +113,7 @@ pub fn by_code(plane: &Plane) -> Plot {
         series.push(named(format!("d_{name} = {limit:.1} mm"), Look::Dashed, upright));
     }
     let curve = Series::line(BLUE, 2.0, plane.capacity.iter().map(shown).collect());
-    series.push(named("capacity curve a(d)".into(), Look::Solid, curve));
+    series.push(named(format!("capacity curve a(d), {}", plane.side.name()), Look::Solid, curve));
     for (state, color) in plane.states.iter().zip(CODE) {
         let (check, at) = (&state.check, (1000.0 * state.check.demand, state.check.acceleration));
         let name = format!("S_d = {:.1} mm, ζ_E = {:.3}", at.0, check.zeta);

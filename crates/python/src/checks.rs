@@ -1,16 +1,19 @@
 //! Capacity against demand.
 
-use figures::capacity::over_demand;
+use figures::capacity::{by_code, over_demand};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use study::check::{CapacityOverDemand, Demand, Fractions, SideCheck, check, governing};
+use rocking_wall::scene::{Place, SceneError};
+use study::check::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
+use study::circolare::{self, CheckError, Plane, Records, in_table, read_table};
+use study::ida::NamedRecord;
 
 use crate::arrays::{Given, motion, samples};
-use crate::errors::refused;
+use crate::errors::{failed, of_scene, refused};
 use crate::walls::Wall;
 
 /// Checks a wall against the median spectrum of records, or against a spectrum given by its periods and Sa;
-/// returns the sides, the governing one and the picture.
+/// returns the sides and the picture.
 #[pyfunction]
 pub(crate) fn check_wall<'py>(
     py: Python<'py>,
@@ -19,7 +22,7 @@ pub(crate) fn check_wall<'py>(
     spectrum: Option<[Bound<'py, PyAny>; 2]>,
     damping: f64,
     fractions: [f64; 2],
-) -> PyResult<(Vec<Bound<'py, PyDict>>, f64, String)> {
+) -> PyResult<(Vec<Bound<'py, PyDict>>, String)> {
     let demand = if let Some([periods, accelerations]) = spectrum {
         let (periods, accelerations) = (samples(&periods)?, samples(&accelerations)?);
         if periods.len() != accelerations.len() {
@@ -42,11 +45,39 @@ pub(crate) fn check_wall<'py>(
         })
         .map_err(|error: study::check::CheckError| refused(error))?;
     let values = sides.iter().map(|side| values(py, side)).collect::<PyResult<_>>()?;
-    Ok((
-        values,
-        governing(&sides, |side| side.acceleration_ratio.min(side.displacement_ratio)).sign,
-        over_demand(&drawn).picture().svg(),
-    ))
+    Ok((values, over_demand(&drawn).picture().svg()))
+}
+
+/// Checks a wall by the table `[check]` in a text, with records by their names; returns what
+/// `wall check --json` prints, and the picture.
+#[pyfunction]
+pub(crate) fn check_wall_by_code(
+    py: Python<'_>,
+    wall: &Wall,
+    text: String,
+    records: Vec<(String, Given<'_>)>,
+) -> PyResult<(String, String)> {
+    let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
+    let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
+    let (parameters, floors) = (&wall.scene.parameters, wall.scene.floors.as_ref());
+    let checked = py.detach(|| {
+        let place = Place::new("check", &text);
+        let Some(table) = read_table(&place)? else { unreachable!("the text has a table [check]") };
+        let verdict = || -> Result<_, CheckError> {
+            let (statement, records) = (table.statement()?, Records::new(records)?);
+            let verdict = circolare::check(parameters, floors, &statement, &records)?;
+            let plane = Plane::new(parameters, floors, &statement, &records, &verdict)?;
+            Ok((verdict, plane))
+        };
+        verdict().map_err(|error| in_table(error, &place))
+    });
+    let (verdict, plane) = checked.map_err(|error| match error {
+        // the user has not written this text, so its line numbers say nothing
+        SceneError::Line { message, .. } | SceneError::File { reason: message, .. } => refused(message),
+        other => of_scene(other),
+    })?;
+    let text = serde_json::to_string(&verdict).map_err(failed)?;
+    Ok((text, by_code(&plane).picture().svg()))
 }
 
 /// Returns the numbers of a side by their names in `wall check --json`.

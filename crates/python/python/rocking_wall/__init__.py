@@ -15,6 +15,18 @@ from . import dask
 from ._buildings import Building, BuildingResponse, BuildingWallResponse, FloorResponse
 from ._calibration import Calibration
 from ._checks import Check, CheckedSide
+from ._codes import (
+    ActivationCheck,
+    DisplacementCheck,
+    DynamicCheck,
+    DynamicRun,
+    DynamicState,
+    Governs,
+    SideVerdict,
+    SideVerdicts,
+    Statements,
+    Verdict,
+)
 from ._native import VERSION as __version__
 from ._parameters import Parameters
 from ._records import (
@@ -36,6 +48,7 @@ from ._verification import verify
 from ._walls import Description, Storey, Wall, package
 
 __all__ = [
+    "ActivationCheck",
     "Building",
     "BuildingResponse",
     "BuildingWallResponse",
@@ -44,20 +57,29 @@ __all__ = [
     "CheckedSide",
     "Demands",
     "Description",
+    "DisplacementCheck",
+    "DynamicCheck",
+    "DynamicRun",
+    "DynamicState",
     "Extremes",
     "FloorResponse",
+    "Governs",
     "Instant",
     "Parameters",
     "Peaks",
     "Record",
     "Response",
     "RockingSpectrum",
+    "SideVerdict",
+    "SideVerdicts",
+    "Statements",
     "Storey",
     "Study",
     "StudyResults",
     "Table",
     "Threshold",
     "TieStudy",
+    "Verdict",
     "Wall",
     "__version__",
     "dask",

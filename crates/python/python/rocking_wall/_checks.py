@@ -36,11 +36,6 @@ class CheckedSide:
     displacement_ratio: float
     """d_u*/Sd(T_s) [-]."""
 
-    @property
-    def ratio(self) -> float:
-        """The smaller of both ratios [-]."""
-        return min(self.acceleration_ratio, self.displacement_ratio)
-
 
 @dataclass(frozen=True, repr=False)
 class Check:
@@ -48,18 +43,24 @@ class Check:
 
     sides: tuple[CheckedSide, ...]
     """The sides to which the wall can rock, u > 0 first."""
-    governing: CheckedSide
-    """The side with the smallest ratio."""
     _picture: str = field(compare=False)
 
     def __repr__(self) -> str:
-        side = "u > 0" if self.governing.sign > 0 else "u < 0"
-        return f"Check({side} governs with {shown(self.ratio)})"
+        onset, displacement = self.onset, self.displacement
+        return (
+            f"Check(onset {shown(onset.acceleration_ratio)} at {name_of(onset)}, "
+            f"displacement {shown(displacement.displacement_ratio)} at {name_of(displacement)})"
+        )
 
     @property
-    def ratio(self) -> float:
-        """Capacity over demand of the governing side [-]."""
-        return self.governing.ratio
+    def onset(self) -> CheckedSide:
+        """The side with the smallest acceleration_ratio: below 1 the wall rocks."""
+        return min(self.sides, key=lambda side: side.acceleration_ratio)
+
+    @property
+    def displacement(self) -> CheckedSide:
+        """The side with the smallest displacement_ratio: below 1 it goes beyond its capacity."""
+        return min(self.sides, key=lambda side: side.displacement_ratio)
 
     @property
     def table(self) -> Table:
@@ -69,3 +70,8 @@ class Check:
 
     def _repr_html_(self) -> str:
         return self.table._repr_html_() + self._picture
+
+
+def name_of(side: CheckedSide) -> str:
+    """Returns the name of a side."""
+    return "u > 0" if side.sign > 0 else "u < 0"

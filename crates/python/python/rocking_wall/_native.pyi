@@ -29,6 +29,7 @@ __all__ = [
     "calculated",
     "calibrate_wall",
     "check_wall",
+    "check_wall_by_code",
     "in_si",
     "picture",
     "picture_of_building",
@@ -101,7 +102,8 @@ def check_wall(
     spectrum: list[ArrayLike] | None,
     damping: float,
     fractions: list[float],
-) -> tuple[list[dict[str, Any]], float, str]: ...
+) -> tuple[list[dict[str, Any]], str]: ...
+def check_wall_by_code(wall: Wall, text: str, records: list[tuple[str, _Motion]]) -> tuple[str, str]: ...
 def spectrum_over_walls(
     wall: Wall,
     record: _Given | None,

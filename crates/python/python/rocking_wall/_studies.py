@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,7 +14,7 @@ import numpy as np
 
 from . import _native
 from ._records import Record, motion_of, read_record
-from ._tables import Table
+from ._tables import Table, toml
 from ._walls import Wall
 
 if TYPE_CHECKING:
@@ -173,21 +172,6 @@ class Study:
         with bar(len(self), progress) as report:
             tables = self._native.run(threads, report)
         return StudyResults(*(Table(table) for table in tables))
-
-
-def toml(value: object) -> str:
-    """Returns the text of a value in TOML."""
-    if isinstance(value, Mapping):
-        entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
-        return "{ " + ", ".join(entries) + " }"
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.tolist()
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(toml(each) for each in value) + "]"
-    if isinstance(value, str | bool | int | float):
-        return json.dumps(value, ensure_ascii=False)
-    found = type(value).__name__
-    raise TypeError(f"expected numbers, texts, lists and dictionaries, found a value of the type {found}")
 
 
 def named_walls(walls: Any) -> list[tuple[str, Any]]:

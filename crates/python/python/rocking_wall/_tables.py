@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -49,3 +50,18 @@ MOST_ROWS = 100
 def shown(value: object) -> str:
     """Formats a value of a table for people: numbers with five digits."""
     return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+def toml(value: object) -> str:
+    """Returns the text of a value in TOML."""
+    if isinstance(value, Mapping):
+        entries = (f"{json.dumps(str(key))} = {toml(each)}" for key, each in value.items())
+        return "{ " + ", ".join(entries) + " }"
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(toml(each) for each in value) + "]"
+    if isinstance(value, str | bool | int | float):
+        return json.dumps(value, ensure_ascii=False)
+    found = type(value).__name__
+    raise TypeError(f"expected numbers, texts, lists and dictionaries, found a value of the type {found}")

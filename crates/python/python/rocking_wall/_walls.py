@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from importlib.resources import as_file, files
 from os import PathLike, fspath
-from typing import Any, Literal, NoReturn, Unpack
+from typing import Any, Literal, NoReturn, Unpack, overload
 from warnings import warn
 
 import numpy as np
@@ -16,11 +16,12 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._calibration import Calibration
 from ._checks import Check, CheckedSide
+from ._codes import Place, Site, Statements, Verdict, verdict
 from ._parameters import Calculated, Parameters
 from ._records import Record, motion_of
 from ._responses import Peaks, Response
 from ._spectra import RockingSpectrum
-from ._tables import Table, shown
+from ._tables import Table, shown, toml
 from ._ties import TieStudy
 
 
@@ -213,43 +214,119 @@ class Wall(Calculated):
         u_max, u_ratio_max, overturn_time = self._native.peaks(motion_of(record), factors, tail)
         return Peaks(np.array(factors, dtype=np.float64), u_max, u_ratio_max, overturn_time)
 
+    @overload
     def check(
         self,
         records: Sequence[Record] | Record = (),
         *,
         spectrum: tuple[ArrayLike, ArrayLike] | None = None,
-        damping: float = 0.05,
-        displacement_fraction: float = 0.4,
-        secant_fraction: float = 0.4,
-    ) -> Check:
-        """Compares the static capacity of the wall with a demand, side by side.
+        damping: float | None = None,
+        displacement_fraction: float | None = None,
+        secant_fraction: float | None = None,
+    ) -> Check: ...
+    @overload
+    def check(
+        self,
+        records: Sequence[Record] | Record = (),
+        *,
+        code: Literal["circolare-2019"] = "circolare-2019",
+        site: Site,
+        building: Place | None = None,
+        **statements: Unpack[Statements],
+    ) -> Verdict: ...
+    def check(
+        self,
+        records: Sequence[Record] | Record = (),
+        *,
+        spectrum: tuple[ArrayLike, ArrayLike] | None = None,
+        damping: float | None = None,
+        displacement_fraction: float | None = None,
+        secant_fraction: float | None = None,
+        code: str | None = None,
+        site: Site | None = None,
+        building: Place | None = None,
+        **statements: Any,
+    ) -> Check | Verdict:
+        """Checks the wall by a code, or compares its static capacity with a demand.
+
+        With `site` the wall is checked by Circolare 7/2019. The arguments are the keys of the table `[check]`
+        of a scene. On storeys the building is theirs.
+
+        :param code: The code, "circolare-2019".
+        :param site: SLD, SLV and SLC: a_g [g], F0 [-], T_C* [s], and what else is known of each.
+        :param building: The building, for a wall at a height: its storeys, its period [s] and z/H, or modes.
+        :param statements: `before_activation`, `soil`, `confidence_factor` and the others of `Statements`.
+        :param records: Records for the dynamic check, at least 3.
+
+        >>> wall = Wall(height=4, thickness=0.4)
+        >>> site = {"SLV": {"ag": 0.15, "F0": 2.45, "TC": 0.32}}
+        >>> wall.check(site=site, soil="B", before_activation="rigid")
+        Verdict(not passed: SLV governs with zeta_E = 0.856, u > 0)
+
+        Without it the demand is that of records or of a spectrum, and there are two verdicts: whether the
+        wall rocks, and whether it stays within its capacity.
 
         :param records: Records whose median spectrum is the demand; a wall on storeys feels its floors.
         :param spectrum: Periods [s], rising from 0, and Sa [m/s²] instead, of what the wall stands on.
-        :param damping: Damping ratio of the spectra of the records.
-        :param displacement_fraction: Displacement capacity over that at which the force of the wall vanishes.
-        :param secant_fraction: Displacement of the secant period over the displacement capacity.
+        :param damping: Damping ratio of the spectra of the records; by default 0.05.
+        :param displacement_fraction: Displacement capacity over that at which the force of the wall vanishes;
+            by default 0.4.
+        :param secant_fraction: Displacement of the secant period over the displacement capacity; by default
+            0.4.
 
-        Raises `ValueError` for a demand without the secant period, and for fractions outside their limits.
+        Raises `ValueError` for what cannot be checked: a statement that is missing, a demand without the
+        secant period, fractions outside their limits.
 
         >>> wall = Wall(height=3, thickness=0.25)
-        >>> round(wall.check(spectrum=([0.0, 4.0], [1.0, 1.0])).governing.acceleration_ratio, 9)
+        >>> round(wall.check(spectrum=([0.0, 4.0], [1.0, 1.0])).onset.acceleration_ratio, 9)
         0.792975
         """
         given = [records] if isinstance(records, Record) else records
+        of_spectrum = {
+            "spectrum": spectrum,
+            "damping": damping,
+            "displacement_fraction": displacement_fraction,
+            "secant_fraction": secant_fraction,
+        }
+        if code is not None or site is not None or building is not None or statements:
+            for name in (name for name, value in of_spectrum.items() if value is not None):
+                raise ValueError(f"{name} is for a check without a code; leave it out")
+            return self._check_by_code(given, code, site, building, statements)
         if (spectrum is None) == (len(given) == 0):
-            raise ValueError("a check takes either records or a spectrum")
+            raise ValueError("a check takes a site with a code, or either records or a spectrum")
         if spectrum is not None and self._native.has_storeys:
             warn("the storeys are not applied to the spectrum; it must be that of the floor", stacklevel=2)
-        sides, governing, picture = _native.check_wall(
+        sides, picture = _native.check_wall(
             self._native,
             [motion_of(record) for record in given],
             None if spectrum is None else list(spectrum),
-            damping,
-            [displacement_fraction, secant_fraction],
+            0.05 if damping is None else damping,
+            [0.4 if given is None else given for given in (displacement_fraction, secant_fraction)],
         )
-        checked = tuple(CheckedSide(**side) for side in sides)
-        return Check(checked, next(side for side in checked if side.sign == governing), picture)
+        return Check(tuple(CheckedSide(**side) for side in sides), picture)
+
+    def _check_by_code(
+        self,
+        records: Sequence[Record],
+        code: str | None,
+        site: Site | None,
+        building: Place | None,
+        statements: dict[str, Any],
+    ) -> Verdict:
+        table: dict[str, Any] = {"code": code or "circolare-2019", **statements, **(site or {})}
+        if building is not None:
+            table["building"] = building
+        if len(records) > 0:
+            # their motions are handed over beside the text
+            table["records"] = {}
+        text = "[check]\n" + "".join(f"{name} = {toml(value)}\n" for name, value in table.items())
+        named = [(getattr(record, "name", ""), motion_of(record)) for record in records]
+        try:
+            return verdict(*_native.check_wall_by_code(self._native, text, named))
+        except ValueError as error:
+            if statements.keys() - Statements.__annotations__.keys():
+                raise TypeError(str(error)) from None
+            raise
 
     def rocking_spectrum(
         self,

@@ -14,7 +14,7 @@ use super::{LimitState, Records};
 
 /// Points of a demand.
 const POINTS: u32 = 160;
-/// Longest period of a demand over the period of its limit state \[-\].
+/// Longest period of the demands over the longest of the limit states \[-\].
 const REACH: f64 = 2.0;
 
 /// What is drawn of one side.
@@ -79,15 +79,14 @@ impl Plane {
         let Some((_, shown)) = sides.find(|(side, _)| *side == governing) else {
             return Err(CheckError::wall("the wall rocks to no side"));
         };
+        let checks = || shown.displacement_checks();
+        let longest = REACH * checks().map(|(_, check)| check.period).fold(0.0, f64::max);
         let mut states = Vec::new();
-        for (state, check) in shown.displacement_checks() {
+        for (state, check) in checks() {
             if let Some(given) = statement.state(state) {
                 let demand = demand(given, floors, &wall, records)?;
-                states.push(PlaneState {
-                    state,
-                    check,
-                    demand: demand.drawn(state, REACH * check.period, given.damping),
-                });
+                let demand = demand.drawn(state, longest, given.damping);
+                states.push(PlaneState { state, check, demand });
             }
         }
         Ok(Self { side: governing, capacity: shown.corners.clone(), states })
