@@ -5,6 +5,7 @@ Its numbers are those of the command line, it asks nobody, and every field answe
 
 import csv
 import io
+import json
 import os
 import subprocess
 import time
@@ -175,6 +176,69 @@ def test_a_slider_is_answered_at_once(browser, page, record_property):
     times = sorted(browser.execute_script("return playground.timings.slice(-20)"))
     record_property("milliseconds_per_slider_step", times[len(times) // 2])
     assert times[len(times) // 2] < 500.0
+
+
+def test_the_check_follows_the_thickness(browser, page, record_property):
+    """ζ_E and the picture of the check change with each step of the slider."""
+    visit(browser, page)
+    shown = [slide(browser, "thickness", 0.3 + 0.02 * step)["check"] for step in range(15)]
+    zetas = [check["zeta_E"] for check in shown]
+    assert zetas == sorted(set(zetas)) and zetas[0] < 1 < zetas[-1]
+    assert len({check["svg"] for check in shown}) == 15
+    assert text_of(browser, "check_headline") == shown[-1]["headline"]
+    assert browser.find_elements(By.CSS_SELECTOR, "#plane svg circle")
+    # what the check adds to a step: its own request without a motion
+    spent = browser.execute_script(
+        "const asked = { ...inputs(600), motion: { kind: 'none' } }, spent = [[], []];"
+        "for (let turn = 0; turn < 20; turn += 1) {"
+        "  [asked, { ...asked, check: {} }].forEach((request, index) => {"
+        "    const begin = performance.now(); playground.ask({ run: request });"
+        "    spent[index].push(performance.now() - begin); }); }"
+        "return spent.map(times => times.sort((a, b) => a - b)[10])"
+    )
+    record_property("milliseconds_of_the_check", spent[0] - spent[1])
+
+
+def test_the_check_is_that_of_the_command_line(browser, wall, page, tmp_path):
+    strip = "mechanism=vertical_spanning&before_activation=beam"
+    tied = "tie_stiffness=200000&tie_height=3&tie_slack=0.03&tie_strength=5000"
+    for state in ("", strip, f"{tied}&place=building&SLC.ag=0.2"):
+        shown = visit(browser, page, state)
+        (tmp_path / "scene.toml").write_text(shown["toml"])
+        command = [wall, "check", "scene.toml", "--json"]
+        told = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+        zeta = json.loads(told)["governs"]["zeta_E"]
+        assert shown["check"]["zeta_E"] == pytest.approx(zeta, rel=ROUNDING)
+
+
+def test_a_check_that_cannot_be_made_says_why(browser, page):
+    before = visit(browser, page)
+    put(browser, "SLV.F0", "2")
+    assert "F0 = 2 is below 2.2" in text_of(browser, "fault_SLV.F0")
+    assert text_of(browser, "check_headline") == "The check needs more, or other values"
+    # the wall runs all the same
+    assert answered(browser)["summary"] == before["summary"]
+    assert "stale" not in browser.find_element(By.CSS_SELECTOR, ".result").get_attribute("class")
+    put(browser, "SLV.F0", "2.4")
+    assert not browser.find_elements(By.CSS_SELECTOR, ".field.wrong")
+    # a load on a parapet: the share that moves is to be stated
+    slide(browser, "overburden", 5000)
+    assert "overburden_mass is missing" in text_of(browser, "fault_overburden_mass")
+    put(browser, "overburden_mass", "1")
+    assert text_of(browser, "check_headline").startswith("Circolare 7/2019: ")
+    Select(browser.find_element(By.ID, "field_code")).select_by_value("")
+    assert answered(browser)["check"] is None
+    assert not browser.find_element(By.ID, "check").is_displayed()
+    assert not browser.find_element(By.ID, "field_soil").is_displayed()
+
+
+def test_a_link_holds_the_check(browser, page):
+    visit(browser, page, "place=building&SLV.ag=0.2&soil=C&building.storeys=4")
+    shown = slide(browser, "building.height_ratio", 0.5)
+    for line in ("SLV.ag = 0.2", 'soil = "C"', "building.storeys = 4", "building.height_ratio = 0.5"):
+        assert f"\n{line}\n" in shown["toml"]
+    link = wait(browser, lambda: "height_ratio=0.5" in browser.current_url and browser.current_url)
+    assert visit(browser, page, link.split("#")[1])["toml"] == shown["toml"]
 
 
 def test_wrong_input_is_told_beside_its_field(browser, page):

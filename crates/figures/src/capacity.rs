@@ -95,15 +95,12 @@ pub fn by_code(plane: &Plane) -> Plot {
     let right = 1000.0 * 1.08 * ends.fold(zero, f64::max);
     let reached = plane.states.iter().map(|state| 1.5 * state.check.acceleration);
     let top = 1.25 * reached.chain(plane.capacity.iter().map(|corner| corner.1)).fold(0.0, f64::max);
-    let named = |name: String, look: Look, line: Series| Series { name, look, ..line };
+    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
     let mut series = Vec::new();
     for (state, color) in plane.states.iter().zip(CODE) {
         let (name, check) = (state.state, &state.check);
-        let demand: Vec<_> = state.demand.iter().map(shown).collect();
-        for (index, piece) in clipped(&demand, right, top).into_iter().rev().enumerate() {
-            let name = if index == 0 { format!("demand {name}") } else { String::new() };
-            series.push(named(name, Look::Solid, Series::line(color, 1.6, piece)));
-        }
+        let line = Series::line(color, 1.6, state.demand.iter().map(shown).collect());
+        series.push(named(format!("demand {name}"), Look::Solid, line));
         let slope = check.acceleration / (1000.0 * check.demand_terms[0].unwrap_or(check.demand));
         let end = right.min(top / slope);
         let ray = Series::line(color, 1.0, vec![(0.0, 0.0), (end, slope * end)]);
@@ -121,47 +118,4 @@ pub fn by_code(plane: &Plane) -> Plot {
     }
     let axes = [Axis::over("d, S_d (mm)", [0.0, right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
     Plot::new([820.0, 460.0], axes, series)
-}
-
-/// The pieces of a line within a right and a top end.
-fn clipped(points: &[(f64, f64)], right: f64, top: f64) -> Vec<Vec<(f64, f64)>> {
-    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-    for pair in points.windows(2) {
-        let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
-        let at = |part: f64| match part {
-            1.0 => pair[1],
-            part => (x0 + part * (x1 - x0), y0 + part * (y1 - y0)),
-        };
-        // where this part of the line enters and leaves
-        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
-        for (from, to, limit) in [(x0, x1, right), (y0, y1, top)] {
-            match (from > limit, to > limit) {
-                (true, true) => leaves = -1.0,
-                (true, false) => enters = enters.max((limit - from) / (to - from)),
-                (false, true) => leaves = leaves.min((limit - from) / (to - from)),
-                (false, false) => {}
-            }
-        }
-        if enters > leaves {
-            continue;
-        }
-        match pieces.last_mut() {
-            Some(piece) if enters == 0.0 && piece.last() == Some(&pair[0]) => piece.push(at(leaves)),
-            _ => pieces.push(vec![at(enters), at(leaves)]),
-        }
-    }
-    pieces
-}
-
-#[cfg(test)]
-mod tests {
-    use super::clipped;
-
-    /// A line that leaves at the top and comes back is in two pieces.
-    #[test]
-    fn a_line_is_cut_at_its_ends() {
-        let points = [(0.0, 1.0), (1.0, 3.0), (2.0, 3.0), (3.0, 1.0), (5.0, 0.0)];
-        let pieces = [vec![(0.0, 1.0), (0.5, 2.0)], vec![(2.5, 2.0), (3.0, 1.0), (4.0, 0.5)]];
-        assert_eq!(clipped(&points, 4.0, 2.0), pieces);
-    }
 }

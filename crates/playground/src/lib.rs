@@ -21,6 +21,7 @@
 //! | `request` | what the page asks for, and what is wrong with it, field by field |
 //! | `parameters` | what the page's fields need to know of the model description |
 //! | `upload` | the record file that the user has dropped |
+//! | `check` | the check by a code |
 //! | `scene` | from a request to a scene, and to its text |
 //! | `verdict` | the result in a sentence, and its numbers |
 //! | `charts` | the charts of a run |
@@ -31,6 +32,7 @@
 #[cfg(target_arch = "wasm32")]
 mod boundary;
 mod charts;
+mod check;
 mod fragility;
 mod parameters;
 mod request;

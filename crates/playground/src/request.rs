@@ -39,6 +39,9 @@ pub(crate) struct Inputs {
     pub(crate) parameters: Fields,
     /// `kind`, and the keys of this kind of motion.
     pub(crate) motion: Fields,
+    /// Keys of the table `[check]`, those of its tables with a dot: `SLV.ag`.
+    #[serde(default)]
+    pub(crate) check: Fields,
     /// Width of the charts \[px\].
     pub(crate) width: f64,
 }

@@ -8,6 +8,7 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
+use crate::check;
 use crate::request::{Faults, Fields, Inputs, field_of};
 use crate::upload::Upload;
 
@@ -42,7 +43,7 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
     // a multiple of the step of the motion
     scene.output_step *= (scene.stop_time / (MOST_POINTS * scene.output_step)).ceil().max(1.0);
     scene.title = title(&scene);
-    let toml = to_toml(&scene, &motion);
+    let toml = to_toml(&scene, &motion) + &check::table(&inputs.check);
     Ok(Prepared { scene, wall, toml })
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::charts::{Charts, Frames};
+use crate::check;
 use crate::fragility::Fragility;
 use crate::parameters;
 use crate::request::{Faults, Inputs, Request};
@@ -85,6 +86,7 @@ impl Session {
             "warnings": warnings,
             "computed": parameters::computed(wall),
             "notes": scene.motion_notes,
+            "check": check::checked(&inputs.check, &scene.parameters, inputs.width),
             "charts": Charts::new(wall, &response, inputs.width).inline(),
             "wall": {
                 "height": body.height,

@@ -232,3 +232,100 @@ fn a_fragility_comes_from_twenty_motions() {
     assert!(0.05 < medians[0] && medians[0] < medians[1] && medians[1] < 5.0, "{medians:?}");
     assert!(last["answer"]["result"]["svg"].as_str().unwrap().starts_with("<svg"));
 }
+
+/// A run with the check of a site; `more` adds to its fields, or takes them away.
+fn checked(parameters: &Value, more: &Value) -> Value {
+    let mut check = json!({
+        "code": "circolare-2019", "before_activation": "law", "soil": "B", "confidence_factor": "1.35",
+        "SLV.ag": "0.15", "SLV.F0": "2.45", "SLV.TC": "0.32",
+    });
+    let fields = check.as_object_mut().unwrap();
+    fields.extend(more.as_object().unwrap().clone());
+    fields.retain(|_, text| !text.is_null());
+    let motion = json!({ "kind": "none" });
+    let inputs = json!({ "parameters": parameters, "motion": motion, "check": check, "width": 600 });
+    ask(&mut Session::default(), &json!({ "run": inputs }))["answer"].clone()
+}
+
+fn tied_on_the_roof() -> (Value, Value) {
+    let tie = json!({
+        "tie_stiffness": "2e5", "tie_height": "3", "tie_slack": "0.03", "tie_strength": "5000",
+        "tie_side": "positive",
+    });
+    let roof = json!({
+        "building.storeys": "3", "building.period": "0.3", "building.height_ratio": "1",
+        "SLV.building_damping": "0.1",
+    });
+    (tie, roof)
+}
+
+/// The parapet and the tied parapet of the rule's worked examples, and the same from the scene file.
+#[test]
+fn the_check_has_the_numbers_of_the_code() {
+    let (tie, roof) = tied_on_the_roof();
+    for (parameters, more, zeta) in
+        [(json!({}), json!({}), 0.855_812), (json!({}), roof.clone(), 0.790_84), (tie, roof, 0.727_534)]
+    {
+        let answer = checked(&parameters, &more);
+        let check = &answer["check"];
+        // six digits
+        assert!((check["zeta_E"].as_f64().unwrap() - zeta).abs() < 5e-7, "{check}");
+        assert_eq!(check["state"], "falls");
+        assert!(check["svg"].as_str().unwrap().starts_with("<svg"));
+        let toml = answer["toml"].as_str().unwrap();
+        let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
+        let place = rocking_wall::scene::Place::new("scene.toml", toml);
+        let statement = study::circolare::read_table(&place).unwrap().unwrap().statement().unwrap();
+        let records = study::circolare::Records::default();
+        let again = study::circolare::check(&scene.parameters, None, &statement, &records).unwrap();
+        assert_eq!(check["zeta_E"], again.governs.zeta);
+    }
+}
+
+/// The thickness moves the verdict, and the check says up to which `a_g` the wall holds.
+#[test]
+fn a_thicker_wall_passes_the_check() {
+    let check = |thickness: &str| checked(&json!({ "thickness": thickness }), &json!({}))["check"].clone();
+    let [thin, thick] = ["0.4", "0.6"].map(check);
+    assert_eq!(thin["headline"], "Circolare 7/2019: not passed, ζ_E = 0.856 (SLV)");
+    assert_eq!(thin["detail"], "It holds up to a_g = 0.128 g; the site has 0.15 g.");
+    assert!(thick["headline"].as_str().unwrap().contains(": passed, ζ_E = 1.28"), "{thick}");
+    assert_ne!(thin["svg"], thick["svg"]);
+    let (tie, roof) = tied_on_the_roof();
+    let detail = checked(&tie, &roof)["check"]["detail"].clone();
+    assert!(detail.as_str().unwrap().ends_with("The tie breaks at d_SLV."), "{detail}");
+}
+
+/// What is wrong with a check stands beside its field, and the wall runs all the same.
+#[test]
+fn a_check_that_cannot_be_made_leaves_the_run() {
+    let height = json!({ "building.storeys": "3", "building.period": "0.3", "building.height_ratio": "1" });
+    let undamped = {
+        let mut height = height.clone();
+        height["SLV.building_damping"] = "".into();
+        height
+    };
+    let loaded = json!({ "overburden": "5000", "u_start": "0" });
+    let rigid = json!({ "force_law": "rigid_linear", "damping_model": "none", "impact": "restitution" });
+    for (parameters, more, field, message) in [
+        (json!({}), json!({ "SLV.ag": "15" }), "SLV.ag", "give it in g"),
+        (json!({}), json!({ "SLV.ag": "much" }), "SLV.ag", "expected a number"),
+        (json!({}), json!({ "SLV.F0": "2" }), "SLV.F0", "is below 2.2"),
+        (json!({}), undamped, "SLV.building_damping", "state building_damping"),
+        (json!({}), json!({ "confidence_factor": "1.2" }), "confidence_factor", "FC of LC1"),
+        (rigid, json!({}), "before_activation", "no elastic branch"),
+        (loaded, json!({ "overburden_mass": "" }), "overburden_mass", "is missing"),
+        (json!({}), json!({ "SLV.ag": "", "SLV.F0": null, "SLV.TC": null }), "SLV.ag", "needs its site"),
+        (json!({ "a1": "0.6" }), json!({}), "check", "the elastic branch reaches d_SLV"),
+    ] {
+        let answer = checked(&parameters, &more);
+        let fault = answer["check"]["faults"][field].as_str();
+        let fault = fault.unwrap_or_else(|| panic!("no fault of {field}: {}", answer["check"]));
+        assert!(fault.contains(message), "{fault}");
+        assert!(answer["verdict"]["headline"].is_string());
+    }
+    // no code, no check
+    let answer = checked(&json!({}), &json!({ "code": "" }));
+    assert_eq!(answer["check"], Value::Null);
+    assert!(!answer["toml"].as_str().unwrap().contains("check"));
+}

@@ -4,6 +4,20 @@
 const moved = v => v.kind !== "none";
 const pulse = v => ["ricker", "sine_cycle", "half_sine", "harmonic"].includes(v.kind);
 const parapet = v => v.mechanism === "parapet";
+const code = v => v.code !== "";
+const high = v => code(v) && v.place === "building";
+const CHECK = "Check by the code";
+// a limit state; SLD and SLC are checked where their a_g is given
+const limitState = (name, [ag, f0, tc, xi], more) => [
+  { name: `${name}.ag`, label: `${name}: a_g`, unit: "g", start: ag, range: [0.02, 0.4, 0.005], more,
+    when: code },
+  { name: `${name}.F0`, label: `${name}: F0`, start: f0, range: [2.2, 3, 0.05], more,
+    when: v => code(v) && v[`${name}.ag`] !== "" },
+  { name: `${name}.TC`, label: `${name}: T_C*`, unit: "s", start: tc, range: [0.15, 0.6, 0.01], more,
+    when: v => code(v) && v[`${name}.ag`] !== "" },
+  { name: `${name}.building_damping`, label: `${name}: damping of the building`, start: xi,
+    range: [0.02, 0.2, 0.01], more, when: v => high(v) && v[`${name}.ag`] !== "" },
+];
 const GROUPS = [
   ["Wall", [
     { name: "mechanism", label: "Kind",
@@ -44,6 +58,37 @@ const GROUPS = [
     { name: "column", label: "Column of a table", start: "", more: true, when: v => v.kind === "record" },
     { name: "channel", label: "Channel, if several", start: "", more: true, when: v => v.kind === "record" },
   ]],
+  [CHECK, [
+    { name: "code", label: "Code", start: "circolare-2019",
+      names: { "circolare-2019": "Circolare 7/2019", "": "none" } },
+    { name: "before_activation", label: "Before it rocks", start: "law", when: code,
+      names: { law: "free: as its force law", beam: "free: an elastic beam",
+        rigid: "held by transverse walls" } },
+    { name: "young_modulus", label: "E of the masonry", unit: "Pa", start: "1e9",
+      when: v => code(v) && v.before_activation === "beam" },
+    ...limitState("SLV", ["0.15", "2.4", "0.32", "0.1"], false),
+    { name: "soil", label: "Soil", start: "B", when: code,
+      names: Object.fromEntries([..."ABCDE"].map(one => [one, one])) },
+    { name: "place", label: "Place", start: "ground", when: code, page: true,
+      names: { ground: "on the ground", building: "in a building" } },
+    { name: "building.storeys", label: "Storeys", start: "3", range: [1, 8, 1], when: high },
+    { name: "building.period", label: "Period T₁", unit: "s", start: "0.3", range: [0.05, 1.5, 0.01],
+      when: high },
+    { name: "building.height_ratio", label: "Height z/H", start: "1", range: [0, 1, 0.05], when: high },
+    { name: "confidence_factor", label: "Confidence factor FC", start: "1.35", range: [1, 1.35, 0.05],
+      when: code },
+    { name: "compression_considered", label: "Hinges set back for compression", start: "false",
+      names: { false: "no", true: "yes" }, when: v => code(v) && Number(v.confidence_factor) < 1.35 },
+    { name: "overburden_mass", label: "Part of the load's mass that moves", start: "", range: [0, 1, 0.1],
+      when: v => code(v) && parapet(v) && Number(v.overburden) > 0 },
+    { name: "topography", label: "Topography", start: "T1", more: true, when: code,
+      names: Object.fromEntries(["T1", "T2", "T3", "T4"].map(one => [one, one])) },
+    { name: "method", label: "What decides", start: "nonlinear", more: true, when: code,
+      names: { nonlinear: "displacements", linear: "SLV with q" } },
+    { name: "behaviour_factor", label: "q", start: "2", range: [1, 3, 0.1], more: true, when: code },
+    ...limitState("SLC", ["", "2.42", "0.33", "0.15"], true),
+    ...limitState("SLD", ["", "2.45", "0.28", "0.05"], true),
+  ]],
   ["Force law", [
     { name: "force_law", label: "Law",
       names: { rigid_linear: "rigid", bilinear: "bilinear", trilinear: "trilinear" } },
@@ -72,4 +117,7 @@ const GROUPS = [
         one_sided_negative: "to u below 0" } },
   ]],
 ];
+for (const [title, fields] of GROUPS) {
+  for (const field of fields) { field.check = title === CHECK; }
+}
 const FIELDS = GROUPS.flatMap(([, fields]) => fields);

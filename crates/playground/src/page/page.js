@@ -134,6 +134,11 @@ function set(name, value) {
     // transverse walls turn the wall back by restitution
     Object.assign(values, { damping_model: "none", impact: "restitution", restitution_source: "analytic" });
   }
+  if (name === "force_law") {
+    // a rigid law has no elastic branch, one with a plateau has its own
+    const isRigid = value === "rigid_linear" && values.before_activation === "law";
+    if (isRigid || value === "trilinear") { values.before_activation = isRigid ? "rigid" : "law"; }
+  }
   refresh();
   schedule();
 }
@@ -146,12 +151,12 @@ async function load(file) {
 
 // ---- what is asked and answered
 function inputs(width) {
-  const parameters = {}, motion = {};
-  for (const field of FIELDS.filter(field => !rows[field.name].hidden)) {
+  const parameters = {}, motion = {}, check = {};
+  for (const field of FIELDS.filter(field => !rows[field.name].hidden && !field.page)) {
     if (field.computable && values[field.name] === "") { continue; }
-    (field.parameter ? parameters : motion)[field.name] = values[field.name];
+    (field.parameter ? parameters : field.check ? check : motion)[field.name] = values[field.name];
   }
-  return { parameters, motion, width };
+  return { parameters, motion, check, width };
 }
 let waiting = false;
 function schedule() {
@@ -163,16 +168,18 @@ function schedule() {
 function run() {
   const begin = performance.now();
   const asked = inputs(at("history").clientWidth), { answer, faults } = ask({ run: asked });
-  tell(faults ?? {});
   if (answer) { show({ ...answer, asked: asked.parameters, frames: ask("frames").answer }); }
+  tell(faults ?? {}, answer?.check?.faults ?? {});
   timings.push(performance.now() - begin);
-  current = answer?.toml;
+  current = runOf(answer);
   tellAge();
   remember();
 }
-// Puts each message beside its field; what has no field goes into the verdict.
-function tell(faults) {
-  const left = { ...faults };
+// The part of the scene file that a run depends on: all but its check.
+const runOf = answer => answer?.toml.split("\n[check]")[0];
+// Puts each message beside its field; what has no field goes into the verdict, or into that of the check.
+function tell(faults, ofCheck) {
+  const left = { ...ofCheck, ...faults };
   for (const [name, element] of Object.entries(rows)) {
     const fault = element.querySelector(".fault"), message = left[name] ?? "";
     delete left[name];
@@ -193,7 +200,7 @@ function tell(faults) {
   }
 }
 function show(answer) {
-  const isSame = shown?.toml === answer.toml;
+  const isSame = runOf(shown) === runOf(answer);
   shown = answer;
   computed = answer.computed;
   refresh();
@@ -209,6 +216,7 @@ function show(answer) {
     svg.setAttribute("role", "img");
     svg.setAttribute("aria-label", at(id).closest("figure").querySelector("figcaption").textContent);
   }
+  showCheck(answer.check);
   at("scene").textContent = answer.toml;
   const times = answer.frames.t;
   at("time").max = times.length - 1;
@@ -217,6 +225,24 @@ function show(answer) {
   const frame = times.findIndex(time => time >= instant);
   pose(playing === null && !isSame ? (frame < 0 ? times.length - 1 : frame)
     : Math.min(Number(at("time").value), times.length - 1));
+}
+function showCheck(check) {
+  const isMade = check !== null && check.faults === undefined;
+  at("check").hidden = check === null;
+  at("check_more").hidden = !isMade;
+  at("check").className = `verdict ${isMade ? check.state : "wrong"}`;
+  if (!isMade) {
+    at("check_headline").textContent = "The check needs more, or other values";
+    at("check_detail").textContent = Object.values(check?.faults ?? {}).join(" ");
+    return;
+  }
+  at("check_headline").textContent = check.headline;
+  at("check_detail").textContent = check.detail;
+  at("check_side").textContent = check.side;
+  at("check_facts").replaceChildren(...check.facts.map(pair =>
+    make("tr", {}, ...pair.map(textContent => make("td", { textContent })))));
+  at("check_warnings").replaceChildren(...check.warnings.map(textContent => make("li", { textContent })));
+  at("plane").innerHTML = check.svg;
 }
 
 // ---- fragility
