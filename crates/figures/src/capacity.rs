@@ -9,16 +9,13 @@
 //! ```
 
 use study::check::CapacityOverDemand;
-use study::circolare::Plane;
 
-use crate::palette::{AMBER, BLUE, DARK_GREY, GREEN, Mark, PURPLE, RED};
+use crate::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
 use crate::plot::{Axis, Look, Plot, Series};
 
 /// Colours of the curves and of the secants, in turn.
 const CURVES: [&str; 2] = [BLUE, DARK_GREY];
 const SECANTS: [&str; 4] = [GREEN, AMBER, RED, PURPLE];
-/// Colours of SLV and SLC.
-const CODE: [&str; 2] = [RED, AMBER];
 
 /// The curve of one side of a wall.
 #[derive(Clone, Debug)]
@@ -81,41 +78,5 @@ pub fn over_demand(demand: &CapacityOverDemand) -> Plot {
         named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
     ];
     let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
-    Plot::new([820.0, 460.0], axes, series)
-}
-
-/// Draws the a(d) plane of a check by the code: the curve of the side that governs, and for SLV and SLC the
-/// demand, the ray of its period, the displacement that it demands (a dot) and the one that it admits.
-///
-/// A dot left of its upright line passes.
-pub fn by_code(plane: &Plane) -> Plot {
-    let shown = |&(d, a): &(f64, f64)| (1000.0 * d, a);
-    let ends = plane.states.iter().flat_map(|state| [state.check.d, state.check.demand]);
-    let zero = plane.capacity.last().map_or(0.0, |corner| corner.0);
-    let right = 1000.0 * 1.08 * ends.fold(zero, f64::max);
-    let reached = plane.states.iter().map(|state| 1.5 * state.check.acceleration);
-    let top = 1.25 * reached.chain(plane.capacity.iter().map(|corner| corner.1)).fold(0.0, f64::max);
-    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
-    let mut series = Vec::new();
-    for (state, color) in plane.states.iter().zip(CODE) {
-        let (name, check) = (state.state, &state.check);
-        let line = Series::line(color, 1.6, state.demand.iter().map(shown).collect());
-        series.push(named(format!("demand {name}"), Look::Solid, line));
-        let slope = check.acceleration / (1000.0 * check.demand_terms[0].unwrap_or(check.demand));
-        let end = right.min(top / slope);
-        let ray = Series::line(color, 1.0, vec![(0.0, 0.0), (end, slope * end)]);
-        series.push(named(format!("T_{name} = {:.3} s", check.period), Look::Dotted, ray));
-        let limit = 1000.0 * check.d;
-        let upright = Series::line(color, 1.3, vec![(limit, 0.0), (limit, top)]);
-        series.push(named(format!("d_{name} = {limit:.1} mm"), Look::Dashed, upright));
-    }
-    let curve = Series::line(BLUE, 2.0, plane.capacity.iter().map(shown).collect());
-    series.push(named(format!("capacity curve a(d), {}", plane.side.name()), Look::Solid, curve));
-    for (state, color) in plane.states.iter().zip(CODE) {
-        let (check, at) = (&state.check, (1000.0 * state.check.demand, state.check.acceleration));
-        let name = format!("S_d = {:.1} mm, ζ_E = {:.3}", at.0, check.zeta);
-        series.push(named(name, Look::Marks(Mark::Circle), Series::line(color, 5.0, vec![at])));
-    }
-    let axes = [Axis::over("d, S_d (mm)", [0.0, right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
     Plot::new([820.0, 460.0], axes, series)
 }

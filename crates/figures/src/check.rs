@@ -11,7 +11,9 @@
 //! # Ok::<(), study::circolare::CheckError>(())
 //! ```
 
-use study::circolare::{CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought};
+use study::circolare::{
+    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, Statement, Verdict,
+};
 
 use crate::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
 use crate::plot::{Axis, Look, Plot, Series};
@@ -152,4 +154,27 @@ pub fn over_demand(side: &SideVerdict, demands: &[Drawn<'_>]) -> Result<Plot, Ch
     }
     let axes = [Axis::over("d, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
     Ok(Plot::new(SIZE, axes, series))
+}
+
+/// Draws the curve of the side that governs a verdict over the demands of SLV and SLC.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+///
+/// # Panics
+/// If the side that governs is not one of the verdict.
+pub fn governing_over_demand(
+    statement: &Statement,
+    demands: &[Option<Demand>; 3],
+    verdict: &Verdict,
+) -> Result<Plot, CheckError> {
+    let drawn = |state: LimitState| {
+        let (given, demand) = (statement.state(state)?, demands[state as usize].as_ref()?);
+        Some(Drawn { state, demand, damping: given.damping, period: None })
+    };
+    let drawn: Vec<_> = [LimitState::Slv, LimitState::Slc].into_iter().filter_map(drawn).collect();
+    let mut sides = verdict.sides.iter();
+    let governing = sides.find(|(side, _)| *side == verdict.governs.side);
+    let (_, side) = governing.expect("a side governs");
+    over_demand(side, &drawn)
 }

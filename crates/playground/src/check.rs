@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use figures::capacity::by_code;
+use figures::check::governing_over_demand;
 use figures::number;
 use figures::plot::Plot;
 use rocking_wall::scene::{Place, SceneError};
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Wall};
 use serde_json::{Value, json};
 use study::circolare::{
-    ActivationCheck, CheckError, Deciding, DisplacementCheck, LimitState, Plane, Records, SideVerdict,
-    Statement, Verdict, check, read_table,
+    ActivationCheck, CheckError, Deciding, DisplacementCheck, LimitState, Records, SideVerdict, Statement,
+    Verdict, check, demands, read_table,
 };
 
 use crate::request::{Faults, Fields, field_of};
@@ -44,12 +44,12 @@ fn value(text: &str) -> String {
 
 /// Checks a wall: its verdict and its picture of a width \[px\], or what is wrong, field by field. There is
 /// nothing where no code is chosen.
-pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> Value {
+pub(crate) fn checked(fields: &Fields, wall: &Wall, parameters: &Parameters, width: f64) -> Value {
     let text = table(fields);
     if text.is_empty() {
         return Value::Null;
     }
-    match outcome(&text, parameters, width) {
+    match outcome(&text, wall, parameters, width) {
         Ok(outcome) => outcome,
         Err(error) => {
             let (field, message) = fault(fields, error);
@@ -58,14 +58,11 @@ pub(crate) fn checked(fields: &Fields, parameters: &Parameters, width: f64) -> V
     }
 }
 
-fn outcome(text: &str, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {
+fn outcome(text: &str, wall: &Wall, parameters: &Parameters, width: f64) -> Result<Value, CheckError> {
     let Some(table) = read_table(&Place::new(NO_FIELD, text))? else { return Ok(Value::Null) };
     let (statement, records) = (table.statement()?, Records::default());
     let verdict = check(parameters, None, &statement, &records)?;
-    let plane = Plane::new(parameters, None, &statement, &records, &verdict)?;
-    let mut plot = by_code(&plane);
-    // what the legend has stands beside the picture
-    plot.series.iter_mut().for_each(|series| series.name.clear());
+    let plot = governing_over_demand(&statement, &demands(wall, None, &statement, &records)?, &verdict)?;
     let plot = Plot { size: [width, (0.5 * width).clamp(200.0, 270.0)], ..plot };
     let sides = &verdict.sides;
     let governing = sides.iter().find(|(side, _)| *side == verdict.governs.side);

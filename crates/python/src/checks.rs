@@ -1,11 +1,12 @@
 //! Capacity against demand.
 
-use figures::capacity::{by_code, over_demand};
+use figures::capacity::over_demand;
+use figures::check::governing_over_demand;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{Place, SceneError};
 use study::check::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
-use study::circolare::{self, CheckError, Plane, Records, in_table, read_table};
+use study::circolare::{self, CheckError, Records, demands, in_table, read_table};
 use study::ida::NamedRecord;
 
 use crate::arrays::{Given, motion, samples};
@@ -66,18 +67,22 @@ pub(crate) fn check_wall_by_code(
         let verdict = || -> Result<_, CheckError> {
             let (statement, records) = (table.statement()?, Records::new(records)?);
             let verdict = circolare::check(parameters, floors, &statement, &records)?;
-            let plane = Plane::new(parameters, floors, &statement, &records, &verdict)?;
-            Ok((verdict, plane))
+            let plot = governing_over_demand(
+                &statement,
+                &demands(&wall.equation, floors, &statement, &records)?,
+                &verdict,
+            )?;
+            Ok((verdict, plot))
         };
         verdict().map_err(|error| in_table(error, &place))
     });
-    let (verdict, plane) = checked.map_err(|error| match error {
+    let (verdict, plot) = checked.map_err(|error| match error {
         // the user has not written this text, so its line numbers say nothing
         SceneError::Line { message, .. } | SceneError::File { reason: message, .. } => refused(message),
         other => of_scene(other),
     })?;
     let text = serde_json::to_string(&verdict).map_err(failed)?;
-    Ok((text, by_code(&plane).picture().svg()))
+    Ok((text, plot.picture().svg()))
 }
 
 /// Returns the numbers of a side by their names in `wall check --json`.

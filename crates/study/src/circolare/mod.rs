@@ -14,7 +14,6 @@
 //! | `checks` | the static checks and what governs |
 //! | `verdict` | the outcome |
 //! | `dynamic` | runs under records |
-//! | `plane` | the curve over the demands, to draw |
 //! | `warnings` | what the engineer should know |
 //! | `find` | the smallest wall that passes |
 //! | `walls` | many walls |
@@ -27,7 +26,6 @@ mod error;
 mod find;
 mod floor;
 mod ground;
-mod plane;
 mod records;
 mod statement;
 mod table;
@@ -42,7 +40,6 @@ pub use error::CheckError;
 pub use find::{Found, Sought, find};
 pub use floor::{FloorSpectrum, Mode, frame_acceleration};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
-pub use plane::{Plane, PlaneState};
 pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
 pub use table::{
