@@ -344,7 +344,7 @@ def test_what_is_no_building(tmp_path, record):
         rw.Building(tmp_path / "none.toml")
     with pytest.warns(UserWarning, match='floor "floor_1" does not start at rest'):
         building = rw.Building("scenes/building/building.toml")
-    with pytest.raises(ValueError, match="tolerance = 2 from 1e-6 to 1"):
+    with pytest.raises(ValueError, match="tolerance = 2 must be from 1e-6 to 1"):
         building.simulate(record, tolerance=2.0)
     with pytest.raises(TypeError, match="must be a Record"):
         building.simulate("x.AT2")
