@@ -53,7 +53,7 @@ pub fn check(
     records: &Records,
 ) -> Result<Verdict, CheckError> {
     let wall = Wall::new(parameters)?;
-    let mut warnings = super::warnings::of_statement(statement, floors, &wall);
+    let mut warnings = super::warnings::of_statement(statement, parameters, floors, &wall);
     let demands = demands(&wall, floors, statement, records)?;
     for (state, demand) in LimitState::ALL.into_iter().zip(&demands) {
         warnings.extend(demand.iter().flat_map(|demand| super::warnings::of_demand(state, demand)));
@@ -69,7 +69,8 @@ pub fn check(
     warnings.extend(super::warnings::of_periods(&sides));
     let dynamic = super::dynamic::check(parameters, floors, statement, &sides, records)?;
     warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(parameters, statement)));
-    warnings.dedup();
+    let mut seen = std::collections::BTreeSet::new();
+    warnings.retain(|warning| seen.insert(warning.clone()));
     let governs = governing(statement, &sides, dynamic.as_ref())?;
     let passed = governs.zeta >= 1.0
         && dynamic.as_ref().is_none_or(|d| statement.method != Method::Dynamic || d.passed());
@@ -152,7 +153,9 @@ fn modes_of_storeys(
         period: period * stretch,
         participation: at_bottom * shape(bottom, index) + top.map_or(0.0, |top| at_top * shape(top, index)),
     };
-    Ok(periods.iter().enumerate().map(mode).collect())
+    let modes: Vec<Mode> = periods.iter().enumerate().map(mode).collect();
+    // supports on the ground move with it
+    Ok(if modes.iter().all(|mode| mode.participation == 0.0) { Vec::new() } else { modes })
 }
 
 fn side(
@@ -164,10 +167,11 @@ fn side(
     let sld = of(LimitState::Sld)
         .map(|(given, demand)| activation(curve, statement, given, demand, given.damping, 1.0))
         .transpose()?;
-    // the damping of the activation goes with it; a spectrum of another one leaves this check out
-    let xi = statement.state(LimitState::Sld).map_or(LimitState::Sld.damping(), |given| given.damping);
     let q = statement.behaviour_factor;
-    let with_q = |(given, demand)| activation(curve, statement, given, demand, xi, q);
+    // a spectrum of another damping than that of the activation leaves this check out
+    let with_q = |(given, demand): (&StateStatement, &Demand)| {
+        activation(curve, statement, given, demand, given.activation_damping, q)
+    };
     let slv_q = match of(LimitState::Slv).map(with_q).transpose() {
         Err(CheckError::Damping { .. }) if statement.method != Method::Linear => None,
         checked => checked?,

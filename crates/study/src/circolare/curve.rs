@@ -160,9 +160,10 @@ impl<'a> Curve<'a> {
     pub(super) fn tie_break(&self) -> Option<TieBreak> {
         let tie = self.tie()?;
         let breaks = tie.strength_displacement()?;
-        let from = self.elastic.displacement / self.stretch;
-        let corners = [from, tie.onset(), breaks];
-        let reached = corners.into_iter().filter(|u| (from..=breaks).contains(u));
+        // a tie that breaks on the elastic branch leaves that displacement alone
+        let from = (self.elastic.displacement / self.stretch).min(breaks);
+        let corners = self.wall.capacity_corners(self.sign).into_iter().map(|corner| corner.displacement);
+        let reached = corners.chain([from, tie.onset(), breaks]).filter(|u| (from..=breaks).contains(u));
         let largest = reached.map(|u| self.tied(u)).fold(0.0, f64::max);
         let [before, after] = [self.tied(breaks), self.own(breaks)];
         Some(TieBreak { u: breaks, before, after, largest, loss: (before - after) / largest })
@@ -258,7 +259,8 @@ fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f6
         (Mechanism::VerticalSpanning, _) => Ok(0.0),
         (Mechanism::Parapet, None) if parameters.overburden > 0.0 => refused(
             "overburden_mass is missing: state whether the overburden's mass moves along, 0 (its inertia \
-             goes elsewhere) to 1 (it moves with the wall)",
+             goes elsewhere) to 1 (it moves with the wall), more for a mass that only \
+             pushes the wall",
         ),
         (Mechanism::Parapet, r) => Ok(r.unwrap_or(0.0) * parameters.overburden),
     }

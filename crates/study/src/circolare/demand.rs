@@ -99,6 +99,12 @@ impl Demand {
         }
     }
 
+    /// The periods of given points.
+    fn periods(&self) -> impl Iterator<Item = f64> {
+        let points: &[(f64, f64)] = if let Self::Points(points, _) = self { points } else { &[] };
+        points.iter().map(|point| point.0)
+    }
+
     /// The displacement demand of a limit state of the period T and the damping ξ, of a wall whose elastic
     /// period is T0.
     pub(super) fn displacement(
@@ -121,13 +127,14 @@ impl Demand {
             // the largest S_d from T0 to T
             Self::Points(..) | Self::Records(_) => {
                 let acceleration = self.acceleration(state, period, xi)?;
-                let mut largest = 0.0_f64;
-                for part in 0..=SEARCHED {
-                    let at = t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED);
-                    // S_d is 0 at T = 0; below 1 ms it is nothing
-                    if at >= 1e-3 {
-                        largest = largest.max(self.acceleration(state, at, xi)? * (at / TAU).powi(2));
-                    }
+                let mut largest = acceleration * (period / TAU).powi(2);
+                let equal =
+                    (0..=SEARCHED).map(|part| t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED));
+                // the peaks of given points are at points
+                let own = self.periods().filter(|own| (t0..=period).contains(own));
+                // S_d is 0 at T = 0; below 1 ms it is nothing
+                for at in equal.chain(own).filter(|at| *at >= 1e-3) {
+                    largest = largest.max(self.acceleration(state, at, xi)? * (at / TAU).powi(2));
                 }
                 Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
             }
@@ -136,7 +143,11 @@ impl Demand {
 }
 
 /// The mean of 7 and more records, or the largest of fewer.
+///
+/// # Panics
+/// Without a record.
 pub(super) fn combined(values: Vec<f64>) -> f64 {
+    assert!(!values.is_empty(), "a demand of records has a record");
     if values.len() >= MEAN_COUNTS_FROM {
         values.iter().sum::<f64>() / values.len() as f64
     } else {

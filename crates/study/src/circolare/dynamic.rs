@@ -1,14 +1,15 @@
 //! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
-//! and the strength of a tie are divided by FC, masses stay. A record passes on either side that it moves the
-//! wall to: what counts is the larger of |d| over the threshold of its side.
+//! and the strength of a tie are divided by FC, masses stay. What counts of a record is the larger of |d| over
+//! the threshold of its side. The tie of the model does not break: a run that reaches its strength fails, and so
+//! does one that reaches `u_ins`.
 
 use ground_motion::GroundMotion;
 use record::RecordSolver;
 use rocking_wall::scene::Floors;
 use rocking_wall::solver::Motion;
-use rocking_wall::wall::Parameters;
+use rocking_wall::wall::{Parameters, Tie, Wall};
 use serde::Serialize;
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
@@ -20,10 +21,10 @@ use super::verdict::{Deciding, Governs, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
 use crate::ida::{DEFAULT_TAIL, Shaking};
 
-/// Factors on all records between which the lowest that fails is searched \[-\].
-const FACTORS: [f64; 2] = [0.01, 100.0];
 /// Ratio of factors that follow each other. A wall that fails between two and not at them is not seen.
 const RATIO: f64 = 1.01;
+/// Powers of the ratio between which the lowest factor that fails is searched, 0.01 to 100; 0 is the factor 1.
+const POWERS: std::ops::RangeInclusive<i32> = -463..=463;
 /// Factors that are run at once.
 const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
@@ -69,7 +70,7 @@ pub struct DynamicRun {
     pub factor: f64,
     /// Largest d on the sides u > 0 and u < 0 \[m\].
     pub d: [f64; 2],
-    /// Whether one of them exceeds `d_0`.
+    /// Whether one of them exceeds `d_0`, or what ends the model before: the strength of the tie, or `u_ins`.
     pub beyond_d0: bool,
 }
 
@@ -77,7 +78,8 @@ pub struct DynamicRun {
 #[derive(Clone, Copy, Debug)]
 struct Thresholds {
     limit: [f64; 2],
-    zero: [f64; 2],
+    /// `d_0`, or where the model ends before.
+    end: [f64; 2],
 }
 
 /// What the maxima of some runs say.
@@ -96,12 +98,17 @@ impl Judged {
 }
 
 impl Thresholds {
-    fn of(sides: &SideVerdicts, limit: impl Fn(&SideVerdict) -> Option<f64>) -> Self {
-        let each = |value: &dyn Fn(&SideVerdict) -> Option<f64>| {
-            [&sides.positive, &sides.negative]
-                .map(|side| side.as_ref().and_then(value).unwrap_or(f64::INFINITY))
+    fn of(wall: &Wall, sides: &SideVerdicts, limit: impl Fn(&SideVerdict) -> Option<f64>) -> Self {
+        let each = |value: &dyn Fn(f64, &SideVerdict) -> Option<f64>| {
+            [(1.0, &sides.positive), (-1.0, &sides.negative)]
+                .map(|(sign, side)| side.as_ref().and_then(|side| value(sign, side)).unwrap_or(f64::INFINITY))
         };
-        Self { limit: each(&limit), zero: each(&|side| Some(side.d0)) }
+        let end = |sign: f64, side: &SideVerdict| {
+            let tie = wall.tie().filter(|tie| tie.holds(sign)).and_then(Tie::strength_displacement);
+            let u = tie.map_or(f64::INFINITY, |u| u).min(wall.body().instability.of(sign));
+            Some(side.d0.min(side.d_per_u * u))
+        };
+        Self { limit: each(&|_, side| limit(side)), end: each(&end) }
     }
 
     /// Judges the maxima of |d| of some runs, both sides of each.
@@ -109,7 +116,7 @@ impl Thresholds {
         let share = |d: &[f64; 2], side: usize| d[side] / self.limit[side];
         let used = maxima.iter().map(|d| share(d, 0).max(share(d, 1))).collect();
         let largest = |side: usize| maxima.iter().map(|d| share(d, side)).fold(0.0, f64::max);
-        let beyond = |d: &&[f64; 2]| d[0] > self.zero[0] || d[1] > self.zero[1];
+        let beyond = |d: &&[f64; 2]| d[0] > self.end[0] || d[1] > self.end[1];
         Judged {
             d: combined(maxima.iter().map(|d| d[0].max(d[1])).collect()),
             ratio: 1.0 / combined(used),
@@ -150,6 +157,12 @@ impl DynamicCheck {
                 "the dynamic model has no mass on top: the overburden loads the wall without inertia".into(),
             );
         }
+        if parameters.tie_stiffness > 0.0 && parameters.tie_strength > 0.0 {
+            warnings.push(
+                "the tie of the dynamic model does not break: a run that reaches its strength counts as failed"
+                    .into(),
+            );
+        }
         for (name, state) in self.states().filter(|(_, state)| state.passed && state.zeta < 1.0) {
             warnings.push(format!(
                 "{}: the wall passes under the records, and fails under {:.3} of them: the response is not \
@@ -174,6 +187,11 @@ pub(super) fn check(
     if records.is_empty() {
         return Ok(None);
     }
+    if statement.has_building && floors.is_none() {
+        let message =
+            "the records move the ground: describe the building by [[storeys]], not by [check.building]";
+        return Err(CheckError::value(&["building"], message));
+    }
     let factor = statement.confidence_factor;
     let divided = Parameters {
         gravity: parameters.gravity / factor,
@@ -194,7 +212,7 @@ pub(super) fn check(
             Err(_) if statement.method != Method::Dynamic => return Ok(None),
             factors => factors?,
         };
-        runs.check(&Thresholds::of(sides, limit), &factors, records).map(Some)
+        runs.check(&Thresholds::of(motion.wall(), sides, limit), &factors, records).map(Some)
     };
     let slv = state(LimitState::Slv, |side| side.slv.map(|check| check.d))?;
     let slc = state(LimitState::Slc, |side| side.slc.map(|check| check.d))?;
@@ -253,20 +271,18 @@ impl Runs<'_> {
     /// Returns the lowest factor on all records that fails, searched upwards, for the response is neither
     /// linear nor monotonic.
     fn lowest_failure(&self, thresholds: &Thresholds, factors: &[f64]) -> Result<f64, CheckError> {
-        let [lowest, highest] = FACTORS;
-        let mut below = lowest;
-        while below < highest {
-            let levels: Vec<f64> =
-                std::iter::successors(Some(below), |level| Some(level * RATIO)).take(AT_ONCE).collect();
+        let powers: Vec<i32> = POWERS.collect();
+        let mut below = RATIO.powi(powers[0]);
+        for powers in powers.chunks(AT_ONCE) {
+            let levels: Vec<f64> = powers.iter().map(|power| RATIO.powi(*power)).collect();
             for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
                 if !thresholds.judge(&maxima).passed() {
                     return self.between(thresholds, factors, [below, *level]);
                 }
                 below = *level;
             }
-            below *= RATIO;
         }
-        Ok(highest)
+        Ok(below)
     }
 
     /// Halves a step of factors at whose end the check fails.
@@ -309,16 +325,16 @@ mod tests {
     /// Example (e) of the worked examples: eight maxima of a parapet with `d_SLV` = 0.08 m and `d_0` = 0.2 m.
     #[test]
     fn maxima_of_eight_records() {
-        let thresholds = Thresholds { limit: [0.08; 2], zero: [0.2; 2] };
+        let thresholds = Thresholds { limit: [0.08; 2], end: [0.2; 2] };
         let maxima = [0.031, 0.052, 0.066, 0.048, 0.090, 0.075, 0.058, 0.101];
         let judged = thresholds.judge(&maxima.map(|d| [0.5 * d, d]));
         assert!((judged.d - 0.065_125).abs() < 1e-15 && (judged.ratio - 1.228_41).abs() < 5e-6);
         assert!(judged.passed() && judged.side == Side::Negative);
         // one run beyond d_0 fails, whatever the mean
-        let beyond = Thresholds { zero: [0.2, 0.1], ..thresholds }.judge(&maxima.map(|d| [0.5 * d, d]));
+        let beyond = Thresholds { end: [0.2, 0.1], ..thresholds }.judge(&maxima.map(|d| [0.5 * d, d]));
         assert!(!beyond.passed() && beyond.beyond_d0 == 1);
         // each side by its own threshold
-        let sides = Thresholds { limit: [0.04, 0.12], zero: [0.2; 2] }.judge(&[[0.06, 0.06]; 7]);
+        let sides = Thresholds { limit: [0.04, 0.12], end: [0.2; 2] }.judge(&[[0.06, 0.06]; 7]);
         assert!((sides.ratio - 0.04 / 0.06).abs() < 1e-15 && sides.side == Side::Positive);
     }
 }

@@ -60,6 +60,17 @@ impl CheckError {
         Self::Value { keys: keys.to_vec(), message: message.into() }
     }
 
+    /// The keys of the table `[check]` that the error is about.
+    pub(super) fn keys(&self) -> Option<Vec<&'static str>> {
+        match self {
+            Self::Value { keys, .. } => Some(keys.clone()),
+            Self::LocalInstability { .. } | Self::Order { .. } => Some(vec!["SLC", "displacement"]),
+            Self::Period { state, .. } => Some(vec![state.key(), "spectrum"]),
+            Self::Damping { state, .. } => Some(vec![state.key(), "spectrum_damping"]),
+            _ => None,
+        }
+    }
+
     pub(super) fn wall(message: impl Into<String>) -> Self {
         Self::Wall { message: message.into() }
     }

@@ -4,7 +4,7 @@ use rocking_wall::scene::Floors;
 use rocking_wall::wall::Parameters;
 
 use super::error::CheckError;
-use super::{Records, Statement, check};
+use super::{Method, Records, Source, Statement, check};
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 121;
@@ -127,9 +127,11 @@ pub fn find(
         return Err(CheckError::wall(message));
     }
     let none = Records::default();
+    let demanded = statement.states.iter().flatten().any(|given| given.source == Source::Records);
     let (records, tried) = match statement.method {
-        super::Method::Dynamic => (records, TRIED_DYNAMIC),
-        super::Method::Nonlinear | super::Method::Linear => (&none, TRIED),
+        Method::Dynamic => (records, TRIED_DYNAMIC),
+        Method::Nonlinear | Method::Linear if demanded => (records, TRIED_DYNAMIC),
+        Method::Nonlinear | Method::Linear => (&none, TRIED),
     };
     let run = |value: f64| check(&sought.applied(parameters, value), floors, statement, records);
     let zeta =

@@ -72,6 +72,11 @@ impl LimitState {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Sld, Self::Slv, Self::Slc];
 
+    /// The key of its table.
+    pub(crate) fn key(self) -> &'static str {
+        ["SLD", "SLV", "SLC"][self as usize]
+    }
+
     /// ξ of the mechanism where nothing better is known, C8.7.1.2.1.5 and C8.7.1.2.1.8 \[-\].
     pub fn damping(self) -> f64 {
         [0.05, 0.08, 0.10][self as usize]
@@ -80,6 +85,6 @@ impl LimitState {
 
 impl std::fmt::Display for LimitState {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(["SLD", "SLV", "SLC"][*self as usize])
+        f.write_str(self.key())
     }
 }

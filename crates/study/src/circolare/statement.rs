@@ -48,6 +48,8 @@ pub struct StateStatement {
     pub ag: f64,
     /// ξ of the mechanism \[-\].
     pub damping: f64,
+    /// ξ of the activation, that of SLD \[-\].
+    pub activation_damping: f64,
     /// Where the demand comes from.
     pub source: Source,
     /// `ξ_k` of the building \[-\].
@@ -161,16 +163,11 @@ fn confidence_factor(table: &CheckTable) -> Result<f64, CheckError> {
     if factor < LARGEST_CONFIDENCE_FACTOR && !table.compression_considered {
         let message = format!(
             "FC = {factor}: FC of LC1, 1.35, applies where compression is neglected (C8.7.1.2.1.3); set the \
-             hinges back (a3 < 1, or a smaller thickness) and state compression_considered = true"
+             hinges back ([force_law] a3 < 1, or a smaller thickness) and state compression_considered = true"
         );
         return Err(CheckError::value(&[key], message));
     }
     Ok(factor)
-}
-
-/// The name of a limit state, as key of its table.
-fn key_of(state: LimitState) -> &'static str {
-    ["SLD", "SLV", "SLC"][state as usize]
 }
 
 fn limit_state(
@@ -178,7 +175,7 @@ fn limit_state(
     given: &LimitStateTable,
     table: &CheckTable,
 ) -> Result<StateStatement, CheckError> {
-    let name = key_of(state);
+    let name = state.key();
     let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
     let ag = given.ag;
     if !(ag > 0.0 && ag <= 1.0) {
@@ -191,6 +188,7 @@ fn limit_state(
         Err(refused(key, format!("{key} = {value} is a ratio, such as 0.08; above 0 and at most 0.5")))
     };
     let damping = ratio("damping", given.damping.unwrap_or(state.damping()))?;
+    let of_sld = table.sld.as_ref().and_then(|sld| sld.damping);
     let building_damping = given.building_damping.map(|xi| ratio("building_damping", xi)).transpose()?;
     if let Some(period) = given.building_period.filter(|period| !(*period > 0.0 && period.is_finite())) {
         return Err(refused("building_period", format!("building_period = {period} s must be above 0")));
@@ -215,6 +213,7 @@ fn limit_state(
         state,
         ag,
         damping,
+        activation_damping: of_sld.unwrap_or(LimitState::Sld.damping()),
         source,
         building_damping,
         building_period: given.building_period,
@@ -224,9 +223,12 @@ fn limit_state(
 }
 
 fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Result<Source, CheckError> {
-    let name = key_of(state);
+    let name = state.key();
     let refused = |key, message: String| CheckError::value(&[name, key], format!("{state}: {message}"));
     match (given.f0, given.tc, &given.spectrum) {
+        (Some(_), Some(_), None) if given.spectrum_damping.is_some() => {
+            Err(refused("spectrum_damping", "spectrum_damping is that of a spectrum; leave it out".into()))
+        }
         (Some(f0), Some(tc), None) => {
             if !(f0 >= 2.2 && f0.is_finite()) {
                 return Err(refused("F0", format!("F0 = {f0} is below 2.2 (NTC 3.2.3.2.1)")));
@@ -251,11 +253,19 @@ fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Res
             let points = points.iter().map(|[period, sa]| (*period, sa * super::G)).collect();
             Ok(Source::Points(points, damping))
         }
-        (None, None, None) if table.records.is_some() => Ok(Source::Records),
-        (None, None, None) => {
-            Err(refused("ag", format!("needs its site: [check.{state}] with ag, F0 and TC")))
+        (None, None, None) if table.records.is_some() && table.record_scale == RecordScale::None => {
+            Ok(Source::Records)
         }
-        (Some(_), Some(_), Some(_)) => {
+        (None, None, None) if table.records.is_some() => Err(refused(
+            "ag",
+            "a demand from the records takes them as they are: state record_scale = \"none\", or F0 and TC"
+                .into(),
+        )),
+        (None, None, None) => Err(refused(
+            "ag",
+            format!("needs its site: [check.{state}] with ag, F0 and TC, or a spectrum or records"),
+        )),
+        (Some(_), _, Some(_)) | (_, Some(_), Some(_)) => {
             Err(refused("spectrum", "give F0 and TC, or a spectrum, not both".into()))
         }
         _ => Err(refused("ag", "F0 and TC go together; give both".into())),
@@ -267,8 +277,13 @@ fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
         return Err(CheckError::value(&[], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
     };
     Soil::ALL.into_iter().find(|soil| soil.name() == given).ok_or_else(|| {
-        let message =
-            format!("soil {given:?}: NTC 3.2.2 has formulas for A to E; give a spectrum of a local analysis");
+        let letter = given.to_uppercase();
+        let message = match Soil::ALL.iter().find(|soil| soil.name() == letter) {
+            Some(soil) => format!("soil {given:?}: did you mean {:?}?", soil.name()),
+            None => format!(
+                "soil {given:?}: NTC 3.2.2 has formulas for A to E; give a spectrum of a local analysis"
+            ),
+        };
         CheckError::value(&["soil"], message)
     })
 }
@@ -341,7 +356,7 @@ impl StateStatement {
         if modes.is_empty() {
             return Ok(None);
         }
-        let name = key_of(self.state);
+        let name = self.state.key();
         let Some(xi) = self.building_damping else {
             let message = format!(
                 "{name}: state building_damping, the damping of the building in this limit state \
@@ -350,8 +365,12 @@ impl StateStatement {
             return Err(CheckError::value(&[name], message));
         };
         let floor = FloorSpectrum::new(ground, modes, xi);
-        // the linear check takes ξ = 5 %, which amplifies more than the others
-        let largest = self.damping.max(LimitState::Sld.damping());
+        if floor.peak_acceleration() <= 0.0 {
+            let message =
+                format!("{name}: a_Z = 0: the wall stands on the ground; leave [check.building] out");
+            return Err(CheckError::value(&["building"], message));
+        }
+        let largest = self.damping.max(self.activation_damping);
         if floor.amplification(largest) <= 1.0 {
             let message = format!("{name}: xi_k = {xi} leaves no amplification: [C7.2.6] does not hold");
             return Err(CheckError::value(&[name, "building_damping"], message));

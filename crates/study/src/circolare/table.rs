@@ -190,13 +190,14 @@ pub fn read_table(place: &Place<'_>) -> Result<Option<CheckTable>, SceneError> {
 
 /// Adds file and line of a key of the table to an error that names one.
 pub fn in_table(error: CheckError, place: &Place<'_>) -> SceneError {
-    match error {
-        CheckError::Value { keys, message } => match line_of(place.text(), &keys) {
+    let message = error.to_string();
+    match (error.keys(), error) {
+        (_, CheckError::Scene(error)) => error,
+        (Some(keys), _) => match line_of(place.text(), &keys) {
             Some(span) => place.error(span, format!("[check] {message}")),
             None => SceneError::File { file: place.name().to_owned(), reason: format!("[check] {message}") },
         },
-        CheckError::Scene(error) => error,
-        other => SceneError::File { file: place.name().to_owned(), reason: other.to_string() },
+        (None, _) => SceneError::File { file: place.name().to_owned(), reason: message },
     }
 }
 

@@ -64,6 +64,11 @@ impl Walls {
         Ok(Self { walls, inputs, statement, records })
     }
 
+    /// Warnings of a quick check of the records.
+    pub fn record_warnings(&self) -> &[String] {
+        &self.records.warnings
+    }
+
     /// Checks every wall on some threads; returns the worst first, in the order of the file where they are
     /// alike.
     pub fn check(&self, threads: usize) -> Vec<WallVerdict> {

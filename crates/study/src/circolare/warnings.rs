@@ -1,12 +1,13 @@
 //! What the engineer should know of a check that can be made.
 
 use rocking_wall::scene::Floors;
-use rocking_wall::wall::Wall;
+use rocking_wall::variables::Mechanism;
+use rocking_wall::wall::{Parameters, Wall, Warning};
 
 use super::LimitState;
 use super::curve::Curve;
 use super::demand::Demand;
-use super::statement::{Source, Statement};
+use super::statement::{LARGEST_CONFIDENCE_FACTOR, Source, Statement};
 use super::table::UseClass;
 use super::verdict::SideVerdicts;
 
@@ -15,7 +16,12 @@ const LONGEST_PERIOD: f64 = 4.0;
 /// `T_C`* above which a typing error is likely \[s\].
 const LONGEST_TC: f64 = 1.0;
 
-pub(super) fn of_statement(statement: &Statement, floors: Option<&Floors>, wall: &Wall) -> Vec<String> {
+pub(super) fn of_statement(
+    statement: &Statement,
+    parameters: &Parameters,
+    floors: Option<&Floors>,
+    wall: &Wall,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut below: Option<(LimitState, f64)> = None;
     for given in statement.states.iter().flatten() {
@@ -30,6 +36,33 @@ pub(super) fn of_statement(statement: &Statement, floors: Option<&Floors>, wall:
                 warnings.push(format!("{}: T_C* = {tc} s is above 1 s; is it in s?", given.state));
             }
         }
+    }
+    let on_ground = floors.is_none() && !statement.has_building;
+    for given in statement.states.iter().flatten().filter(|_| on_ground) {
+        if given.building_damping.is_some() || given.building_period.is_some() {
+            warnings.push(format!(
+                "{}: building_damping and building_period have no effect on the ground; give [check.building]",
+                given.state
+            ));
+        }
+    }
+    let body = wall.body();
+    if statement.overburden_mass.is_some() && (body.overburden == 0.0 || body.mechanism != Mechanism::Parapet)
+    {
+        warnings.push("overburden_mass has no effect: it is for a parapet with overburden".into());
+    }
+    if statement.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
+        warnings.push(
+            "compression_considered with a3 = 1: hinges are at the edges; the thickness must be the reduced one"
+                .into(),
+        );
+    }
+    warnings.extend(Warning::unusual(parameters).map(|warning| warning.to_string()));
+    if statement.confidence_factor > LARGEST_CONFIDENCE_FACTOR {
+        warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));
+    }
+    if statement.has_building && floors.is_some() {
+        warnings.push("the static checks take [check.building], runs under records [[storeys]]".into());
     }
     if statement.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
         warnings.push("use class IV is checked for SLD too (NTC 8.3); give [check.SLD]".into());

@@ -136,7 +136,10 @@ fn demands_that_do_not_serve_are_refused() {
         (spectrum(to_two, 0.1), "SLC needs the spectrum up to T = 3.1"),
         (spectrum("[[1, 0.2], [2, 0.01]]", 0.1), "T from 0 on that rises"),
         (format!("{}{building}", spectrum(to_nine, 0.1).replace(SITE, damped)), "leave [check.building] out"),
-        (format!("{PARAPET}{}", with(records).replace(SITE, "{ ag = 0.15 }")), "needs S of F0 and TC"),
+        (
+            format!("{PARAPET}{}", with(records).replace(SITE, "{ ag = 0.15 }")),
+            "takes them as they are: state record_scale = \"none\"",
+        ),
     ]);
 }
 

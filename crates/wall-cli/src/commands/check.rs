@@ -65,6 +65,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.csv.is_some() {
         bail!("{name}: --csv lists the walls of a study; this is a scene");
     }
+    if arguments.html.is_some() {
+        bail!("{name}: --html draws a spectrum, or the walls of a study; --report is the page of a check");
+    }
     let case = code::Case::read(arguments, &table, &place)?;
     match arguments.find {
         Some(_) if arguments.report.is_some() => {

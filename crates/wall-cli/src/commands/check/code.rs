@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use rocking_wall::scene::{Place, Scene};
 use rocking_wall::wall::Wall;
 use study::circolare::{
@@ -50,9 +50,6 @@ impl Case {
 
 pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
     let Case { scene, statement, records, .. } = case;
-    if arguments.html.is_some() {
-        bail!("{}: --html draws a spectrum, or the walls of a study", case.name);
-    }
     let verdict = case.located(check(&scene.parameters, scene.floors.as_ref(), statement, records))?;
     let alike = Wall::new(&scene.parameters).is_ok_and(|wall| wall.has_equal_sides());
     if let Some(path) = &arguments.report {

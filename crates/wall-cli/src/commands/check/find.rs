@@ -31,6 +31,11 @@ pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<
     let [from, to] = found.range.map(|end| format!("{end:.4}"));
     let extreme = if sought == Sought::Height { "largest" } else { "smallest" };
     let mut text = match found.value {
+        None if sought.name().starts_with("tie") => {
+            format!(
+                "no {name} from {from} to {to} {unit} passes; a side without a tie may govern: see tie_side\n"
+            )
+        }
         None => format!("no {name} from {from} to {to} {unit} passes\n"),
         Some(_) if found.everywhere => format!("every {name} from {from} to {to} {unit} passes\n"),
         Some(value) => format!("{extreme} {name} that passes: {value:.6} {unit}\n"),

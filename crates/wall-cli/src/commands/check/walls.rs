@@ -22,6 +22,12 @@ pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<()> {
     let verdicts = walls.check(parallel::threads(None).get());
     output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
     output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
+    let warned =
+        verdicts.iter().filter(|wall| wall.verdict.as_ref().is_ok_and(|v| !v.warnings.is_empty())).count();
+    if warned > 0 && !arguments.json {
+        output::warn(&format!("{warned} walls have warnings; --csv and --json list them"));
+    }
+    walls.record_warnings().iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {
@@ -98,11 +104,15 @@ fn csv(verdicts: &[WallVerdict]) -> String {
             cell.to_owned()
         }
     };
-    let mut text = COLUMNS.join(",") + ",not_checked\n";
+    let mut text = COLUMNS.join(",") + ",not_checked,warnings\n";
     for wall in verdicts {
         let row = match cells(wall) {
-            Ok(cells) => cells.map(|cell| quoted(&cell)).join(",") + ",",
-            Err([name, reason]) => quoted(&name) + &",".repeat(9) + &quoted(&reason),
+            Ok(cells) => {
+                let warnings =
+                    wall.verdict.as_ref().map_or_else(|_| String::new(), |v| v.warnings.join("; "));
+                cells.map(|cell| quoted(&cell)).join(",") + ",," + &quoted(&warnings)
+            }
+            Err([name, reason]) => quoted(&name) + &",".repeat(9) + &quoted(&reason) + ",",
         };
         text.push_str(&row);
         text.push('\n');

@@ -180,7 +180,7 @@ fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, ch
             let t1 = floor.first_period();
             let at_first = floor.acceleration(t1, given.damping);
             let put = format!("{} · {BEYOND}² · {}²/(4π²)", n(at_first), n(t1));
-            let left = "S_eZ(T_1) b² T_1²/(4π²)";
+            let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
             lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (second, "m"));
             lines.line(["Demand, the larger", ""], ["S_d", ""], (check.demand, "m"));
         }
