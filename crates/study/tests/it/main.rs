@@ -8,6 +8,7 @@ use std::path::Path;
 mod accuracy;
 mod calibration;
 mod circolare;
+mod circolare_cases;
 mod circolare_dynamic;
 mod circolare_properties;
 mod circolare_refusals;
