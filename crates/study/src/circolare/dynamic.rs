@@ -1,9 +1,9 @@
 //! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
-//! and the strength of a tie are divided by FC, masses stay. What counts of a record is the larger of |d| over
-//! the threshold of its side. The tie of the model does not break: a run that reaches its strength fails, and so
-//! does one that reaches `u_ins`.
+//! and the strength of a tie are divided by FC, masses stay. What counts of a record is the larger of |d|
+//! over the threshold of its side. The tie of the model does not break: a run that reaches its strength
+//! fails, and so does one that reaches `u_ins`.
 
 use ground_motion::GroundMotion;
 use record::RecordSolver;
@@ -23,7 +23,7 @@ use crate::ida::{DEFAULT_TAIL, Shaking};
 
 /// Ratio of factors that follow each other. A wall that fails between two and not at them is not seen.
 const RATIO: f64 = 1.01;
-/// Powers of the ratio between which the lowest factor that fails is searched, 0.01 to 100; 0 is the factor 1.
+/// Powers of the ratio among which the lowest factor that fails is searched: 0.01 to 100, and 1.
 const POWERS: std::ops::RangeInclusive<i32> = -463..=463;
 /// Factors that are run at once.
 const AT_ONCE: usize = 64;
@@ -188,8 +188,7 @@ pub(super) fn check(
         return Ok(None);
     }
     if statement.has_building && floors.is_none() {
-        let message =
-            "the records move the ground: describe the building by [[storeys]], not by [check.building]";
+        let message = "the records move the ground: give [[storeys]] in place of [check.building]";
         return Err(CheckError::value(&["building"], message));
     }
     let factor = statement.confidence_factor;

@@ -41,7 +41,7 @@ pub(super) fn of_statement(
     for given in statement.states.iter().flatten().filter(|_| on_ground) {
         if given.building_damping.is_some() || given.building_period.is_some() {
             warnings.push(format!(
-                "{}: building_damping and building_period have no effect on the ground; give [check.building]",
+                "{}: building_damping and building_period have no effect without [check.building]",
                 given.state
             ));
         }
@@ -53,7 +53,7 @@ pub(super) fn of_statement(
     }
     if statement.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
         warnings.push(
-            "compression_considered with a3 = 1: hinges are at the edges; the thickness must be the reduced one"
+            "compression_considered with a3 = 1, hinges at the edges: the thickness must be the reduced one"
                 .into(),
         );
     }
