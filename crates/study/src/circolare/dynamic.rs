@@ -159,8 +159,7 @@ impl DynamicCheck {
         }
         if parameters.tie_stiffness > 0.0 && parameters.tie_strength > 0.0 {
             warnings.push(
-                "the tie of the dynamic model does not break: a run that reaches its strength counts as failed"
-                    .into(),
+                "the tie of the dynamic model does not break: a run that reaches its strength fails".into(),
             );
         }
         for (name, state) in self.states().filter(|(_, state)| state.passed && state.zeta < 1.0) {
