@@ -73,7 +73,7 @@ impl LimitState {
     pub const ALL: [Self; 3] = [Self::Sld, Self::Slv, Self::Slc];
 
     /// The key of its table.
-    pub(crate) fn key(self) -> &'static str {
+    pub fn key(self) -> &'static str {
         ["SLD", "SLV", "SLC"][self as usize]
     }
 

@@ -7,8 +7,8 @@ use anyhow::Result;
 use rocking_wall::scene::{Place, Scene};
 use rocking_wall::wall::Wall;
 use study::circolare::{
-    CheckTable, DisplacementCheck, DynamicState, Records, Side, SideVerdict, Statement, Verdict, check,
-    in_table,
+    CheckTable, DisplacementCheck, DynamicState, Method, Records, Side, SideVerdict, Statement, UseClass,
+    Verdict, check, in_table,
 };
 
 use super::Arguments;
@@ -84,6 +84,17 @@ pub(super) fn headline(verdict: &Verdict, alike: bool) -> String {
     format!("{passed}: {} governs with zeta_E = {:.3} ({side})", governs.limit_state.name(), governs.zeta)
 }
 
+/// What decides, as a sentence begins.
+fn deciding(statement: &Statement) -> String {
+    let method = match statement.method {
+        Method::Nonlinear => "SLV and SLC by displacement",
+        Method::Linear => "The checks of SLV with q",
+        Method::Dynamic => "The runs under records",
+    };
+    let class = if statement.use_class == Some(UseClass::IV) { ", and SLD of use class IV," } else { "" };
+    format!("\n{method}{class}")
+}
+
 /// A name, its unit, and the number of a side, if it has one.
 type Line = (&'static str, &'static str, fn(&SideVerdict) -> Option<f64>);
 
@@ -152,6 +163,7 @@ fn text(title: &str, statement: &Statement, verdict: &Verdict, alike: bool) -> S
             row(&format!("{state} {name}"), unit, &|side| pick(side).map(|check| value(&check)));
         }
     }
+    let _ = writeln!(text, "{} decide; the other checks are for information", deciding(statement));
     for (side, verdict) in &shown {
         for (state, check) in STATES.map(|(state, pick)| (state, pick(verdict))) {
             if check.is_some_and(|check| check.limited_by_tie) {

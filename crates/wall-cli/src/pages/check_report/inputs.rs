@@ -156,6 +156,13 @@ pub(super) fn statements(case: &Case<'_>) -> String {
         };
         state(scale, &["record_scale"]);
     }
+    for (given, xi) in
+        statement.states.iter().flatten().filter_map(|given| Some((given, given.building_damping?)))
+    {
+        let said =
+            format!("The building has the damping {} = {} in {}.", formula("ξ_k"), number(xi), given.state);
+        state(said, &[given.state.key(), "building_damping"]);
+    }
     if let Some(u) = statement.state(LimitState::Slc).and_then(|given| given.displacement) {
         let said =
             format!("Something else becomes unstable at {} = {} m and limits SLC.", formula("u"), number(u));
