@@ -142,13 +142,18 @@ fn deviations_from_print_are_explained() {
 #[test]
 fn an_interrupted_study_says_that_it_resumes() {
     use std::process::{Command, Stdio};
-    use std::time::Duration;
+    use std::time::Instant;
 
     use crate::ida::{bytes, study, succeed};
 
     let folder = study("ida_interrupted");
-    succeed(&folder, &["ida", "study.toml", "-o", "whole"]);
-    let interrupted = (0..20_u64).any(|attempt| {
+    let start = Instant::now();
+    succeed(&folder, &["ida", "study.toml", "-o", "whole", "--threads", "1"]);
+    let whole = start.elapsed();
+    // at 0.1 to 0.95 of the time that the whole takes now, twice: other tests run at the same time
+    let interrupted = (0..36_u32).any(|attempt| {
+        // what an attempt has run to its end cannot be interrupted again
+        let _ = fs::remove_dir_all(folder.join("broken"));
         let child = Command::new(env!("CARGO_BIN_EXE_wall"))
             .current_dir(&folder)
             .args(["ida", "study.toml", "-o", "broken", "--threads", "1"])
@@ -156,7 +161,7 @@ fn an_interrupted_study_says_that_it_resumes() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        std::thread::sleep(Duration::from_millis(60 + 10 * attempt));
+        std::thread::sleep(whole * (2 + attempt % 18) / 20);
         Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         let output = child.wait_with_output().unwrap();
         let told = text(&output.stderr);
