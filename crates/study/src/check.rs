@@ -120,15 +120,8 @@ impl Demand {
             return Err(CheckError::NoRecords);
         }
         let spectrum = Spectrum::new(damping, Maxima::Everywhere)?;
-        let felt = |record: GroundMotion| match floors {
-            None => Ok(record),
-            Some(floors) => {
-                let end = record.duration() + DEFAULT_TAIL;
-                let motion = floors.motion(wall.body().mechanism, &Excitation::new(record, None), end)?;
-                Ok::<_, CheckError>(motion.effective(wall.body())?)
-            }
-        };
-        let records = records.into_iter().map(felt).collect::<Result<_, _>>()?;
+        let records = records.into_iter().map(|record| felt(record, floors, wall));
+        let records = records.collect::<Result<_, CheckError>>()?;
         Ok(Self(Of::Records(spectrum, records)))
     }
 
@@ -138,7 +131,10 @@ impl Demand {
     /// [`CheckError`] for a period that the demand does not have.
     pub fn at(&self, period: f64) -> Result<f64, CheckError> {
         match &self.0 {
-            Of::Points(points) => interpolated(points, period),
+            Of::Points(points) => interpolated(points, period).ok_or_else(|| {
+                let end = |point: Option<&(f64, f64)>| point.map_or(f64::NAN, |point| point.0);
+                CheckError::Period { period, from: end(points.first()), to: end(points.last()) }
+            }),
             Of::Records(spectrum, motions) => {
                 let at = |motion| spectrum.acceleration(motion, period);
                 let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
@@ -299,15 +295,27 @@ fn check_side(
     })
 }
 
-/// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them.
-fn interpolated(points: &[(f64, f64)], period: f64) -> Result<f64, CheckError> {
+/// Returns what a wall feels of a record: the record itself, or the motion of its floors, those of a strip
+/// wall by their weights.
+pub(crate) fn felt<E: From<SceneError> + From<GroundMotionError>>(
+    record: GroundMotion,
+    floors: Option<&Floors>,
+    wall: &Wall,
+) -> Result<GroundMotion, E> {
+    let Some(floors) = floors else { return Ok(record) };
+    let end = record.duration() + DEFAULT_TAIL;
+    let motion = floors.motion(wall.body().mechanism, &Excitation::new(record, None), end)?;
+    Ok(motion.effective(wall.body())?)
+}
+
+/// Returns `S_a` at a period of a spectrum given by points (T, `S_a`), straight between them; `None` beyond
+/// its ends.
+pub(crate) fn interpolated(points: &[(f64, f64)], period: f64) -> Option<f64> {
     let after = points.partition_point(|point| point.0 < period);
-    match (after.checked_sub(1).and_then(|before| points.get(before)), points.get(after)) {
-        (_, Some(&(at, value))) if at == period => Ok(value),
-        (Some(&(t0, s0)), Some(&(t1, s1))) => Ok(s0 + (s1 - s0) * ((period - t0) / (t1 - t0))),
-        _ => {
-            let end = |point: Option<&(f64, f64)>| point.map_or(f64::NAN, |point| point.0);
-            Err(CheckError::Period { period, from: end(points.first()), to: end(points.last()) })
-        }
+    let &(t1, s1) = points.get(after)?;
+    if t1 == period {
+        return Some(s1);
     }
+    let &(t0, s0) = points.get(after.checked_sub(1)?)?;
+    Some(s0 + (s1 - s0) * ((period - t0) / (t1 - t0)))
 }

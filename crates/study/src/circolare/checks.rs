@@ -74,7 +74,8 @@ pub fn check(
     let governs = governing(statement, &sides, dynamic.as_ref())?;
     let passed = governs.zeta >= 1.0
         && dynamic.as_ref().is_none_or(|d| statement.method != Method::Dynamic || d.passed());
-    Ok(Verdict { code: CODE, passed, governs, sides, dynamic, warnings })
+    let alike = wall.has_equal_sides();
+    Ok(Verdict { code: CODE, passed, governs, alike, sides, dynamic, warnings })
 }
 
 /// Makes the demands of SLD, SLV and SLC at the place of a wall; `None` for one that is not stated.

@@ -8,6 +8,7 @@ use super::LimitState;
 use super::error::CheckError;
 use super::floor::FloorSpectrum;
 use super::ground::GroundSpectrum;
+use crate::check::interpolated;
 
 /// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.
 pub const MEAN_COUNTS_FROM: usize = 7;
@@ -72,7 +73,10 @@ impl Demand {
                     let (needed, given) = (100.0 * xi, 100.0 * given);
                     return Err(CheckError::Damping { state, needed, given });
                 }
-                interpolated(state, points, period)
+                interpolated(points, period).ok_or_else(|| {
+                    let [from, to] = [points[0].0, points[points.len() - 1].0];
+                    CheckError::Period { state, period, from, to }
+                })
             }
             Self::Records(records) => {
                 let spectrum = Spectrum::new(xi, Maxima::Everywhere)?;
@@ -82,19 +86,22 @@ impl Demand {
         }
     }
 
-    /// `S_d` at a period, of the damping ξ, with both terms of [C8.7.1.12] \[m\].
+    /// `S_d` at a period, of the damping ξ, the larger of both terms of [C8.7.1.12] \[m\].
     ///
     /// # Errors
     /// Those of [`acceleration`](Self::acceleration).
     pub fn spectral_displacement(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
+        let (first, second) = self.terms(state, period, xi)?;
+        Ok(second.map_or(first, |second| first.max(second)))
+    }
+
+    /// Both terms of [C8.7.1.12] at a period; the second only at a height, behind b T₁ \[m\].
+    fn terms(&self, state: LimitState, period: f64, xi: f64) -> Result<(f64, Option<f64>), CheckError> {
         match self {
-            Self::Ground(ground) => Ok(ground.displacement(period, xi)),
-            Self::Floor(floor) => {
-                let (first, second) = floor.displacement(period, xi);
-                Ok(second.map_or(first, |second| first.max(second)))
-            }
+            Self::Ground(ground) => Ok((ground.displacement(period, xi), None)),
+            Self::Floor(floor) => Ok(floor.displacement(period, xi)),
             Self::Points(..) | Self::Records(_) => {
-                Ok(self.acceleration(state, period, xi)? * (period / TAU).powi(2))
+                Ok((self.acceleration(state, period, xi)? * (period / TAU).powi(2), None))
             }
         }
     }
@@ -113,32 +120,22 @@ impl Demand {
         [t0, period]: [f64; 2],
         xi: f64,
     ) -> Result<DisplacementDemand, CheckError> {
-        let of = |first: f64, second: Option<f64>| DisplacementDemand {
-            acceleration: first * (TAU / period).powi(2),
-            displacement: second.map_or(first, |second| first.max(second)),
-            terms: [Some(first), second],
-        };
-        match self {
-            Self::Ground(ground) => Ok(of(ground.displacement(period, xi), None)),
-            Self::Floor(floor) => {
-                let (first, second) = floor.displacement(period, xi);
-                Ok(of(first, second))
-            }
-            // the largest S_d from T0 to T
-            Self::Points(..) | Self::Records(_) => {
-                let acceleration = self.acceleration(state, period, xi)?;
-                let mut largest = acceleration * (period / TAU).powi(2);
-                let equal =
-                    (0..=SEARCHED).map(|part| t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED));
-                // the peaks of given points are at points
-                let own = self.periods().filter(|own| (t0..=period).contains(own));
-                // S_d is 0 at T = 0; below 1 ms it is nothing
-                for at in equal.chain(own).filter(|at| *at >= 1e-3) {
-                    largest = largest.max(self.acceleration(state, at, xi)? * (at / TAU).powi(2));
-                }
-                Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
-            }
+        let (first, second) = self.terms(state, period, xi)?;
+        let acceleration = first * (TAU / period).powi(2);
+        if matches!(self, Self::Ground(_) | Self::Floor(_)) {
+            let displacement = second.map_or(first, |second| first.max(second));
+            return Ok(DisplacementDemand { acceleration, displacement, terms: [Some(first), second] });
         }
+        // of points and records the largest S_d from T0 to T
+        let mut largest = first;
+        let equal = (0..=SEARCHED).map(|part| t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED));
+        // the peaks of given points are at points
+        let own = self.periods().filter(|own| (t0..=period).contains(own));
+        // S_d is 0 at T = 0; below 1 ms it is nothing
+        for at in equal.chain(own).filter(|at| *at >= 1e-3) {
+            largest = largest.max(self.spectral_displacement(state, at, xi)?);
+        }
+        Ok(DisplacementDemand { acceleration, displacement: largest, terms: [Some(largest), None] })
     }
 }
 
@@ -153,15 +150,4 @@ pub(super) fn combined(values: Vec<f64>) -> f64 {
     } else {
         values.into_iter().fold(0.0, f64::max)
     }
-}
-
-/// `S_a` at a period of points, straight between them.
-fn interpolated(state: LimitState, points: &[(f64, f64)], period: f64) -> Result<f64, CheckError> {
-    let after = points.partition_point(|point| point.0 < period);
-    let (Some(before), Some(&(t1, s1))) = (after.checked_sub(1), points.get(after)) else {
-        let [from, to] = [points[0].0, points[points.len() - 1].0];
-        return Err(CheckError::Period { state, period, from, to });
-    };
-    let (t0, s0) = points[before];
-    Ok(s0 + (s1 - s0) * ((period - t0) / (t1 - t0)))
 }

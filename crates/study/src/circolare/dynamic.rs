@@ -5,7 +5,6 @@
 //! over the threshold of its side. The tie of the model does not break: a run that reaches its strength
 //! fails, and so does one that reaches `u_ins`.
 
-use ground_motion::GroundMotion;
 use record::RecordSolver;
 use rocking_wall::scene::Floors;
 use rocking_wall::solver::Motion;
@@ -105,7 +104,7 @@ impl Thresholds {
         };
         let end = |sign: f64, side: &SideVerdict| {
             let tie = wall.tie().filter(|tie| tie.holds(sign)).and_then(Tie::strength_displacement);
-            let u = tie.map_or(f64::INFINITY, |u| u).min(wall.body().instability.of(sign));
+            let u = tie.unwrap_or(f64::INFINITY).min(wall.body().instability.of(sign));
             Some(side.d0.min(side.d_per_u * u))
         };
         Self { limit: each(&|_, side| limit(side)), end: each(&end) }
@@ -203,7 +202,9 @@ pub(super) fn check(
     let motion = Motion::of(&divided, divided.tolerance)?;
     let felt = records.felt(floors, motion.wall())?;
     let stretch = sides.iter().next().map_or(1.0, |(_, side)| side.d_per_u);
-    let runs = Runs { motion: &motion, felt: &felt, stretch };
+    let solvers: Vec<_> = felt.iter().map(|record| RecordSolver::new(&motion, record.step())).collect();
+    let shake = |(record, solver)| Shaking::new(&motion, solver, record, DEFAULT_TAIL);
+    let runs = Runs { records: felt.iter().zip(&solvers).map(shake).collect(), stretch };
     let state = |state: LimitState, limit: fn(&SideVerdict) -> Option<f64>| {
         let Some(given) = statement.state(state) else { return Ok(None) };
         let factors = match factors(statement, given, records) {
@@ -235,8 +236,7 @@ fn factors(statement: &Statement, given: &StateStatement, records: &Records) -> 
 
 /// Runs of one wall under what it feels of each record.
 struct Runs<'a> {
-    motion: &'a Motion,
-    felt: &'a [GroundMotion],
+    records: Vec<Shaking<'a>>,
     stretch: f64,
 }
 
@@ -300,13 +300,11 @@ impl Runs<'_> {
 
     /// Returns the maxima of |d| on both sides: for each level, of each record.
     fn maxima(&self, factors: &[f64], levels: &[f64]) -> Result<Vec<Vec<[f64; 2]>>, CheckError> {
-        let mut maxima = vec![Vec::with_capacity(self.felt.len()); levels.len()];
-        for (record, factor) in self.felt.iter().zip(factors) {
-            let solver = RecordSolver::new(self.motion, record.step());
-            let shaking = Shaking::new(self.motion, &solver, record, DEFAULT_TAIL);
+        let mut maxima = vec![Vec::with_capacity(self.records.len()); levels.len()];
+        for (record, factor) in self.records.iter().zip(factors) {
             let scaled: Vec<f64> = levels.iter().map(|level| level * factor).collect();
             let outcomes =
-                shaking.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
+                record.runs([0.0, 0.0], &scaled).map_err(|error| CheckError::wall(error.to_string()))?;
             for (at_level, outcome) in maxima.iter_mut().zip(outcomes) {
                 let peaks = outcome.state.peaks;
                 at_level.push([self.stretch * peaks.positive, self.stretch * peaks.negative]);

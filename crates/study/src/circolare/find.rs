@@ -128,11 +128,8 @@ pub fn find(
     }
     let none = Records::default();
     let demanded = statement.states.iter().flatten().any(|given| given.source == Source::Records);
-    let (records, tried) = match statement.method {
-        Method::Dynamic => (records, TRIED_DYNAMIC),
-        Method::Nonlinear | Method::Linear if demanded => (records, TRIED_DYNAMIC),
-        Method::Nonlinear | Method::Linear => (&none, TRIED),
-    };
+    let is_dynamic = demanded || statement.method == Method::Dynamic;
+    let (records, tried) = if is_dynamic { (records, TRIED_DYNAMIC) } else { (&none, TRIED) };
     let run = |value: f64| check(&sought.applied(parameters, value), floors, statement, records);
     let zeta =
         |value: f64| run(value).map_or((f64::NAN, false), |verdict| (verdict.governs.zeta, verdict.passed));

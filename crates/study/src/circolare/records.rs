@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{Floors, Place, SceneError};
-use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Wall;
 
 use super::error::CheckError;
 use super::table::CheckTable;
+use crate::check::felt;
 use crate::document::records;
-use crate::ida::{DEFAULT_TAIL, NamedRecord};
+use crate::ida::NamedRecord;
 use crate::loaded::{all_records, record_files};
 
 /// Fewest records, NTC 7.3.5.
@@ -66,15 +66,6 @@ impl Records {
     /// Returns what a wall feels of each: the record itself, or the motion of its floors, those of a strip
     /// wall by their weights.
     pub(super) fn felt(&self, floors: Option<&Floors>, wall: &Wall) -> Result<Vec<GroundMotion>, CheckError> {
-        let felt = |record: &NamedRecord| match floors {
-            None => Ok(record.motion.clone()),
-            Some(floors) => {
-                let end = record.motion.duration() + DEFAULT_TAIL;
-                let ground = Excitation::new(record.motion.clone(), None);
-                let motion = floors.motion(wall.body().mechanism, &ground, end)?;
-                Ok::<_, CheckError>(motion.effective(wall.body())?)
-            }
-        };
-        self.named.iter().map(felt).collect()
+        self.named.iter().map(|record| felt(record.motion.clone(), floors, wall)).collect()
     }
 }

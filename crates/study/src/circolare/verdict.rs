@@ -13,6 +13,9 @@ pub struct Verdict {
     pub passed: bool,
     /// What governs: the smallest `ζ_E` of those that decide.
     pub governs: Governs,
+    /// Whether both sides are alike.
+    #[serde(skip)]
+    pub alike: bool,
     /// The sides to which the wall can rock.
     pub sides: SideVerdicts,
     /// The dynamic check, where there are records for it.

@@ -2,17 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use rocking_wall::scene::{Place, SceneError, read_text};
-use rocking_wall::wall::Wall;
+use rocking_wall::scene::{Place, SceneError};
 
 use super::error::CheckError;
 use super::{CheckTable, Records, Statement, Verdict, check, in_table, read_table};
 use crate::ida::NamedWall;
 use crate::loaded::read_walls;
 use crate::parallel;
-
-/// Largest file that is read.
-const MAX_FILE_BYTES: u64 = 4 << 20;
 
 /// Walls of a file, and what the engineer states of all of them.
 #[derive(Clone, Debug)]
@@ -30,8 +26,6 @@ pub struct Walls {
 pub struct WallVerdict {
     /// Name of the wall.
     pub name: String,
-    /// Whether both sides are alike.
-    pub alike: bool,
     /// Its verdict, or why there is none.
     pub verdict: Result<Verdict, CheckError>,
 }
@@ -44,16 +38,16 @@ impl WallVerdict {
 }
 
 impl Walls {
-    /// Reads a study, or a file with `[check]`, `[[walls]]` and storeys only.
+    /// Reads the text of a study, or of a file with `[check]`, `[[walls]]` and storeys only. What it names is
+    /// looked up beside the file at `path`.
     ///
     /// # Errors
     /// [`SceneError`] with file, line, value and remedy.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
+    pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
-        let place = Place::new(&name, &text);
+        let place = Place::new(&name, text);
         let folder = path.parent().unwrap_or(Path::new("."));
-        let (walls, mut inputs) = read_walls(&text, path)?;
+        let (walls, mut inputs) = read_walls(text, path)?;
         let Some(table) = read_table(&place)? else {
             let reason = "there is no table [check]; add one with code = \"circolare-2019\"".into();
             return Err(SceneError::File { file: name, reason });
@@ -75,8 +69,7 @@ impl Walls {
         let one = |index: usize| {
             let NamedWall { name, parameters, floors } = &self.walls[index];
             let verdict = check(parameters, floors.as_ref(), &self.statement, &self.records);
-            let alike = Wall::new(parameters).is_ok_and(|wall| wall.has_equal_sides());
-            Ok::<_, std::convert::Infallible>(WallVerdict { name: name.clone(), alike, verdict })
+            Ok::<_, std::convert::Infallible>(WallVerdict { name: name.clone(), verdict })
         };
         let Ok(mut verdicts) = parallel::map(self.walls.len(), threads, one);
         verdicts.sort_by(|a, b| a.zeta().total_cmp(&b.zeta()));

@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     if is_study(&text) {
-        return walls::run(arguments, path);
+        return walls::run(arguments, path, &text);
     }
     let place = Place::new(&name, &text);
     let Some(table) = read_table(&place)? else {

@@ -12,17 +12,15 @@ use serde_json::Value;
 
 use crate::command_line::{folder, refused, text, wall};
 
-/// The default parapet under `scale` times the synthetic motion, with a tie of a stiffness [N/m].
-fn scene(scale: f64, tie_stiffness: f64, tie_side: TieSide) -> Scene {
+/// What becomes of the default parapet under `scale` times the synthetic motion, with a tie of a stiffness
+/// [N/m] against both sides.
+fn fate(scale: f64, tie_stiffness: f64) -> Fate {
+    let tie_side = TieSide::Both;
     let parameters = Parameters { tie_height: 3.0, tie_stiffness, tie_side, ..Parameters::default() };
     let mut scene = Scene { parameters, ..Scene::default() };
     let motion = SyntheticMotion::default().motion().unwrap().checked_scaled(scale).unwrap();
     scene.shake(Excitation::new(motion, None), 10.0, Vec::new());
-    scene
-}
-
-fn respond(scale: f64, tie_stiffness: f64, tie_side: TieSide) -> Response {
-    Response::of(&scene(scale, tie_stiffness, tie_side)).unwrap()
+    Response::of(&scene).unwrap().summary.fate
 }
 
 /// The same number of a fall in the text, the JSON and the tables of all commands that run it.
@@ -132,8 +130,8 @@ fn a_tie_that_holds_a_wall_beyond_u_ins() {
         csv.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
     };
     let expect = |stiffness: f64| {
-        let runs = scales.map(|scale| respond(scale, stiffness, TieSide::Both).summary);
-        let count = |is: fn(&Fate) -> bool| runs.iter().filter(|run| is(&run.fate)).count() as f64;
+        let fates = scales.map(|scale| fate(scale, stiffness));
+        let count = |is: fn(&Fate) -> bool| fates.iter().filter(|fate| is(fate)).count() as f64;
         [count(Fate::falls), count(|fate| matches!(fate, Fate::ComesBack { .. }))]
     };
     let (falls, back) = (column("falls"), column("beyond_u_ins_and_back"));

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use anyhow::Result;
 use rocking_wall::scene::{Place, Scene};
-use rocking_wall::wall::Wall;
 use study::circolare::{
     CheckTable, DisplacementCheck, DynamicState, Method, Records, Side, SideVerdict, Statement, UseClass,
     Verdict, check, in_table,
@@ -51,7 +50,6 @@ impl Case {
 pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
     let Case { scene, statement, records, .. } = case;
     let verdict = case.located(check(&scene.parameters, scene.floors.as_ref(), statement, records))?;
-    let alike = Wall::new(&scene.parameters).is_ok_and(|wall| wall.has_equal_sides());
     if let Some(path) = &arguments.report {
         let report = Report {
             scene,
@@ -60,7 +58,7 @@ pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
             statement,
             records,
             verdict: &verdict,
-            headline: &headline(&verdict, alike),
+            headline: &headline(&verdict),
             date: arguments.date.as_deref(),
         };
         output::to_file(path, page(&report)?.as_bytes())?;
@@ -69,22 +67,19 @@ pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
         return output::to_stdout(&(serde_json::to_string_pretty(&verdict)? + "\n"));
     }
     verdict.warnings.iter().for_each(|warning| output::warn(warning));
-    let mut text = text(&scene.title, statement, &verdict, alike);
-    if let Some(path) = &arguments.report {
-        let _ = writeln!(text, "\nwritten {}", path.display());
-    }
-    output::to_stdout(&text)
+    let text = text(&scene.title, statement, &verdict);
+    output::to_stdout(&(text + &output::written("\nwritten ", &arguments.report)))
 }
 
 /// The verdict in one line.
-pub(super) fn headline(verdict: &Verdict, alike: bool) -> String {
+pub(super) fn headline(verdict: &Verdict) -> String {
     let governs = verdict.governs;
-    let side = if alike { "both sides alike" } else { governs.side.name() };
+    let side = if verdict.alike { "both sides alike" } else { governs.side.name() };
     let passed = if verdict.passed { "PASSED" } else { "NOT PASSED" };
     format!("{passed}: {} governs with zeta_E = {:.3} ({side})", governs.limit_state.name(), governs.zeta)
 }
 
-/// What decides, as a sentence begins.
+/// What decides.
 fn deciding(statement: &Statement) -> String {
     let method = match statement.method {
         Method::Nonlinear => "SLV and SLC by displacement",
@@ -92,7 +87,7 @@ fn deciding(statement: &Statement) -> String {
         Method::Dynamic => "The runs under records",
     };
     let class = if statement.use_class == Some(UseClass::IV) { ", and SLD of use class IV," } else { "" };
-    format!("\n{method}{class}")
+    format!("{method}{class}")
 }
 
 /// A name, its unit, and the number of a side, if it has one.
@@ -136,15 +131,16 @@ type State = (&'static str, fn(&SideVerdict) -> Option<DisplacementCheck>);
 
 const STATES: [State; 2] = [("SLV", |side| side.slv), ("SLC", |side| side.slc)];
 
-fn text(title: &str, statement: &Statement, verdict: &Verdict, alike: bool) -> String {
-    let shown: Vec<(Side, &SideVerdict)> = verdict.sides.iter().take(if alike { 1 } else { 2 }).collect();
-    let mut text = format!("{title}\n{}\n\n", headline(verdict, alike));
+fn text(title: &str, statement: &Statement, verdict: &Verdict) -> String {
+    let shown: Vec<(Side, &SideVerdict)> =
+        verdict.sides.iter().take(if verdict.alike { 1 } else { 2 }).collect();
+    let mut text = format!("{title}\n{}\n\n", headline(verdict));
     let _ = writeln!(
         text,
         "Circolare 7/2019, C8.7.1.2.1; FC = {}; one resultant per body (C8.7.1.1), e* = 1",
         statement.confidence_factor
     );
-    let name = |side: Side| if alike { "both sides" } else { side.name() };
+    let name = |side: Side| if verdict.alike { "both sides" } else { side.name() };
     let heads = shown.iter().fold(String::new(), |heads, (side, _)| heads + &format!("{:>13} ", name(*side)));
     let _ = writeln!(text, "{:<22}{:>6}{heads}", "", "");
     let mut row = |name: &str, unit: &str, value: &dyn Fn(&SideVerdict) -> Option<f64>| {
@@ -163,7 +159,7 @@ fn text(title: &str, statement: &Statement, verdict: &Verdict, alike: bool) -> S
             row(&format!("{state} {name}"), unit, &|side| pick(side).map(|check| value(&check)));
         }
     }
-    let _ = writeln!(text, "{} decide; the other checks are for information", deciding(statement));
+    let _ = writeln!(text, "\n{} decide; the other checks are for information", deciding(statement));
     for (side, verdict) in &shown {
         for (state, check) in STATES.map(|(state, pick)| (state, pick(verdict))) {
             if check.is_some_and(|check| check.limited_by_tie) {

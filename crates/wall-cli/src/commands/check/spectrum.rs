@@ -14,6 +14,7 @@ use rocking_wall::scene::{Floors, read_text};
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
+use study::circolare::Side;
 
 use crate::args::read_record;
 use crate::output;
@@ -191,7 +192,7 @@ fn stated_unit(text: &str) -> Option<Unit> {
 }
 
 fn side_name(side: &SideCheck) -> &'static str {
-    if side.sign > 0.0 { "u > 0" } else { "u < 0" }
+    Side::of(side.sign).name()
 }
 
 /// A name, a unit, and the number of a side.

@@ -8,16 +8,17 @@ use figures::{escaped, template};
 use serde_json::{Value, json};
 use study::circolare::{Verdict, WallVerdict, Walls};
 use study::parallel;
+use study_folder::csv::quoted;
 
 use super::Arguments;
 use crate::output;
 
-pub(super) fn run(arguments: &Arguments, path: &Path) -> Result<()> {
+pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> {
     arguments.spectrum.refuse(&path.display().to_string())?;
     if arguments.find.is_some() || arguments.report.is_some() || !arguments.scene.set.is_empty() {
         bail!("{}: --find, --report and --set take one wall; give a scene", path.display());
     }
-    let walls = Walls::read(path)?;
+    let walls = Walls::parse(path, text)?;
     output::check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;
     let verdicts = walls.check(parallel::threads(None).get());
     output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
@@ -65,7 +66,7 @@ fn cells(wall: &WallVerdict) -> Result<[String; 9], [String; 2]> {
             let governs = verdict.governs;
             let [sld, slv_q, slv, slc] = zetas(verdict).map(number);
             let passed = if verdict.passed { "yes" } else { "no" };
-            let side = if wall.alike { "both" } else { governs.side.name() };
+            let side = if verdict.alike { "both" } else { governs.side.name() };
             let state = governs.limit_state.name();
             let zeta = number(Some(governs.zeta));
             Ok([wall.name.clone(), passed.into(), zeta, state.into(), side.into(), sld, slv_q, slv, slc])
@@ -97,13 +98,6 @@ fn table(verdicts: &[WallVerdict]) -> String {
 }
 
 fn csv(verdicts: &[WallVerdict]) -> String {
-    let quoted = |cell: &str| {
-        if cell.contains([',', '"', '\n']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell.to_owned()
-        }
-    };
     let mut text = COLUMNS.join(",") + ",not_checked,warnings\n";
     for wall in verdicts {
         let row = match cells(wall) {

@@ -15,7 +15,7 @@ use super::site::figure;
 pub(super) fn section(case: &Case<'_>) -> Result<String> {
     let mut text = String::new();
     for (name, side, verdict) in case.sides() {
-        if !case.alike {
+        if !case.report.verdict.alike {
             text.push_str(&side_head(name));
         }
         text += &numbers(case, side, verdict);

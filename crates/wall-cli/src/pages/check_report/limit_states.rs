@@ -46,7 +46,7 @@ fn one(case: &Case<'_>, title: &str, state: LimitState, check: &Check<'_>) -> St
     let mut text = String::new();
     for (name, _, side) in case.sides() {
         let Some(calculation) = check(side, given, demand) else { continue };
-        let head = if case.alike { String::new() } else { side_head(name) };
+        let head = if case.report.verdict.alike { String::new() } else { side_head(name) };
         text.push_str(&["<div class=\"together\">", &head, &calculation, "</div>\n"].concat());
     }
     if text.is_empty() { text } else { section(title, &text) }

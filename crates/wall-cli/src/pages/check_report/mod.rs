@@ -42,15 +42,15 @@ struct Case<'a> {
     given: Given,
     /// Of SLD, SLV and SLC.
     demands: [Option<Demand>; 3],
-    /// Both sides are alike: one is shown.
-    alike: bool,
 }
 
 impl Case<'_> {
     /// The sides that are shown, with their names.
     fn sides(&self) -> impl Iterator<Item = (&'static str, Side, &SideVerdict)> {
-        let shown = self.report.verdict.sides.iter().take(if self.alike { 1 } else { 2 });
-        shown.map(|(side, verdict)| (if self.alike { "both sides" } else { side.name() }, side, verdict))
+        let shown = self.report.verdict.sides.iter().take(if self.report.verdict.alike { 1 } else { 2 });
+        shown.map(|(side, verdict)| {
+            (if self.report.verdict.alike { "both sides" } else { side.name() }, side, verdict)
+        })
     }
 
     /// The side that governs.
@@ -72,7 +72,6 @@ pub(crate) fn page(report: &Report<'_>) -> Result<String> {
         report,
         given: Given::new(report.file.1, report.set),
         demands: demands(&wall, floors, report.statement, report.records)?,
-        alike: wall.has_equal_sides(),
         wall,
     };
     let warnings: Vec<_> = report.verdict.warnings.iter().chain(&report.records.warnings).collect();

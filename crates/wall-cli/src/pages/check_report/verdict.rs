@@ -46,7 +46,7 @@ pub(super) fn section(case: &Case<'_>) -> String {
     if let Some(dynamic) = &case.report.verdict.dynamic {
         let states = [(LimitState::Slv, &dynamic.slv), (LimitState::Slc, &dynamic.slc)];
         for (state, check) in states.into_iter().filter_map(|(state, check)| Some((state, check.as_ref()?))) {
-            let side = if case.alike { "both sides" } else { check.side.name() };
+            let side = if case.report.verdict.alike { "both sides" } else { check.side.name() };
             let words = [&*format!("{state} under records"), "C8.7.1.2.1.9", side];
             let of_side = case.report.verdict.sides.iter().find(|(side, _)| *side == check.side);
             let limit =
