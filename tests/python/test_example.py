@@ -4,6 +4,7 @@ import math
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
@@ -54,3 +55,17 @@ def test_the_ball_bounces_as_in_closed_form(ball, version, kind):
 def test_a_dead_ball_rests(ball):
     result = simulate_fmu(ball, fmi_type="ModelExchange", stop_time=1, start_values={"e": 0.0})
     assert result["v"][-1] == 0.0 and 0.0 <= result["h"][-1] < 1e-9
+
+
+@pytest.mark.parametrize("kind", BOUNDS)
+@pytest.mark.parametrize("version", [2, 3])
+def test_gravity_is_an_input(ball, version, kind):
+    path = ball if version == 2 else of_fmi3(ball)
+    # a lift that lets the ball weigh half from 0.2 s on
+    points = [(0.0, GRAVITY), (0.2, GRAVITY), (0.2, GRAVITY / 2), (0.4, GRAVITY / 2)]
+    gravity = np.array(points, [("time", float), ("g", float)])
+    settings = {"fmi_type": kind, "stop_time": 0.4, "output_interval": 0.01, "relative_tolerance": 1e-8}
+    result = simulate_fmu(path, input=gravity, **settings)
+    height, speed = 1.0 - GRAVITY * 0.2**2 / 2, -GRAVITY * 0.2
+    expected = height + speed * 0.2 - GRAVITY / 2 * 0.2**2 / 2
+    assert abs(result["h"][-1] - expected) < BOUNDS[kind]

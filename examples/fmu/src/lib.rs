@@ -2,9 +2,8 @@
 
 use fmu_export::{Environment, Failure, Log, Model, ModelExchange, StateCodec, Step, Update};
 
-include!(concat!(env!("OUT_DIR"), "/choices.rs"));
+include!(concat!(env!("OUT_DIR"), "/choices.rs")); // start_values!
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));
-const GRAVITY: f64 = 9.81; // m/s²
 
 /// The parameters of the description, by their names.
 #[derive(Clone)]
@@ -18,6 +17,7 @@ struct Ball {
     parameters: Parameters,
     h: f64,
     v: f64,
+    g: f64,
     rests: bool,
 }
 
@@ -29,7 +29,7 @@ impl Ball {
     }
 
     fn fall(&mut self, time: f64) {
-        (self.h, self.v) = (self.h + (self.v - GRAVITY / 2.0 * time) * time, self.v - GRAVITY * time);
+        (self.h, self.v) = (self.h + (self.v - self.g / 2.0 * time) * time, self.v - self.g * time);
     }
 }
 
@@ -42,7 +42,7 @@ impl Model for Ball {
     const IDENTIFIER: &'static str = MODEL_IDENTIFIER;
 
     fn instantiate(_: Environment<'_>, _: &mut Log<'_>) -> Result<Self, Failure> {
-        Ok(Self { parameters: start_values!(Parameters {}), h: 1.0, v: 0.0, rests: false })
+        Ok(Self { parameters: start_values!(Parameters {}), h: 1.0, v: 0.0, g: 9.81, rests: false })
     }
 
     fn real(&self, variable: RealVariable) -> f64 {
@@ -51,7 +51,8 @@ impl Model for Ball {
             RealVariable::V if self.rests => 0.0,
             RealVariable::V => self.v,
             RealVariable::A if self.rests => 0.0,
-            RealVariable::A => -GRAVITY,
+            RealVariable::A => -self.g,
+            RealVariable::G => self.g,
             RealVariable::HStart => self.parameters.h_start,
             RealVariable::E => self.parameters.e,
         }
@@ -61,6 +62,7 @@ impl Model for Ball {
         match variable {
             RealVariable::H => self.h = value,
             RealVariable::V => self.v = value,
+            RealVariable::G => self.g = value,
             parameter => drop(self.parameters.set_real(parameter, value)),
         }
     }
@@ -74,19 +76,19 @@ impl Model for Ball {
         let mut left = step.duration;
         while !self.rests && left > 0.0 {
             // h + v t - g t^2/2 = 0
-            let impact = (self.v + (self.v * self.v + 2.0 * GRAVITY * self.h).sqrt()) / GRAVITY;
+            let impact = (self.v + (self.v * self.v + 2.0 * self.g * self.h).sqrt()) / self.g;
             self.fall(impact.min(left));
             left -= impact;
             if left >= 0.0 {
                 self.bounce(log);
             }
         }
-        Ok(None)
+        Ok(None) // the step did not end early
     }
 
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
         self.parameters.transfer(codec)?;
-        codec.f64s([&mut self.h, &mut self.v])?;
+        codec.f64s([&mut self.h, &mut self.v, &mut self.g])?;
         codec.bool(&mut self.rests)
     }
 }
