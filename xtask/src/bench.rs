@@ -7,6 +7,8 @@ use std::path::Path;
 use crate::command::{Result, cargo, output, program, root, succeed, target};
 use crate::python::Environment;
 
+/// The measurements of the peers.
+pub(crate) const PEERS: &str = "fmu_out/peers.csv";
 /// Names in the table.
 const OURS: &str = "rocking-wall";
 const OPENSEES: &str = "OpenSeesPy";
@@ -105,7 +107,7 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let rows: Vec<Row> = text.lines().skip(1).filter_map(Row::parse).collect();
     let table = report(&rows, &missing);
     print!("{table}");
-    let output = root().join("fmu_out/peers.csv");
+    let output = root().join(PEERS);
     std::fs::write(&output, with_missing(text, &missing))
         .map_err(|error| format!("{}: {error}", output.display()))?;
     println!("written {}", output.display());

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::bench;
-use crate::command::{Result, root};
+use crate::command::{Result, root, target};
 use crate::images::{self, wall};
 
 const DOCUMENT: &str = "docs/accuracy.md";
@@ -13,6 +13,8 @@ const VALIDATION: &str = "docs/validation.md";
 const VERIFICATION: &str = "docs/verification.md";
 /// Published tests, a TOML file and a mark of the document each.
 const TESTS: &str = "tests/data/validation";
+/// The scene of the peers in the README: `OpenSeesPy` offers its damping.
+const SHOWN: &str = "wall 5 CDC,";
 /// First words of the last table of `wall accuracy`.
 const ROTATIONS: &str = "small rotations: their period";
 
@@ -20,7 +22,7 @@ const ROTATIONS: &str = "small rotations: their period";
 pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let peers = bench::peers(record)?;
     let mut accuracy = vec!["accuracy", "--csv", "fmu_out/accuracy.csv", "--html", "fmu_out/accuracy.html"];
-    accuracy.extend(["--peers", "fmu_out/peers.csv"]);
+    accuracy.extend(["--peers", bench::PEERS]);
     let path = record.map(std::path::absolute).transpose().map_err(|error| format!("the record: {error}"))?;
     let path = path.map(|path| path.display().to_string());
     if let Some(path) = &path {
@@ -43,10 +45,23 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
         text = replaced(DOCUMENT, &text, mark, &figures)?;
     }
     std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    beside_other_tools()?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
     verification()?;
     images::run()
+}
+
+/// Draws one wall of the peers for the README.
+fn beside_other_tools() -> Result<()> {
+    let failed = |name: &'static str| move |error: std::io::Error| format!("{name}: {error}");
+    let text = std::fs::read_to_string(root().join(bench::PEERS)).map_err(failed(bench::PEERS))?;
+    let lines = text.lines().filter(|line| line.starts_with(SHOWN) || line.starts_with("scene,"));
+    let path = target().join("shown_peers.csv");
+    std::fs::write(&path, lines.collect::<Vec<_>>().join("\n")).map_err(failed("shown_peers.csv"))?;
+    let path = path.display().to_string();
+    let scene = ["accuracy", "scenes/parapet_on_a_roof.toml", "--budget", "0"];
+    wall(&[&scene[..], &["--peers", &path, "--plot", "docs/images/peers.svg"]].concat()).map(drop)
 }
 
 /// Compares the model with each published test: its numbers and its picture.

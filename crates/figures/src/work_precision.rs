@@ -55,8 +55,12 @@ pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
             Series::line(color, 1.2, points.iter().map(|&(time, error)| (time, exponent(error))).collect());
         let look = Look::Marks(*mark);
         let marks = Series { look, width: 4.5, titles: titles.clone(), ..line.clone() };
-        series.extend(joined.then_some(Series { name: (*name).to_owned(), ..line }));
-        series.push(marks);
+        let name = (*name).to_owned();
+        if *joined {
+            series.extend([Series { name, ..line }, marks]);
+        } else {
+            series.push(Series { name, ..marks });
+        }
     }
     let times = tools.iter().flat_map(|tool| tool.points.iter().map(|point| point.0));
     let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));

@@ -3,7 +3,7 @@
 mod linearisation;
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -14,6 +14,7 @@ use study::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure};
 use crate::args::RecordArguments;
 use crate::output;
 use crate::pages;
+use crate::pages::work_precision::{Peers, read_peers};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -27,11 +28,12 @@ pub(crate) struct Arguments {
     /// Write a page with work-precision plots
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the work-precision plots as SVG or PNG, by the file's ending
+    /// Write the work-precision plots as SVG or PNG, by the file's ending; with --peers those beside other
+    /// tools
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Measurements of other tools to show on the page, the CSV of `cargo xtask bench --peers`
-    #[arg(long, value_name = "FILE", requires = "html")]
+    /// Measurements of other tools for the page or the plot, the CSV of `cargo xtask bench --peers`
+    #[arg(long, value_name = "FILE")]
     peers: Option<PathBuf>,
     /// Write the periods of small and of full rotations against slenderness as CSV
     #[arg(long, value_name = "FILE")]
@@ -51,6 +53,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
              in [motion]"
         );
     }
+    if arguments.peers.is_some() && arguments.html.is_none() && arguments.plot.is_none() {
+        bail!("--peers shows on a page or a plot: add --html FILE or --plot FILE");
+    }
     let scenes = arguments.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
     let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
     output::check_distinct(
@@ -63,10 +68,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     } else {
         scenes.iter().map(Problem::from_scene).collect::<Result<_, _>>()?
     };
-    let read = |path: &PathBuf| {
-        std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))
-    };
-    let peers = arguments.peers.as_ref().map(read).transpose()?;
+    let peers = arguments.peers.as_deref().map(peers).transpose()?;
     let mut studies = Vec::with_capacity(problems.len());
     for problem in &problems {
         let study = measure(problem, arguments.budget)?;
@@ -81,12 +83,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::save(arguments.csv.as_ref(), || csv(&studies))?;
     output::save(arguments.linearisation.as_ref(), || linearisation::csv(&rotations))?;
     if let Some(path) = &arguments.plot {
-        output::picture(path, || Ok(pages::work_precision::picture(&studies)))?;
+        output::picture(path, || Ok(pages::work_precision::picture(&studies, peers.as_ref())))?;
     }
     output::save(arguments.html.as_ref(), || {
         let section = pages::linearisation::section(&rotations);
-        pages::work_precision::page(&studies, &section, peers.as_deref())
+        pages::work_precision::page(&studies, &section, peers.as_ref())
     })
+}
+
+fn peers(path: &Path) -> Result<Peers> {
+    let text =
+        std::fs::read_to_string(path).with_context(|| format!("{}: cannot be read", path.display()))?;
+    let peers = read_peers(&text);
+    if peers.is_empty() {
+        bail!("{}: no measurement; give the CSV that `cargo xtask bench --peers` writes", path.display());
+    }
+    Ok(peers)
 }
 
 fn table(study: &WorkPrecision) -> String {

@@ -1,6 +1,6 @@
 //! The page of `wall accuracy`: for each problem error against run time, on logarithmic axes.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use figures::escaped;
@@ -19,9 +19,11 @@ const SETTINGS: [&str; 3] = [
     "steps of 1 … 1/300 sample",
 ];
 
-/// The page; `rotations` is its section on small rotations, `peers_csv` the output of
-/// `cargo xtask bench --peers`.
-pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option<&str>) -> String {
+/// The measurements of other tools, scene by scene.
+pub(crate) type Peers = BTreeMap<String, Vec<PeerRow>>;
+
+/// The page; `rotations` is its section on small rotations.
+pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers: Option<&Peers>) -> String {
     let mut figures = String::new();
     for study in studies {
         let fate = match study.overturning {
@@ -46,17 +48,19 @@ pub(crate) fn page(studies: &[WorkPrecision], rotations: &str, peers_csv: Option
             ("key", &key.collect::<String>()),
             ("figures", &figures),
             ("rotations", rotations),
-            ("peers", &peers_csv.map_or_else(String::new, peers)),
+            ("peers", &peers.map_or_else(String::new, section)),
         ],
     )
 }
 
-/// Draws the plots of all problems, one above the other, for a file.
-pub(crate) fn picture(studies: &[WorkPrecision]) -> Picture {
-    let plots: Vec<_> = studies
-        .iter()
-        .map(|study| Plot { title: study.name.clone(), size: [560.0, 320.0], ..solver_plot(study, true) })
-        .collect();
+/// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are
+/// given.
+pub(crate) fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
+    let sized = |title: &str, plot| Plot { title: title.to_owned(), size: [560.0, 320.0], ..plot };
+    let plots: Vec<_> = match peers {
+        Some(peers) => peers.iter().map(|(scene, rows)| sized(scene, peer_plot(rows, true))).collect(),
+        None => studies.iter().map(|study| sized(&study.name, solver_plot(study, true))).collect(),
+    };
     Picture::stacked(&plots)
 }
 
@@ -72,8 +76,8 @@ fn solver_plot(study: &WorkPrecision, named: bool) -> Plot {
     plot(&tools, Some(study.rounding()))
 }
 
-/// The plot of a scene of the peers.
-fn peer_plot(rows: &[&PeerRow<'_>]) -> String {
+/// The plot of a scene of the peers; with their names if it is `named`.
+fn peer_plot(rows: &[PeerRow], named: bool) -> Plot {
     let tools = TOOLS.map(|(name, color, mark)| {
         let rows = rows.iter().filter(|row| row.tool == name);
         let points = rows.clone().map(|row| (row.seconds * 1e3, row.error)).collect();
@@ -82,46 +86,48 @@ fn peer_plot(rows: &[&PeerRow<'_>]) -> String {
                 format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
             })
             .collect();
-        Tool { name, color, mark, points, titles, joined: false }
+        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: false }
     });
-    plot(&tools, None).svg()
+    plot(&tools, None)
 }
 
 /// A line of the CSV that `cargo xtask bench --peers` writes.
-struct PeerRow<'a> {
-    scene: &'a str,
-    tool: &'a str,
-    setting: &'a str,
+pub(crate) struct PeerRow {
+    tool: String,
+    setting: String,
     seconds: f64,
     error: f64,
 }
 
-impl<'a> PeerRow<'a> {
-    /// Reads a line; `None` for the header and for a model that a tool does not offer.
-    fn parse(line: &'a str) -> Option<Self> {
-        let mut fields = line.split(',');
-        let (scene, tool, setting) = (fields.next()?, fields.next()?, fields.next()?);
-        let (seconds, error) = (fields.next()?.parse().ok()?, fields.next()?.parse().ok()?);
-        Some(Self { scene, tool, setting, seconds, error })
+/// Reads a line and its scene; `None` for the header and for a model that a tool does not offer.
+fn peer(line: &str) -> Option<(String, PeerRow)> {
+    let fields: Vec<&str> = line.split(',').collect();
+    let [scene, tool, setting, seconds, error, ..] = fields[..] else { return None };
+    let (seconds, error) =
+        (seconds.parse().ok()?, error.parse().ok().filter(|error: &f64| error.is_finite())?);
+    let row = PeerRow { tool: tool.to_owned(), setting: setting.to_owned(), seconds, error };
+    Some((format!("Table 5, {scene}"), row))
+}
+
+/// Reads the CSV of `cargo xtask bench --peers`.
+pub(crate) fn read_peers(csv: &str) -> Peers {
+    let mut peers = Peers::new();
+    for (scene, row) in csv.lines().filter_map(peer) {
+        peers.entry(scene).or_default().push(row);
     }
+    peers
 }
 
 /// The section on other tools.
-fn peers(csv: &str) -> String {
-    let rows: Vec<PeerRow<'_>> = csv.lines().filter_map(PeerRow::parse).collect();
+fn section(peers: &Peers) -> String {
     let mut section = String::from("<h2>Beside other tools</h2>\n<p class=\"key\">");
     for (name, color, mark) in TOOLS {
         let _ = write!(section, "<span>{}{name}</span>", sign(color, mark));
     }
     section.push_str("</p>\n<main class=\"figures\">\n");
-    for scene in rows.chunk_by(|a, b| a.scene == b.scene).map(|rows| rows[0].scene).collect::<BTreeSet<_>>() {
-        let rows: Vec<_> = rows.iter().filter(|row| row.scene == scene && row.error.is_finite()).collect();
-        let _ = writeln!(
-            section,
-            "<figure><figcaption><b>Table 5, {}</b></figcaption>{}</figure>",
-            escaped(scene),
-            peer_plot(&rows)
-        );
+    for (scene, rows) in peers {
+        let (scene, plot) = (escaped(scene), peer_plot(rows, false).svg());
+        let _ = writeln!(section, "<figure><figcaption><b>{scene}</b></figcaption>{plot}</figure>");
     }
     section + "</main>\n"
 }

@@ -20,10 +20,14 @@ fn accuracy_measures_a_scene() {
     let folder = folder("accuracy");
     let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
     std::fs::write(folder.join("peers.csv"), peers).unwrap();
-    let outputs = args("--csv a.csv --html a.html --linearisation l.csv --plot a.svg");
-    let arguments = ["accuracy", &scene(), "--budget", "0", "--peers", "peers.csv"];
-    let output = wall(&folder, &[&arguments, &outputs[..]].concat());
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    let measured = |outputs: &str| {
+        let output = wall(&folder, &[&["accuracy", &scene(), "--budget", "0"], &args(outputs)[..]].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        output
+    };
+    let output = measured("--peers peers.csv --csv a.csv --html a.html --linearisation l.csv");
+    measured("--plot a.svg");
+    measured("--peers peers.csv --plot peers.svg");
     let rows = rows(&folder.join("a.csv"));
     let errors = |solver: &str| -> Vec<f64> {
         rows.iter().filter(|row| row[1] == solver).map(|row| row[4].parse().unwrap()).collect()
@@ -36,6 +40,10 @@ fn accuracy_measures_a_scene() {
     assert!(newmark[0] > 1e-3 && newmark[5] < 1e-4, "{newmark:?}");
     let plot = std::fs::read_to_string(folder.join("a.svg")).unwrap();
     assert!(["exact", "adaptive", "newmark", "run time (ms)"].iter().all(|name| plot.contains(name)));
+    let plot = std::fs::read_to_string(folder.join("peers.svg")).unwrap();
+    assert!(
+        ["SciPy", "Table 5, wall 6 CDC"].iter().all(|name| plot.contains(name)) && !plot.contains("newmark")
+    );
     let page = std::fs::read_to_string(folder.join("a.html")).unwrap();
     assert_eq!(page.matches("<figure>").count(), 6, "the scene, the peers, and small rotations");
     let content = std::fs::read_to_string(folder.join("l.csv")).unwrap();
@@ -68,6 +76,13 @@ fn bad_input_is_refused_before_anything_is_measured() {
     let folder = folder("accuracy_refused");
     refused(&folder, &["accuracy", "none.toml"], &["none.toml"]);
     refused(&folder, &["accuracy", &scene(), "--html", "a.html", "--peers", "none.csv"], &["none.csv"]);
+    refused(&folder, &["accuracy", &scene(), "--peers", "none.csv"], &["add --html FILE or --plot FILE"]);
+    std::fs::write(folder.join("empty.csv"), "scene,tool,setting,seconds,error_max\n").unwrap();
+    refused(
+        &folder,
+        &["accuracy", &scene(), "--html", "a.html", "--peers", "empty.csv"],
+        &["no measurement"],
+    );
     std::fs::write(folder.join("bad.toml"), "[geometry]\nheight = -3\n").unwrap();
     refused(&folder, &["accuracy", &scene(), "bad.toml"], &["bad.toml", "line 2", "-3"]);
     std::fs::write(folder.join("fallen.toml"), "[start]\nu_start = 0.21\n").unwrap();
