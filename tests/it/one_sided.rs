@@ -38,6 +38,23 @@ fn one_sided_rocking_is_alike_by_both_solvers() {
     mostly(COMPARED, (one_sided(), motions()), solvers_agree);
 }
 
+/// A wall has the sides that it can rock to. Both are alike where the force and a tie are.
+#[test]
+fn sides_are_those_that_a_wall_can_rock_to() {
+    let sides = |parameters: &Parameters| {
+        let wall = Wall::new(parameters).unwrap();
+        (wall.sides().collect::<Vec<_>>(), wall.has_equal_sides())
+    };
+    let two = Parameters::default();
+    assert_eq!(sides(&two), (vec![1.0, -1.0], true));
+    for (rocking, side) in [(Rocking::OneSidedPositive, 1.0), (Rocking::OneSidedNegative, -1.0)] {
+        let (damping_model, impact) = (DampingModel::None, Impact::Restitution);
+        let one =
+            Parameters { rocking, damping_model, impact, restitution: 0.5, u_start: 0.0, ..two.clone() };
+        assert_eq!(sides(&one), (vec![side], false));
+    }
+}
+
 /// u never goes behind the transverse walls, at rest they carry the whole inertia force, and the impulses add
 /// up to the momentum.
 #[test]

@@ -97,7 +97,7 @@ impl<'a> Risk<'a> {
                 let members: Option<Vec<_>> = members.collect();
                 let function = members.map(|members| FragilityFunction::of_class(&shares, &members));
                 self.write([&class.name, &stated.join("; ")], model, function.as_ref(), &[])?;
-                told.extend(function.map(|function| line(class, &contents.models[model].name, &function)));
+                told.extend(function.map(|function| self.line(class, model, &function)));
             }
         }
         told.push_str(&self.words());
@@ -164,20 +164,25 @@ impl<'a> Risk<'a> {
             "with a beta so large that a number of NRML would be 0 or infinite; add records or levels";
         [(self.left_out[0], without_curve), (self.left_out[1], without_numbers)].map(lack).concat()
     }
-}
 
-/// Describes the result of a class.
-fn line(class: &WallClass, model: &str, function: &FragilityFunction) -> String {
-    let thetas: Vec<_> = function.medians.iter().map(|theta| format!("{:.3}", in_g(*theta))).collect();
-    format!(
-        "class {:?} with {model}: theta {} g, beta {:.3} (records {:.3}, walls {:.3}, modelling {})\n",
-        class.name,
-        thetas.join(", "),
-        function.dispersion(),
-        function.beta_records,
-        function.beta_walls,
-        function.beta_modelling
-    )
+    /// Describes the result of a class.
+    fn line(&self, class: &WallClass, model: usize, function: &FragilityFunction) -> String {
+        let Manifest { contents, report, .. } = self.manifest;
+        let theta = |((place, _), theta): (&(usize, String), &f64)| {
+            format!("{:.3} g to exceed {} u_ins", in_g(*theta), report.fractions[*place])
+        };
+        let thetas: Vec<_> = self.states.iter().zip(&function.medians).map(theta).collect();
+        format!(
+            "class {:?} with {}: theta {}; beta {:.3} (records {:.3}, walls {:.3}, modelling {})\n",
+            class.name,
+            contents.models[model].name,
+            thetas.join(", "),
+            function.dispersion(),
+            function.beta_records,
+            function.beta_walls,
+            function.beta_modelling
+        )
+    }
 }
 
 /// Returns the ends of an interval \[g\], NaN where the levels leave one open.

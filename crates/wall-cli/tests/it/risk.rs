@@ -136,6 +136,10 @@ fn risk_engines_read_the_fragilities() {
 fn classes_join_walls() {
     let [xml, table, told] = run("risk_classes", STUDY);
     assert!(told.contains("class \"both\" with CDC: theta 0.") && told.contains("modelling 0)"), "{told}");
+    assert!(
+        told.contains(" g to exceed 0.4 u_ins, ") && told.contains(" g to exceed 1 u_ins; beta"),
+        "{told}"
+    );
     let of =
         |name: &str| xml.split(&format!("id=\"{name}\"")).nth(1).unwrap().split("</frag").next().unwrap();
     assert_eq!(of("alone"), of("high"));
