@@ -173,7 +173,7 @@ impl<M: Model> Instance<M> {
         for (&reference, value) in references.iter().zip(values) {
             set(&mut self.now.model, access::find(reference)?, value);
         }
-        // After initialisation only inputs and states are set, and no calculated value depends on them.
+        // After initialisation `calculate` is not called: a model applies a tunable parameter in `set_*`.
         self.now.stale |= self.now.phase.is_before_the_start();
         Ok(())
     }

@@ -28,8 +28,8 @@ pub(crate) struct Arguments {
     /// Write a page with work-precision plots
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the work-precision plots as SVG or PNG, by the file's ending; with --peers those beside other
-    /// tools
+    /// Write the work-precision plots as SVG or PNG, by the file's ending; with --peers the plots of the
+    /// other tools instead
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Measurements of other tools for the page or the plot, the CSV of `cargo xtask bench --peers`
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         );
     }
     if arguments.peers.is_some() && arguments.html.is_none() && arguments.plot.is_none() {
-        bail!("--peers shows on a page or a plot: add --html FILE or --plot FILE");
+        bail!("--peers adds measurements to a page or a plot: add --html FILE or --plot FILE");
     }
     let scenes = arguments.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
     let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
