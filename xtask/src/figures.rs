@@ -33,9 +33,9 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     let stability =
         wall(&["stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
     let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
-        .map_err(|error| format!("fmu_out/accuracy.csv: {error}"))?;
+        .map_err(failed("fmu_out/accuracy.csv"))?;
     let document = root().join(DOCUMENT);
-    let mut text = std::fs::read_to_string(&document).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    let mut text = std::fs::read_to_string(&document).map_err(failed(DOCUMENT))?;
     for (mark, figures) in [
         ("accuracy", condensed(&csv)),
         ("stability", fenced(&stability)),
@@ -44,7 +44,7 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     ] {
         text = replaced(DOCUMENT, &text, mark, &figures)?;
     }
-    std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    std::fs::write(&document, text).map_err(failed(DOCUMENT))?;
     beside_other_tools()?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
@@ -52,9 +52,13 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
     images::run()
 }
 
+/// Says which file an error is of.
+fn failed(name: &'static str) -> impl Fn(std::io::Error) -> String {
+    move |error| format!("{name}: {error}")
+}
+
 /// Draws one wall of the peers for the README: single runs, and not the reference beside itself.
 fn beside_other_tools() -> Result<()> {
-    let failed = |name: &'static str| move |error: std::io::Error| format!("{name}: {error}");
     let text = std::fs::read_to_string(root().join(bench::PEERS)).map_err(failed(bench::PEERS))?;
     if let Some(missing) = text.lines().find(|line| line.starts_with("all,")) {
         println!("docs/images/peers.svg stays as it is: {missing}");
@@ -72,7 +76,6 @@ fn beside_other_tools() -> Result<()> {
 
 /// Compares the model with each published test: its numbers and its picture.
 pub(crate) fn validation() -> Result<()> {
-    let failed = |name: &'static str| move |error: std::io::Error| format!("{name}: {error}");
     let mut text = std::fs::read_to_string(root().join(VALIDATION)).map_err(failed(VALIDATION))?;
     for entry in std::fs::read_dir(root().join(TESTS)).map_err(failed(TESTS))? {
         let file = entry.map_err(failed(TESTS))?.file_name().to_string_lossy().into_owned();
@@ -92,10 +95,9 @@ pub(crate) fn validation() -> Result<()> {
 /// As [`run`].
 pub(crate) fn verification() -> Result<()> {
     let formulas = wall(&["verify", "--markdown", "-"])?;
-    let failed = |error: std::io::Error| format!("{VERIFICATION}: {error}");
-    let text = std::fs::read_to_string(root().join(VERIFICATION)).map_err(failed)?;
+    let text = std::fs::read_to_string(root().join(VERIFICATION)).map_err(failed(VERIFICATION))?;
     let text = replaced(VERIFICATION, &text, "formulas", &format!("\n{formulas}"))?;
-    std::fs::write(root().join(VERIFICATION), text).map_err(failed)?;
+    std::fs::write(root().join(VERIFICATION), text).map_err(failed(VERIFICATION))?;
     println!("written {VERIFICATION}");
     Ok(())
 }
