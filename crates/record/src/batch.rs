@@ -32,8 +32,8 @@ impl RecordSolver<'_> {
         self.run_through(start, &Blocks::new(forcing), until_overturning, Unseen)
     }
 
-    /// Does the same, and shows `observe` the number, u \[m\] and u̇ \[m/s\] of each sample after the first,
-    /// in their order. Sample 0 is the state given.
+    /// Moves a wall through a record as [`run`](Self::run) does, and shows `observe` the number, u \[m\] and
+    /// u̇ \[m/s\] of each sample after the first, in their order. Sample 0 is the state given.
     ///
     /// ```
     /// # use record::{Forcing, RecordSolver, RunStart};
