@@ -179,7 +179,7 @@ fn work_is_counted_as_by_the_general_search() {
 fn what_does_not_suit_goes_one_by_one() {
     let samples = shaking();
     let all = Forcing::Samples(&samples);
-    let (soft, stiff) = (motion(0.018), motion(1e-4));
+    let (soft, stiff) = (motion(0.018), motion(1e-5));
     let side_by_side = |motion: &Motion, samples, vectors| {
         RecordSolver::new(motion, 5e-3).batch_on(samples, vectors).is_side_by_side()
     };
