@@ -78,7 +78,7 @@ fn runs_do_not_depend_on_the_processor() {
 #[test]
 fn steps_with_several_corners_are_those_of_single_runs() {
     let bouncing = |a1| losing(a1, DampingModel::None, Impact::Restitution);
-    for motion in [bouncing(1.2e-3), bouncing(2.4e-3), motion(8e-4)] {
+    for motion in [bouncing(1.2e-3), bouncing(2.4e-3), motion(8e-4), motion(2e-4)] {
         let samples = &shaking()[..2000];
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
         let starts = starts(&motion);

@@ -10,7 +10,9 @@ use crate::table::{LONGEST, terms};
 #[test]
 fn series_of_a_line_are_its_closed_form() {
     let step = 0.02;
-    for [c, k] in [[0.0, 0.0], [3.0, 0.0], [0.0, 200.0], [0.0, -300.0], [4.0, 250.0], [7.0, -200.0], [20.0, 900.0]] {
+    for [c, k] in
+        [[0.0, 0.0], [3.0, 0.0], [0.0, 200.0], [0.0, -300.0], [4.0, 250.0], [7.0, -200.0], [20.0, 900.0]]
+    {
         let (line, reach) = (line(c, k), (c + f64::sqrt(f64::abs(k))) * step);
         assert!(reach <= LONGEST);
         let oscillator = Oscillator::new(c, k);
