@@ -16,7 +16,7 @@ const DAMPING_SHARE: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 /// Largest margin of four plain steps at once, over the width of their branch.
 const MOST_MARGIN: f64 = 0.25;
-/// (c + √|k|) h of the longest steps in which corners are passed, as measured; beyond, a step passes too many.
+/// (c + √|k|) h of the longest steps in which corners are passed: measured, beyond it they are too many.
 pub(crate) const LONGEST: f64 = 1.0;
 /// Share of the leading term that may be left out of a series.
 const NEGLIGIBLE: f64 = 1e-18;
