@@ -32,7 +32,7 @@ use fmu_export::{Kind, VariableId};
 use ground_motion::GroundMotion;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::scene::{Scene, SceneError};
-use rocking_wall::solver::{Memo, Motion, SolverError};
+use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};
 
@@ -285,12 +285,8 @@ impl Prepared {
             overturning = report.overturning.map(|offset| duration + f64::from(index) * step + offset);
         }
         let wall = self.motion.wall();
-        let elastic = wall.branches()[wall.branch_of(0.0, 0.0)];
-        let rocked = if wall.is_rigid() {
-            state.peaks.largest() > 0.0
-        } else {
-            state.peaks.positive > elastic.upper || state.peaks.negative > -elastic.lower
-        };
+        let Peaks { positive, negative } = state.peaks;
+        let rocked = positive > wall.elastic_end(1.0) || negative > wall.elastic_end(-1.0);
         let [_, ratio] = state.reported_peak(wall.body().instability, overturning.is_some());
         Ok(Point { ratio, rocked, overturning })
     }

@@ -25,6 +25,19 @@ fn bilinear() -> Parameters {
     Parameters { xi: 0.03, ..Parameters::default() }
 }
 
+/// A wall rocks where u leaves the elastic branch, also where an impact parts that branch at u = 0.
+#[test]
+fn walls_rock_beyond_their_elastic_branch() {
+    let damped = Parameters { a1: 0.05, ..bilinear() };
+    let bouncing = Parameters { impact: Impact::Restitution, restitution: 0.9, ..damped.clone() };
+    for wall in [damped, bouncing] {
+        let spectrum = over_pulses(&wall, PulseForm::Ricker, &[1.0], &[0.02, 0.1, 0.5, 1.5], 1).unwrap();
+        let points: Vec<_> = spectrum.points.concat();
+        assert!(points.iter().all(|point| point.rocked == (point.ratio > 0.05)), "{points:?}");
+        assert!(!points[0].rocked && points[3].rocked, "{points:?}");
+    }
+}
+
 /// Returns the least a_p/a₀ that overturns, by bisection to rounding.
 fn threshold(form: PulseForm, frequency: f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let overturns = |amplitude: f64| {
