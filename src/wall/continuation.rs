@@ -1,6 +1,7 @@
 //! A branch continued beyond its ends, for an importer's solver that goes there before the event.
 
 use super::branch::Branch;
+use super::damping::BranchDamping;
 
 impl Branch {
     /// C/`m_eff` \[1/s\] and its slope \[1/(m s)\] on this branch, continued smoothly beyond its ends.
@@ -9,10 +10,11 @@ impl Branch {
     /// bound, it keeps its slope and curvature at the end and stays bounded. Beyond u₃ a
     /// stiffness-proportional coefficient changes its sign, and that of a constant ratio is 0.
     pub fn continued_damping(&self, displacement: f64) -> (f64, f64) {
-        if let Some(c) = self.damping.constant() {
-            return (c, 0.0);
+        match self.damping {
+            BranchDamping::Constant(c) => return (c, 0.0),
+            BranchDamping::SecantRatio(_) | BranchDamping::SecantStiffness(_) => {}
         }
-        // a branch with secant damping lies on one side of u = 0
+        // such a branch lies on one side of u = 0, which it does not reach
         let inner = if self.lower >= 0.0 { self.lower } else { self.upper };
         let inwards = (inner - displacement) / inner;
         if inwards > 0.0 {
