@@ -16,7 +16,8 @@ pub struct Excitation {
 }
 
 impl Excitation {
-    /// One motion for both supports, or `top` for the top support of a wall in an upper storey.
+    /// Makes one motion for both supports; `top`, if given, moves the top support of a wall in an upper
+    /// storey.
     pub fn new(bottom: GroundMotion, top: Option<GroundMotion>) -> Self {
         Self { bottom, top, drift: None, held: false }
     }
@@ -26,10 +27,10 @@ impl Excitation {
         Self { drift: Some(drift), ..self }
     }
 
-    /// Returns the motion with the other sign, of accelerations and drift.
+    /// Returns the motion with the signs of its accelerations and of its drift reversed.
     ///
     /// # Errors
-    /// None but for a sample that is not finite.
+    /// [`GroundMotionError`] if a sample is not finite.
     pub fn reversed(&self) -> Result<Self, GroundMotionError> {
         let reversed = |motion: &GroundMotion| motion.checked_scaled(-1.0);
         Ok(Self {
@@ -51,12 +52,12 @@ impl Excitation {
         self.held
     }
 
-    /// Motion of the bottom support, or of both.
+    /// Returns the motion of the bottom support, or of both.
     pub fn bottom(&self) -> &GroundMotion {
         &self.bottom
     }
 
-    /// Motion of the top support where it has its own.
+    /// Returns the motion of the top support where it has its own.
     pub fn top(&self) -> Option<&GroundMotion> {
         self.top.as_ref()
     }
@@ -70,7 +71,7 @@ impl Excitation {
     /// supports, it forces a wall as this motion does.
     ///
     /// # Errors
-    /// If a sample is not finite.
+    /// [`GroundMotionError`] if a sample is not finite.
     pub fn effective(&self, body: &Body) -> Result<GroundMotion, GroundMotionError> {
         let step = self.step();
         let unit = body.forcing(Support::rigid(1.0));
@@ -126,8 +127,8 @@ impl Excitation {
 /// this close.
 const SAMPLE_ROUNDING: f64 = 1e-6;
 
-/// Returns the number of the sample at or before a time. A time that is short of a sample by rounding counts
-/// as at it.
+/// Returns the number of the sample at or before a time. A time that falls short of a sample by rounding
+/// counts as the time of that sample.
 fn sample_before(record: &GroundMotion, elapsed: f64) -> f64 {
     (elapsed / record.step() + SAMPLE_ROUNDING).floor()
 }

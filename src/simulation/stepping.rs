@@ -126,11 +126,11 @@ impl Simulation {
     }
 
     /// Moves the wall through the segments of a step, and adds their demands to `demands`. `next` receives
-    /// the time and the part of the step that is done \[s\]. It returns the next segment and the part that is
-    /// left \[s\].
+    /// the present time and the length of the step that is done \[s\]. It returns the next segment and the
+    /// length that is left \[s\].
     ///
     /// # Errors
-    /// [`RunError`]; the simulation is then at the start of that segment.
+    /// [`RunError`]; the simulation is then at the end of the last segment that succeeded.
     pub fn advance_through(
         &mut self,
         mut next: impl FnMut(f64, f64) -> (Segment, f64),

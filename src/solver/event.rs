@@ -202,7 +202,8 @@ impl<P: Piece> Search<'_, P> {
         }
     }
 
-    /// Finds the one zero of u̇ in an interval.
+    /// Finds the one zero of u̇ in an interval. The last step δ is made by constant ü, which leaves an error
+    /// of jerk δ³/6 in u.
     fn turning_point(&self, left: Node, right: Node) -> Node {
         let (from, to) = (left.motion, right.motion);
         // the chord of u̇
@@ -213,7 +214,8 @@ impl<P: Piece> Search<'_, P> {
             let motion = self.piece.at(time);
             let KinematicState { velocity, acceleration, .. } = motion;
             let step = -velocity / acceleration;
-            // a Newton step leaves an error of jerk δ²/(2ü) in time, and of ü times half its square in u
+            // A Newton step δ leaves an error of jerk δ²/(2ü) in time, where u differs from that of the turn
+            // by ü/2 times its square. The step is the last where this difference is at most ε u/4.
             let left = 0.5 * jerk * step * step / acceleration.abs();
             let settled =
                 0.5 * acceleration.abs() * left * left <= 0.25 * f64::EPSILON * motion.displacement.abs();
@@ -242,8 +244,9 @@ impl<P: Piece> Search<'_, P> {
             let KinematicState { displacement, velocity, acceleration } = motion;
             let value = displacement - bound;
             let step = parabola([value, velocity, acceleration]);
-            // a step of the parabola leaves an error of jerk δ³/6 in u, of that over u̇ in time, and of jerk
-            // δ²/2 in u̇
+            // A step δ of the parabola leaves an error of jerk δ³/6 in u, hence of jerk δ³/(6u̇) in time, and
+            // of jerk δ²/2 in u̇. The step is the last where those in time and in u̇ are at most ε/4 of their
+            // values.
             let speed = velocity.abs();
             let left = 0.5 * jerk * step * step / speed;
             let settled = left <= 0.25 * f64::EPSILON && left * step.abs() <= 0.75 * f64::EPSILON * time;
@@ -258,7 +261,7 @@ struct Trial {
     value: f64,
     /// Step to the root.
     step: f64,
-    /// After that step the error is below rounding.
+    /// The error after that step is small enough for it to be the last.
     settled: bool,
     node: Node,
 }
@@ -295,7 +298,8 @@ pub(super) fn crossing([from, to]: [KinematicState; 2], length: f64, bound: f64,
 }
 
 /// Finds a root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection.
-/// `rising` says that the value is negative at the low end. The last step is made along the motion itself.
+/// `rising` says that the value is negative at the low end. The last step is made along the motion, by
+/// constant ü, without another evaluation.
 fn root(bracket: [f64; 2], guess: f64, rising: bool, trial: impl Fn(f64) -> Trial) -> Node {
     let [mut low, mut high] = bracket;
     let mut last_step = high - low;

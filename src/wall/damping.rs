@@ -112,7 +112,8 @@ impl Parameters {
 /// Distance before u₃, as a fraction of it, from which a constant damping ratio no longer acts. So no solver
 /// reaches the zero of √(u₃ − u), where its slope is infinite.
 ///
-/// The work left out is ∫C du = (4/3) ξ ω₀ δ^{3/2} √(`m_eff`…), 1e-15 ξ of the scale of u̇ for δ = 1e-10 u₃.
+/// The impulse left out is ∫C du = (4/3) ξ `m_eff` ω u₃ δ^{3/2} for this fraction δ, where ω² is the slope of
+/// the softening branch over `m_eff`: about 1e-15 ξ of the scale ω u₃ of u̇.
 pub(super) const RATIO_CUTOFF: f64 = 1e-10;
 
 /// Damping per unit effective mass, c(u) = C(u)/`m_eff` \[1/s\], on one branch of the restoring force.
@@ -158,7 +159,7 @@ impl BranchDamping {
         [c, by_w * slope, by_w2 * slope * slope - 2.0 * by_w * slope / u]
     }
 
-    /// Returns the fraction of u₃, the end of the softening branch, up to which it acts.
+    /// Returns the fraction of u₃, the end of the softening branch, up to which the damping acts.
     pub(super) fn end(self) -> f64 {
         match self {
             Self::SecantRatio(_) => 1.0 - RATIO_CUTOFF,
