@@ -136,7 +136,7 @@ pub struct Summary {
     pub u_max: f64,
     /// Largest |u|/`u_ins` of its side; 1 for a wall that falls \[-\].
     pub u_ratio_max: f64,
-    /// What becomes of the wall; serialised, whether it falls.
+    /// Fate of the wall; serialised as whether it falls.
     #[serde(rename = "falls", serialize_with = "falls")]
     pub fate: Fate,
     /// |u| has exceeded `u_ins`.

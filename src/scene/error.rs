@@ -47,33 +47,33 @@ pub struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// The text of a file, or of a part of one, under its name.
+    /// Makes the place of a text: that of a file or of a part of one, with the file's name.
     pub fn new(name: &'a str, text: &'a str) -> Self {
         Self { name, text }
     }
 
-    /// The file's name.
+    /// Returns the file's name.
     pub fn name(&self) -> &'a str {
         self.name
     }
 
-    /// Its text.
+    /// Returns the file's text.
     pub fn text(&self) -> &'a str {
         self.text
     }
 
-    /// The 1-based line of a byte range.
+    /// Returns the 1-based line at which a byte range starts.
     pub fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         before.split(|&byte| byte == b'\n').count()
     }
 
-    /// An error that names the file and the line of a byte range.
+    /// Returns an error that names the file and the line of a byte range.
     pub fn error(&self, span: Range<usize>, message: impl Into<String>) -> SceneError {
         SceneError::Line { file: self.name.to_owned(), line: self.line(span), message: message.into() }
     }
 
-    /// A positive number up to `limit`, or `natural` where none is given.
+    /// Returns the number given, which must be above 0 and at most `limit`, or `natural` where none is given.
     ///
     /// # Errors
     /// [`SceneError::Line`] for a number outside the limits.

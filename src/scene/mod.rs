@@ -238,7 +238,7 @@ impl Scene {
         }
     }
 
-    /// Number of output intervals of the run.
+    /// Returns the number of output intervals of the run.
     ///
     /// # Errors
     /// [`SceneError::TooLong`] beyond 2·10⁷.
@@ -264,7 +264,7 @@ fn moved_apart(parameters: &Parameters, excitation: Option<&Excitation>) -> Opti
     )
 }
 
-/// A title from a file name.
+/// Returns a title made from a file name.
 fn name_of(file: &str) -> String {
     Path::new(file)
         .file_stem()
@@ -283,7 +283,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
     let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
     let usages: Vec<_> = usage(&scene.parameters).collect();
-    // a parameter at its start value that does not matter beside the others, or that is computed
+    // leaves out a parameter at its start value that has no effect beside the others, or that is computed
     let is_left_out = |name: &str| {
         let is_computed = COMPUTABLE.contains(&name);
         usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
@@ -316,7 +316,7 @@ pub fn to_toml(scene: &Scene, motion: &str) -> String {
     text
 }
 
-/// A basic TOML string.
+/// Writes a text as a basic TOML string.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from('"');
     for character in text.chars() {

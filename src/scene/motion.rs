@@ -119,7 +119,7 @@ pub struct SineTable {
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SyntheticTable {
-    /// Seed of the noise: another seed is another motion.
+    /// Seed of the noise; each seed gives a different motion.
     pub seed: Option<u64>,
     /// Length (s).
     pub duration: Option<f64>,
@@ -277,7 +277,7 @@ fn read_record(
     Ok(record.motion)
 }
 
-/// The fingerprint of a record file as a scene states it.
+/// Returns the fingerprint of a record file in the form that a scene states.
 pub fn fingerprint(bytes: &[u8]) -> String {
     format!("{:032x}", fmu_export::fnv1a_128(bytes.iter().copied()))
 }

@@ -90,7 +90,7 @@ pub fn apply_group(
     Ok(())
 }
 
-/// A parameter set from text: a number, or the name of an item with or without quotes.
+/// Sets a parameter from text: a number, or the name of an item with or without quotes.
 pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str) -> Result<(), SceneError> {
     let known = name == KINEMATICS || GROUPS.iter().any(|(_, names)| names.contains(&name));
     if !known {
@@ -145,7 +145,7 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
     Err(format!("{name} is not a parameter"))
 }
 
-/// A value as the file has it.
+/// Formats a value as the file states it.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => format!("{text:?}"),

@@ -51,7 +51,7 @@ pub struct SupportsTable {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floors {
     storeys: Storeys,
-    /// As they were given: a single storey may have a period alone, and no mass.
+    /// The tables as they were given: a single storey may have a period alone, and no mass.
     tables: Vec<StoreyTable>,
     bottom: Option<usize>,
     top: Option<usize>,
@@ -59,7 +59,7 @@ pub struct Floors {
 }
 
 impl Floors {
-    /// Makes storeys from their tables, which support a wall as `supports` says.
+    /// Makes storeys from their tables; `supports` says which floors support the wall.
     ///
     /// # Errors
     /// What is wrong and the remedy, with the index of the storey where there is one.

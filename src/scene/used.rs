@@ -1,4 +1,4 @@
-//! Which variables the FMU of a scene lists: what a scene does not use is not there.
+//! Selects the variables that the FMU of a scene lists: only those that the scene uses.
 
 use fmu_export::VariableId;
 
@@ -25,7 +25,7 @@ impl Scene {
             || BooleanVariable::from_name(name).is_some_and(boolean)
     }
 
-    /// Returns whether a number matters with the scene's choices.
+    /// Returns whether a Real variable is used with the scene's choices.
     fn uses_real(&self, variable: RealVariable) -> bool {
         use RealVariable as V;
         let p = &self.parameters;

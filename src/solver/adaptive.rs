@@ -112,7 +112,7 @@ impl Series {
         Self { polynomial, horizon }
     }
 
-    /// The cubic of constant d³u/dt³.
+    /// Makes the cubic motion with a constant d³u/dt³.
     pub(super) fn cubic(start: KinematicState, acceleration_rate: f64, horizon: f64) -> Self {
         let mut coefficients = [0.0; HIGHEST_ORDER + 1];
         coefficients[0] = start.displacement;
@@ -129,7 +129,7 @@ fn polynomial(mut work: impl Recurrence, order: usize) -> Polynomial {
     Polynomial { coefficients: work.displacement().map(|coefficient| sign * coefficient), order }
 }
 
-/// The step at which the last two terms of the highest order fall below the tolerance.
+/// Returns 0.9 of the step at which the last two terms of the highest order meet the tolerance.
 fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances) -> f64 {
     let mut step = f64::INFINITY;
     for order in [HIGHEST_ORDER - 1, HIGHEST_ORDER] {
@@ -205,14 +205,15 @@ mod tests {
         assert_eq!(compared, 6);
     }
 
-    /// At the step found, before the share for what is left out, the larger of the last two terms meets its
-    /// tolerance, in u or in u̇: with coefficients rⁿ, |uₙ| hⁿ and n |uₙ| hⁿ⁻¹.
+    /// Without the factor 0.9 for the terms left out, the step found is that at which the larger of the last
+    /// two terms meets its tolerance. The terms are |uₙ| hⁿ in u and n |uₙ| hⁿ⁻¹ in u̇, with coefficients rⁿ.
     #[test]
     fn the_longest_step_meets_the_tolerance() {
         for growth in [0.2_f64, 0.9, 3.0] {
             for [displacement, velocity] in [[1e-12, 1.0], [1.0, 1e-12], [3e-10, 7e-9]] {
                 let tolerances = Tolerances { displacement, velocity };
-                // the terms of odd order larger, those of even order larger
+                // the last coefficient is halved and doubled, so that either of the last two terms may be the
+                // larger
                 for last in [0.5, 2.0] {
                     let mut coefficients: [f64; HIGHEST_ORDER + 1] =
                         std::array::from_fn(|order| growth.powi(i32::try_from(order).unwrap()));

@@ -76,8 +76,8 @@ pub struct TieDemands {
     pub strength: Option<Instant>,
 }
 
-/// The demands of a motion on a wall, up to overturning; those on its tie beyond. Serialised they have the
-/// names of the FMU's outputs.
+/// The demands of a motion on a wall, up to overturning; those on its tie go on until the wall leaves its
+/// supports. Serialised, they have the names of the FMU's outputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Demands {
     /// u \[m\].
@@ -99,10 +99,10 @@ pub struct Demands {
     /// Rocking half cycles: excursions beyond the elastic branch with a passage of u = 0 between them. For
     /// the rigid-linear law each motion away from u = 0 is one.
     pub half_cycles: u64,
-    /// Of the tie; `None` without one.
+    /// Demands on the tie; `None` without one.
     #[serde(flatten)]
     pub tie: Option<TieDemands>,
-    /// The sign of an excursion that u = 0 has not ended yet.
+    /// The sign of an excursion that has not ended at u = 0 yet.
     #[serde(skip)]
     pub(super) excursion: Option<f64>,
 }

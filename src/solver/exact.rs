@@ -56,7 +56,7 @@ impl Memo {
         Self { branch, duration, propagator: Matrix3::from_fn(|i, j| rows[i][j]) }
     }
 
-    /// The end of a whole step on a branch, whose propagator it remembers.
+    /// Returns the end of a whole step on a branch, and remembers its propagator.
     #[inline]
     pub(super) fn end(
         &mut self,
@@ -102,7 +102,7 @@ impl<'a> ClosedForm<'a> {
         piece
     }
 
-    /// Takes the end of the piece as known.
+    /// Sets the end of the piece, which is known already.
     pub(super) fn end_at(&mut self, end: KinematicState) {
         self.end = Some(end);
     }
@@ -178,7 +178,7 @@ impl Piece for ClosedForm<'_> {
 mod tests {
     use super::*;
 
-    /// Lengths within 2¹¹ roundings of one of 40 bits are taken as that one.
+    /// A length within 2¹¹ roundings of a length of 40 bits is rounded to that.
     #[test]
     fn lengths_are_rounded_to_forty_bits() {
         for length in [0.01, 0.02, 1.0 / 3.0, 7.3e-5] {
@@ -202,7 +202,8 @@ mod tests {
             let start = KinematicState { displacement: 0.3, velocity: 20.0, acceleration: -50.0 };
             let found = Memo::default().end(0, &oscillator, start, 90.0, length);
             let wanted = oscillator.propagate(start, 90.0, length);
-            // a few roundings of the largest terms; the rest of the length makes a thousand
+            // a few roundings of the largest terms; without the remainder of the length it would be a
+            // thousand
             let near =
                 |found: f64, wanted: f64| assert!((found - wanted).abs() <= 1e-13, "{found}, {wanted}");
             near(found.displacement, wanted.displacement);
@@ -211,8 +212,8 @@ mod tests {
         }
     }
 
-    /// A motion is said to stay within bounds and peaks where its crests, decaying about an equilibrium that
-    /// moves, do so; and only a bound closer than its decay and drift hides this.
+    /// A motion counts as staying within bounds and peaks where these hold its initial amplitude about both
+    /// ends of the way of its equilibrium. Its decay is not used.
     #[test]
     fn a_motion_stays_within_its_amplitude_about_a_moving_equilibrium() {
         let oscillator = Oscillator::new(0.4, 9.0);

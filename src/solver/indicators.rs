@@ -218,7 +218,7 @@ mod tests {
                 let stiffness = wall.branches()[state.branch].stiffness.max(0.0);
                 let height = MARGIN * wall.displacement_scale();
                 let at_rest = side * wall.restoring(state.branch, 0.0);
-                // none, and one towards the transverse walls
+                // no forcing, and one towards the transverse walls
                 for forcing in [0.0, -0.3 * side] {
                     let pull = at_rest - side * forcing;
                     for (margins, rests) in [(3.9, true), (4.1, false)] {

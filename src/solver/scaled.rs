@@ -8,8 +8,8 @@
 //! wₙ = (sₙ − Σ wᵢ wₙ₋ᵢ)/2   for c = 2ξ ω,   wₙ = sₙ   for c = (2ξ₁/ω₁) ω²
 //! (n+1)(n+2) xₙ₊₂ = L² pₙ/u₀ − k L² xₙ − (zₙ + Σ wᵢ zₙ₋ᵢ + wₙ z₀)        sums over 0 < i < n
 //! ```
-//! Nothing divides but the first term, and each sum ends with what is known last: a step is one piece of
-//! straight code. The same code serves a number and a vector of them.
+//! Only the first term takes a division, and each sum ends with the term that is known last. A step is code
+//! without branches, and the same code serves a number and a vector of numbers.
 
 #![allow(
     clippy::inline_always,
@@ -32,7 +32,7 @@ const INVERSE: [f64; ORDER] = {
     inverse
 };
 
-/// A number, or a vector of them: what a recurrence needs.
+/// A number or a vector of numbers, with the operations that a recurrence needs.
 pub trait Number:
     Copy
     + Add<Output = Self>
@@ -77,10 +77,10 @@ impl Number for f64 {
 
 /// How damping follows the secant stiffness.
 pub trait SecantLaw {
-    /// Returns c over its factor, of ω² \[1/s²\]: ω or ω².
+    /// Returns c over its factor, which is ω or ω², from ω² \[1/s²\].
     fn damping<T: Number>(square: T) -> T;
 
-    /// Returns wₙ for n = N, of sₙ/2 and the terms of w before.
+    /// Returns wₙ for n = N, from sₙ/2 and the earlier terms of w.
     fn term<T: Number, const N: usize>(half_s: T, w: &[T; ORDER + 1]) -> T;
 }
 
@@ -116,7 +116,7 @@ impl SecantLaw for ByStiffness {
     }
 }
 
-/// The coefficients of u/u₀, of time in lengths of the step. All are numbers without units.
+/// The Taylor coefficients of u/u₀ over time in lengths L of the step. All are dimensionless.
 #[derive(Clone, Copy, Debug)]
 pub struct Scaled<T> {
     /// xₙ, those known so far.
@@ -131,7 +131,7 @@ pub struct Scaled<T> {
     rate: T,
 }
 
-/// What a series starts from, without units: u₀ and the length L of the step are its measures.
+/// The start of a series, made dimensionless by u₀ and the length L of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<T> {
     /// L u̇₀/u₀.

@@ -29,14 +29,14 @@ use oscillator::{HIGHEST_ORDER, Polynomial};
 pub use super::scaled::{ByRatio, ByStiffness, Number, ORDER, Scaled, SecantLaw, Start, half_square, inner};
 pub use super::tolerances::{CAUTION, Tolerances, excess};
 
-/// Least own force in κ, as a share of f(0).
+/// Least own force by which κ is divided, as a fraction of f(0).
 const LEAST: f64 = 1e-30;
 
-/// Returns the share of a step, at most all of it, after which the last terms of the highest order are within
+/// Returns the fraction of a step, at most 1, over which the last two terms of the highest order are within
 /// what may be left out.
 fn longest([.., before, last]: [f64; 4], most: f64) -> f64 {
     let of = |term: f64, n: usize| {
-        // libm's pow: where a series is cut does not depend on the platform's. The constants of the wall do:
+        // With libm's pow the end of a series does not depend on the platform. The constants of the wall do:
         // `wall/equivalence.rs` and `wall/mechanism.rs` take powers and angles from the platform.
         libm::pow(most / (n as f64 * term.abs().max(f64::MIN_POSITIVE)), 1.0 / (n as f64 - 1.0))
     };
@@ -64,7 +64,7 @@ pub struct SecantBranch<T> {
 
 impl<T: Number> SecantBranch<T> {
     /// Prepares the series from u ≠ 0 \[m\] and u̇ \[m/s\] over a length L of time \[s\], under a forcing p
-    /// that changes by `change` until then \[m/s²\]. Returns 1/u \[1/m\], too.
+    /// that changes by `change` until then \[m/s²\]. Also returns 1/u \[1/m\].
     #[inline(always)]
     pub fn start<L: SecantLaw>(&self, [u, v]: [T; 2], [forcing, change]: [T; 2], length: T) -> (Start<T>, T) {
         let [anchor, own_force, slope] = self.own;
@@ -198,7 +198,8 @@ mod tests {
         (now, count)
     }
 
-    /// Terms that have come to rounding need not fall any more: they end no step late.
+    /// Terms that have fallen to rounding fall no further, so that `excess` rejects them although they are
+    /// small. The step must not become longer for that.
     #[test]
     fn no_series_goes_beyond_its_step() {
         let last = [1.25e-14, -1.26e-14, 4.06e-15, -9.9e-16];
@@ -206,8 +207,8 @@ mod tests {
         assert!(longest(last, 5.2e-13) <= 1.0);
     }
 
-    /// A step by as many series as it takes is the same in sixteen parts, from slow motion to one that
-    /// changes u thirtyfold.
+    /// A step followed by as many series as it takes ends where sixteen parts of it end, from slow motion to
+    /// one that changes u thirtyfold.
     #[test]
     fn series_are_within_the_tolerances() {
         let most = Tolerances { displacement: 1e-12, velocity: 1e-12 };

@@ -12,8 +12,8 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// Returns the smaller of them for x = u/u₀ and ẋ, with time in lengths L, of 1/u₀ \[1/m\] and L \[s\].
-    /// Both must be met by one number without unit.
+    /// Returns the one dimensionless tolerance that meets both, for x = u/u₀ and for ẋ with time in lengths
+    /// L: the smaller of the two, from 1/u₀ \[1/m\] and L \[s\].
     #[inline(always)]
     #[allow(clippy::inline_always, reason = "measured: part of one piece of straight code")]
     pub fn over<T: Number>(self, inverse: T, length: T) -> T {
@@ -26,12 +26,12 @@ impl Tolerances {
 /// The share of a tolerance that a series may leave out.
 pub const CAUTION: f64 = 0.1;
 
-/// Returns a number that is positive where a series to order N, of which these are the last terms, leaves out
-/// more than `CAUTION` times `most`, of x or of ẋ.
+/// Returns a number that is positive where a series to order N leaves out more than `CAUTION` times `most` of
+/// x or of ẋ. The argument holds the last four terms of the series.
 ///
-/// Pairs of terms fall like a geometric series: from m₀, the larger of orders N − 3 and N − 2, to m₁, the
-/// larger of the last two. With q = m₁/m₀ what is left out is 2 m₁ q/(1 − q) at most, and N times that of ẋ
-/// (docs/record-path.md, Eq. (6)).
+/// Pairs of terms fall like a geometric series: from m₀, the larger of those of orders N − 3 and N − 2, to
+/// m₁, the larger of the last two. With q = m₁/m₀ at most 2 m₁ q/(1 − q) of x is left out, and N times as
+/// much of ẋ (docs/record-path.md, Eq. (6)).
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "measured: part of one piece of straight code")]
 pub fn excess<T: Number, const N: usize>([a, b, c, d]: [T; 4], most: T) -> T {

@@ -115,7 +115,7 @@ impl<'a> Rotation<'a> {
         let [lower, upper] = &self.bodies;
         let tangents = [lower.tangent[n], upper.tangent[n]];
         if n == 0 {
-            // the same sum as decides whether the wall rests
+            // the sum that also decides whether the wall rests
             return self.wall.force(tangents, self.sign);
         }
         let [_, g1, g2] = self.wall.forces_of(self.sign);

@@ -208,7 +208,7 @@ impl Watch<'_> {
     }
 }
 
-/// Instants of a piece evaluated first. They give the size of what varies on it.
+/// Number of instants of a piece that are evaluated first, to find the size of the quantities on it.
 const FIRST: usize = 5;
 
 /// A piece to search up to a length; it starts `from` after the `time` of its segment.

@@ -26,11 +26,11 @@ pub struct Unit {
     /// Initialisation is over.
     pub(super) running: bool,
     pub(super) impulses: Ends,
-    /// What Model Exchange adds; none in co-simulation.
+    /// What only Model Exchange stores; `None` in co-simulation.
     pub(super) exchange: Option<Exchange>,
     /// The outputs at the present state and inputs, once needed.
     outputs: Cell<Option<Outputs>>,
-    /// Warnings given or ruled out: of an unused `a_top`, and of a start that was forgotten.
+    /// Whether the warnings about an unused `a_top` and about a forgotten start are given or ruled out.
     pub(super) warned: [bool; 2],
     /// The scene of the unit states where the wall starts.
     pub(super) has_scene: bool,

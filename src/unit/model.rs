@@ -146,7 +146,7 @@ impl Model for Unit {
             V::ReactionBottom => Some(rates().reactions.bottom),
             V::ReactionTop => Some(rates().reactions.top),
             V::TieForce => Some(rates().tie_force),
-            // what no floor needs, and memories of the past
+            // outputs that no floor needs, and outputs that depend on the past
             V::URatio | V::RestoringForce | V::DampingForce => None,
             V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => None,
             real_input!() | real_parameter!() | real_calculated!() => None,

@@ -80,7 +80,7 @@ fn transfer_progress(progress: &mut Progress, codec: &mut StateCodec<'_>) -> Res
     Ok(())
 }
 
-/// What Model Exchange adds; the layer keeps the two kinds of instances apart.
+/// Transfers what only Model Exchange stores. The layer keeps the states of the two kinds of instances apart.
 fn transfer_exchange(exchange: &mut Exchange, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
     let Exchange { rising, ground, own_motion } = exchange;
     let OwnMotion { from, support, rate, end } = own_motion;

@@ -53,7 +53,7 @@ impl Branch {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(clippy::struct_excessive_bools, reason = "independent marks of one place")]
 pub struct Corner {
-    /// Place \[m\].
+    /// Displacement of the corner \[m\].
     pub displacement: f64,
     /// Passing it is an impact, or a jump of the rigid force.
     pub passage: bool,

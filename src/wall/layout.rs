@@ -8,7 +8,7 @@ use super::sides::Sides;
 use super::tie::Tie;
 
 /// Returns the corners in order of displacement, the two landings first and last. `fully` says that rotations
-/// are full; on the one free side, if it is only one, the corner at u = 0 is the other end.
+/// are full. A wall with one free side has no landing on the other: the corner at u = 0 is its end there.
 pub(super) fn corners(
     body: &Body,
     force: &RestoringForce,

@@ -74,22 +74,22 @@ impl Tie {
         }
     }
 
-    /// |u| at which it begins to pull, g₀ h/(2y) \[m\].
+    /// Returns the |u| at which the tie begins to pull, g₀ h/(2y) \[m\].
     pub fn onset(&self) -> f64 {
         self.slack / self.lever
     }
 
-    /// |u| at which its force reaches its strength \[m\]; `None` without one.
+    /// Returns the |u| at which the force of the tie reaches its strength \[m\]; `None` without a strength.
     pub fn strength_displacement(&self) -> Option<f64> {
         self.strength.map(|strength| (strength / self.stiffness + self.slack) / self.lever)
     }
 
-    /// Slope that it adds to F, K (2y/h)² \[N/m\].
+    /// Returns the slope that the tie adds to F, K (2y/h)² \[N/m\].
     pub fn slope(&self) -> f64 {
         self.stiffness * self.lever * self.lever
     }
 
-    /// Its force N at a displacement \[N\].
+    /// Returns the force N of the tie at a displacement \[N\].
     pub fn force(&self, displacement: f64) -> f64 {
         if self.holds(displacement) && displacement.abs() < self.departure.of(displacement) {
             self.tension(displacement)
@@ -98,7 +98,7 @@ impl Tie {
         }
     }
 
-    /// K (|w| − g₀), where it pulls \[N\].
+    /// Returns K (|w| − g₀), the force of the tie where it pulls \[N\].
     pub(super) fn tension(&self, displacement: f64) -> f64 {
         (self.stiffness * (self.lever * displacement.abs() - self.slack)).max(0.0)
     }
@@ -121,8 +121,8 @@ impl Tie {
         self.onset() < end && force.side(sign).lines.last().is_some_and(reaches)
     }
 
-    /// Adds its force to a line of the wall's own on the side of `sign`, both per unit effective mass
-    /// `m` \[kg\].
+    /// Adds the force of the tie to a line of the wall alone on the side of `sign`, both per unit effective
+    /// mass `m` \[kg\].
     pub(super) fn added_to(&self, own: Line, sign: f64, m: f64) -> Line {
         let anchor = self.onset().copysign(sign);
         Line { anchor, force: own.at(anchor), slope: own.slope + self.slope() / m }

@@ -1,4 +1,4 @@
-//! Which variables matter beside the values of the parameters.
+//! The variables that have an effect, given the values of the parameters.
 
 use crate::choices::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RestitutionSource, Rocking, Softening,
@@ -7,14 +7,14 @@ use crate::choices::{
 
 use super::parameters::{Kinematics, Parameters};
 
-/// Whether a variable of the model description matters.
+/// Says whether a variable of the model description has an effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Usage {
     /// Its name.
     pub name: &'static str,
     /// Whether a parameter has its start value; `true` for other variables.
     pub is_start: bool,
-    /// Whether it matters beside the other parameters.
+    /// Whether it has an effect beside the other parameters.
     pub matters: bool,
     /// The condition for that; empty for a variable that always matters.
     pub condition: &'static str,
@@ -23,7 +23,7 @@ pub struct Usage {
 /// The condition of what a multilinear law replaces.
 const NAMED_LAW: &str = "force_law is not multilinear";
 
-/// Returns the usage of every variable of the model description, as its `<Where>` say.
+/// Returns the usage of every variable of the model description, by its `<Where>` elements.
 ///
 /// ```
 /// use rocking_wall::wall::{Parameters, usage};

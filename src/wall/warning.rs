@@ -37,7 +37,7 @@ pub enum Warning {
     SmallStep { step: f64 },
     /// A tie that holds the wall beyond its instability.
     TieHolds { u_ins: f64 },
-    /// A number that walls rarely have: a slip of the keyboard or another unit.
+    /// A number that walls rarely have: probably a typing error or another unit.
     Unusual { name: &'static str, value: f64, unit: &'static str, usual: [f64; 2] },
 }
 
@@ -151,7 +151,7 @@ impl Warning {
         matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
     }
 
-    /// Finds the numbers of a wall that walls rarely have.
+    /// Finds the parameters of a wall whose values are improbable.
     pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> {
         let Parameters { height, thickness: b, width, overburden, overburden_eccentricity, .. } = *parameters;
         // without a load its eccentricity does not matter

@@ -1,10 +1,10 @@
-//! Which variable may be set when.
+//! The phases in which a variable may be set.
 
 use crate::call::Phase;
 use crate::failure::Failure;
 use crate::variable::{Causality, Variability, Variable, VariableId};
 
-/// The variable with this value reference among those of one type.
+/// Returns the variable with this value reference among those of one type.
 pub(crate) fn find<V: VariableId>(reference: u32) -> Result<V, Failure> {
     V::from_reference(reference).ok_or_else(|| unknown(reference))
 }
@@ -14,7 +14,7 @@ pub(crate) fn unknown(reference: u32) -> Failure {
     Failure(format!("no variable of this type has the value reference {reference}"))
 }
 
-/// Refuses all references.
+/// Returns an error if there are any references: no variable has the type.
 pub(crate) fn none(references: &[u32]) -> Result<(), Failure> {
     references.first().map_or(Ok(()), |&reference| Err(unknown(reference)))
 }
@@ -32,7 +32,7 @@ pub(crate) fn is_settable(variable: &Variable, phase: Phase, event_mode: bool) -
     }
 }
 
-/// Why `variable` cannot be set; `now` says in which phase.
+/// Returns why `variable` cannot be set; `now` describes the present phase.
 #[cold]
 pub(crate) fn not_settable(variable: &Variable, now: &str) -> Failure {
     let name = variable.name;

@@ -31,11 +31,12 @@ pub(crate) enum Phase {
     Error,
     /// The instance could not even be reset.
     Fatal,
-    /// Of Model Exchange, and of co-simulation in FMI 3.0.
+    /// Event Mode of Model Exchange, and of co-simulation in FMI 3.0.
     EventMode,
-    /// Of Model Exchange.
+    /// Continuous-Time Mode of Model Exchange.
     ContinuousTimeMode,
-    /// Of co-simulation in FMI 3.0: inside a step, while the importer sets the inputs at its end.
+    /// Intermediate Update Mode of co-simulation in FMI 3.0: inside a step, while the importer sets the
+    /// inputs at its end.
     IntermediateUpdateMode,
 }
 
@@ -64,7 +65,7 @@ impl Phase {
         matches!(self, Self::Instantiated | Self::InitializationMode)
     }
 
-    /// Where an instance is, for messages; `version` names the functions.
+    /// Describes where an instance is, for messages; `version` names the functions.
     pub(crate) fn describe(self, version: Version) -> String {
         match self {
             Self::Instantiated => format!("before {version}EnterInitializationMode"),
@@ -277,7 +278,7 @@ impl Call {
         self.rule(version).only_for
     }
 
-    /// Why this call is never served; none for the others.
+    /// Returns why this call is never served; `None` for the others.
     pub(crate) const fn why_never(self, version: Version) -> Option<&'static str> {
         self.rule(version).why_never
     }

@@ -39,7 +39,7 @@ impl Category {
     pub const ALL: &'static [Self] =
         &[Self::Warning, Self::Discard, Self::Error, Self::Fatal, Self::Events, Self::All];
 
-    /// Its name in the description.
+    /// Returns the name of the category in the description.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Warning => "logStatusWarning",

@@ -92,7 +92,7 @@ pub trait VariableId: Copy + Eq + Debug + 'static {
     /// Every variable of this type, in the order of the description.
     const ALL: &'static [Self];
 
-    /// What the description says about it.
+    /// Returns what the description says about the variable.
     fn variable(self) -> &'static Variable;
 
     /// The variable with this value reference.

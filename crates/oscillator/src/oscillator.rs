@@ -53,7 +53,7 @@ const RECIPROCALS: [f64; HIGHEST_ORDER + 1] = {
 /// Largest c t + |k| t² for which the series are used.
 const SHORT: f64 = 1.0;
 
-/// Circular frequency \[rad/s\] below which a motion is one without stiffness.
+/// Circular frequency \[rad/s\] below which a motion counts as one without stiffness.
 const SLOWEST: f64 = 1e-300;
 
 /// Size below which a term of the series changes no sum: the first terms are 1, 1/2, 1/6 and 1/24.
@@ -64,13 +64,14 @@ impl Oscillator {
     pub fn new(damping: f64, stiffness: f64) -> Self {
         let half = 0.5 * damping;
         let discriminant = stiffness - half * half;
-        // one root for both regimes: compilers take either of two ahead, and hosts may trap that of −1
+        // one root for both regimes: compilers may compute two ahead of the branch, and hosts may trap that
+        // of a negative number
         let omega = discriminant.abs().sqrt();
         let regime = if discriminant >= 0.0 {
             Regime::Oscillating(omega)
         } else {
-            // r₁ = −c/2 + √…, of the two the one that cancels comes from r₁ r₂ = k never 0, because compilers
-            // may divide before the branch is decided
+            // Of r = −c/2 ± √… the one whose terms cancel follows from r₁ r₂ = k. The other is kept from 0,
+            // because compilers may divide before the branch is decided.
             let fast = -(half + omega).max(f64::MIN_POSITIVE);
             Regime::Exponential(stiffness / fast, fast)
         };

@@ -89,8 +89,8 @@ impl RecordSolver<'_> {
     }
 }
 
-/// Vectors with which runs go faster side by side. Code for narrower ones would be slower than one by one,
-/// and take long to build.
+/// Vectors with which runs are faster side by side than one by one. With narrower vectors they would be
+/// slower, and the code for these would take long to build.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Vectors {
     #[cfg(target_arch = "x86_64")]
@@ -100,7 +100,7 @@ pub(crate) enum Vectors {
 }
 
 impl Vectors {
-    /// Returns the widest of this processor, if it has any.
+    /// Returns the widest of these vectors that the processor has; `None` if it has none.
     pub(crate) fn widest() -> Option<Self> {
         #[cfg(target_arch = "x86_64")]
         {
@@ -112,12 +112,12 @@ impl Vectors {
     }
 }
 
-/// Where runs go side by side.
+/// The steps that runs take side by side.
 #[derive(Debug)]
 pub(crate) enum SideBySide {
-    /// Everywhere, by affine maps: four steps at once.
+    /// Steps on every branch, by affine maps of several steps at once.
     Affine(Responses),
-    /// On branches with secant damping, by Taylor series.
+    /// Steps on branches with secant damping, by Taylor series.
     Curved,
 }
 

@@ -98,7 +98,7 @@ pub(crate) struct Part<N: Number> {
     /// u, u̇ and ü at its start, and at its end if the branch goes on.
     from: [N; 3],
     to: [N; 3],
-    /// \[s\]
+    /// Its length \[s\].
     length: N,
     /// p at its start \[m/s²\], and the rate of p \[m/s³\].
     forcing: N,
@@ -159,8 +159,8 @@ impl<N: Number> Part<N> {
         (keeps, change * length * 0.125)
     }
 
-    /// Finds when lanes reach a corner, and u̇ there: from a guess by the derivatives at that time, again
-    /// from where that leads (docs/record-path.md, Eq. (4)).
+    /// Finds when lanes reach a corner, and u̇ there: a guess is corrected by the derivatives at its time,
+    /// again and again until the correction is small (docs/record-path.md, Eq. (4)).
     #[inline(always)]
     fn find(&self, corner: N, terms: usize) -> (N::Mask, N, N) {
         let Self { lanes, line, from, length, rate, .. } = *self;
@@ -247,7 +247,7 @@ impl<O: Observer> Lanes<'_, O> {
             }
             let (keeps, margin) = part.keeps_its_sign(most_forcing);
             if corners == 0 && N::LANES > 1 {
-                // side by side steps are whole, and leave the branch
+                // steps side by side are whole ones that leave the branch
                 part.lanes = part.lanes & keeps;
                 continue;
             }
@@ -297,13 +297,13 @@ impl<O: Observer> Lanes<'_, O> {
         (Part { lanes, branch, line, from, to, length, forcing, impacts, ..*part }, curved)
     }
 
-    /// Enters where lanes have come to.
+    /// Stores in the rows where lanes have come to.
     #[inline(always)]
     pub(crate) fn arrive<N: Number>(&mut self, token: N::Token, first: usize, arrival: &Arrival<N>) {
         let Arrival { lanes, end, branch, corners, impacts, left } = *arrival;
         let (rows, zero) = (&mut self.rows, N::splat(token, 0.0));
         let share = -(left * (1.0 / self.solver.step)) + 1.0;
-        // also where what is left is less than the share's rounding
+        // a remainder below the rounding of the share counts as none
         let whole = left.at_most(zero) | (zero + 1.0).at_most(share);
         let put = |row: &mut Row, value: N| {
             N::select(lanes, value, N::load(token, row, first)).store(row, first);
@@ -320,7 +320,7 @@ impl<O: Observer> Lanes<'_, O> {
         put(&mut rows.impacts, counted);
     }
 
-    /// Takes the rest of a step, of a lane that came to its branch in mid-step.
+    /// Takes the rest of a step of a lane that came to its branch within the step.
     #[inline(always)]
     pub(crate) fn rest_of_step<N: Number>(&mut self, token: N::Token, first: usize) -> Waiting {
         let (rows, RecordSolver { table, step, .. }) = (&self.rows, self.solver);

@@ -10,13 +10,13 @@ use crate::regularised::Regularised;
 use crate::solver::Observer;
 use crate::table::{Law, Table, exit, get};
 
-/// The stride of eight lanes, by how much u changes in a part as a share of |u|: with it the terms of a
+/// The largest stride of eight lanes, which is the change of u in a part over |u|. Up to it the terms of a
 /// series fall fast enough to end at its order.
 const STRIDE: f64 = 0.2;
 /// Factors on the next stride where the series reached, and where it did not: of eight lanes, and of one.
 const LONGER: [f64; 2] = [1.1, 1.3];
 const SHORTER: [f64; 2] = [0.7, 0.6];
-/// The stride from which on down a lane waits for its run to go on by itself.
+/// The stride at and below which a lane waits for its run to go on by itself.
 const SHORTEST: f64 = 1e-3;
 /// Most lanes that wait while the others go on.
 const WAITING: u32 = 1;
@@ -28,7 +28,7 @@ const FAST: f64 = 0.1;
 const MOST_TIME: f64 = 2.0;
 /// Guesses of the time of a corner.
 const MOST_GUESSES: u32 = 8;
-/// Largest Newton step, over the time, from which the next would be a rounding.
+/// Largest Newton step, over the time, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.
@@ -39,8 +39,8 @@ pub(crate) trait OneLane: SecantLaw {
     /// Returns u/u₀ − 1 and L u̇/u₀ at the end of a part; `None` where no series reaches.
     fn end(start: Start<f64>, most: f64) -> Option<[f64; 2]>;
 
-    /// Returns the share of the part, or the multiple, after which u/u₀ − 1 comes to `rise`, and L u̇/u₀
-    /// then; `None` where that is not found at once or u̇ may change its sign before.
+    /// Returns the time after which u/u₀ − 1 comes to `rise`, in lengths of the part and possibly beyond its
+    /// end, and L u̇/u₀ then; `None` where that is not found at once or u̇ may change its sign before.
     fn passage(start: Start<f64>, rise: f64, most: f64) -> Option<[f64; 2]>;
 }
 
@@ -120,7 +120,7 @@ impl OneLane for ByStiffness {
                 if others >= x[1].abs() {
                     return None;
                 }
-                // what is left out at that time, not at the end
+                // what the series leaves out at that time, not at the end of the part
                 let mut power = time * (time * time).powi(6);
                 let mut last = series.last::<ORDER>();
                 for term in &mut last {
@@ -242,7 +242,7 @@ impl<N: Number> Bounds<N> {
 }
 
 impl<O: Observer> Lanes<'_, O> {
-    /// Takes parts of steps of lanes, from one on, until some wait; returns which.
+    /// Takes parts of steps of the lanes from `first` on, until some wait; returns these.
     #[inline(always)]
     pub(crate) fn take_parts<N: Number, L: OneLane>(
         &mut self,
@@ -312,7 +312,7 @@ impl<O: Observer> Lanes<'_, O> {
         Waiting { ended, stuck: busy & !N::bits(goes) & !ended }
     }
 
-    /// Takes p at both ends of a lane's step; returns whether there is one in its block.
+    /// Enters p at both ends of a lane's step; returns whether its block has one more step.
     #[inline(always)]
     fn take_forcing(&self, lane: usize, place: usize, ends: &mut [Row; 2]) -> bool {
         if self.is_at_end(lane) {
@@ -329,7 +329,7 @@ impl<O: Observer> Lanes<'_, O> {
     #[inline(always)]
     fn laws<N: Number>(&self, token: N::Token, first: usize) -> (SecantBranch<N>, Bounds<N>) {
         let (rows, table) = (&self.rows, &self.solver.table);
-        // of any number of branches: this is not done often
+        // one lane after the other, for any number of branches: this is not done often
         let look_up =
             |row: &BranchRow| N::of_lanes(token, |lane| get(row, index(rows.branch[(first + lane) % WIDTH])));
         let load = |row| N::load(token, row, first);

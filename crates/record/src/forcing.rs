@@ -4,8 +4,8 @@ use std::ops::Range;
 
 /// Samples of a block.
 pub(crate) const BLOCK: usize = 256;
-/// Plain steps that lanes of a batch take at once; the last ones of a block may go as far beyond it, less
-/// one.
+/// Plain steps that lanes of a batch take at once. The last ones of a block may end beyond it, by one step
+/// less than this.
 pub(crate) const AT_ONCE: usize = 4;
 
 /// Forcing of a wall at the samples of a record, linear in between.
@@ -21,7 +21,7 @@ pub enum Forcing<'a> {
     Still(usize),
 }
 
-/// As many samples without motion as are asked for at once.
+/// Samples without motion, as many as are ever asked for at once.
 static STILL: [f64; 2 * BLOCK] = [0.0; 2 * BLOCK];
 
 impl Forcing<'_> {
@@ -51,7 +51,7 @@ impl Forcing<'_> {
     /// Returns the largest |p| over a range of samples.
     fn largest(&self, range: Range<usize>) -> f64 {
         let Self::Samples(samples) = self else { return 0.0 };
-        // eight side by side: one maximum after another would take longer than the steps
+        // eight maxima side by side: a single chain of maxima would take longer than the steps
         let (rows, rest) = samples[range].as_chunks::<8>();
         let larger = |a: f64, b: f64| if b > a { b } else { a };
         let mut columns = [0.0; 8];

@@ -9,7 +9,7 @@ use crate::table::Way;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
 const ROOM: f64 = 4.0;
-/// The largest such ratio at which f̂ serves another block.
+/// The largest such ratio at which f̂ is kept for another block.
 const MOST_ROOM: f64 = 16.0;
 
 /// A block that a run has entered, and the extremes at the ends of its steps.
@@ -31,7 +31,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// Returns what a run is before its first block.
+    /// Returns the block that stands for a run before its first one.
     pub(crate) fn new(number: usize, factor: f64, state: State) -> Self {
         let (first, share, end) = (0, 0.0, 0);
         let (highest, lowest, fastest, forcing) = (0.0, 0.0, 0.0, 0.0);
@@ -39,7 +39,7 @@ impl Block {
     }
 }
 
-/// A run beside its motion.
+/// The data of a run, except its motion, which is in [`Rows`].
 pub(crate) struct Run {
     pub(crate) block: Block,
     /// The sample at which this pass through the record ends.
@@ -90,7 +90,7 @@ pub(crate) struct Rows {
     pub(crate) stride: Row,
 }
 
-/// What a call is for.
+/// What a pass over the runs computes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pass {
     /// The motion.
@@ -99,12 +99,12 @@ pub(crate) enum Pass {
     Extremes,
 }
 
-/// Lanes that wait, by their bits.
+/// Lanes that wait, one bit for each.
 #[derive(Clone, Copy)]
 pub(crate) struct Waiting {
-    /// At the end of a block.
+    /// Lanes at the end of a block.
     pub(crate) ended: u8,
-    /// For the run to go on by itself.
+    /// Lanes whose run must go on by itself.
     pub(crate) stuck: u8,
 }
 
@@ -206,7 +206,7 @@ impl<O: Observer> Lanes<'_, O> {
         (rows.fastest[lane], rows.stride[lane]) = (0.0, f64::INFINITY);
         let largest = self.largest(lane);
         let run = &self.runs[lane];
-        // f̂ serves on while u is far below `reach`, yet not too far
+        // f̂ is kept while u is far below `reach`, but not too far
         if 2.0 * largest < run.reach && run.reach < MOST_ROOM * largest {
             self.rows.driving[lane] = forcing + run.force;
         } else {
@@ -214,12 +214,12 @@ impl<O: Observer> Lanes<'_, O> {
         }
     }
 
-    /// Returns about how far u may come soon \[m\].
+    /// Estimates the largest |u| in the next steps \[m\].
     fn largest(&self, lane: usize) -> f64 {
         self.runs[lane].peaks.largest() + self.rows.forcing[lane] * self.solver.step * self.solver.step
     }
 
-    /// Takes the bound f̂ on the forces anew, and where u is known to stay.
+    /// Computes anew the bound f̂ on the forces, and the limits within which u is known to stay.
     pub(crate) fn bound_force(&mut self, lane: usize) {
         self.include_ends(lane);
         let seeks = self.pass == Pass::Extremes;
@@ -234,7 +234,7 @@ impl<O: Observer> Lanes<'_, O> {
         rows.half_reach[lane] = half_reach;
     }
 
-    /// Takes the ends of steps so far into the peaks.
+    /// Includes the ends of the steps so far in the peaks.
     pub(crate) fn include_ends(&mut self, lane: usize) {
         let (rows, peaks) = (&self.rows, &mut self.runs[lane].peaks);
         for u in [rows.highest[lane], rows.lowest[lane], rows.u[lane]] {
@@ -244,13 +244,13 @@ impl<O: Observer> Lanes<'_, O> {
         }
     }
 
-    /// Keeps a block in which an extreme may lie between samples.
+    /// Closes a block, and keeps it for a search if an extreme may lie between its samples.
     fn close_block(&mut self, lane: usize) {
         self.include_ends(lane);
         let (rows, run) = (&self.rows, &self.runs[lane]);
         let (highest, lowest, fastest) = (rows.highest[lane], rows.lowest[lane], rows.fastest[lane]);
         let block = Block { highest, lowest, fastest, end: self.sample(lane), ..run.block };
-        // f̂ was taken at least as far as u has gone
+        // f̂ bounds the forces at least as far as u has gone
         if self.pass != Pass::Extremes && self.may_exceed(&block, &run.peaks, run.force) {
             self.candidates.push(block);
         }
@@ -268,10 +268,10 @@ impl<O: Observer> Lanes<'_, O> {
         block.highest + margin > peaks.positive || margin - block.lowest > peaks.negative
     }
 
-    /// Moves on to the block that the run of a lane is in; returns whether there is one.
+    /// Enters the next block where the run of a lane is at the end of one; returns whether the run goes on.
     pub(crate) fn in_block(&mut self, lane: usize) -> bool {
         if self.runs[lane].phase == Phase::Landed {
-            // nothing will ever happen
+            // a wall that has landed never moves again
             let (first, last) = (self.sample(lane), self.runs[lane].last);
             let lies = [self.rows.u[lane], self.rows.v[lane]];
             (first..last).for_each(|sample| self.see(sample + 1, lies));
@@ -297,7 +297,7 @@ impl<O: Observer> Lanes<'_, O> {
         }
     }
 
-    /// Shows the observer where a lane is.
+    /// Shows the observer u and u̇ at the sample that a lane is at.
     #[inline(always)]
     pub(crate) fn see_now(&mut self, lane: usize) {
         self.see(self.sample(lane), [self.rows.u[lane], self.rows.v[lane]]);
@@ -309,7 +309,7 @@ impl<O: Observer> Lanes<'_, O> {
         self.sample(lane) >= self.runs[lane].block.end
     }
 
-    /// Takes down what became of the run in a lane.
+    /// Stores the outcome of the run in a lane.
     fn finish(&mut self, lane: usize) {
         let (state, rows, run) = (self.state(lane), &self.rows, &self.runs[lane]);
         let number = run.block.number;

@@ -22,7 +22,7 @@ pub(crate) type BranchRow = [Row; MOST_BRANCHES / WIDTH];
 /// A number of each lane.
 pub(crate) trait Number: secant::Number {
     const LANES: usize;
-    /// Shows that the processor has these vectors.
+    /// A proof that the processor has these vectors.
     type Token: Copy;
     /// True or false for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
@@ -30,7 +30,7 @@ pub(crate) trait Number: secant::Number {
     type Branches: Copy;
 
     fn splat(token: Self::Token, value: f64) -> Self;
-    /// Loads from a row, from a lane on.
+    /// Loads the numbers of a row from lane `first` on.
     fn load(token: Self::Token, row: &Row, first: usize) -> Self;
     fn store(self, row: &mut Row, first: usize);
     fn of_lanes(token: Self::Token, value: impl Fn(usize) -> f64) -> Self;
@@ -46,7 +46,7 @@ pub(crate) trait Number: secant::Number {
     fn bits(mask: Self::Mask) -> u8;
     fn mask(token: Self::Token, bits: u8) -> Self::Mask;
 
-    /// Takes whole numbers below [`MOST_BRANCHES`], in a vector below [`WIDTH`].
+    /// Converts whole numbers of branches, which are below [`MOST_BRANCHES`], in a vector below [`WIDTH`].
     fn branches(self) -> Self::Branches;
     /// Looks up the number that belongs to the branch of each lane.
     fn look_up(token: Self::Token, row: &BranchRow, branches: Self::Branches) -> Self;
@@ -129,7 +129,7 @@ impl Number for f64 {
     }
 }
 
-/// Returns a whole number, not negative, as an index.
+/// Converts a whole number that is not negative to an index.
 #[inline(always)]
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers, none negative")]
 pub(crate) fn index(number: f64) -> usize {

@@ -9,8 +9,8 @@ use crate::responses::{ROWS_AHEAD, Responses};
 use crate::solver::Observer;
 use crate::table::get;
 
-/// The number of lanes at which plain steps stop until those that wait are served: that costs as much as some
-/// thirty plain steps, however few lanes wait.
+/// The number of lanes at which plain steps stop, so that the lanes that wait are served. Serving them costs
+/// as much as some thirty plain steps, however few they are.
 const FEW: u32 = 1;
 
 /// Where plain steps may start and end: u from `low` to `high`, |u̇| up to `speed`.
@@ -31,7 +31,7 @@ impl<N: Number> Range<N> {
 /// What bounds the motion of each lane on its branch.
 #[derive(Clone, Copy)]
 struct Bounds<N> {
-    /// For one step and for four.
+    /// Where one step, and where steps at once, may start and end.
     range: Range<N>,
     range4: Range<N>,
     /// A h over one step and over four \[m/s\].
@@ -60,7 +60,7 @@ impl<N: Number> Reached<N> {
         Self { now, steps: N::splat(token, 0.0), highest, lowest }
     }
 
-    /// Goes to the ends of steps where lanes took them, and notes the extremes there.
+    /// Moves the lanes that took steps to the ends of these, and includes u there in the extremes.
     #[inline(always)]
     fn take(&mut self, lanes: N::Mask, [u, v]: [N; 2], steps: N) {
         self.now = [N::select(lanes, u, self.now[0]), N::select(lanes, v, self.now[1])];
@@ -69,7 +69,7 @@ impl<N: Number> Reached<N> {
         self.lowest = self.lowest.min(self.now[0]);
     }
 
-    /// Enters what these lanes have come to.
+    /// Stores in the rows what these lanes have come to.
     #[inline(always)]
     fn store(self, token: N::Token, lanes: N::Mask, rows: &mut Rows, first: usize) {
         self.now[0].store(&mut rows.u, first);
@@ -97,12 +97,12 @@ fn look_up_rows<N: Number, const ROWS: usize>(
 /// Returns the change of u, or of u̇, by u, u̇ and q = p − f(0) at both ends of a step.
 #[inline(always)]
 fn change<N: Number>([by_u, by_v, by_q0, by_q1]: [N; 4], [u, v]: [N; 2], q: [N; 2]) -> N {
-    // the products with the state last: the next step depends on them
+    // adds the products with the state last, because the next step waits for them
     (by_q0 * q[0] + by_q1 * q[1]) + (by_u * u + by_v * v)
 }
 
 impl<O: Observer> Lanes<'_, O> {
-    /// Takes steps of lanes, from one on, until some wait for more than is done here; returns which.
+    /// Takes steps of the lanes from `first` on, until some wait for what is not done here; returns these.
     #[inline(always)]
     pub(crate) fn affine_steps<N: Number>(
         &mut self,
@@ -117,7 +117,8 @@ impl<O: Observer> Lanes<'_, O> {
         let bounds = self.bounds::<N>(token, first);
         let [u, v] = [N::load(token, &self.rows.u, first), N::load(token, &self.rows.v, first)];
         let speed = v.abs();
-        // as fast as that, u̇ keeps its sign over four steps: then u is between its values at their ends
+        // from this speed on u̇ keeps its sign over four steps, so that u stays between its values at their
+        // ends
         let steady = bounds.change4.at_most(speed)
             & speed.at_most(bounds.range4.speed)
             & bounds.lower.at_most(u)
@@ -217,8 +218,8 @@ impl<O: Observer> Lanes<'_, O> {
         })
     }
 
-    /// Takes plain steps, four at once, until few lanes go on; returns which do. `response` is the change by
-    /// the record, of each four steps after the other.
+    /// Takes plain steps, several at once, until few lanes go on; returns the lanes that do. `response` gives
+    /// the change by the record over each group of steps in turn.
     #[inline(always)]
     fn plain_steps<N: Number>(
         &mut self,
@@ -279,8 +280,8 @@ impl<O: Observer> Lanes<'_, O> {
         }
     }
 
-    /// Takes one to four steps of lanes that wait, the last of them past corners if need be; returns which
-    /// took none.
+    /// Takes one to four steps of lanes that wait, the last of them past corners if need be; returns those
+    /// that took none.
     #[inline(always)]
     fn single_steps<N: Number>(
         &mut self,
@@ -311,8 +312,8 @@ impl<O: Observer> Lanes<'_, O> {
         none
     }
 
-    /// Takes up to four steps on which lanes stay on their branch and pass no extreme that counts; returns
-    /// the next one of those that leave it there.
+    /// Takes up to four steps in which lanes stay on their branch and within the limits of u, also between
+    /// samples. Returns the next step of the lanes that leave their branch in it.
     #[inline(always)]
     fn stay<N: Number>(
         &self,
@@ -333,7 +334,7 @@ impl<O: Observer> Lanes<'_, O> {
         let line = Line::look_up(token, table, branches);
         let eighth = 0.125 * self.solver.step * self.solver.step;
         let furthest = self.record.forcing.count() - 1;
-        // lanes that do not wait may be near the end
+        // lanes that do not wait may be near the end of the record
         let most = if N::LANES == 1 { AT_ONCE.min(furthest - index(rows.index[first])) } else { AT_ONCE };
         let mut ahead: [&[f64]; WIDTH] = [&[]; WIDTH];
         for (lane, ahead) in ahead[..N::LANES].iter_mut().enumerate() {
@@ -358,7 +359,7 @@ impl<O: Observer> Lanes<'_, O> {
                 & bounds.change.below(speed0 + speed1)
                 & bounds.lower.at_most(low)
                 & high.at_most(bounds.upper);
-            // by |p|, |u̇| and |f| at the ends of the step itself
+            // the margin by |p|, |u̇| and |f| at the ends of this step, not by the bounds of its block
             let margin = line.most(p0.abs().max(p1.abs()), from, to) * eighth;
             let near = bounds.lower.at_most(low - margin) & (high + margin).at_most(bounds.upper);
             let slow = speed.at_most(bounds.range.speed);

@@ -13,11 +13,11 @@ use rocking_wall::solver::secant::{CAUTION, ORDER, Start, half_square, inner};
 
 /// Highest order of these series.
 const HIGHEST: usize = 12;
-/// Guesses of the σ that is looked for.
+/// Most guesses of the σ that is sought.
 const MOST_GUESSES: u32 = 6;
-/// Largest miss of θ = 1 from which the expansion about a guess leads there.
+/// Largest |θ − 1| of a guess from which the expansion about it leads to θ = 1.
 const SMALL_MISS: f64 = 1e-6;
-/// Largest Newton step, over σ, from which the next would be a rounding.
+/// Largest Newton step, over σ, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 type Terms = [f64; ORDER + 1];
@@ -237,10 +237,11 @@ mod tests {
     use super::*;
     use rocking_wall::solver::secant::{ByRatio, Scaled};
 
-    /// Of p \[m/s³\].
+    /// Rate of p \[m/s³\].
     const RATE: f64 = 0.3;
 
-    /// Of the motion from u = 1 at u̇ on a line f = f₀ + k u under a forcing p, over a length.
+    /// Returns the start of the motion from u = 1 with u̇ on a line f = f₀ + k u under a forcing p, over a
+    /// length.
     fn start([velocity, length]: [f64; 2], [zero, stiffness]: [f64; 2], forcing: f64) -> Start<f64> {
         let (force, square) = (zero + stiffness, length * length);
         Start {
@@ -260,7 +261,7 @@ mod tests {
         })
     }
 
-    /// A step is that of sixteen series in time.
+    /// A step ends where sixteen series in time end.
     #[test]
     fn steps_are_those_of_series_in_time() {
         let (mut reached, mut worst, most) = (0, 0.0_f64, 1e-13);
@@ -320,7 +321,7 @@ mod tests {
         assert_ne!(series.extend(sigma, 3.5e-14), Some(8));
     }
 
-    /// Where u passes a value, the step that ends there ends with it.
+    /// A step that ends when u passes a value ends with that value.
     #[test]
     fn passages_are_ends_of_shorter_steps() {
         let (mut found, mut worst) = (0, 0.0_f64);

@@ -11,7 +11,7 @@ use crate::forcing::{AT_ONCE, BLOCK, Forcing};
 use crate::number::{BranchRow, WIDTH, index};
 use crate::table::{LONGEST, Table, Way, get, set};
 
-/// Rows a lane may read on, from wherever it is: those of a block, and one.
+/// Rows that a lane may read from where it is: those of a block, and one more.
 pub(crate) const ROWS_AHEAD: usize = BLOCK / AT_ONCE + 1;
 /// Samples of a record up to which tables are made: 1 MB for each oscillator.
 const MOST_SAMPLES: usize = 1 << 16;

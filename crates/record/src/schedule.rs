@@ -14,20 +14,20 @@ impl<O: Observer> Lanes<'_, O> {
     /// Follows all runs to their ends, one after the other.
     ///
     /// # Errors
-    /// Of the first run that could not be followed.
+    /// [`SolverError`] of the first run that could not be followed.
     pub(crate) fn one_by_one(mut self) -> Result<Vec<Outcome>, SolverError> {
-        // nothing joins: a lane that is filled goes from run to run
+        // no steps are taken side by side, so that `fill` follows one run after the other to its end
         self.fill(0);
         self.pass = Pass::Extremes;
         self.fill(0);
         self.outcomes()
     }
 
-    /// Follows all runs to their ends, side by side where they take steps of one kind; `round` takes these
-    /// until lanes wait.
+    /// Follows all runs to their ends, side by side where they take steps of one kind; `round` takes such
+    /// steps until lanes wait.
     ///
     /// # Errors
-    /// Of the first run that could not be followed.
+    /// [`SolverError`] of the first run that could not be followed.
     #[inline(always)]
     pub(crate) fn side_by_side(
         mut self,
@@ -62,7 +62,8 @@ impl<O: Observer> Lanes<'_, O> {
         Ok(self.outcomes)
     }
 
-    /// Gives a lane the next run that comes to steps taken side by side; returns whether there is one.
+    /// Follows the next runs in a lane, each by itself, up to the first that comes to steps taken side by
+    /// side; returns whether there is one.
     fn fill(&mut self, lane: usize) -> bool {
         while self.start_next(lane) {
             if self.alone(lane) {
@@ -84,7 +85,7 @@ impl<O: Observer> Lanes<'_, O> {
             }
             Pass::Extremes => {
                 while let Some(block) = self.candidates.pop() {
-                    // those of the motion: what one block adds does not depend on the others
+                    // the peaks of the motion pass, so that what one block adds does not depend on the others
                     let peaks = self.outcomes[block.number].state.peaks;
                     if self.may_exceed(&block, &peaks, self.solver.table.largest_force(peaks.largest())) {
                         let state = State { peaks, ..block.state };
@@ -129,13 +130,13 @@ impl<O: Observer> Lanes<'_, O> {
         self.enter_block(lane);
     }
 
-    /// Lets a run go by itself until it comes to steps taken side by side; returns whether that comes before
-    /// its end.
+    /// Follows the run of a lane by itself until it comes to steps taken side by side; returns whether it
+    /// does so before its end.
     #[inline(never)]
     fn alone(&mut self, lane: usize) -> bool {
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = Level::new().as_avx2() {
-            // its instructions take three operands; they round alike
+            // AVX2 code is faster, as its instructions take three operands, and rounds alike
             return avx2.vectorize(
                 #[inline(always)]
                 || self.go_alone(lane),
@@ -180,7 +181,8 @@ impl<O: Observer> Lanes<'_, O> {
         }
     }
 
-    /// Takes the run of a lane past what it waits for; returns whether it could be followed.
+    /// Takes the run of a lane past the point where it waits: computes f̂ anew, passes a corner, or searches
+    /// the rest of the step. Returns whether the run could be followed.
     fn unblock(&mut self, lane: usize) -> bool {
         if self.rows.u[lane].abs() > self.rows.half_reach[lane] {
             self.bound_force(lane);
@@ -198,7 +200,8 @@ impl<O: Observer> Lanes<'_, O> {
         false
     }
 
-    /// Takes the steps of its block through which a wall rests; returns whether there are any.
+    /// Takes the steps through which the wall in a lane rests, up to the end of its block; returns whether
+    /// there are any.
     fn rest_on(&mut self, lane: usize) -> bool {
         let [lowest, highest] = self.solver.motion.rest_band();
         let first = self.sample(lane);
@@ -229,7 +232,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (solver, step) = (self.solver, self.solver.step);
         let mut state = self.state(lane);
         let run = &mut self.runs[lane];
-        // where parts of the step were taken before, these count as its piece
+        // parts of the step that were taken before count as the one piece of a step that is not searched
         run.steps += u64::from(share == 0.0);
         let report = solver.motion.advance_under(&mut state, (1.0 - share) * step, p, &mut run.memo)?;
         run.searched.add(report.work);

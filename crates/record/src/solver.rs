@@ -35,7 +35,7 @@ pub(crate) trait Observer {
     fn see(&mut self, index: usize, u: f64, v: f64);
 }
 
-/// Sees nothing.
+/// An observer that ignores the motion.
 pub(crate) struct Unseen;
 
 impl Observer for Unseen {
@@ -75,10 +75,10 @@ impl Observer for &mut dyn FnMut(usize, f64, f64) {
 #[derive(Clone, Debug)]
 pub struct RecordSolver<'a> {
     pub(crate) motion: &'a Motion,
-    /// \[s\]
+    /// Length of the steps \[s\].
     pub(crate) step: f64,
     pub(crate) table: Table,
-    /// On u̇ at an impact.
+    /// Factor on u̇ at an impact.
     pub(crate) passage_factor: f64,
 }
 

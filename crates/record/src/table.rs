@@ -1,4 +1,4 @@
-//! What the steps of a run need of the branch it is on, for all branches of a wall.
+//! The numbers of a branch that the steps of a run need, for all branches of a wall.
 
 use oscillator::Oscillator;
 use rocking_wall::solver::secant::{Secant, SecantBranch};
@@ -16,7 +16,7 @@ const DAMPING_SHARE: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 /// Largest margin of four plain steps at once, over the width of their branch.
 const MOST_MARGIN: f64 = 0.25;
-/// (c + √|k|) h of the longest steps in which corners are passed: measured, beyond it they are too many.
+/// Largest (c + √|k|) h of steps in which corners are passed here: beyond it, as measured, they are too many.
 pub(crate) const LONGEST: f64 = 1.0;
 /// Share of the leading term that may be left out of a series.
 const NEGLIGIBLE: f64 = 1e-18;
@@ -66,7 +66,7 @@ fn reach(oscillator: &Oscillator, step: f64) -> f64 {
     (oscillator.damping() + oscillator.stiffness().abs().sqrt()) * step
 }
 
-/// For each branch of a wall its numbers. p₀ and p₁ are the forcing at the ends of a step.
+/// The numbers of each branch of a wall. p₀ and p₁ are the forcing at the ends of a step.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct Table {
@@ -144,7 +144,7 @@ impl Table {
             terms: 0,
         };
         if table.ways.iter().all(|way| *way == Way::General) {
-            // nothing is prepared, and of more branches there is no row
+            // nothing is prepared: no step needs it, and rows have no place for more than `MOST_BRANCHES`
             return table;
         }
         for branch in 0..table.ways.len() {
@@ -199,7 +199,7 @@ impl Table {
         let damping_share = if c > 0.0 { DAMPING_SHARE } else { 0.0 };
         set(&mut self.speed_share, branch, DAMPING_SHARE * (1.0 / c));
         set(&mut self.damping_share, branch, damping_share);
-        // where a bound is infinite no such step is plain
+        // no step is plain where its bound is infinite
         let bounds = [(single, single.is_finite()), (plain * at_once * at_once, usable)];
         for (growth, _) in bounds.iter().filter(|(_, taken)| *taken) {
             self.most_growth = self.most_growth.max(*growth);
@@ -305,7 +305,7 @@ fn way(motion: &Motion, branch: usize, step: f64) -> Way {
         // a law of damping without a fast series
         Way::General
     } else if adaptive && wall.has_constant_damping() && wall.branches()[branch].stiffness <= 0.0 {
-        // nothing but the method asks for series: it has them on all but the elastic branch
+        // the motion has a closed form, but the method asks for series on all but the elastic branch
         Way::General
     } else if motion.oscillators()[branch].is_spread(step) {
         Way::General

@@ -29,7 +29,7 @@ fn motion(a1: f64) -> Motion {
     losing(a1, DampingModel::ConstantCoefficient, Impact::None)
 }
 
-/// The same with other ways of losing energy.
+/// The same wall with another damping model and impact.
 fn losing(a1: f64, damping_model: DampingModel, impact: Impact) -> Motion {
     let wall = Parameters { height: 6.0, thickness: 0.6, ..Parameters::default() };
     Motion::of(&Parameters { a1, damping_model, impact, ..wall }, 1e-8).expect("a valid wall")
@@ -74,7 +74,7 @@ fn runs_do_not_depend_on_the_processor() {
 }
 
 /// Walls whose elastic branch is narrower than their way in a step, with impacts: a step may pass three
-/// corners. Beside each other they do what they do alone.
+/// corners. Side by side they have the outcomes of single runs.
 #[test]
 fn steps_with_several_corners_are_those_of_single_runs() {
     let bouncing = |a1| losing(a1, DampingModel::None, Impact::Restitution);
@@ -89,8 +89,9 @@ fn steps_with_several_corners_are_those_of_single_runs() {
     }
 }
 
-/// Walls that turn shortly before a corner, on either side, within what four steps keep away from it but not
-/// one: the turning point is found, alone as beside others, as by the general search.
+/// Walls that turn shortly before a corner, on either side, within the margin that four steps at once keep
+/// from it, but not within that of one step. The turning point is found, alone as beside others, as by the
+/// general search.
 #[test]
 fn extremes_before_a_corner_are_found() {
     let (motion, step) = (motion(0.018), 5e-3);
@@ -100,7 +101,7 @@ fn extremes_before_a_corner_are_found() {
     let pull = wall.branches()[wall.branch_of(0.5 * corner, 0.0)].restoring(corner);
     let start = |side: f64, u: f64, v: f64| {
         let mut state = motion.start(side * u, side * v, Support::default());
-        // it has been further out on the other side: nothing there asks for a second look
+        // it has been further out on the other side, so that no extreme is searched there
         state.peaks.include(-side * corner);
         RunStart { state, factor: 1.0 }
     };
@@ -174,7 +175,7 @@ fn work_is_counted_as_by_the_general_search() {
     assert!(impacts > 50, "{impacts}");
 }
 
-/// Steps that are long beside the wall's period, and few samples, make no lanes.
+/// Runs do not go side by side where steps are long beside the wall's period, or samples are few.
 #[test]
 fn what_does_not_suit_goes_one_by_one() {
     let samples = shaking();
@@ -198,7 +199,7 @@ fn what_does_not_suit_goes_one_by_one() {
     assert_eq!(none.len(), starts.len());
 }
 
-/// What an observer is shown does not change what becomes of a run, and ends with it.
+/// An observer does not change the outcome of a run, and what it is shown ends with the run.
 #[test]
 fn an_observed_run_is_the_same_run() {
     let samples = shaking();
@@ -239,7 +240,8 @@ const ROWS: [Row; 3] = [
     [0.0, 7.0, 3.0, 3.0, 1.0, 6.0, 2.0, 5.0],
 ];
 
-/// Does each operation of a number, from a lane on; returns the bits of the results, lane by lane.
+/// Applies each operation of a number to the lanes from `first` on; returns the bits of the results, lane by
+/// lane.
 fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
     let [a, b, branch] = ROWS.map(|row| N::load(token, &row, first));
     let branches: BranchRow = [[0.1, 1.2, 2.3, 3.4, 4.5, 5.6, 6.7, 7.8], [0.0; WIDTH]];
@@ -260,7 +262,7 @@ fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
     numbers.map(lanes).chain(masks.map(bits)).collect()
 }
 
-/// Eight numbers are, lane by lane and bit for bit, eight single ones.
+/// Operations on eight numbers give, lane by lane, the bits of those on single ones.
 fn check_lanes<S: Simd>(simd: S) {
     let eight = operations::<Eight<S>>(simd, 0);
     for lane in 0..WIDTH {

@@ -295,8 +295,8 @@ fn check_side(
     })
 }
 
-/// Returns what a wall feels of a record: the record itself, or the motion of its floors, those of a strip
-/// wall by their weights.
+/// Returns the motion that acts on a wall under a record: the record itself, or the motion of its floors,
+/// those of a strip wall by their weights.
 pub(crate) fn felt<E: From<SceneError> + From<GroundMotionError>>(
     record: GroundMotion,
     floors: Option<&Floors>,

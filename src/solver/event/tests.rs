@@ -1,5 +1,5 @@
-//! Tests the search for events on motions whose exits and turning points are known. Pins its work, too: later
-//! steps mend most errors of a first guess, and only the number of steps shows them.
+//! Tests the search for events on motions whose exits and turning points are known. Pins its number of
+//! evaluations, too: later steps mend most errors of a first guess, so that only this number shows them.
 
 use std::cell::{Cell, RefCell};
 
@@ -108,9 +108,9 @@ fn turning_points_have_their_closed_form() {
     assert_eq!(evaluations, 280);
 }
 
-/// Searches for √`square` in a bracket from a guess, by steps that `step` makes of Newton's. `sign` is that
-/// of the slope, and `settled` says of every step that it is the last. Returns what it finds, and the times
-/// at which it evaluates.
+/// Searches for √`square` in a bracket from a guess. `step` turns a Newton step into the one that is
+/// proposed, `sign` is the sign of the slope, and with `settled` every step may be the last. Returns the node
+/// found and the times of the evaluations.
 fn root_of(
     square: f64,
     bracket: [f64; 2],
@@ -160,7 +160,7 @@ fn bisection_takes_over_where_steps_fail() {
         };
         let root = 3e7_f64.sqrt();
         let from = |length: f64, settled: bool| search([0.0, 8e3], 3e3, settled, length);
-        // away from the root, settled or not, and without end
+        // steps away from the root, settled or not; steps too short to arrive; steps out of the bracket
         for (length, settled, second, count) in [
             (-0.3, false, 5.5e3, 53),
             (-0.3, true, 5.5e3, 53),
@@ -171,7 +171,7 @@ fn bisection_takes_over_where_steps_fail() {
             assert!((found.time - root).abs() <= 1e-12, "{length}: {}", found.time);
             assert_eq!((times[1], times.len()), (second, count), "{length}: {times:?}");
         }
-        // 3/4 of the bracket and more, though inside it
+        // steps inside the bracket: two of at least 3/4 of its length, and one just below
         for (length, second) in [(1600.0, 5005.0), (1500.0, 5005.0), (1499.0, 5509.0)] {
             assert_eq!(search([4e3, 6e3], 4010.0, false, length).1[1], second, "{length}");
         }

@@ -76,7 +76,8 @@ pub(super) unsafe fn zeroed<'a>(name: &str, start: *mut f64, count: usize) -> Re
     for slot in &mut *slots {
         slot.write(0.0);
     }
-    // SAFETY: all were just written.
+    // SAFETY: the loop has written every slot, and a `MaybeUninit<f64>` that is written is laid out as its
+    // `f64`.
     Ok(unsafe { &mut *(std::ptr::from_mut(slots) as *mut [f64]) })
 }
 

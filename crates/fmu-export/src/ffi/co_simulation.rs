@@ -13,8 +13,8 @@ use crate::model::Model;
 functions! {
     /// `fmi2SetRealInputDerivatives`
     ///
-    /// Order 1 of continuous inputs, for the next step. One that is refused for what the description says
-    /// leaves all as they were.
+    /// Sets the derivatives of order 1 of continuous inputs for the next step. If the description does not
+    /// allow one of them, none is set.
     set_real_input_derivatives<Model>(
         references: *const ValueReference, count: usize, orders: *const Integer, values: *const Real
     ): SetRealInputDerivatives, |instance| {
@@ -50,8 +50,8 @@ macro_rules! status_functions {
     ($($type:ty: $c_name:literal $name:ident $call:ident, $found:expr;)*) => { $(
         #[doc = concat!("`", $c_name, "`")]
         ///
-        /// `fmi2Discard`, after a log, for a kind that this type has no status of: so asks FMI 2.0.5, section
-        /// 4.2.3.
+        /// Returns `fmi2Discard`, after a log, for a kind of status that does not have this type, as FMI
+        /// 2.0.5, section 4.2.3, asks.
         ///
         /// # Safety
         /// `component` is NULL or an instance; `value` is NULL or points to room for one value.

@@ -171,7 +171,7 @@ functions! {
     };
     /// `fmi2SetString`
     ///
-    /// One value that is refused leaves all as they were.
+    /// If one value is refused, none is set.
     set_string<Model>(
         references: *const ValueReference, count: usize, values: *const Text
     ): SetString, |instance| {
@@ -255,7 +255,7 @@ macro_rules! values {
             };
             #[doc = concat!("`", $set_name, "`")]
             ///
-            /// One value that is refused leaves all as they were.
+            /// If one value is refused, none is set.
             $set<Model>(
                 references: *const ValueReference, count: usize, values: *const $type
             ): $set_call, |instance| {

@@ -103,7 +103,8 @@ macro_rules! __fmi2_module {
                 visible: Boolean,
                 loggingOn: Boolean,
             ) -> Component {
-                // SAFETY: C promises what the standard asks for.
+                // SAFETY: the standard asks of the importer that the texts are NULL or end with a NUL, and
+                // that `functions` is NULL or points to callbacks of the stated types.
                 unsafe {
                     $crate::ffi::common::instantiate::<Exported>(
                         &$crate::ffi::Kinds::<Exported>::$kinds,
@@ -190,7 +191,9 @@ macro_rules! __fmi_functions {
             stringify!($generic))]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
-            // SAFETY: C promises what the standard asks for.
+            // SAFETY: the standard asks of the importer that a component is NULL or an instance of this model
+            // that is not freed, that pointers are NULL or point to as many elements as stated, that texts
+            // end with a NUL, and that callbacks are of their types.
             unsafe { $crate::ffi::$module::$generic::<$model>($($argument),*) }
         }
     )* };

@@ -196,7 +196,8 @@ macro_rules! __fmi3_unsupported {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name($c: $c_type $(, $unused: $type)*) -> Status {
             $(let _ = $unused;)*
-            // SAFETY: C promises what the standard asks for.
+            // SAFETY: the standard asks of the importer that the instance is NULL or one of this model that
+            // is not freed.
             unsafe { $crate::ffi::fmi3::$generic::<$model>($c) }
         }
     )* };

@@ -71,7 +71,7 @@ pub(super) unsafe fn free<M: Model>(component: Component) {
     let slot = component.cast::<Slot<M>>();
     // SAFETY: `component` is NULL or a slot that has not been dropped.
     if unsafe { slot.as_ref() }.is_some_and(|slot| slot.use_now.swap(FREED, Ordering::AcqRel) == IDLE) {
-        // SAFETY: no call is under way, and none begins.
+        // SAFETY: `slot` is not NULL, no call is under way, and none begins on a freed instance.
         unsafe { drop_slot(slot) };
     }
 }
@@ -79,8 +79,8 @@ pub(super) unsafe fn free<M: Model>(component: Component) {
 /// # Safety
 /// `slot` lives, and nobody uses it any more.
 unsafe fn drop_slot<M: Model>(slot: *mut Slot<M>) {
-    // If dropping the model panics, there is no instance left to report it. SAFETY: `slot` came from
-    // `Box::into_raw`, has not been dropped, and nobody uses it any more.
+    // If dropping the model panics, there is no instance left to report it.
+    // SAFETY: `slot` came from `Box::into_raw`, has not been dropped, and nobody uses it any more.
     let _ = catch(|| drop(unsafe { Box::from_raw(slot) }));
 }
 
@@ -115,7 +115,8 @@ pub(super) fn run<M: Model>(
         Err(panic) => instance.panicked(call, &panic),
     };
     if !slot.change(BUSY, IDLE) {
-        // SAFETY: freed meanwhile, so that no other call begins.
+        // SAFETY: the importer has freed the instance during this call, so that no other call begins, and
+        // this one uses the slot no more.
         unsafe { drop_slot(pointer.as_ptr()) };
     }
     types::status(status)

@@ -18,7 +18,7 @@ impl<M: Model> Kinds<M> {
     /// Co-simulation alone.
     pub const CO_SIMULATION: Self = Self { co_simulation: true, states: None };
 
-    /// What an instance of `kind` is made for, in FMI 2.0.
+    /// Returns what an instance of `kind` is made for, in FMI 2.0.
     pub(super) fn purpose(&self, kind: Type) -> Result<Purpose<M>, Failure> {
         let (interface, states) = match (kind, self.states) {
             (CO_SIMULATION, _) if self.co_simulation => (Interface::CoSimulation, &[][..]),

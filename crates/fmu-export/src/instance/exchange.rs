@@ -22,7 +22,7 @@ impl<M: ModelExchange> Instance<M> {
         self.now.phase = Phase::ContinuousTimeMode;
     }
 
-    /// True asks for Event Mode.
+    /// Completes a step of the solver. Returns whether the model asks for Event Mode.
     pub(crate) fn complete_step(&mut self) -> Result<bool, Failure> {
         self.now.model.complete_step(&mut self.logger.log())
     }

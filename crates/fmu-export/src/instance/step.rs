@@ -16,7 +16,7 @@ const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
 const CLOCK_ROUNDING: f64 = 1e-9;
 
 impl<M: Model> Instance<M> {
-    /// True where the step ended early, at an event.
+    /// Computes a step. Returns `true` where it ended early, at an event.
     pub(crate) fn do_step(&mut self, point: f64, size: f64) -> Result<bool, Failure> {
         self.begin_step(point, size)?;
         self.finish_step()
@@ -110,12 +110,12 @@ impl<M: Model> Instance<M> {
         self.purpose.event_mode
     }
 
-    /// How the last step ended.
+    /// Returns how the last step ended.
     pub(crate) fn last_step(&self) -> Status {
         self.last_step
     }
 
-    /// Where the last successful step ended [s].
+    /// Returns the time at which the last successful step ended [s].
     pub(crate) fn time(&self) -> f64 {
         self.now.time
     }

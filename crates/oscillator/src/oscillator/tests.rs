@@ -65,7 +65,8 @@ fn reference([c, k]: [f64; 2], start: KinematicState, rate: f64, time: f64) -> [
     now
 }
 
-/// What rounding refers to: the sum of the parts of ∫u, u, u̇ and ü, each as large as it may become.
+/// Returns the sizes to which rounding refers: the sums of the parts of ∫u, u, u̇ and ü, each as large as it
+/// may become.
 fn scales([c, k]: [f64; 2], start: KinematicState, rate: f64, time: f64) -> [f64; 4] {
     let [u, v, a] = [start.displacement, start.velocity, start.acceleration].map(f64::abs);
     // each derivative adds at most this, as does each integral the time

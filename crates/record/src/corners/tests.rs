@@ -167,7 +167,7 @@ fn corners_outside_a_part_are_not_found() {
     assert!(!Part { lanes: false, ..part }.find(0.25, 2).0);
 }
 
-/// A line through the origin, whose motion is bounded as over no time.
+/// A line through the origin, with the γ of a step of no length.
 fn line(c: f64, k: f64) -> Line<f64> {
     Line { c, k, force_at_zero: 0.0, growth: 1.0 }
 }

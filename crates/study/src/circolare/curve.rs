@@ -155,8 +155,8 @@ impl<'a> Curve<'a> {
         at.into_iter().map(|u| (self.stretch * u, self.tied(u))).collect()
     }
 
-    /// What the curve loses where its tie breaks, over its largest a from the end of the elastic branch to
-    /// there; `None` without a tie that breaks.
+    /// Returns what the curve loses where its tie breaks, over its largest a from the end of the elastic
+    /// branch to there; `None` without a tie that breaks.
     pub(super) fn tie_break(&self) -> Option<TieBreak> {
         let tie = self.tie()?;
         let breaks = tie.strength_displacement()?;

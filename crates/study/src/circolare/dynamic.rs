@@ -1,9 +1,9 @@
 //! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
-//! and the strength of a tie are divided by FC, masses stay. What counts of a record is the larger of |d|
-//! over the threshold of its side. The tie of the model does not break: a run that reaches its strength
-//! fails, and so does one that reaches `u_ins`.
+//! and the strength of a tie are divided by FC, masses stay. A record counts by the larger |d| over the
+//! threshold of its side. The tie of the model does not break: a run that reaches its strength fails, and so
+//! does one that reaches `u_ins`.
 
 use record::RecordSolver;
 use rocking_wall::scene::Floors;
@@ -20,7 +20,8 @@ use super::verdict::{Deciding, Governs, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
 use crate::ida::{DEFAULT_TAIL, Shaking};
 
-/// Ratio of factors that follow each other. A wall that fails between two and not at them is not seen.
+/// Ratio of factors that follow each other. A failure between two factors at which the wall passes is not
+/// found.
 const RATIO: f64 = 1.01;
 /// Powers of the ratio among which the lowest factor that fails is searched: 0.01 to 100, and 1.
 const POWERS: std::ops::RangeInclusive<i32> = -463..=463;
@@ -69,7 +70,8 @@ pub struct DynamicRun {
     pub factor: f64,
     /// Largest d on the sides u > 0 and u < 0 \[m\].
     pub d: [f64; 2],
-    /// Whether one of them exceeds `d_0`, or what ends the model before: the strength of the tie, or `u_ins`.
+    /// Whether one of them exceeds `d_0`, or the displacement at which the model ends before: that of the
+    /// strength of the tie, or `u_ins`.
     pub beyond_d0: bool,
 }
 
@@ -81,7 +83,7 @@ struct Thresholds {
     end: [f64; 2],
 }
 
-/// What the maxima of some runs say.
+/// The judgement of the maxima of some runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Judged {
     d: f64,
@@ -131,7 +133,7 @@ impl DynamicCheck {
         states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
     }
 
-    /// Whether every limit state holds.
+    /// Returns whether every limit state holds.
     pub fn passed(&self) -> bool {
         self.states().all(|(_, state)| state.passed)
     }
@@ -173,8 +175,8 @@ impl DynamicCheck {
     }
 }
 
-/// Runs the dynamic check; `None` without records. Without it deciding, a limit state whose site gives no S
-/// is left out.
+/// Runs the dynamic check; `None` without records. Where this check does not decide, a limit state whose site
+/// gives no S is left out.
 pub(super) fn check(
     parameters: &Parameters,
     floors: Option<&Floors>,

@@ -65,7 +65,7 @@ impl Sought {
         }
     }
 
-    /// Whether the largest value that passes is sought, not the smallest.
+    /// Returns whether the largest value that passes is sought, not the smallest.
     fn is_largest(self) -> bool {
         self == Self::Height
     }

@@ -29,7 +29,7 @@ impl Soil {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::A, Self::B, Self::C, Self::D, Self::E];
 
-    /// Its letter.
+    /// Returns the letter of the soil.
     pub fn name(self) -> &'static str {
         ["A", "B", "C", "D", "E"][self as usize]
     }

@@ -53,7 +53,7 @@ impl Records {
         Ok(Self { files, warnings, ..records })
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no records.
     pub fn is_empty(&self) -> bool {
         self.named.is_empty()
     }
@@ -63,8 +63,8 @@ impl Records {
         &self.named
     }
 
-    /// Returns what a wall feels of each: the record itself, or the motion of its floors, those of a strip
-    /// wall by their weights.
+    /// Returns the motion that acts on a wall under each record: the record itself, or the motion of its
+    /// floors, those of a strip wall by their weights.
     pub(super) fn felt(&self, floors: Option<&Floors>, wall: &Wall) -> Result<Vec<GroundMotion>, CheckError> {
         self.named.iter().map(|record| felt(record.motion.clone(), floors, wall)).collect()
     }

@@ -124,7 +124,7 @@ impl Statement {
         Ok(statement)
     }
 
-    /// What is stated of a limit state; `None` where its check is not made.
+    /// Returns the statements about a limit state; `None` where its check is not made.
     pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
         self.states[state as usize].as_ref()
     }

@@ -56,7 +56,7 @@ pub struct CheckTable {
     pub record_scale: RecordScale,
 }
 
-/// A limit state: the hazard, or a spectrum, and what the building has then.
+/// A limit state: the hazard or a spectrum, and the values of the building in this state.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitStateTable {
@@ -169,7 +169,7 @@ pub enum RecordScale {
     /// `a_g` S of the limit state.
     #[default]
     Ag,
-    /// They stay as they are.
+    /// The peaks stay as they are.
     None,
 }
 

@@ -53,7 +53,7 @@ impl Side {
         if sign < 0.0 { Self::Negative } else { Self::Positive }
     }
 
-    /// Its name in tables, `u > 0` or `u < 0`.
+    /// Returns the name of the side in tables, `u > 0` or `u < 0`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Positive => "u > 0",
@@ -80,7 +80,7 @@ pub enum Deciding {
 }
 
 impl Deciding {
-    /// Its name.
+    /// Returns the name of the check.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sld => "SLD",

@@ -24,7 +24,7 @@ impl Case {
             format!("building = {{ storeys = 3, period = {period}, height_ratio = 0.9 }}\n")
         });
         let damping = self.period.map_or("", |_| ", building_damping = 0.1");
-        // the shape is held: S and T_D depend on a_g on soil A no more than T_D does, which 1 g bounds
+        // on soil A the shape of the spectrum does not depend on a_g, except for T_D
         let site = format!("{{ ag = {}, F0 = 2.45, TC = 0.32{damping} }}", self.ag * factor);
         format!(
             "[geometry]\nmechanism = {mechanism:?}\nheight = {}\nthickness = {thickness}\nwidth = {width}\n\

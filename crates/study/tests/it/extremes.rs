@@ -10,7 +10,8 @@ fn every_extreme_keeps_its_limit() {
     assert!(broken.is_empty(), "{broken:#?}");
 }
 
-/// A value that equals its limit is written down, not measured. Only a plastic impact leaves exactly nothing.
+/// A value that equals its limit would suggest that it was copied and not measured. Only a plastic impact may
+/// equal it: it leaves a velocity of exactly 0.
 #[test]
 fn every_extreme_is_measured() {
     for extreme in extremes().unwrap() {

@@ -108,7 +108,7 @@ impl Capacity {
     }
 }
 
-/// What the table and the CSV have in common.
+/// Returns the numbers of a point that the table and the CSV have in common.
 fn values(point: &CapacityPoint) -> [f64; 6] {
     [
         point.displacement,

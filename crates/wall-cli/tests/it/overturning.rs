@@ -12,8 +12,8 @@ use serde_json::Value;
 
 use crate::command_line::{folder, refused, text, wall};
 
-/// What becomes of the default parapet under `scale` times the synthetic motion, with a tie of a stiffness
-/// [N/m] against both sides.
+/// Returns the fate of the default parapet under `scale` times the synthetic motion, with a tie of a
+/// stiffness [N/m] against both sides.
 fn fate(scale: f64, tie_stiffness: f64) -> Fate {
     let tie_side = TieSide::Both;
     let parameters = Parameters { tie_height: 3.0, tie_stiffness, tie_side, ..Parameters::default() };

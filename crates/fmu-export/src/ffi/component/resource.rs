@@ -16,7 +16,7 @@ use std::panic;
 pub(super) struct Resource<M: Model>(RefCell<Instance<M>>);
 
 impl<M: ModelExchange> Resource<M> {
-    /// A new instance; none, after a log, if token, folder or model refuse.
+    /// Makes an instance; `None`, after a log, if token, folder or model refuse.
     pub(super) fn new(
         function: &str,
         [name, token, resources]: [String; 3],
@@ -50,7 +50,7 @@ impl<M: ModelExchange> Resource<M> {
 }
 
 impl<M: Model> Resource<M> {
-    /// Does what `call` asks for, if it is allowed in the present phase.
+    /// Runs `body`, if `call` is allowed in the present phase.
     pub(super) fn run(
         &self,
         call: Call,
@@ -60,7 +60,7 @@ impl<M: Model> Resource<M> {
         self.0.try_borrow_mut().map_or(Status::Error, |mut instance| status(instance.call(call, body)))
     }
 
-    /// Returns what `call` asks for, if it is allowed in the present phase.
+    /// Returns what `body` returns, if `call` is allowed in the present phase.
     pub(super) fn ask<T>(
         &self,
         call: Call,
@@ -84,7 +84,8 @@ impl<M: Model> Resource<M> {
         self.ask(call, |instance| {
             let mut values = vec![MaybeUninit::new(T::default()); count];
             write(instance, &mut values)?;
-            // SAFETY: every value was set above, and `write` can only replace it.
+            // SAFETY: every value is initialised above, and no `write` of this crate makes one uninitialised
+            // again.
             Ok(values.into_iter().map(|value| unsafe { value.assume_init() }).collect())
         })
     }
@@ -103,7 +104,7 @@ impl<M: Model> Resource<M> {
         })
     }
 
-    /// Does what `call` asks for with as many values as references.
+    /// Runs `set`, if `call` is allowed in the present phase and there are as many values as references.
     pub(super) fn set<T>(
         &self,
         call: Call,
@@ -118,7 +119,7 @@ impl<M: Model> Resource<M> {
     }
 }
 
-/// What an instance of this boundary is made for.
+/// Returns what an instance of this boundary is made for.
 pub(super) fn purpose<M: Model>(interface: Interface, states: &'static [M::Real]) -> Purpose<M> {
     Purpose { version: Version::Fmi3, interface, states, event_mode: true, early_return: false }
 }

@@ -66,7 +66,8 @@ macro_rules! values {
                 references: *const ValueReference, count: usize, values: *mut $type, value_count: usize
             ): $get_call, |instance| {
                 check_count("nValues", value_count, count)?;
-                // SAFETY: there are as many references and places as stated.
+                // SAFETY: `references` and `values` are NULL or point to `count` elements, as many as
+                // `value_count`, that nobody else changes during the call.
                 let (references, values) = unsafe { to_get(references, values, count) }?;
                 instance.$get_by(references, values $(, $serves)?)
             };
@@ -75,7 +76,9 @@ macro_rules! values {
                 references: *const ValueReference, count: usize, values: *const $type, value_count: usize
             ): $set_call, |instance| {
                 check_count("nValues", value_count, count)?;
-                // SAFETY: there are as many references and values as stated.
+                // SAFETY: `references` and `values` are NULL or point to `count` elements, as many as
+                // `value_count`, that stay as they are during the call. A stored element has the layout of
+                // its C type.
                 let (references, values) = unsafe { to_set(references, values.cast::<$stored>(), count) }?;
                 instance.$set_by(references, values $(, $serves)?)
             };

@@ -41,7 +41,7 @@ impl Case {
         Ok(Self { scene, statement, records, name: place.name().into(), text: place.text().into() })
     }
 
-    /// An error with the line of the table that it is about.
+    /// Adds to an error the line of the table that it is about.
     pub(super) fn located<T>(&self, outcome: Result<T, study::circolare::CheckError>) -> Result<T> {
         outcome.map_err(|error| in_table(error, &Place::new(&self.name, &self.text)).into())
     }
@@ -79,7 +79,7 @@ pub(super) fn headline(verdict: &Verdict) -> String {
     format!("{passed}: {} governs with zeta_E = {:.3} ({side})", governs.limit_state.name(), governs.zeta)
 }
 
-/// What decides.
+/// Names the checks that decide.
 fn deciding(statement: &Statement) -> String {
     let method = match statement.method {
         Method::Nonlinear => "SLV and SLC by displacement",

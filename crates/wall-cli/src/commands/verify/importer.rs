@@ -42,7 +42,7 @@ pub(super) struct Fmu {
 }
 
 impl Fmu {
-    /// Opens the FMI 2.0 unit at `path` and loads its library, which may be anyone's.
+    /// Opens the FMI 2.0 unit at `path` and loads its library. Code of the library runs, whoever made it.
     pub(super) fn open(path: &Path) -> Result<Self> {
         let general = General::open(path)?;
         let platform = match (OS, ARCH) {
@@ -63,7 +63,8 @@ impl Fmu {
         let mut fmu = Self { path: path.to_owned(), guid, library: None, folder, general: general.clone() };
         let library = fmu.folder.join(format!("wall{DLL_SUFFIX}"));
         std::fs::write(&library, content).with_context(|| library.display().to_string())?;
-        // SAFETY: the user has named the library, whose code runs by that.
+        // SAFETY: loading runs the initialisers of the library, and nothing can check that they are sound.
+        // The user asks for that by naming the FMU.
         let loaded = unsafe { Library::new(&library) };
         fmu.library = Some(loaded.with_context(|| format!("{name}: {file} cannot be loaded"))?);
         Ok(fmu)

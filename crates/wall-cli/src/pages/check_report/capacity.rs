@@ -141,7 +141,7 @@ fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
     }
 }
 
-/// T0, `d_y` and `a_y`.
+/// Adds T0, `d_y` and `a_y`.
 fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
     let parameters = &case.report.scene.parameters;
     let SideVerdict { t0, dy, ay, a0, d0, .. } = *verdict;
@@ -176,7 +176,7 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
     }
 }
 
-/// Where the tie breaks, and what the curve loses there.
+/// Adds where the tie breaks, and what the curve loses there.
 fn tie(case: &Case<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
     let parameters = &case.report.scene.parameters;
     let [n_s, k, g0, h, y] = [

@@ -17,14 +17,14 @@ pub(super) struct Given {
 }
 
 impl Given {
-    /// Of the text of a scene, which has been read before, and of `--set`.
+    /// Collects what the text of a scene, which has been read before, and `--set` state.
     pub(super) fn new(text: &str, set: &[String]) -> Self {
         let name =
             |set: &String| set.split_once('=').map_or(set.as_str(), |(name, _)| name).trim().to_owned();
         Self { scene: text.parse().unwrap_or_default(), set: set.iter().map(name).collect() }
     }
 
-    /// Where a parameter of a group comes from.
+    /// Returns where a parameter of a group comes from.
     fn parameter(&self, group: &str, name: &str) -> &'static str {
         let stated = |name| self.scene.get(group).is_some_and(|group| group.get(name).is_some());
         if self.set.iter().any(|set| set == name) {
@@ -51,7 +51,7 @@ impl Given {
         keys.iter().try_fold(table?, |value, key| value.get(key)).and_then(at)
     }
 
-    /// Where a statement comes from.
+    /// Returns where a statement comes from.
     fn statement(&self, keys: &[&str]) -> String {
         let stated = keys.iter().find(|key| self.check(key).is_some());
         stated.map_or_else(|| "default".to_owned(), |key| format!("[check] {key}"))
@@ -120,7 +120,7 @@ fn computed_value(case: &Case<'_>, parameters: &Parameters, name: &str) -> Strin
     }
 }
 
-/// What the engineer states, in words, and where.
+/// Describes the statements of the engineer, and where each comes from.
 pub(super) fn statements(case: &Case<'_>) -> String {
     let (given, statement) = (&case.given, case.report.statement);
     let mut rows = Vec::new();

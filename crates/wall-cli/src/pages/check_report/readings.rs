@@ -13,7 +13,7 @@ fn is_at_height(case: &Case<'_>) -> bool {
     any_demand(case, |demand| matches!(demand, Demand::Floor(_)))
 }
 
-/// Whether there is a check of accelerations of a wall whose T0 is such.
+/// Returns whether there is a check of accelerations of a side whose T0 fulfils a condition.
 fn is_activated(case: &Case<'_>, such: fn(f64) -> bool) -> bool {
     let sides = case.report.verdict.sides.iter();
     sides.map(|(_, side)| side).any(|side| (side.sld.is_some() || side.slv_q.is_some()) && such(side.t0))
@@ -23,7 +23,7 @@ fn is_by_code(case: &Case<'_>) -> bool {
     case.report.statement.states.iter().flatten().any(|given| matches!(given.source, Source::Code(_)))
 }
 
-/// Whether a reading bears on a check, and the reading; formulas are in braces.
+/// A test whether a reading bears on a check, and the reading with its formulas in braces.
 type Reading = (fn(&Case<'_>) -> bool, &'static str);
 
 const READINGS: [Reading; 13] = [

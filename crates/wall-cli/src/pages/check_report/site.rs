@@ -102,7 +102,7 @@ pub(super) fn values(case: &Case<'_>) -> String {
     place(case) + &table(&heads, &rows)
 }
 
-/// Where the wall stands, in words.
+/// Describes where the wall stands.
 fn place(case: &Case<'_>) -> String {
     let mut said = Vec::new();
     let given = &case.given;
@@ -140,7 +140,7 @@ fn place(case: &Case<'_>) -> String {
     if said.is_empty() { String::new() } else { format!("<p>{}.</p>\n", said.join("; ")) }
 }
 
-/// What the records' spectra become.
+/// Describes how the spectra of the records are combined.
 fn combined(case: &Case<'_>) -> &'static str {
     let enough = case.report.records.named().len() >= MEAN_COUNTS_FROM;
     if enough { "mean spectrum" } else { "envelope of the spectra" }
