@@ -1,9 +1,10 @@
 //! Corners passed in a step, as long as u̇ keeps its sign (docs/record-path.md, §4).
 
 use crate::lanes::{Lanes, Waiting};
+use crate::line::{Bounds, Course, Line};
 use crate::number::{BranchRow, Number, Row, index};
 use crate::solver::{Observer, RecordSolver};
-use crate::table::{Table, exit};
+use crate::table::exit;
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
@@ -15,78 +16,6 @@ const SMALL_BEND: f64 = 1e-4;
 const MOST_GUESSES: u32 = 4;
 /// Ratios of the mean velocity of a passage to those at its ends between which a quintic is close to t(u).
 const EVEN: [f64; 2] = [0.3, 3.0];
-
-/// 1/n!.
-const INVERSE_FACTORIALS: [f64; 24] = {
-    let mut inverse = [1.0; 24];
-    let mut n = 1;
-    while n < inverse.len() {
-        inverse[n] = inverse[n - 1] / n as f64;
-        n += 1;
-    }
-    inverse
-};
-
-/// The line of the branch of each lane, ü = p − c u̇ − f(0) − k u, and γ over a step.
-#[derive(Clone, Copy)]
-pub(crate) struct Line<N> {
-    c: N,
-    k: N,
-    pub(crate) force_at_zero: N,
-    growth: N,
-}
-
-impl<N: Number> Line<N> {
-    #[inline(always)]
-    pub(crate) fn look_up(token: N::Token, table: &Table, branches: N::Branches) -> Self {
-        let look_up = |row: &BranchRow| N::look_up(token, row, branches);
-        Self {
-            c: look_up(&table.damping),
-            k: look_up(&table.stiffness),
-            force_at_zero: look_up(&table.force_at_zero),
-            growth: look_up(&table.growth),
-        }
-    }
-
-    #[inline(always)]
-    fn force(&self, u: N) -> N {
-        self.force_at_zero + self.k * u
-    }
-
-    #[inline(always)]
-    fn acceleration(&self, [u, v]: [N; 2], forcing: N) -> N {
-        forcing - self.c * v - self.force(u)
-    }
-
-    /// Returns A, the bound on |ü| between two instants, by the largest |p| and by |u̇| and |f| there.
-    #[inline(always)]
-    pub(crate) fn most(&self, forcing: N, from: [N; 2], to: [N; 2]) -> N {
-        let force = self.force(from[0]).abs().max(self.force(to[0]).abs());
-        self.growth * (forcing + self.c * from[1].abs().max(to[1].abs()) + force)
-    }
-
-    /// Returns u, u̇ and ü `time` after an instant, under a forcing that changes at `rate`: with E₀ = ü, E₁ =
-    /// t d³u/dt³ and Eₙ = −c t Eₙ₋₁ − k t² Eₙ₋₂, u̇ grows by t Σ Eₙ/(n+1)! and u by t (u̇ + t Σ Eₙ/(n+2)!).
-    #[inline(always)]
-    fn after(&self, terms: usize, time: N, [u, v, a]: [N; 3], rate: N) -> [N; 3] {
-        let Self { c, k, .. } = *self;
-        let (p, q) = (-(c * time), -(k * time * time));
-        // two terms at a time: the chain of terms that depend on each other is half as long
-        let (p2, q2) = (p * p + q, p * q);
-        let (mut even, mut odd) = (a, time * (rate - c * a - k * v));
-        let mut sum_v = a + odd * 0.5;
-        let mut sum_u = a * 0.5 + odd * (1.0 / 6.0);
-        for n in (2..terms).step_by(2) {
-            (even, odd) = (p * odd + q * even, p2 * odd + q2 * even);
-            let [of_v, of_even, of_odd] =
-                [INVERSE_FACTORIALS[n + 1], INVERSE_FACTORIALS[n + 2], INVERSE_FACTORIALS[n + 3]];
-            sum_v = sum_v + (even * of_v + odd * of_even);
-            sum_u = sum_u + (even * of_even + odd * of_odd);
-        }
-        let (dv, du) = (time * sum_v, time * (v + time * sum_u));
-        [u + du, v + dv, a + (rate * time - c * dv - k * du)]
-    }
-}
 
 /// A part of a step, along the branch that each lane is on.
 #[derive(Clone, Copy)]
@@ -149,14 +78,12 @@ impl<N: Number> Part<N> {
         Self { lanes, branch, line, from, to, length, forcing: p0, rate, impacts: p0.like(0.0) }
     }
 
-    /// Finds the lanes whose u̇ keeps its sign, and those in which u leaves its chord by a margin at most
-    /// (docs/record-path.md, §3), with |u̇| and |f| at both ends for V and f̂.
+    /// Finds where u goes in the part.
     #[inline(always)]
-    fn keeps_its_sign(&self, most_forcing: N) -> (N::Mask, N) {
-        let Self { line, from: [u0, v0, _], to: [u1, v1, _], length, .. } = *self;
-        let change = line.most(most_forcing, [u0, v0], [u1, v1]) * length;
-        let keeps = v0.like(0.0).below(v0 * v1) & change.below(v0.abs() + v1.abs());
-        (keeps, change * length * 0.125)
+    fn course(&self, bounds: &Bounds<N>) -> Course<N::Mask> {
+        let Self { line, from, to, length, forcing, rate, .. } = *self;
+        let forcing = forcing.abs().max((forcing + rate * length).abs());
+        line.course([from[0], from[1]], [to[0], to[1]], forcing, length, bounds)
     }
 
     /// Finds when lanes reach a corner, and u̇ there: a guess is corrected by the derivatives at its time,
@@ -221,7 +148,8 @@ impl<N: Number> Part<N> {
 }
 
 impl<O: Observer> Lanes<'_, O> {
-    /// Goes through the corners of a step as long as u̇ keeps its sign.
+    /// Takes a part that leaves its branch through the corner ahead, and through others, up to the end of the
+    /// step.
     #[inline(always)]
     pub(crate) fn pass_corners<N: Number>(
         &self,
@@ -229,39 +157,29 @@ impl<O: Observer> Lanes<'_, O> {
         first: usize,
         mut part: Part<N>,
     ) -> Arrival<N> {
-        let (rows, table) = (&self.rows, &self.solver.table);
-        let lowest = N::load(token, &rows.limits[0], first);
-        let highest = N::load(token, &rows.limits[1], first);
-        let most_forcing = N::load(token, &rows.forcing, first);
-        let zero = N::splat(token, 0.0);
-        let (end, none) = ([zero; 2], part.lanes & !part.lanes);
-        let mut arrival =
-            Arrival { lanes: none, end, branch: part.branch, corners: zero, impacts: zero, left: zero };
-        for corners in 0..=MOST_CORNERS {
-            if corners > 0 {
-                let curved;
-                (part, curved) = self.cross(token, &part);
-                if N::bits(curved) != 0 {
-                    arrival.take(curved, &part, part.from, corners, part.length);
-                }
-            }
-            let (keeps, margin) = part.keeps_its_sign(most_forcing);
-            if corners == 0 && N::LANES > 1 {
-                // steps side by side are whole ones that leave the branch
-                part.lanes = part.lanes & keeps;
-                continue;
-            }
-            let (u, branches) = (part.to[0], part.branch.branches());
-            let lower = N::look_up(token, &table.ends[0], branches).max(lowest);
-            let upper = N::look_up(token, &table.ends[1], branches).min(highest);
-            let inside = lower.below(u) & u.below(upper);
-            let (low, high) = (u.min(part.from[0]) - margin, u.max(part.from[0]) + margin);
-            let near = lower.at_most(low) & high.at_most(upper);
-            arrival.take(part.lanes & inside & (keeps | near), &part, part.to, corners, zero);
-            part.lanes = part.lanes & keeps & !inside;
-            if N::bits(part.lanes) == 0 || corners == MOST_CORNERS {
+        let (rows, table, zero) = (&self.rows, &self.solver.table, N::splat(token, 0.0));
+        let none = part.lanes & !part.lanes;
+        let mut arrival = Arrival {
+            lanes: none,
+            end: [zero; 2],
+            branch: part.branch,
+            corners: zero,
+            impacts: zero,
+            left: zero,
+        };
+        for corners in 1..=MOST_CORNERS {
+            if N::bits(part.lanes) == 0 {
                 break;
             }
+            let curved;
+            (part, curved) = self.cross(token, &part);
+            if N::bits(curved) != 0 {
+                arrival.take(curved, &part, part.from, corners, part.length);
+            }
+            let Course { stays, leaves } =
+                part.course(&Bounds::look_up(token, table, rows, first, part.branch));
+            arrival.take(part.lanes & stays, &part, part.to, corners, zero);
+            part.lanes = part.lanes & leaves;
         }
         arrival
     }
@@ -278,12 +196,11 @@ impl<O: Observer> Lanes<'_, O> {
         };
         let (corner, exit) = (side(&table.ends), side(&table.exits));
         let (found, time, velocity) = part.find(corner, table.terms);
-        let is = |kind: f64| (zero + (kind - 0.5)).below(exit) & exit.below(zero + (kind + 0.5));
-        let impact = is(exit::IMPACT);
+        let beyond = |kind: f64| (zero + kind).below(exit);
+        let (impact, ordinary) = (beyond(exit::CURVED), beyond(exit::CLOSED) & !beyond(exit::CURVED));
         let velocity = N::select(impact, velocity * self.solver.passage_factor, velocity);
         let rest_speed = zero + self.solver.motion.rest_speed();
-        let lanes =
-            found & (is(exit::ORDINARY) | is(exit::CURVED) | (impact & rest_speed.at_most(velocity.abs())));
+        let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
         let branch = N::select(lanes, other, part.branch);
         let line = Line::look_up(token, table, branch.branches());
@@ -292,8 +209,8 @@ impl<O: Observer> Lanes<'_, O> {
         let length = part.length - time;
         let to = line.after(table.terms, length, from, part.rate);
         let impacts = part.impacts + N::select(lanes & impact, zero + 1.0, zero);
-        let curved = lanes & is(exit::CURVED);
-        let lanes = lanes & !is(exit::CURVED);
+        let curved = lanes & ordinary & beyond(exit::ORDINARY);
+        let lanes = lanes & !curved;
         (Part { lanes, branch, line, from, to, length, forcing, impacts, ..*part }, curved)
     }
 
@@ -336,7 +253,9 @@ impl<O: Observer> Lanes<'_, O> {
         let to = line.after(table.terms, length, from, rate);
         let (lanes, impacts) = (N::mask(token, 1), N::splat(token, 0.0));
         let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts };
-        let arrival = self.pass_corners(token, first, part);
+        let Course { stays, leaves } = part.course(&Bounds::look_up(token, table, rows, first, branch));
+        let mut arrival = self.pass_corners(token, first, Part { lanes: leaves, ..part });
+        arrival.take(stays, &part, to, 0, impacts);
         self.arrive(token, first, &arrival);
         let stuck = 1 & !N::bits(arrival.lanes);
         if O::SEES && self.rows.share[first] == 0.0 && stuck == 0 {

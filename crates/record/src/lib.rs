@@ -23,6 +23,7 @@ mod corners;
 mod curved;
 mod forcing;
 mod lanes;
+mod line;
 mod number;
 mod plain;
 mod regularised;

@@ -1,9 +1,10 @@
 //! Steps on branches with constant damping: plain steps, four at once, and the single steps of lanes that
 //! wait (docs/record-path.md, §2 and §3).
 
-use crate::corners::{Line, Part};
+use crate::corners::Part;
 use crate::forcing::AT_ONCE;
 use crate::lanes::{Lanes, Rows, Waiting};
+use crate::line::{Bounds, Line};
 use crate::number::{BranchRow, Number, WIDTH, index};
 use crate::responses::{ROWS_AHEAD, Responses};
 use crate::solver::Observer;
@@ -28,20 +29,6 @@ impl<N: Number> Range<N> {
     }
 }
 
-/// What bounds the motion of each lane on its branch.
-#[derive(Clone, Copy)]
-struct Bounds<N> {
-    /// Where one step, and where steps at once, may start and end.
-    range: Range<N>,
-    range4: Range<N>,
-    /// A h over one step and over four \[m/s\].
-    change: N,
-    change4: N,
-    /// Where u may be: on the branch, and where it is known to stay \[m\].
-    lower: N,
-    upper: N,
-}
-
 /// What lanes have come to: u and u̇, their steps, and the extremes at the ends of these.
 #[derive(Clone, Copy)]
 struct Reached<N> {
@@ -64,7 +51,7 @@ impl<N: Number> Reached<N> {
     #[inline(always)]
     fn take(&mut self, lanes: N::Mask, [u, v]: [N; 2], steps: N) {
         self.now = [N::select(lanes, u, self.now[0]), N::select(lanes, v, self.now[1])];
-        self.steps = N::select(lanes, self.steps + steps, self.steps);
+        self.steps = N::select(lanes, steps, self.steps);
         self.highest = self.highest.max(self.now[0]);
         self.lowest = self.lowest.min(self.now[0]);
     }
@@ -114,23 +101,21 @@ impl<O: Observer> Lanes<'_, O> {
         if N::LANES == 1 && self.rows.share[first] > 0.0 {
             return self.rest_of_step::<N>(token, first);
         }
-        let bounds = self.bounds::<N>(token, first);
+        let branch = N::load(token, &self.rows.branch, first);
+        let bounds = Bounds::look_up(token, &self.solver.table, &self.rows, first, branch);
+        let (range, change) = self.plain_range::<N>(token, first, &bounds);
         let [u, v] = [N::load(token, &self.rows.u, first), N::load(token, &self.rows.v, first)];
-        let speed = v.abs();
-        // from this speed on u̇ keeps its sign over four steps, so that u stays between its values at their
-        // ends
-        let steady = bounds.change4.at_most(speed)
-            & speed.at_most(bounds.range4.speed)
-            & bounds.lower.at_most(u)
-            & u.at_most(bounds.upper);
+        // from this speed on u̇ keeps its sign over the steps: u stays between its values at their ends
+        let steady = change.at_most(v.abs())
+            & Range { low: bounds.within[0], high: bounds.within[1], ..range }.holds([u, v]);
         let open = |rows: &Rows| N::load(token, &rows.index, first).below(N::load(token, &rows.limit, first));
-        let mut ready = N::bits((bounds.range4.holds([u, v]) | steady) & open(&self.rows)) & busy;
+        let mut ready = N::bits((range.holds([u, v]) | steady) & open(&self.rows)) & busy;
         let few = FEW.min(busy.count_ones() - 1);
         if ready.count_ones() > few {
             let goes = if N::LANES == 1 {
-                self.plain_alone(token, first, &bounds, ready)
+                self.plain_alone(token, first, &range, ready)
             } else if let Some(responses) = responses {
-                self.plain_abreast(token, first, &bounds, (ready, few), responses)
+                self.plain_abreast(token, first, &range, (ready, few), responses)
             } else {
                 N::mask(token, 0)
             };
@@ -150,28 +135,19 @@ impl<O: Observer> Lanes<'_, O> {
         Waiting { ended, stuck: grown & !ended | stuck }
     }
 
-    /// Finds what bounds the motion on the branch of each lane.
+    /// Finds where plain steps may start and end, and A L, the most by which u̇ changes over those taken at
+    /// once \[m/s\].
     #[inline(always)]
-    fn bounds<N: Number>(&self, token: N::Token, first: usize) -> Bounds<N> {
-        let (rows, table, step) = (&self.rows, &self.solver.table, self.solver.step);
+    fn plain_range<N: Number>(&self, token: N::Token, first: usize, bounds: &Bounds<N>) -> (Range<N>, N) {
+        let (rows, table) = (&self.rows, &self.solver.table);
         let branches = N::load(token, &rows.branch, first).branches();
-        let look_up = |row: &BranchRow| N::look_up(token, row, branches);
         let driving = N::load(token, &rows.driving, first);
-        let bounded = driving + look_up(&table.damping_share) * driving;
-        let [most, most4] = [look_up(&table.growth) * bounded, look_up(&table.plain_growth) * bounded];
-        let step4 = look_up(&table.at_once) * step;
-        let (margin, margin4) = (most * (0.125 * step * step), most4 * (step4 * step4 * 0.125));
-        let lower = look_up(&table.ends[0]).max(N::load(token, &rows.limits[0], first));
-        let upper = look_up(&table.ends[1]).min(N::load(token, &rows.limits[1], first));
-        let speed = look_up(&table.speed_share) * driving;
-        Bounds {
-            range: Range { low: lower + margin, high: upper - margin, speed },
-            range4: Range { low: lower + margin4, high: upper - margin4, speed },
-            change: most * step,
-            change4: most4 * step4,
-            lower,
-            upper,
-        }
+        let bounded = driving + N::look_up(token, &table.damping_share, branches) * driving;
+        let length = table.at_once as f64 * self.solver.step;
+        let most = N::look_up(token, &table.plain_growth, branches) * bounded;
+        let margin = most * (0.125 * length * length);
+        let [low, high] = [bounds.within[0] + margin, bounds.within[1] - margin];
+        (Range { low, high, speed: bounds.speed }, most * length)
     }
 
     /// Takes plain steps side by side, by the responses of the branches to the record.
@@ -180,19 +156,16 @@ impl<O: Observer> Lanes<'_, O> {
         &mut self,
         token: N::Token,
         first: usize,
-        bounds: &Bounds<N>,
+        range: &Range<N>,
         ready: (u8, u32),
         responses: &Responses,
     ) -> N::Mask {
         let rows = &self.rows;
         let mut ahead: [&[[f64; 2]]; WIDTH] = [&[]; WIDTH];
         for (lane, ahead) in ahead.iter_mut().enumerate() {
-            let branch = index(rows.branch[lane]);
-            let start = get(&responses.starts, branch);
-            let at_once = index(get(&self.solver.table.at_once, branch));
-            *ahead = responses.ahead(index(start), index(rows.index[lane]), at_once);
+            *ahead = responses.ahead(index(rows.branch[lane]), index(rows.index[lane]));
         }
-        self.plain_steps(token, first, bounds, ready, ROWS_AHEAD, |row| {
+        self.plain_steps(token, first, range, ready, ROWS_AHEAD, |row| {
             N::unzip(token, |lane| ahead[lane][row])
         })
     }
@@ -203,16 +176,16 @@ impl<O: Observer> Lanes<'_, O> {
         &mut self,
         token: N::Token,
         first: usize,
-        bounds: &Bounds<N>,
+        range: &Range<N>,
         ready: u8,
     ) -> N::Mask {
         let (rows, record) = (&self.rows, self.record);
         let branch = index(rows.branch[first]);
-        let (map, at_once) = (self.solver.table.maps[branch], index(get(&self.solver.table.at_once, branch)));
+        let (map, at_once) = (self.solver.table.maps[branch], self.solver.table.at_once);
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
         let p = record.forcing.from(sample, (count - 1) * at_once + AT_ONCE + 1);
-        self.plain_steps(token, first, bounds, (ready, 0), count, |row| {
+        self.plain_steps(token, first, range, (ready, 0), count, |row| {
             let response = map.respond(&p[row * at_once..][..=AT_ONCE]);
             N::unzip(token, |_| response)
         })
@@ -225,7 +198,7 @@ impl<O: Observer> Lanes<'_, O> {
         &mut self,
         token: N::Token,
         first: usize,
-        bounds: &Bounds<N>,
+        range: &Range<N>,
         (ready, few): (u8, u32),
         count: usize,
         response: impl Fn(usize) -> [N; 2],
@@ -236,26 +209,27 @@ impl<O: Observer> Lanes<'_, O> {
             look_up_rows::<N, _>(token, &table.plain_steps[0], branches),
             look_up_rows::<N, _>(token, &table.plain_steps[1], branches),
         ];
-        let at_once = N::look_up(token, &table.at_once, branches);
         let factor = N::load(token, &rows.factor, first);
         let room = N::load(token, &rows.limit, first) - N::load(token, &rows.index, first);
         let started = N::mask(token, ready);
         let mut goes = started;
         let mut reached = Reached::start(token, rows, first);
         let [mut u, mut v] = reached.now;
+        let mut steps = reached.steps;
         for row in 0..count {
             let [of_u, of_v] = response(row);
             let next_u = u + ((factor * of_u + u_force) + (uu * u + uv * v));
             v = v + ((factor * of_v + v_force) + (vu * u + vv * v));
             u = next_u;
-            goes = goes & bounds.range4.holds([u, v]) & reached.steps.below(room);
+            goes = goes & range.holds([u, v]) & steps.below(room);
             if O::SEES && N::bits(goes) != 0 {
                 let sample = index(self.rows.index[first] + reached.steps.lane(0));
-                let (from, count) = (reached.now.map(|x| x.lane(0)), index(at_once.lane(0)));
+                let (from, count) = (reached.now.map(|x| x.lane(0)), table.at_once);
                 self.see_steps(first, sample, from, count - 1);
                 self.see(sample + count, [u.lane(0), v.lane(0)]);
             }
-            reached.take(goes, [u, v], at_once);
+            steps = steps + table.at_once as f64;
+            reached.take(goes, [u, v], steps);
             if N::bits(goes).count_ones() <= few {
                 break;
             }
@@ -294,17 +268,16 @@ impl<O: Observer> Lanes<'_, O> {
         let mut reached = Reached::start(token, &self.rows, first);
         let before = reached.now;
         let part = self.stay(token, first, bounds, waits, &mut reached);
-        let arrival =
-            if N::bits(part.lanes) == 0 { None } else { Some(self.pass_corners(token, first, part)) };
         if O::SEES {
             let sample = index(self.rows.index[first]);
             self.see_steps(first, sample, before.map(|x| x.lane(0)), index(reached.steps.lane(0)));
         }
         reached.store(token, waits, &mut self.rows, first);
         let mut none = N::bits(reached.steps.below(N::splat(token, 1.0))) & waiting;
-        if let Some(arrival) = arrival {
-            none &= !N::bits(arrival.lanes);
+        if N::bits(part.lanes) != 0 {
+            let arrival = self.pass_corners(token, first, part);
             self.arrive(token, first, &arrival);
+            none &= !N::bits(arrival.lanes);
             if O::SEES && N::bits(arrival.lanes) != 0 && self.rows.share[first] == 0.0 {
                 self.see_now(first);
             }
@@ -330,9 +303,8 @@ impl<O: Observer> Lanes<'_, O> {
             look_up_rows::<N, _>(token, &table.one_step[0], branches),
             look_up_rows::<N, _>(token, &table.one_step[1], branches),
         ];
-        let [lower, upper] = look_up_rows::<N, _>(token, &table.ends, branches);
         let line = Line::look_up(token, table, branches);
-        let eighth = 0.125 * self.solver.step * self.solver.step;
+        let length = N::splat(token, self.solver.step);
         let furthest = self.record.forcing.count() - 1;
         // lanes that do not wait may be near the end of the record
         let most = if N::LANES == 1 { AT_ONCE.min(furthest - index(rows.index[first])) } else { AT_ONCE };
@@ -344,36 +316,23 @@ impl<O: Observer> Lanes<'_, O> {
         let factor = N::load(token, &rows.factor, first);
         let p = |n: usize| factor * N::of_lanes(token, |lane| ahead[lane][n]);
         let (mut from, mut p0) = (reached.now, p(0));
-        let mut from_holds = bounds.range.holds(from);
-        let (none, one) = (goes & !goes, N::splat(token, 1.0));
+        let none = goes & !goes;
         let (mut leaving, mut end, mut forcing) = (none, from, [p0; 2]);
         for n in 1..=most {
             let p1 = p(n);
             let q = [p0 - line.force_at_zero, p1 - line.force_at_zero];
             let to = [from[0] + change(u_by, from, q), from[1] + change(v_by, from, q)];
-            let to_holds = bounds.range.holds(to);
-            let inside = lower.below(to[0]) & to[0].below(upper);
-            let (speed0, speed1) = (from[1].abs(), to[1].abs());
-            let (low, high, speed) = (from[0].min(to[0]), from[0].max(to[0]), speed0.max(speed1));
-            let steady = N::splat(token, 0.0).below(from[1] * to[1])
-                & bounds.change.below(speed0 + speed1)
-                & bounds.lower.at_most(low)
-                & high.at_most(bounds.upper);
-            // the margin by |p|, |u̇| and |f| at the ends of this step, not by the bounds of its block
-            let margin = line.most(p0.abs().max(p1.abs()), from, to) * eighth;
-            let near = bounds.lower.at_most(low - margin) & (high + margin).at_most(bounds.upper);
-            let slow = speed.at_most(bounds.range.speed);
-            let stays = goes & ((from_holds & to_holds) | (slow & (near | (inside & steady))));
-            let leaves = goes & !stays & !inside;
+            let course = line.course(from, to, p0.abs().max(p1.abs()), length, bounds);
+            let (stays, leaves) = (goes & course.stays, goes & course.leaves);
             leaving = leaving | leaves;
             end = [N::select(leaves, to[0], end[0]), N::select(leaves, to[1], end[1])];
             forcing = [N::select(leaves, p0, forcing[0]), N::select(leaves, p1, forcing[1])];
-            reached.take(stays, to, one);
+            reached.take(stays, to, reached.steps + 1.0);
             goes = stays;
             if N::bits(goes) == 0 {
                 break;
             }
-            (from, p0, from_holds) = (to, p1, to_holds);
+            (from, p0) = (to, p1);
         }
         Part::step(leaving, branch, line, [reached.now, end], forcing, self.solver.step)
     }

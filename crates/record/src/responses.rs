@@ -8,8 +8,8 @@ use rocking_wall::solver::Motion;
 
 use crate::affine::Affine;
 use crate::forcing::{AT_ONCE, BLOCK, Forcing};
-use crate::number::{BranchRow, WIDTH, index};
-use crate::table::{LONGEST, Table, Way, get, set};
+use crate::number::WIDTH;
+use crate::table::{LONGEST, Table, Way};
 
 /// Rows that a lane may read from where it is: those of a block, and one more.
 pub(crate) const ROWS_AHEAD: usize = BLOCK / AT_ONCE + 1;
@@ -20,12 +20,13 @@ const MOST_SAMPLES: usize = 1 << 16;
 #[derive(Debug)]
 pub(crate) struct Responses {
     /// For each branch the first row of its response.
-    pub(crate) starts: BranchRow,
+    starts: [usize; WIDTH],
     /// The response over plain steps at once, of u and u̇, for four: from samples 0, 4, 8, …, then from 1, 5,
     /// 9, …, and so on.
     rows: Vec<[f64; 2]>,
-    /// Rows of the response from one offset on, where two steps are taken at once and where four.
-    lengths: [usize; 2],
+    /// Plain steps taken at once, and the rows from one offset on.
+    at_once: usize,
+    length: usize,
 }
 
 impl Responses {
@@ -40,40 +41,37 @@ impl Responses {
         {
             return None;
         }
-        let lengths = [2, AT_ONCE].map(|at_once| count / at_once + 1 + ROWS_AHEAD);
-        let mut responses = Self { starts: BranchRow::default(), rows: Vec::new(), lengths };
+        let at_once = table.at_once;
+        let length = count / at_once + 1 + ROWS_AHEAD;
+        let mut responses = Self { starts: [0; WIDTH], rows: Vec::new(), at_once, length };
         let oscillators = motion.oscillators();
         for (branch, oscillator) in oscillators.iter().enumerate() {
             let known = oscillators[..branch].iter().position(|known| known == oscillator);
-            let next = responses.rows.len() as f64;
-            let start = known.map_or(next, |known| get(&responses.starts, known));
-            set(&mut responses.starts, branch, start);
+            responses.starts[branch] = known.map_or(responses.rows.len(), |known| responses.starts[known]);
             if known.is_none() {
-                responses.respond(&table.maps[branch], forcing, index(get(&table.at_once, branch)));
+                responses.respond(&table.maps[branch], forcing);
             }
         }
         Some(responses)
     }
 
     /// Adds the response of an oscillator.
-    fn respond(&mut self, map: &Affine, forcing: Forcing<'_>, at_once: usize) {
-        let (start, length) = (self.rows.len(), self.lengths[usize::from(at_once == AT_ONCE)]);
-        self.rows.resize(start + at_once * length, [0.0; 2]);
-        for (offset, rows) in self.rows[start..].chunks_exact_mut(length).enumerate() {
+    fn respond(&mut self, map: &Affine, forcing: Forcing<'_>) {
+        let Self { at_once, length, .. } = *self;
+        self.rows.reserve(at_once * length);
+        for offset in 0..at_once {
             // all samples that count are within the record
             let count = (forcing.count() - offset).saturating_sub(AT_ONCE).div_ceil(at_once);
-            for (n, row) in rows.iter_mut().enumerate().take(count) {
-                *row = map.respond(forcing.from(offset + n * at_once, AT_ONCE + 1));
-            }
+            let respond = |n| map.respond(forcing.from(offset + n * at_once, AT_ONCE + 1));
+            self.rows.extend((0..count).map(respond).chain((count..length).map(|_| [0.0; 2])));
         }
     }
 
-    /// Returns the rows from a sample on, of the response that starts at a row.
+    /// Returns the rows of a branch from a sample on.
     #[inline(always)]
-    pub(crate) fn ahead(&self, start: usize, sample: usize, at_once: usize) -> &[[f64; 2]] {
-        // without divisions, which would take as long as the steps
-        let four = usize::from(at_once == AT_ONCE);
-        let first = (sample & (at_once - 1)) * self.lengths[four] + (sample >> (1 + four));
-        &self.rows[start + first..][..ROWS_AHEAD]
+    pub(crate) fn ahead(&self, branch: usize, sample: usize) -> &[[f64; 2]] {
+        // without a division, which would take as long as the steps
+        let first = (sample & (self.at_once - 1)) * self.length + (sample >> self.at_once.trailing_zeros());
+        &self.rows[self.starts[branch % WIDTH] + first..][..ROWS_AHEAD]
     }
 }

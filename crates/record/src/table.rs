@@ -3,7 +3,7 @@
 use oscillator::Oscillator;
 use rocking_wall::solver::secant::{Secant, SecantBranch};
 use rocking_wall::solver::{Method, Motion};
-use rocking_wall::wall::{Branch, Corner};
+use rocking_wall::wall::Corner;
 
 use crate::affine::Affine;
 use crate::forcing::AT_ONCE;
@@ -47,10 +47,10 @@ pub(crate) mod exit {
     pub(crate) const CLOSED: f64 = 0.0;
     /// At an ordinary corner, to another branch with affine maps.
     pub(crate) const ORDINARY: f64 = 1.0;
-    /// The same at u = 0, with an impact.
-    pub(crate) const IMPACT: f64 = 2.0;
     /// At an ordinary corner, to a branch with secant damping.
-    pub(crate) const CURVED: f64 = 3.0;
+    pub(crate) const CURVED: f64 = 2.0;
+    /// At u = 0, with an impact, to another branch with affine maps.
+    pub(crate) const IMPACT: f64 = 3.0;
 }
 
 /// Returns γ(L) = 1/(1 − c L/2 − |k| L²/8), by which P + c V + f̂ is multiplied to bound |ü| over a length L;
@@ -72,7 +72,7 @@ fn reach(oscillator: &Oscillator, step: f64) -> f64 {
 pub(crate) struct Table {
     /// The number of plain steps taken at once, four or two; the change over them, of u by u, u̇ and the
     /// branch's force at u = 0, and of u̇.
-    pub(crate) at_once: BranchRow,
+    pub(crate) at_once: usize,
     pub(crate) plain_steps: [[BranchRow; 3]; 2],
     /// Change over one step, of u by u, u̇, p₀ − f(0) and p₁ − f(0), and of u̇.
     pub(crate) one_step: [[BranchRow; 4]; 2],
@@ -120,7 +120,7 @@ impl Table {
             factor: ZERO,
         };
         let mut table = Self {
-            at_once: ZERO,
+            at_once: AT_ONCE,
             plain_steps: [[ZERO; 3]; 2],
             one_step: [[ZERO; 4]; 2],
             damping: ZERO,
@@ -147,12 +147,11 @@ impl Table {
             // nothing is prepared: no step needs it, and rows have no place for more than `MOST_BRANCHES`
             return table;
         }
+        table.at_once = table.at_once(motion, step);
         for branch in 0..table.ways.len() {
             let oscillator = &motion.oscillators()[branch];
             let one = Affine::one_step(oscillator, step);
-            let at_once = at_once(&motion.wall().branches()[branch], oscillator, step);
-            set(&mut table.at_once, branch, at_once as f64);
-            table.maps.push(Affine::steps(&one, at_once, oscillator, step));
+            table.maps.push(Affine::steps(&one, table.at_once, oscillator, step));
             match (table.ways[branch], &motion.secants()[branch]) {
                 (Way::Affine, _) => table.enter_affine(branch, motion, &one, step),
                 (Way::Curved, Some(secant)) => table.enter_curved(branch, motion, secant, step),
@@ -162,6 +161,21 @@ impl Table {
         table.open_exits(motion, step);
         table.terms = terms(table.longest.min(LONGEST));
         table
+    }
+
+    /// Returns how many plain steps are taken at once: four, or two where the margin of four is much of a
+    /// branch.
+    fn at_once(&self, motion: &Motion, step: f64) -> usize {
+        let four = AT_ONCE as f64 * step;
+        let is_wide = |branch: usize| {
+            let (line, oscillator) = (&motion.wall().branches()[branch], &motion.oscillators()[branch]);
+            // a forcing as large as the forces of the branch
+            let driving = 2.0 * line.restoring(line.lower).abs().max(line.restoring(line.upper).abs());
+            let margin = 0.125 * four * four * growth(oscillator, four) * driving;
+            margin <= MOST_MARGIN * (line.upper - line.lower)
+        };
+        let affine = |branch: &usize| self.ways[*branch] == Way::Affine;
+        if (0..self.ways.len()).filter(affine).all(is_wide) { AT_ONCE } else { 2 }
     }
 
     fn enter_line(&mut self, branch: usize, motion: &Motion, damping: f64) {
@@ -190,7 +204,7 @@ impl Table {
                 set(row, branch, change);
             }
         }
-        let at_once = get(&self.at_once, branch);
+        let at_once = self.at_once as f64;
         let plain = growth(oscillator, at_once * step);
         let usable = plain <= MOST_GROWTH && !oscillator.is_spread(at_once * step);
         let single = growth(oscillator, step);
@@ -312,16 +326,6 @@ fn way(motion: &Motion, branch: usize, step: f64) -> Way {
     } else {
         Way::Affine
     }
-}
-
-/// Returns how many plain steps are taken at once: four, or two where the margin of four is much of the
-/// branch.
-fn at_once(branch: &Branch, oscillator: &Oscillator, step: f64) -> usize {
-    let four = AT_ONCE as f64 * step;
-    // a forcing as large as the forces of the branch
-    let driving = 2.0 * branch.restoring(branch.lower).abs().max(branch.restoring(branch.upper).abs());
-    let margin = 0.125 * four * four * growth(oscillator, four) * driving;
-    if margin <= MOST_MARGIN * (branch.upper - branch.lower) { AT_ONCE } else { 2 }
 }
 
 /// Counts the terms of Σ Eₙ/(n+1)! with |Eₙ| ≤ `reach`ⁿ, the first left out being negligible.

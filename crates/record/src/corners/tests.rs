@@ -48,24 +48,62 @@ fn accelerations_are_bounded_by_the_larger_end() {
     }
 }
 
-/// u̇ keeps its sign where both ends have the same one and |u̇₀| + |u̇₁| > A L (docs/record-path.md, §3). The
-/// margin beside the chord is A L²/8.
+/// u leaves its branch with u̇ of one sign where both ends have the same one and |u̇₀| + |u̇₁| > A L
+/// (docs/record-path.md, §3).
 #[test]
 fn a_sign_is_kept_by_velocities_that_outweigh_the_bound() {
-    // without forces A = γ P
-    let (length, forcing) = (0.5, 3.0);
-    let line = Line { growth: 2.0, ..line(0.0, 0.0) };
-    let kept = |v0: f64, v1: f64| {
-        let part = Part { from: [0.0, v0, 0.0], to: [0.0, v1, 0.0], length, ..part(line) };
-        part.keeps_its_sign(forcing)
-    };
+    // A L = 3
+    let leaves = |v0: f64, v1: f64, u: f64| course([0.0, v0], [u, v1], bounds([-1.0, 1.0])).leaves;
     for sign in [1.0, -1.0] {
-        assert_eq!(kept(sign * 1.25, sign * 2.0), (true, 6.0 * 0.25 / 8.0));
-        assert!(kept(sign * 3.01, sign * 1e-9).0 && !kept(sign * 1.0, sign * 1.5).0);
-        // |u̇₀| + |u̇₁| = A L does not suffice
-        assert!(!kept(sign * 1.0, sign * 2.0).0);
-        assert!(!kept(sign * 5.0, sign * -5.0).0 && !kept(sign * 5.0, 0.0).0 && !kept(0.0, sign * 5.0).0);
+        for u in [sign, 2.0 * sign] {
+            assert!(leaves(sign * 1.25, sign * 2.0, u) && leaves(sign * 3.01, sign * 1e-9, u));
+            // |u̇₀| + |u̇₁| = A L does not suffice
+            assert!(!leaves(sign * 1.0, sign * 1.5, u) && !leaves(sign * 1.0, sign * 2.0, u));
+            assert!(!leaves(sign * 5.0, sign * -5.0, u));
+            assert!(!leaves(sign * 5.0, 0.0, u) && !leaves(0.0, sign * 5.0, u));
+        }
+        assert!(!leaves(sign * 1.25, sign * 2.0, 0.99 * sign));
     }
+}
+
+/// Where u̇ may change its sign, u keeps A L²/8 away from the ends of its branch, but for the end from which
+/// it moves away with |u̇₀| of A L/2 or more.
+#[test]
+fn margins_are_kept_from_the_ends_ahead_and_from_those_that_may_be_reached_again() {
+    // A L = 3, A L²/8 = 0.1875
+    let stays = |from: [f64; 2], to: [f64; 2]| course(from, to, bounds([-1.0, 1.0])).stays;
+    for sign in [1.0, -1.0] {
+        let mirrored = |[u, v]: [f64; 2]| [sign * u, sign * v];
+        let stays = |from: [f64; 2], to: [f64; 2]| stays(mirrored(from), mirrored(to));
+        // turns with a margin on both sides
+        assert!(stays([0.81, 1.0], [0.81, -1.0]) && !stays([0.82, 1.0], [0.81, -1.0]));
+        assert!(!stays([0.81, 1.0], [0.82, -1.0]));
+        // leaves a corner for good, or may come back to it
+        assert!(stays([-1.0, 1.5], [-0.9, -1.0]) && !stays([-1.0, 1.49], [-0.9, -1.0]));
+        assert!(stays([-1.0, 1.5], [0.81, -1.0]) && !stays([-1.0, 1.5], [0.82, -1.0]));
+        // moves towards the corner it starts from
+        assert!(!stays([-1.0, -1.5], [-0.9, 1.0]));
+        // keeps its sign, up to the end of the branch
+        assert!(stays([-1.0, 2.0], [0.999, 1.5]) && !stays([-1.0, 2.0], [1.0, 1.5]));
+        assert!(!stays([-1.001, 2.0], [0.999, 1.5]));
+        // faster than the bound holds for
+        assert!(stays([0.0, 5.0], [0.5, 4.0]) && !stays([0.0, 5.1], [0.5, 4.0]));
+        assert!(!stays([0.0, 4.0], [0.5, 5.1]));
+    }
+    // the limits within which u is known to stay are part of the branch, and its ends are not
+    let narrow = Bounds { within: [-0.5, 0.5], ..bounds([-1.0, 1.0]) };
+    assert!(
+        course([-0.5, 2.0], [0.5, 1.5], narrow).stays && !course([-0.5, 2.0], [0.501, 1.5], narrow).stays
+    );
+}
+
+/// Finds where u goes over 0.5 s without forces, with A = γ P = 6 m/s².
+fn course(from: [f64; 2], to: [f64; 2], bounds: Bounds<f64>) -> Course<bool> {
+    Line { growth: 2.0, ..line(0.0, 0.0) }.course(from, to, 3.0, 0.5, &bounds)
+}
+
+fn bounds(ends: [f64; 2]) -> Bounds<f64> {
+    Bounds { ends, within: ends, speed: 5.0 }
 }
 
 /// Where time is a polynomial of fifth degree in u, the guess of a corner's time is that polynomial.

@@ -76,7 +76,7 @@ fn margins_of_blocks_are_those_of_their_longest_steps() {
             let c = oscillator.damping();
             assert_eq!(get(&table.damping_share, branch), if c > 0.0 { 0.25 } else { 0.0 });
             assert_eq!(get(&table.speed_share, branch), 0.25 * (1.0 / c));
-            let n = get(&table.at_once, branch);
+            let n = table.at_once as f64;
             assert_eq!(get(&table.growth, branch), growth(oscillator, step));
             assert_eq!(get(&table.plain_growth, branch), growth(oscillator, n * step));
             largest = largest.max(growth(oscillator, n * step) * n * n);
