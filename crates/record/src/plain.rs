@@ -123,14 +123,10 @@ impl<O: Observer> Lanes<'_, O> {
         }
         let u = N::load(token, &self.rows.u, first);
         let grown = N::bits(N::load(token, &self.rows.half_reach, first).below(u.abs())) & busy & !ready;
-        let mut waiting = busy & !(ready | grown);
-        let mut ended = 0;
-        if N::LANES > 1 {
-            ended = busy & !N::bits(open(&self.rows));
-            waiting &= !ended;
-        } else if self.is_at_end(first) {
-            (ended, waiting) = (waiting, 0);
-        }
+        // a run by itself takes the steps beyond the limit one by one
+        let ended =
+            if N::LANES > 1 { busy & !N::bits(open(&self.rows)) } else { self.is_at_end(first).into() };
+        let waiting = busy & !(ready | grown | ended);
         let stuck = if waiting == 0 { 0 } else { self.single_steps(token, first, &bounds, waiting) };
         Waiting { ended, stuck: grown & !ended | stuck }
     }

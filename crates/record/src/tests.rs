@@ -89,6 +89,25 @@ fn steps_with_several_corners_are_those_of_single_runs() {
     }
 }
 
+/// Where |u| outgrows the bound on the forces in the last step of a block, a lane and a run by itself take
+/// the same bound in the next block, and go on with the same bits.
+#[test]
+fn motions_that_grow_at_the_end_of_a_block_are_those_of_single_runs() {
+    let (motion, step) = (motion(3.5e-3), 5e-3);
+    let solver = RecordSolver::new(&motion, step);
+    let starts = starts(&motion);
+    for still in 230..256 {
+        let shaken = shaking().into_iter().skip(600).take(500).enumerate();
+        // far stronger in the next block, whose bound depends on its forcing
+        let grown = shaken.map(|(n, p)| if n + still > 256 { p } else { 0.05 * p });
+        let samples: Vec<f64> = std::iter::repeat_n(0.0, still).chain(grown).collect();
+        let forcing = Forcing::Samples(&samples);
+        for (start, lane) in starts.iter().zip(narrow(&solver, forcing, &starts)) {
+            assert_eq!(lane, solver.run(*start, forcing, false).expect("a bounded motion"), "{still}");
+        }
+    }
+}
+
 /// Walls that turn shortly before a corner, on either side, within the margin that four steps at once keep
 /// from it, but not within that of one step. The turning point is found, alone as beside others, as by the
 /// general search.
