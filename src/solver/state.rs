@@ -149,7 +149,7 @@ pub enum SolverError {
     TooManyPieces { reached: f64, duration: f64, limit: u64, displacement: f64, velocity: f64 },
     /// Overflow.
     #[error(
-        "the motion left the range of numbers {reached:?} s into a step of {duration:?} s \
+        "the motion exceeded the range of floating-point numbers {reached:?} s into a step of {duration:?} s \
          (u = {displacement:?} m, u_dot = {velocity:?} m/s, forcing {forcing:?} m/s2); \
          check the accelerations given"
     )]

@@ -49,11 +49,11 @@ pub enum ParameterError {
     )]
     Computed { name: &'static str, restitution: f64 },
     /// A number that is neither given nor to be computed.
-    #[error("{name} = {value}: set a number from 0 on, or -1 for the one computed from the geometry")]
+    #[error("{name} = {value} must be 0 or more, or -1 to compute it from the geometry")]
     NotGiven { name: &'static str, value: f64 },
     /// A tie of a strip.
     #[error(
-        "tie_stiffness holds a parapet, and mechanism = {mechanism} is none; set tie_stiffness = 0, or \
+        "tie_stiffness needs a parapet, but mechanism = {mechanism}; set tie_stiffness = 0 or \
          mechanism = parapet"
     )]
     TieNeedsParapet { mechanism: &'static str },

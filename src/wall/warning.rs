@@ -48,11 +48,11 @@ impl std::fmt::Display for Warning {
                 write!(f, "{name} is set and has no effect: it counts where {condition}")
             }
             Self::ComputedFreeStanding => f.write_str(
-                "computed c_bar (Eq. 23) holds for a parapet without overburden only; set c_bar instead",
+                "computed c_bar (Eq. 23) is valid only for a parapet without overburden; set c_bar",
             ),
             Self::CountedTwice => f.write_str(
-                "computed damping already stands for the impacts: with impact = restitution the loss counts \
-                 twice; set damping_model = none or impact = none",
+                "computed damping already represents the impacts: with impact = restitution the energy loss \
+                 is counted twice; set damping_model = none or impact = none",
             ),
             Self::OutsideFit { a1 } => write!(
                 f,

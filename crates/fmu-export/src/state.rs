@@ -52,7 +52,7 @@ impl StateCodec<'_> {
         self.u64(&mut bits)?;
         *value = f64::from_bits(bits);
         if self.is_reading() && !value.is_finite() {
-            return Err(Failure(format!("the state has {value:?} where a finite number belongs")));
+            return Err(Failure(format!("the saved state holds {value:?} instead of a finite number")));
         }
         Ok(())
     }
@@ -114,7 +114,9 @@ impl StateCodec<'_> {
             [0] => false,
             [1] => true,
             [other] => {
-                return Err(Failure(format!("the state has {other} where a truth value, 0 or 1, belongs")));
+                return Err(Failure(format!(
+                    "the saved state holds {other} instead of a truth value, 0 or 1"
+                )));
             }
         };
         Ok(())

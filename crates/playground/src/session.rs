@@ -77,7 +77,8 @@ impl Session {
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
         warnings.extend(of_motion.map(|warning| warning.to_string()));
         if summary.put_to_rest {
-            warnings.push("impacts accumulated beyond their bound: the wall was put to rest".to_owned());
+            warnings
+                .push("the limit on impacts in one step was reached: the wall was put to rest".to_owned());
         }
         let peak = response.demands.displacement.largest();
         let answer = json!({

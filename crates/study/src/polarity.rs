@@ -39,7 +39,8 @@ impl Polarities {
         match self {
             Self::Given | Self::Both => "",
             Self::Alike => {
-                "the wall is alike on both sides: both signs of a motion give the same, one was run\n"
+                "both sides of the wall are alike, so both signs of a motion give the same result; only \
+                 one was run\n"
             }
         }
     }

@@ -111,5 +111,9 @@ impl<M: ModelExchange> Instance<M> {
 }
 
 fn check_count(what: &str, given: usize, there: usize) -> Result<(), Failure> {
-    if given == there { Ok(()) } else { Err(Failure(format!("{given} {what} asked for: there are {there}"))) }
+    if given == there {
+        Ok(())
+    } else {
+        Err(Failure(format!("{given} {what} requested, but the model has {there}")))
+    }
 }

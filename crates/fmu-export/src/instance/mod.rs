@@ -181,7 +181,7 @@ impl<M: Model> Instance<M> {
             let name = name?;
             let category = Category::from_name(name).ok_or_else(|| {
                 let known: Vec<_> = Category::ALL.iter().map(|category| category.name()).collect();
-                Failure(format!("unknown log category {name:?}: there are {}", known.join(", ")))
+                Failure(format!("unknown log category {name:?}: the categories are {}", known.join(", ")))
             })?;
             filter = Some(filter.unwrap_or(Filter::ERRORS).with(category));
         }

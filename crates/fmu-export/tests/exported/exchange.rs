@@ -132,7 +132,7 @@ fn counts_and_numbers_that_are_wrong_are_refused() {
         (
             "few states",
             |i| unsafe { fmi2SetContinuousStates(i.component, [0.0].as_ptr(), 1) },
-            ["1 continuous states", "there are 2"],
+            ["1 continuous states", "the model has 2"],
         ),
         ("infinite state", |i| set_states(i, [0.0, f64::INFINITY]), ["v = inf", "finite"]),
         ("NaN", |i| set_states(i, [f64::NAN, 0.0]), ["x = NaN", "finite"]),
@@ -140,7 +140,7 @@ fn counts_and_numbers_that_are_wrong_are_refused() {
         (
             "indicators",
             |i| unsafe { fmi2GetEventIndicators(i.component, [0.0; 2].as_mut_ptr(), 2) },
-            ["2 event indicators", "there are 1"],
+            ["2 event indicators", "the model has 1"],
         ),
         (
             "no derivatives",

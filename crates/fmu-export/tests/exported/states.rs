@@ -193,13 +193,13 @@ fn bytes_in_order_are_refused_if_they_are_no_state_of_this_model() {
     for (at, value) in [(0, 6), (0, 7), (17, 0), (17, 2)] {
         refused(&|payload| payload[at] = value, "another kind");
     }
-    refused(&|payload| payload[8..16].copy_from_slice(&f64::NAN.to_le_bytes()), "where a finite number");
+    refused(&|payload| payload[8..16].copy_from_slice(&f64::NAN.to_le_bytes()), "instead of a finite number");
     let stiffness = |payload: &mut Vec<u8>, value: f64| {
         let at = payload.windows(8).position(|window| window == 4.0_f64.to_le_bytes()).unwrap();
         payload[at..at + 8].copy_from_slice(&value.to_le_bytes());
     };
     refused(&|payload| stiffness(payload, 0.4), "stiffness = 0.4 N/m is below its minimum");
-    refused(&|payload| stiffness(payload, f64::INFINITY), "where a finite number");
+    refused(&|payload| stiffness(payload, f64::INFINITY), "instead of a finite number");
     refused(
         &|payload| {
             let at = payload.windows(4).position(|window| window == 57_i32.to_le_bytes()).unwrap();

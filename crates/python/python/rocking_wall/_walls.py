@@ -197,7 +197,7 @@ class Wall(Calculated):
         for warning in values.pop("warnings"):
             warn(warning, stacklevel=2)
         if values.pop("put_to_rest"):
-            warn("impacts accumulated beyond their bound: the wall was put to rest", stacklevel=2)
+            warn("the limit on impacts in one step was reached: the wall was put to rest", stacklevel=2)
         return Response(**values.pop("history"), **values)
 
     def peaks(self, record: Record, factors: ArrayLike, *, tail: float = 10.0) -> Peaks:

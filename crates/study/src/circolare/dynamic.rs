@@ -149,8 +149,8 @@ impl DynamicCheck {
             let what =
                 if count < MEAN_COUNTS_FROM { "the least favourable one counts" } else { "the mean counts" };
             warnings.push(format!(
-                "{count} records: {what} (NTC 7.3.5); the dynamic check wants more than a global analysis \
-                 (C8.7.1.2.1.9)"
+                "{count} records: {what} (NTC 7.3.5); the dynamic check asks for more records than a global \
+                 analysis (C8.7.1.2.1.9)"
             ));
         }
         if parameters.overburden > 0.0 && statement.overburden_mass.is_some_and(|r| r > 0.0) {

@@ -21,7 +21,7 @@ pub enum CheckError {
     #[error("{message}")]
     Wall { message: String },
     /// The force does not vanish.
-    #[error("the force does not vanish: no d_0")]
+    #[error("the restoring force never falls to zero, so d_0 does not exist")]
     NoZero,
     /// The force at a limit state is not positive.
     #[error("{state}: a is not positive at d = {displacement} m")]

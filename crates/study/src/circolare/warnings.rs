@@ -33,7 +33,10 @@ pub(super) fn of_statement(
         if let Source::Code(ground) = &given.source {
             let tc = ground.t_c / ground.period_factor;
             if tc > LONGEST_TC {
-                warnings.push(format!("{}: T_C* = {tc} s is above 1 s; is it in s?", given.state));
+                warnings.push(format!(
+                    "{}: T_C* = {tc} s is above 1 s; check that it is given in seconds",
+                    given.state
+                ));
             }
         }
     }
@@ -53,7 +56,7 @@ pub(super) fn of_statement(
     }
     if statement.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
         warnings.push(
-            "compression_considered with a3 = 1, hinges at the edges: the thickness must be the reduced one"
+            "compression_considered with a3 = 1 puts the hinges at the edges: give the reduced thickness"
                 .into(),
         );
     }
@@ -62,7 +65,7 @@ pub(super) fn of_statement(
         warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));
     }
     if statement.has_building && floors.is_some() {
-        warnings.push("the static checks take [check.building], runs under records [[storeys]]".into());
+        warnings.push("the static checks use [check.building]; runs under records use [[storeys]]".into());
     }
     if statement.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
         warnings.push("use class IV is checked for SLD too (NTC 8.3); give [check.SLD]".into());

@@ -161,7 +161,10 @@ fn what_the_engineer_should_know_is_warned_of() {
             table(&(state("SLV", "") + &state("SLC", ""))),
             "a_g does not rise from SLV to SLC: 0.15 and 0.15 g",
         ),
-        (table(&state("SLV", "").replace("0.32", "1.2")), "T_C* = 1.2 s is above 1 s; is it in s?"),
+        (
+            table(&state("SLV", "").replace("0.32", "1.2")),
+            "T_C* = 1.2 s is above 1 s; check that it is given in seconds",
+        ),
         (table(&(state("SLV", "") + "use_class = \"IV\"")), "use class IV is checked for SLD too"),
         (table(&(state("SLV", damped) + low)), "SLV: a_Z = "),
         (

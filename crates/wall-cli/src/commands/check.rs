@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let case = code::Case::read(arguments, &table, &place)?;
     match arguments.find {
         Some(_) if arguments.report.is_some() => {
-            bail!("{name}: --report is about the wall as it is; leave --find out")
+            bail!("{name}: --report covers the wall as given; leave out --find")
         }
         Some(sought) => find::run(arguments, &case, sought),
         None => code::run(arguments, &case),

@@ -119,7 +119,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
     let target = match (&arguments.output, folders.len()) {
         (Some(path), _) => Folder::like(path, folders[0].manifest())?,
         (None, 1) => folders.remove(0),
-        (None, _) => bail!("several folders are merged into another; give it with -o FOLDER"),
+        (None, _) => bail!("merging several folders needs an output folder; give -o FOLDER"),
     };
     let mut missing = Vec::new();
     for part in target.missing(0..target.contents().parts()) {

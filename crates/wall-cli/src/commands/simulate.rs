@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         output::warn(&warning);
     }
     if response.summary.put_to_rest {
-        output::warn("impacts accumulated beyond their bound: the wall was put to rest");
+        output::warn("the limit on impacts in one step was reached: the wall was put to rest");
     }
     output::save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {

@@ -58,7 +58,7 @@ fn a_spectrum_states_its_unit() {
         write(header);
         // 0.2 g
         assert!(printed(&folder, &check).contains("1.96133"), "{header}");
-        refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave --unit out"]);
+        refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave out --unit"]);
     }
     write("T,Sa (5 %)");
     refused(&folder, &check, &["states no unit", "--unit"]);

@@ -239,6 +239,6 @@ fn a_report_is_refused_without_one_wall_and_the_code() {
     refuses(&["plain.toml"], &["plain.toml", "--report needs a table [check]"]);
     refuses(&[], &["--report needs a table [check]"]);
     refuses(&["walls.toml"], &["--report", "take one wall"]);
-    refuses(&["scene.toml", "--find", "thickness"], &["--report is about the wall as it is"]);
+    refuses(&["scene.toml", "--find", "thickness"], &["--report covers the wall as given"]);
     refused(&folder, &["check", "scene.toml", "--report", "scene.toml"], &["scene.toml"]);
 }

@@ -195,7 +195,7 @@ fn bad_arguments() {
     refused(&folder, &["simulate", "--set", "mass=3"], &["mass", "height"]);
     refused(&folder, &["simulate", "--set", "xi=11"], &["xi", "11", "10"]);
     refused(&folder, &["simulate", "--set", "xi=-2"], &["xi = -2 is below its limit -1\n"]);
-    refused(&folder, &["simulate", "--set", "xi=-0.5"], &["xi = -0.5", "from 0 on, or -1 for"]);
+    refused(&folder, &["simulate", "--set", "xi=-0.5"], &["xi = -0.5", "0 or more, or -1 to"]);
     let gone = "xi and c_bar count where they are given";
     refused(&folder, &["simulate", "--set", "damping_source=given"], &[gone, "leave damping_source out"]);
     let gone = "restitution counts where it is given: leave restitution_source out";

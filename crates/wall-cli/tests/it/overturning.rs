@@ -71,7 +71,7 @@ fn both_polarities_of_one_record_and_of_a_tie() {
     run(&["motion", "--synthetic", "--csv", "r.csv"]);
     let both = ["simulate", "--record", "r.csv", "--both-polarities"];
     let alike = run(&both);
-    assert!(alike.contains("alike on both sides") && alike.contains("   ±  "), "{alike}");
+    assert!(alike.contains("both sides of the wall are alike") && alike.contains("   ±  "), "{alike}");
     let leaning = ["--set", "overburden=5000", "--set", "overburden_eccentricity=0.05", "--csv", "t.csv"];
     let leaning = [&leaning[..], &["--set", "eccentricity_mode=fixed_to_wall"]].concat();
     let told = run(&[&both[..], &leaning].concat());

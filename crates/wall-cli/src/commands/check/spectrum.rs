@@ -151,7 +151,7 @@ fn points(path: &Path, given: Option<Unit>) -> Result<(Unit, Demand)> {
     let text = read_text(path, "a spectrum (CSV)", MAX_FILE_BYTES)?;
     let unit = match (stated_unit(&text), given) {
         (Some(stated), Some(given)) if stated != given => {
-            bail!("{}: line 1: states {stated}, and --unit {given}; leave --unit out", path.display());
+            bail!("{}: line 1 states {stated}, but --unit is {given}; leave out --unit", path.display());
         }
         (stated, given) => stated.or(given).with_context(|| {
             let path = path.display();

@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     let warned =
         verdicts.iter().filter(|wall| wall.verdict.as_ref().is_ok_and(|v| !v.warnings.is_empty())).count();
     if warned > 0 && !arguments.json {
-        output::warn(&format!("{warned} walls have warnings; --csv and --json list them"));
+        output::warn(&format!("{warned} walls have warnings; see --csv or --json"));
     }
     walls.record_warnings().iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {

@@ -114,8 +114,9 @@ fn document(report: &Report<'_>) -> Result<String> {
     let scene = fingerprint(text.as_bytes());
     let mut files = vec![(name.to_owned(), scene)];
     for path in &report.records.files {
-        let bytes = std::fs::read(path)
-            .map_err(|error| anyhow::anyhow!("{}: {error}; it was there before", path.display()))?;
+        let bytes = std::fs::read(path).map_err(|error| {
+            anyhow::anyhow!("{}: {error}; the file could be read earlier in this run", path.display())
+        })?;
         files.push((path.display().to_string(), fingerprint(&bytes)));
     }
     // names of files are left out: a copy elsewhere is the same input
@@ -129,6 +130,6 @@ fn document(report: &Report<'_>) -> Result<String> {
     rows.extend(files.into_iter().map(|(file, hash)| [escaped(&file), hash]));
     rows.extend(report.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
     Ok(table(&[], &rows)
-        + "<p>Fingerprints are 128-bit FNV-1a hashes: the same inputs have the same one. They do not protect \
-           against intent.</p>\n")
+        + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
+           against deliberate changes.</p>\n")
 }

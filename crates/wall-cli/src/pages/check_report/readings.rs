@@ -29,8 +29,8 @@ type Reading = (fn(&Case<'_>) -> bool, &'static str);
 const READINGS: [Reading; 13] = [
     (
         |_| true,
-        "Lumping: the definitions of C8.7.1.1 speak of one resultant of the forces on each body. Taken as \
-         that; distributed mass would give larger capacities.",
+        "Lumping: the definitions of C8.7.1.1 speak of one resultant of the forces on each body, and the \
+         check takes one. Distributed mass would give larger capacities.",
     ),
     (
         is_at_height,
@@ -60,16 +60,17 @@ const READINGS: [Reading; 13] = [
     ),
     (
         |case| case.report.verdict.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some()),
-        "The acceleration of activation at SLD as the least one is printed for SLV. Taken for SLC too.",
+        "The rule that the acceleration of activation at SLD is the least one is printed for SLV. It is \
+         taken for SLC, too.",
     ),
     (
         |case| case.wall.tie().is_some(),
-        "A tie: only {d_0} is asked of actions that last until collapse. {a(d)} is the curve as it is at \
-         {d_SLV}, at the rupture just before it.",
+        "A tie: actions that last until collapse are asked for {d_0} only. {a(d)} is the curve as it is at \
+         {d_SLV}; at the rupture of the tie it is the value just before.",
     ),
     (
         |case| any_demand(case, |demand| matches!(demand, Demand::Floor(floor) if floor.modes().len() > 1)),
-        "{T_1} in the conditions of [C7.2.5] and [C8.7.1.12] with several modes: that of the first one.",
+        "{T_1} in the conditions of [C7.2.5] and [C8.7.1.12]: with several modes it is that of the first.",
     ),
     (
         is_at_height,
