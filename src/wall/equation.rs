@@ -60,7 +60,7 @@ impl Wall {
         let fully = rotations.is_some();
         let free_side = free_side(rocking);
         let corners = layout::corners(&body, &force, &damping, tie.as_ref(), impact, fully, free_side);
-        let branches = layout::branches(&corners, &force, &damping, tie.as_ref(), body.effective_mass);
+        let branches = layout::branches(&corners, &body, &force, &damping, tie.as_ref());
         Ok(Self {
             body,
             force,

@@ -51,14 +51,15 @@ pub(super) fn corners(
     corners
 }
 
-/// Returns the branches between the corners, for the effective mass `m` \[kg\].
+/// Returns the branches between the corners.
 pub(super) fn branches(
     corners: &[Corner],
+    body: &Body,
     force: &RestoringForce,
     damping: &DampingInUse,
     tie: Option<&Tie>,
-    m: f64,
 ) -> Vec<Branch> {
+    let m = body.effective_mass;
     let between = |pair: &[Corner]| {
         let (lower, upper) = (pair[0].displacement, pair[1].displacement);
         let middle = 0.5 * (lower + upper);

@@ -107,8 +107,12 @@ fn newmark_is_of_second_order() {
 #[test]
 fn newmark_is_of_first_order_with_secant_damping() {
     let tilted = Forced { strength: 0.1, rate: 2.0, duration: 0.8, start: 0.5 };
-    for damping_model in [DampingModel::ConstantRatio, DampingModel::StiffnessProportional] {
-        let observed = observed(&Parameters { damping_model, ..parapet() }, &tilted, None, false, 256);
+    for damping_model in DampingModel::ALL.iter().copied() {
+        let parameters = Parameters { damping_model, ..parapet() };
+        if Wall::new(&parameters).unwrap().has_constant_damping() {
+            continue;
+        }
+        let observed = observed(&parameters, &tilted, None, false, 256);
         assert!((observed - 1.0).abs() < 0.2, "{}: order {observed}", damping_model.name());
     }
 }
@@ -175,14 +179,14 @@ fn work_is_stored_or_dissipated() {
 #[test]
 fn equal_groups_move_alike() {
     let law = (0..3_i32, 0.005_f64..0.1, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
-    let damping = (1..5_i32, 0.0_f64..0.1, 0.7_f64..0.99, any::<bool>());
+    let damping = (1..DampingModel::ALL.len(), 0.0_f64..0.1, 0.7_f64..0.99, any::<bool>());
     let shape = (0.3_f64..20.0, 0.3_f64..20.0, 0.2_f64..0.8);
     mostly(COMPARED, (law, damping, shape, motions()), |(law, damping, shape, motion)| {
         let (law, a1, a3, d1, softening) = law;
         let (model, xi, e, impact) = damping;
         let (parapet_height, strip_height, hinge_ratio) = shape;
         let force_law = ForceLaw::ALL[usize::try_from(law).unwrap()];
-        let model = DampingModel::ALL[usize::try_from(model).unwrap()];
+        let model = DampingModel::ALL[model];
         let rigid = force_law == ForceLaw::RigidLinear;
         prop_assume!(model != DampingModel::FreeStandingBlock);
         let damping_model = if rigid { DampingModel::None } else { model };

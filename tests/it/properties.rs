@@ -2,12 +2,12 @@
 //! solvers.
 
 use proptest::prelude::*;
-use rocking_wall::simulation::{Progress, Simulation};
+use rocking_wall::simulation::{Outputs, Progress, Simulation};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Softening, Solver,
 };
-use rocking_wall::wall::{Parameters, Support, Wall};
+use rocking_wall::wall::{Ends, Parameters, Support, Wall};
 
 use crate::configuration::{configuration, mostly};
 
@@ -15,13 +15,14 @@ use crate::configuration::{configuration, mostly};
 pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
     let shape = (0.5_f64..10.0, 0.03_f64..0.2, 0.2_f64..0.8, 0.0_f64..2.0, -0.2_f64..0.2);
     let law = (0..3_i32, -4.0_f64..-1.0, 0.85_f64..1.0, 0.5_f64..0.7, 0..3_i32);
-    let damping = (0..5_i32, 0.0_f64..0.1, any::<bool>(), 0.7_f64..0.99, any::<[bool; 2]>());
+    let damping =
+        (0..DampingModel::ALL.len(), 0.0_f64..0.1, any::<bool>(), 0.7_f64..0.99, any::<[bool; 2]>());
     (shape, law, damping).prop_map(|((h, slenderness, hinge, load, eccentricity), law, damping)| {
         let (force_law, exponent, a3, d1, softening) = law;
         let a1 = 10.0_f64.powf(exponent);
         let (model, xi, impact, restitution, [vertical, follows]) = damping;
         let force_law = ForceLaw::ALL[usize::try_from(force_law).unwrap()];
-        let model = DampingModel::ALL[usize::try_from(model).unwrap()];
+        let model = DampingModel::ALL[model];
         let rigid = force_law == ForceLaw::RigidLinear;
         let viscous = !matches!(model, DampingModel::None | DampingModel::FreeStandingBlock);
         let mechanism = if vertical { Mechanism::VerticalSpanning } else { Mechanism::Parapet };
@@ -233,5 +234,30 @@ proptest! {
         simulation.advance(&Segment { duration, from: still, to: still }).expect("rest");
         prop_assert_eq!(simulation.progress().state.displacement, 0.0);
         prop_assert_eq!(simulation.progress().state.velocity, 0.0);
+    }
+
+    /// At mirrored starts a symmetric wall has mirrored outputs, all of them finite, whatever its damping:
+    /// also close to u = 0, and at it on either side.
+    #[test]
+    fn outputs_are_finite_and_mirrored(
+        parameters in walls(),
+        share in prop_oneof![Just(0.0), -0.95_f64..0.95, (-15.0_f64..-1.0).prop_map(|x| 10.0_f64.powf(x))],
+        (speed, acceleration) in (-1.0_f64..1.0, -3.0_f64..3.0),
+    ) {
+        let parameters = Parameters { eccentricity_mode: EccentricityMode::FollowsPivot, ..parameters };
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        let outputs = |sign: f64| {
+            let start = sign * share * wall.body().instability.of(share);
+            let started = Parameters { u_start: start, u_dot_start: sign * speed, ..parameters.clone() };
+            let support = Support::rigid(sign * acceleration);
+            let simulation = Simulation::new(&started, None, 0.0, support).expect("a valid wall");
+            let outputs = simulation.outputs(support);
+            let Outputs { displacement, velocity, acceleration, ratio, restoring_force, .. } = outputs;
+            let Ends { bottom, top } = outputs.reactions;
+            [displacement, velocity, acceleration, ratio, restoring_force, outputs.damping_force, bottom, top]
+        };
+        let (given, mirrored) = (outputs(1.0), outputs(-1.0));
+        prop_assert!(given.iter().all(|output| output.is_finite()), "{given:?}");
+        prop_assert_eq!(given, mirrored.map(|output| -output));
     }
 }

@@ -3,6 +3,7 @@
 import os
 import shutil
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from selenium import webdriver
@@ -15,6 +16,12 @@ FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
+
+
+def items(enumeration):
+    """Returns the names of the items of an enumeration of the model description."""
+    description = ElementTree.parse(ROOT / "modelDescription/modelDescription.xml")
+    return [item.get("name") for item in description.iterfind(f".//SimpleType[@name='{enumeration}']//Item")]
 
 
 def built(variable, default, command):

@@ -18,7 +18,7 @@ from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-from conftest import ROOT
+from conftest import ROOT, items
 from unit import Unit
 
 
@@ -358,10 +358,7 @@ def test_feedthrough_without_a_step(unit):
     assert unit.get("u_ddot") == pytest.approx(-1.5, rel=1e-15), "a_g is added"
 
 
-@pytest.mark.parametrize(
-    "model",
-    ["none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional"],
-)
+@pytest.mark.parametrize("model", items("DampingModel"))
 @pytest.mark.parametrize("shape", [{}, STRIP])
 def test_output_derivatives(unpacked, model, shape):
     """Compares output derivatives with central differences over 1e-4 s.
@@ -405,9 +402,7 @@ STATES = [
 ]
 
 
-@pytest.mark.parametrize(
-    "model", ["none", "constant_coefficient", "constant_ratio", "stiffness_proportional"]
-)
+@pytest.mark.parametrize("model", [name for name in items("DampingModel") if name != "free_standing_block"])
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("shape", [{}, STRIP | {"thickness": 0.2}])
 def test_directional_derivatives(unpacked, model, state, shape):

@@ -10,6 +10,7 @@ import math
 
 import pytest
 
+from conftest import items
 from unit import Unit
 
 LIBM = ctypes.CDLL(ctypes.util.find_library("m"))
@@ -20,8 +21,7 @@ MECHANISMS = {
     "parapet": {},
     "vertical_spanning": {"mechanism": "vertical_spanning", "thickness": 0.1, "overburden": 3000.0},
 }
-LAWS = ("rigid_linear", "bilinear", "trilinear")
-DAMPING = ("none", "constant_coefficient", "free_standing_block", "constant_ratio", "stiffness_proportional")
+LAWS, DAMPING = items("ForceLaw"), items("DampingModel")
 WALLS = list(itertools.product(MECHANISMS, LAWS, DAMPING, ("none", "restitution"), ("automatic", "newmark")))
 FLOORS = [
     {"hysteresis": "none", "stiffness": 0.0},

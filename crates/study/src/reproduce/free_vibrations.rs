@@ -72,7 +72,7 @@ pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
                 // C = 2 m_eff ω₁ ξ = 2 m_eff ω ξ(ω)
                 DampingModel::ConstantCoefficient => xi * omega1 / omega,
                 DampingModel::StiffnessProportional => xi * omega / omega1,
-                _ => xi,
+                DampingModel::None | DampingModel::ConstantRatio | DampingModel::FreeStandingBlock => xi,
             };
             (omega, 100.0 * ratio)
         };

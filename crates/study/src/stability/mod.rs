@@ -25,6 +25,8 @@ use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::Parameters;
 
+use crate::model::damping_models;
+
 /// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
 /// adaptive solver's tolerance of 1e-8 on u allows ten times as much on the energy.
 pub const GROWTH: f64 = 1e-7;
@@ -74,15 +76,13 @@ pub struct Map {
 
 /// Solvers and damping models worth a map: `automatic` with each damping model, and the others where they
 /// differ.
-pub const MAPS: [(Solver, DampingModel); 7] = [
-    (Solver::Automatic, DampingModel::ConstantCoefficient),
-    (Solver::Automatic, DampingModel::ConstantRatio),
-    (Solver::Automatic, DampingModel::StiffnessProportional),
-    (Solver::Adaptive, DampingModel::ConstantCoefficient),
-    (Solver::Newmark, DampingModel::ConstantCoefficient),
-    (Solver::Newmark, DampingModel::ConstantRatio),
-    (Solver::Newmark, DampingModel::StiffnessProportional),
-];
+pub fn maps() -> Vec<(Solver, DampingModel)> {
+    let models = || damping_models().filter(|model| model.ratio_name() == Some("xi"));
+    let with = |solver: Solver| models().map(move |model| (solver, model));
+    // the adaptive solver is the automatic one where damping varies on a branch
+    let adaptive = (Solver::Adaptive, DampingModel::ConstantCoefficient);
+    with(Solver::Automatic).chain([adaptive]).chain(with(Solver::Newmark)).collect()
+}
 
 /// Steps in an interval, down to steps of 1e-5 s.
 const STEPS: [u32; 9] = [1, 3, 10, 30, 100, 300, 1000, 3000, 10_000];

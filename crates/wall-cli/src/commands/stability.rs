@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, value_parser};
-use study::stability::{Extreme, MAPS, Map, RowQuantity, extremes, map};
+use study::stability::{Extreme, Map, RowQuantity, extremes, map, maps};
 
 use crate::output;
 use crate::pages::stability::{axis_words, page, scientific};
@@ -25,18 +25,18 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     output::check_distinct([], arguments.csv.iter().chain(&arguments.html))?;
-    let mut maps = Vec::with_capacity(2 * MAPS.len());
+    let mut made = Vec::new();
     for quantity in [RowQuantity::Step, RowQuantity::DampingRatio] {
-        for (solver, damping) in MAPS {
-            let made = map(solver, damping, quantity, arguments.columns)?;
-            output::to_stdout(&summary(&made))?;
-            maps.push(made);
+        for (solver, damping) in maps() {
+            let map = map(solver, damping, quantity, arguments.columns)?;
+            output::to_stdout(&summary(&map))?;
+            made.push(map);
         }
     }
     let extremes = extremes()?;
     output::to_stdout(&table(&extremes))?;
-    output::save(arguments.csv.as_ref(), || csv(&maps))?;
-    output::save(arguments.html.as_ref(), || page(&maps, &extremes))
+    output::save(arguments.csv.as_ref(), || csv(&made))?;
+    output::save(arguments.html.as_ref(), || page(&made, &extremes))
 }
 
 fn summary(map: &Map) -> String {

@@ -59,7 +59,8 @@ fn stability_maps_every_solver() {
     let output = wall(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let rows = rows(&folder.join("s.csv"));
-    assert_eq!(rows.len(), 14 * 9 * 2);
+    let maps = 2 * study::stability::maps().len();
+    assert_eq!(rows.len(), maps * 9 * 2);
     let of = |solver: &'static str| rows.iter().filter(move |row| row[0] == solver);
     for row in of("automatic") {
         let error: f64 = row[6].parse().unwrap();
@@ -67,7 +68,7 @@ fn stability_maps_every_solver() {
     }
     assert!(of("newmark").any(|row| row[5] == "false"), "a scheme that is known to blow up does");
     let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
-    assert_eq!(page.matches("<figure>").count(), 14);
+    assert_eq!(page.matches("<figure>").count(), maps);
     assert!(!page.contains("{{") && !page.contains("NaN") && !text(&output.stdout).contains("BROKEN"));
 }
 
