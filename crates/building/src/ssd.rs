@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use crate::wiring::{Component, Connector, ConnectorKind, Direction, GROUND_MOTION, System};
+use fmu_export::{Causality, Kind, Variable, VariableId};
+use rocking_floor::variables::RealVariable as FloorVariable;
+
+use crate::wiring::{Component, System};
 
 const NAMESPACES: [(&str, &str); 4] = [
     ("ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon"),
@@ -48,12 +51,7 @@ fn write(xml: &mut String, system: &System, step: f64) -> std::fmt::Result {
     writeln!(xml, "  <ssd:System name=\"{NAME}\" description=\"{title}\">")?;
     if system.expose_ground {
         writeln!(xml, "    <ssd:Connectors>")?;
-        let ground = Connector {
-            name: GROUND_MOTION,
-            direction: Direction::Input,
-            kind: ConnectorKind::Real(Some("m/s2")),
-        };
-        write_connector(xml, "      ", &ground)?;
+        write_connector(xml, "      ", FloorVariable::AG.variable())?;
         writeln!(xml, "    </ssd:Connectors>")?;
     }
     writeln!(xml, "    <ssd:Elements>")?;
@@ -97,30 +95,21 @@ fn write_component(xml: &mut String, component: &Component) -> std::fmt::Result 
     writeln!(xml, "      </ssd:Component>")
 }
 
-fn write_connector(xml: &mut String, indent: &str, connector: &Connector) -> std::fmt::Result {
-    let direction = match connector.direction {
-        Direction::Input => "input",
-        Direction::Output => "output",
+fn write_connector(xml: &mut String, indent: &str, variable: &Variable) -> std::fmt::Result {
+    let Variable { name, causality, kind, unit, .. } = variable;
+    let direction = if *causality == Causality::Input { "input" } else { "output" };
+    let kind = match (kind, unit) {
+        (Kind::Boolean { .. }, _) => "<ssc:Boolean/>".to_owned(),
+        (_, Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
+        (_, None) => "<ssc:Real/>".to_owned(),
     };
-    let kind = match connector.kind {
-        ConnectorKind::Real(Some(unit)) => format!("<ssc:Real unit=\"{unit}\"/>"),
-        ConnectorKind::Real(None) => "<ssc:Real/>".to_owned(),
-        ConnectorKind::Integer => "<ssc:Integer/>".to_owned(),
-        ConnectorKind::Boolean => "<ssc:Boolean/>".to_owned(),
-    };
-    let name = connector.name;
     writeln!(xml, "{indent}<ssd:Connector name=\"{name}\" kind=\"{direction}\">{kind}</ssd:Connector>")
 }
 
 /// The units that connectors name.
 fn write_units(xml: &mut String, system: &System) -> std::fmt::Result {
     let connectors = system.components.iter().flat_map(|component| &component.connectors);
-    let mut used: BTreeSet<&str> = connectors
-        .filter_map(|connector| match connector.kind {
-            ConnectorKind::Real(unit) => unit,
-            ConnectorKind::Integer | ConnectorKind::Boolean => None,
-        })
-        .collect();
+    let mut used: BTreeSet<&str> = connectors.filter_map(|connector| connector.unit).collect();
     used.insert("m/s2");
     writeln!(xml, "  <ssd:Units>")?;
     for unit in used {
@@ -147,8 +136,6 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fmu_export::{Causality, VariableId};
-    use rocking_floor::variables::RealVariable as FloorVariable;
     use rocking_wall::variables::RealVariable;
 
     use super::*;

@@ -2,13 +2,11 @@
 
 use fmu_export::{Environment, Experiment, Interface, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit as FloorUnit;
-use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::unit::Unit as WallUnit;
-use rocking_wall::variables::RealVariable as WallVariable;
 
 use crate::document::{Building, Support};
 use crate::error::BuildingError;
-use crate::wiring::System;
+use crate::wiring::{System, variable};
 
 /// The result of a unit: its message, if it fails.
 type Result<T, E = String> = std::result::Result<T, E>;
@@ -124,12 +122,7 @@ impl Plan {
 
 /// Returns a unit and the reference of its variable.
 pub(crate) fn reference(floors: usize, unit: usize, name: &str) -> Result<(usize, u32), BuildingError> {
-    let reference = if unit < floors {
-        FloorVariable::from_name(name).map(|id| id.variable().reference)
-    } else {
-        WallVariable::from_name(name).map(|id| id.variable().reference)
-    };
     let reason =
         || BuildingError::General { file: "the unit".into(), reason: format!("no variable {name:?}") };
-    reference.map(|reference| (unit, reference)).ok_or_else(reason)
+    variable(unit < floors, name).map(|variable| (unit, variable.reference)).ok_or_else(reason)
 }

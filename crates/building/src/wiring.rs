@@ -1,9 +1,9 @@
 //! Makes components and connections of a building: what moves each member, and what the member loads.
 
-use fmu_export::{Kind, Variable, VariableId};
+use fmu_export::{Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
 use rocking_wall::scene::Scene;
-use rocking_wall::variables::{BooleanVariable, RealVariable};
+use rocking_wall::variables::{BooleanVariable, RealVariable as WallVariable};
 
 use crate::document::{Building, Floor, Member, Support, fmu_path};
 use crate::error::BuildingError;
@@ -13,7 +13,7 @@ type Result<T> = std::result::Result<T, BuildingError>;
 /// Inputs of a floor for what stands on it.
 const MOST_LOADS: usize = 8;
 /// Name of the system's own input, the ground's acceleration.
-pub(crate) const GROUND_MOTION: &str = "a_g";
+const GROUND_MOTION: &str = "a_g";
 
 /// Outputs of each member that are listed even if nothing is connected to them.
 const SHOWN_OF_A_FLOOR: [&str; 3] = ["displacement", "velocity", "acceleration_absolute"];
@@ -35,28 +35,8 @@ pub(crate) struct System {
 pub(crate) struct Component {
     pub(crate) name: String,
     pub(crate) source: String,
-    pub(crate) connectors: Vec<Connector>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Direction {
-    Input,
-    Output,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Connector {
-    pub(crate) name: &'static str,
-    pub(crate) direction: Direction,
-    pub(crate) kind: ConnectorKind,
-}
-
-/// The type of the connector's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ConnectorKind {
-    Real(Option<&'static str>),
-    Integer,
-    Boolean,
+    /// Inputs and outputs that are connected, or worth showing.
+    pub(crate) connectors: Vec<&'static Variable>,
 }
 
 /// An output of one component to an input of another.
@@ -148,41 +128,32 @@ impl System {
         Ok(())
     }
 
-    /// The connectors of each component: what is connected, or worth showing.
+    /// Lists the connectors of each component: what is connected, or worth showing.
     fn list_connectors(&mut self, building: &Building, scenes: &[Scene]) {
         let floors = building.floors.len();
-        let shown = |variable: &'static Variable, direction| Connector {
-            name: variable.name,
-            direction,
-            kind: match variable.kind {
-                Kind::Boolean { .. } => ConnectorKind::Boolean,
-                Kind::Integer { .. } | Kind::Enumeration { .. } => ConnectorKind::Integer,
-                Kind::Real { .. } | Kind::String { .. } => ConnectorKind::Real(variable.unit),
-            },
-        };
         for (index, component) in self.components.iter_mut().enumerate() {
             let is_floor = index < floors;
-            let find = |name: &str| {
-                let (floor, wall) = (FloorVariable::from_name(name), RealVariable::from_name(name));
-                let floor = floor.map(VariableId::variable).filter(|_| is_floor);
-                floor.or_else(|| wall.map(VariableId::variable).filter(|_| !is_floor))
-            };
             let inputs = self.connections.iter().filter(|connection| connection.to == index);
-            let inputs = inputs.map(|connection| (connection.input, Direction::Input));
             let outputs = self.connections.iter().filter(|connection| connection.from == Some(index));
-            let outputs = outputs.map(|connection| (connection.output, Direction::Output));
-            let more: &[&str] = if is_floor { &SHOWN_OF_A_FLOOR } else { &SHOWN_OF_A_WALL };
-            let more = more.iter().map(|name| (*name, Direction::Output));
-            for (name, direction) in inputs.chain(outputs).chain(more) {
-                let Some(variable) = find(name) else { continue };
-                let connector = shown(variable, direction);
-                if !component.connectors.contains(&connector) {
-                    component.connectors.push(connector);
-                }
+            let connected = inputs.map(|connection| connection.input);
+            let connected = connected.chain(outputs.map(|connection| connection.output));
+            let shown: &[&str] = if is_floor { &SHOWN_OF_A_FLOOR } else { &SHOWN_OF_A_WALL };
+            for name in connected.chain(shown.iter().copied()) {
+                let connectors = &mut component.connectors;
+                connectors.extend(variable(is_floor, name).filter(|new| !connectors.contains(new)));
             }
             if !is_floor && scenes[index - floors].uses("overturned") {
-                component.connectors.push(shown(BooleanVariable::Overturned.variable(), Direction::Output));
+                component.connectors.push(BooleanVariable::Overturned.variable());
             }
         }
+    }
+}
+
+/// Returns the real variable of a name of a floor or a wall.
+pub(crate) fn variable(is_floor: bool, name: &str) -> Option<&'static Variable> {
+    if is_floor {
+        FloorVariable::from_name(name).map(VariableId::variable)
+    } else {
+        WallVariable::from_name(name).map(VariableId::variable)
     }
 }
