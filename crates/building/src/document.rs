@@ -155,16 +155,13 @@ impl Building {
             check_name(&name, &mut names, place)?;
             floors.push(floor);
         }
+        let folder = path.parent().unwrap_or(Path::new("."));
         let mut walls = Vec::new();
         for table in wall {
             check_name(&table.name, &mut names, place)?;
-            walls.push(read_wall(table, &floors, place)?);
+            walls.push(read_wall(table, &floors, place, folder)?);
         }
         let stem = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let folder = path.parent().unwrap_or(Path::new("."));
-        for wall in &mut walls {
-            wall.scene = folder.join(&wall.scene);
-        }
         Ok(Self { title: title.unwrap_or(stem), stop_time, step, expose_ground, floors, walls })
     }
 }
@@ -180,21 +177,19 @@ const LONGEST_NAME: usize = 100;
 /// Checks that FMUs, connectors and files can have a name, and that no other member has it.
 fn check_name(name: &Spanned<String>, names: &mut Vec<String>, place: &Place<'_>) -> Result<()> {
     let text = name.get_ref();
+    let refused = |message: String| Err(place.error(name.span(), message));
     let plain = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if !plain || !text.starts_with(|c: char| c.is_ascii_alphabetic()) || text == GROUND {
-        let message = format!(
+        return refused(format!(
             "name = {text:?}: use letters, digits and _, a letter first, and not {GROUND:?}, which is taken"
-        );
-        return Err(place.error(name.span(), message));
+        ));
     }
     if text.len() > LONGEST_NAME {
-        let message = format!("name has {} letters; use at most {LONGEST_NAME}", text.len());
-        return Err(place.error(name.span(), message));
+        return refused(format!("name has {} letters; use at most {LONGEST_NAME}", text.len()));
     }
     // Strip.fmu and strip.fmu are one file on many machines
     if let Some(other) = names.iter().find(|other| other.eq_ignore_ascii_case(text)) {
-        let message = format!("name = {text:?}: {other:?} exists already; choose another");
-        return Err(place.error(name.span(), message));
+        return refused(format!("name = {text:?}: {other:?} exists already; choose another"));
     }
     names.push(text.clone());
     Ok(())
@@ -275,7 +270,7 @@ fn support(key: &str, name: &Spanned<String>, floors: &[Floor], place: &Place<'_
     })
 }
 
-fn read_wall(table: WallTable, floors: &[Floor], place: &Place<'_>) -> Result<Member> {
+fn read_wall(table: WallTable, floors: &[Floor], place: &Place<'_>, folder: &Path) -> Result<Member> {
     let bottom = support("bottom", &table.bottom, floors, place)?;
     let top = table.top.as_ref().map(|top| support("top", top, floors, place)).transpose()?;
     // a storey's displacement is relative to its base
@@ -292,5 +287,5 @@ fn read_wall(table: WallTable, floors: &[Floor], place: &Place<'_>) -> Result<Me
         return Err(place.error(wanted.span(), message));
     }
     let drift = drift.filter(|_| wanted);
-    Ok(Member { name: table.name.into_inner(), scene: table.scene, bottom, top, drift })
+    Ok(Member { name: table.name.into_inner(), scene: folder.join(table.scene), bottom, top, drift })
 }

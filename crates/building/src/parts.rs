@@ -2,7 +2,7 @@
 //! archive.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use fmu_export::VariableId;
 use fmu_export_build::Reduction;
@@ -137,7 +137,7 @@ fn general(path: &Path, option: &str) -> Result<General, BuildingError> {
         let reason = format!(
             "expected a general FMU; make it with `cargo xtask fmu`, or name it with {option}: {error}"
         );
-        BuildingError::General { file: PathBuf::from(path).display().to_string(), reason }
+        BuildingError::General { file: path.display().to_string(), reason }
     })
 }
 
