@@ -9,6 +9,7 @@
 //! | [`parallel`] | work shared by threads |
 //! | [`chart`] | charts as plain data |
 //! | `random` | random numbers that are the same on every machine |
+//! | `halving` | where something begins, found by halving |
 //! | `free_motion` | free motion of a wall, with impacts or with viscous damping |
 //! | [`model`] | damping models: names, meanings and colours; walls that have them |
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
@@ -41,6 +42,7 @@ pub mod circolare;
 pub mod document;
 pub mod fragility;
 mod free_motion;
+mod halving;
 pub mod ida;
 pub mod loaded;
 pub mod model;

@@ -13,6 +13,7 @@
 //! ```
 
 use crate::free_motion::advance;
+use crate::halving::begins_at;
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall, equivalence};
@@ -21,8 +22,8 @@ use super::error::AccuracyError;
 
 /// Tolerance of full rotations here.
 const TOLERANCE: f64 = 1e-12;
-/// Bisections that locate an impact: 64 exhaust a double.
-const BISECTIONS: u32 = 64;
+/// Halvings that locate an impact: 64 exhaust a double.
+const HALVINGS: u32 = 64;
 /// Output step of Figure 2 \[s\].
 const STEP: f64 = 0.01;
 /// Most output steps of a history.
@@ -281,19 +282,7 @@ impl Release {
 
     /// Returns the time from `state` to the first impact, which comes within `longest` \[s\].
     fn time_to_impact(&self, state: State, longest: f64) -> Result<f64, SolverError> {
-        let (mut low, mut high) = (0.0, longest);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if self.advance(&mut state.clone(), middle)? > 0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        Ok(high)
+        begins_at([0.0, longest], HALVINGS, |time| Ok(self.advance(&mut state.clone(), time)? > 0))
     }
 
     fn first_impact(&self, start: f64) -> Result<f64, SolverError> {

@@ -18,6 +18,7 @@ use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
 use super::verdict::{Deciding, Governs, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
+use crate::halving::begins_at;
 use crate::ida::{DEFAULT_TAIL, Shaking};
 
 /// Ratio of factors that follow each other. A failure between two factors at which the wall passes is not
@@ -271,33 +272,22 @@ impl Runs<'_> {
     /// Returns the lowest factor on all records that fails, searched upwards, for the response is neither
     /// linear nor monotonic.
     fn lowest_failure(&self, thresholds: &Thresholds, factors: &[f64]) -> Result<f64, CheckError> {
+        let fails = |factor: f64| {
+            let maxima = self.maxima(factors, &[factor])?.remove(0);
+            Ok(!thresholds.judge(&maxima).passed())
+        };
         let powers: Vec<i32> = POWERS.collect();
         let mut below = RATIO.powi(powers[0]);
         for powers in powers.chunks(AT_ONCE) {
             let levels: Vec<f64> = powers.iter().map(|power| RATIO.powi(*power)).collect();
             for (level, maxima) in levels.iter().zip(self.maxima(factors, &levels)?) {
                 if !thresholds.judge(&maxima).passed() {
-                    return self.between(thresholds, factors, [below, *level]);
+                    return begins_at([below, *level], HALVINGS, fails);
                 }
                 below = *level;
             }
         }
         Ok(below)
-    }
-
-    /// Halves a step of factors at whose end the check fails.
-    fn between(
-        &self,
-        thresholds: &Thresholds,
-        factors: &[f64],
-        [mut passes, mut fails]: [f64; 2],
-    ) -> Result<f64, CheckError> {
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (passes + fails);
-            let maxima = self.maxima(factors, &[middle])?.remove(0);
-            if thresholds.judge(&maxima).passed() { passes = middle } else { fails = middle }
-        }
-        Ok(fails)
     }
 
     /// Returns the maxima of |d| on both sides: for each level, of each record.

@@ -5,6 +5,7 @@ use rocking_wall::wall::Parameters;
 
 use super::error::CheckError;
 use super::{Method, Records, Source, Statement, check};
+use crate::halving::begins_at;
 
 /// Values that are tried, in equal ratios.
 const TRIED: u32 = 121;
@@ -154,10 +155,7 @@ pub fn find(
         let value = Some(tries[0].0);
         return Ok(Found { value, range, everywhere: !fails_beyond, fails_beyond, curve });
     };
-    let (mut fails, mut holds) = (tries[before].0, tries[first].0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (fails + holds);
-        if zeta(middle).1 { holds = middle } else { fails = middle }
-    }
-    Ok(Found { value: Some(holds), range, everywhere: false, fails_beyond, curve })
+    let bracket = [tries[before].0, tries[first].0];
+    let value = begins_at(bracket, HALVINGS, |value| Ok::<_, CheckError>(zeta(value).1))?;
+    Ok(Found { value: Some(value), range, everywhere: false, fails_beyond, curve })
 }

@@ -1,6 +1,7 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
 use super::released::{Released, StabilityError};
+use crate::halving::begins_at;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
@@ -275,16 +276,13 @@ fn accumulating() -> Value {
         wall.advance(end)?;
         Ok(wall.state.phase == Phase::Resting)
     };
-    let (mut moving, mut resting) = (0.9 * time, 1.1 * time);
+    let [moving, resting] = [0.9 * time, 1.1 * time];
     if rests_by(moving)? || !rests_by(resting)? {
         return Ok(f64::INFINITY);
     }
     // halved down to neighbouring doubles
-    for _ in 0..f64::MANTISSA_DIGITS {
-        let middle = f64::midpoint(moving, resting);
-        *(if rests_by(middle)? { &mut resting } else { &mut moving }) = middle;
-    }
-    Ok((resting / time - 1.0).abs())
+    let rests = begins_at([moving, resting], f64::MANTISSA_DIGITS, rests_by)?;
+    Ok((rests / time - 1.0).abs())
 }
 
 /// History of the default wall under 10 s of a sine.

@@ -8,6 +8,7 @@ use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use super::difference::Difference;
 use super::error::ValidationError;
 use crate::free_motion::{advance, with_damping, with_restitution};
+use crate::halving::begins_at;
 
 /// Step of the search for e, and its least value \[-\].
 const E_STEP: f64 = 0.001;
@@ -17,7 +18,7 @@ const STEP: f64 = 0.005;
 /// Most steps of a run.
 const MOST_STEPS: usize = 20_000;
 /// Halvings of a step.
-const HALVINGS: usize = 50;
+const HALVINGS: u32 = 50;
 
 /// A free decay.
 #[derive(Clone, Debug)]
@@ -197,16 +198,10 @@ fn located(
     before: State,
     has_happened: impl Fn(&State) -> bool,
 ) -> Result<(f64, State), ValidationError> {
-    let (mut low, mut high, mut state) = (0.0, STEP, before);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
+    let mut state = before;
+    let time = begins_at([0.0, STEP], HALVINGS, |time| {
         state = before;
-        advance(motion, &mut state, middle, &mut Memo::default())?;
-        if has_happened(&state) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    Ok((high, state))
+        advance(motion, &mut state, time, &mut Memo::default()).map(|_| has_happened(&state))
+    })?;
+    Ok((time, state))
 }

@@ -12,6 +12,7 @@ use super::error::VerificationError;
 use super::formula::{Check, Formula};
 use crate::check::{Demand, Fractions, check};
 use crate::fragility::{FragilityFunction, Lognormal, Observation, fit};
+use crate::halving::begins_at;
 use crate::spectrum::{PulseForm, over_pulses};
 
 type Group = fn() -> Result<Formula, VerificationError>;
@@ -267,16 +268,11 @@ const HALVINGS: u32 = 16;
 fn half_sine() -> Result<Formula, VerificationError> {
     // the root of the condition for ω_p/p = 2
     let expected = 1.800_723_930_560_746;
-    let (mut stands, mut falls) = (expected * (1.0 - 1e-6), expected * (1.0 + 1e-6));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (stands + falls);
-        let spectrum = over_pulses(&rigid(), PulseForm::HalfSine, &[2.0], &[middle], 1)?;
-        if spectrum.points[0][0].overturning.is_some() {
-            falls = middle;
-        } else {
-            stands = middle;
-        }
-    }
+    let bracket = [expected * (1.0 - 1e-6), expected * (1.0 + 1e-6)];
+    let falls = begins_at(bracket, HALVINGS, |amplitude| {
+        let spectrum = over_pulses(&rigid(), PulseForm::HalfSine, &[2.0], &[amplitude], 1);
+        spectrum.map(|spectrum| spectrum.points[0][0].overturning.is_some())
+    })?;
     Ok(formula(
         [
             "Overturning by a half sine",
