@@ -9,7 +9,8 @@ const A: f64 = 0.8;
 const B: f64 = 1.1;
 
 /// A mode of the building at the place of a wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Mode {
     /// `T_k` \[s\].
     pub period: f64,

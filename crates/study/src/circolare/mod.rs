@@ -43,8 +43,8 @@ pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
 pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
 pub use table::{
-    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, ModeTable, RecordScale,
-    Topography, UseClass, in_table, read_table,
+    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
+    UseClass, in_table, read_table,
 };
 pub use verdict::{
     ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, TieBreak, Verdict,

@@ -4,8 +4,8 @@ use super::error::CheckError;
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};
 use super::table::{
-    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, ModeTable, RecordScale,
-    Topography, UseClass,
+    Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
+    UseClass,
 };
 use super::{CODE, LimitState};
 
@@ -73,23 +73,27 @@ pub enum Source {
     Records,
 }
 
-impl Statement {
-    pub(super) fn new(table: &CheckTable) -> Result<Self, CheckError> {
+impl CheckTable {
+    /// Checks the values against each other and the code.
+    ///
+    /// # Errors
+    /// [`CheckError::Value`] of the first that cannot be used.
+    pub fn statement(&self) -> Result<Statement, CheckError> {
         let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        if table.code != CODE {
-            return refused("code", format!("code = {:?} is unknown; the code is {CODE:?}", table.code));
+        if self.code != CODE {
+            return refused("code", format!("code = {:?} is unknown; the code is {CODE:?}", self.code));
         }
-        let q = table.behaviour_factor.unwrap_or(2.0);
+        let q = self.behaviour_factor.unwrap_or(2.0);
         if !(q >= 1.0 && q.is_finite()) {
             return refused("behaviour_factor", format!("behaviour_factor = {q} must be at least 1"));
         }
-        if let Some(r) = table.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
+        if let Some(r) = self.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
             return refused("overburden_mass", format!("overburden_mass = {r} must be at least 0"));
         }
-        if let Some(e) = table.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
+        if let Some(e) = self.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
             return refused("young_modulus", format!("young_modulus = {e} Pa must be above 0"));
         }
-        match (table.before_activation, table.young_modulus) {
+        match (self.before_activation, self.young_modulus) {
             (Some(Activation::Beam), None) => {
                 return refused("before_activation", "beam needs young_modulus, E in Pa".into());
             }
@@ -102,28 +106,30 @@ impl Statement {
             _ => {}
         }
         let mut states = [const { None }; 3];
-        for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
+        for (state, given) in LimitState::ALL.into_iter().zip([&self.sld, &self.slv, &self.slc]) {
             if let Some(given) = given {
-                states[state as usize] = Some(limit_state(state, given, table)?);
+                states[state as usize] = Some(limit_state(state, given, self)?);
             }
         }
-        let statement = Self {
-            before_activation: table.before_activation,
-            young_modulus: table.young_modulus,
-            confidence_factor: confidence_factor(table)?,
-            compression_considered: table.compression_considered,
-            overburden_mass: table.overburden_mass,
+        let statement = Statement {
+            before_activation: self.before_activation,
+            young_modulus: self.young_modulus,
+            confidence_factor: confidence_factor(self)?,
+            compression_considered: self.compression_considered,
+            overburden_mass: self.overburden_mass,
             behaviour_factor: q,
-            use_class: table.use_class,
-            method: table.method,
-            record_scale: table.record_scale,
+            use_class: self.use_class,
+            method: self.method,
+            record_scale: self.record_scale,
             states,
-            has_building: table.building.is_some(),
+            has_building: self.building.is_some(),
         };
         statement.check_sites()?;
         Ok(statement)
     }
+}
 
+impl Statement {
     /// Returns the statements about a limit state; `None` where its check is not made.
     pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
         self.states[state as usize].as_ref()
@@ -131,17 +137,11 @@ impl Statement {
 
     /// Refuses a method whose limit states have no site.
     fn check_sites(&self) -> Result<(), CheckError> {
-        let has = |state: LimitState| self.states[state as usize].is_some();
-        let needed = match self.method {
-            Method::Linear => LimitState::Slv,
-            Method::Nonlinear | Method::Dynamic if !has(LimitState::Slc) => LimitState::Slv,
-            Method::Nonlinear | Method::Dynamic => return Ok(()),
-        };
-        if has(needed) {
+        let [slv, slc] = [LimitState::Slv, LimitState::Slc].map(|state| self.state(state).is_some());
+        if slv || (slc && self.method != Method::Linear) {
             return Ok(());
         }
-        let message = format!("{needed} needs its site: [check.{needed}] with ag, F0 and TC");
-        Err(CheckError::value(&[], message))
+        Err(CheckError::value(&[], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
     }
 }
 
@@ -326,14 +326,12 @@ fn modes(building: &BuildingTable) -> Result<Vec<Mode>, CheckError> {
             Ok(vec![Mode::of_storeys(storeys, period, height_ratio)])
         }
         (None, None, None, Some(modes)) => {
-            let usable = |mode: &ModeTable| {
-                mode.period > 0.0 && mode.period.is_finite() && mode.participation.is_finite()
-            };
+            let usable =
+                |mode: &Mode| mode.period > 0.0 && mode.period.is_finite() && mode.participation.is_finite();
             if modes.is_empty() || !modes.iter().all(usable) {
                 return refused("modes", "each mode needs a period above 0 s and a participation".into());
             }
-            let mode = |mode: &ModeTable| Mode { period: mode.period, participation: mode.participation };
-            Ok(modes.iter().map(mode).collect())
+            Ok(modes.clone())
         }
         _ => refused(
             "modes",

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::CheckError;
-use super::statement::Statement;
+use super::floor::Mode;
 
 /// What the engineer states, as it is written.
 #[derive(Clone, Debug, Deserialize)]
@@ -93,17 +93,7 @@ pub struct BuildingTable {
     /// z/H.
     pub height_ratio: Option<f64>,
     /// Modes instead of these three, the first first.
-    pub modes: Option<Vec<ModeTable>>,
-}
-
-/// A mode of the building at the wall's place.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ModeTable {
-    /// `T_k` \[s\].
-    pub period: f64,
-    /// `γ_k` `ψ_k(z)` \[-\].
-    pub participation: f64,
+    pub modes: Option<Vec<Mode>>,
 }
 
 /// The wall before it rocks.
@@ -213,14 +203,4 @@ fn line_of(text: &str, keys: &[&str]) -> Option<std::ops::Range<usize>> {
         }
     }
     Some(at.span())
-}
-
-impl CheckTable {
-    /// Checks the values against each other and the code.
-    ///
-    /// # Errors
-    /// [`CheckError::Value`] of the first that cannot be used.
-    pub fn statement(&self) -> Result<Statement, CheckError> {
-        Statement::new(self)
-    }
 }
