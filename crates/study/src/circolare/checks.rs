@@ -56,7 +56,7 @@ pub fn check(
     let mut warnings = super::warnings::of_statement(statement, parameters, floors, &wall);
     let demands = demands(&wall, floors, statement, records)?;
     for (state, demand) in LimitState::ALL.into_iter().zip(&demands) {
-        warnings.extend(demand.iter().flat_map(|demand| super::warnings::of_demand(state, demand)));
+        warnings.extend(demand.iter().filter_map(|demand| super::warnings::of_demand(state, demand)));
     }
     let mut sides = [None, None];
     for sign in wall.sides() {
@@ -262,14 +262,13 @@ fn displacement(
     if elastic >= d || t0 >= period {
         return Err(CheckError::Elastic { state, elastic, t0, displacement: d, period });
     }
-    let DisplacementDemand { acceleration, displacement: demand, terms } =
+    let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
         demand.displacement(state, [t0, period], given.damping)?;
     let ratio = d / demand;
     let least = floor.unwrap_or(0.0);
     let raised = least > ratio * given.ag;
     let ag = if raised { least } else { ratio * given.ag };
     let zeta = if raised { least / given.ag } else { ratio };
-    let demand_terms = terms;
     Ok(DisplacementCheck {
         d,
         a,

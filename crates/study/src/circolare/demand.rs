@@ -106,12 +106,6 @@ impl Demand {
         }
     }
 
-    /// The periods of given points.
-    fn periods(&self) -> impl Iterator<Item = f64> {
-        let points: &[(f64, f64)] = if let Self::Points(points, _) = self { points } else { &[] };
-        points.iter().map(|point| point.0)
-    }
-
     /// The displacement demand of a limit state of the period T and the damping ξ, of a wall whose elastic
     /// period is T0.
     pub(super) fn displacement(
@@ -130,7 +124,8 @@ impl Demand {
         let mut largest = first;
         let equal = (0..=SEARCHED).map(|part| t0 + (period - t0) * f64::from(part) / f64::from(SEARCHED));
         // the peaks of given points are at points
-        let own = self.periods().filter(|own| (t0..=period).contains(own));
+        let points: &[(f64, f64)] = if let Self::Points(points, _) = self { points } else { &[] };
+        let own = points.iter().map(|point| point.0).filter(|own| (t0..=period).contains(own));
         // S_d is 0 at T = 0; below 1 ms it is nothing
         for at in equal.chain(own).filter(|at| *at >= 1e-3) {
             largest = largest.max(self.spectral_displacement(state, at, xi)?);

@@ -78,13 +78,11 @@ pub(super) fn of_statement(
     warnings
 }
 
-pub(super) fn of_demand(state: LimitState, demand: &Demand) -> Vec<String> {
-    let Demand::Floor(floor) = demand else { return Vec::new() };
+pub(super) fn of_demand(state: LimitState, demand: &Demand) -> Option<String> {
+    let Demand::Floor(floor) = demand else { return None };
     let (place, ground) = (floor.peak_acceleration(), floor.ground().acceleration(0.0, 0.05));
-    if place >= ground {
-        return Vec::new();
-    }
-    vec![format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground")]
+    (place < ground)
+        .then(|| format!("{state}: a_Z = {place:.4} m/s² is below a_g S = {ground:.4} m/s² of the ground"))
 }
 
 pub(super) fn of_side(
@@ -112,17 +110,10 @@ pub(super) fn of_side(
     warnings
 }
 
-pub(super) fn of_periods(sides: &SideVerdicts) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (_, side) in sides.iter() {
-        for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
-            if let Some(check) = check.filter(|check| check.period > LONGEST_PERIOD) {
-                warnings.push(format!(
-                    "T_{state} = {:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s",
-                    check.period
-                ));
-            }
-        }
-    }
-    warnings
+pub(super) fn of_periods(sides: &SideVerdicts) -> impl Iterator<Item = String> {
+    let checks =
+        sides.iter().flat_map(|(_, side)| [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)]);
+    let periods = checks.filter_map(|(state, check)| Some((state, check?.period)));
+    let long = periods.filter(|(_, period)| *period > LONGEST_PERIOD);
+    long.map(|(state, period)| format!("T_{state} = {period:.3} s: NTC 3.2.3.2 admits its spectra up to 4 s"))
 }
