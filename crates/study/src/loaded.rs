@@ -283,23 +283,17 @@ pub(crate) fn all_records(
 }
 
 /// Lists the files of a folder, of a pattern, or the one file, in order of their names.
-fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
+fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
     let visible = |path: &Path| {
         path.is_file() && path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'))
     };
-    let told = |error: &dyn std::fmt::Display| error.to_string();
     let mut found: Vec<PathBuf> = if path.is_dir() {
-        let entries = std::fs::read_dir(path).map_err(|error| told(&error))?;
-        entries
-            .map(|entry| Ok(entry?.path()))
-            .collect::<std::io::Result<_>>()
-            .map_err(|error| told(&error))?
+        std::fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?
     } else if path.is_file() {
         return Ok(vec![path.to_owned()]);
     } else {
         let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
-        let matches = glob::glob(pattern).map_err(|error| told(&error))?;
-        matches.collect::<Result<_, _>>().map_err(|error| told(&error))?
+        glob::glob(pattern)?.collect::<Result<_, _>>()?
     };
     found.retain(|path| visible(path));
     found.sort();

@@ -211,10 +211,6 @@ impl Row {
         [sample_median(&mut values), largest]
     }
 
-    fn count(&self, pick: fn(&Outcome) -> bool) -> usize {
-        self.outcomes.iter().filter(|outcome| pick(outcome)).count()
-    }
-
     /// Returns the median and the largest force \[N\] and u/`u_ins`. Four counts follow: walls that fall,
     /// those of them that fall away from the tie, walls that return from beyond `u_ins`, strengths reached.
     pub fn values(&self) -> ([f64; 4], [usize; 4]) {
@@ -225,6 +221,7 @@ impl Row {
             |outcome| matches!(outcome.fate, Fate::ComesBack { .. }),
             |outcome| outcome.reached,
         ];
-        ([force, most, ratio, largest], counts.map(|pick| self.count(pick)))
+        let count = |pick: fn(&Outcome) -> bool| self.outcomes.iter().filter(|outcome| pick(outcome)).count();
+        ([force, most, ratio, largest], counts.map(count))
     }
 }
