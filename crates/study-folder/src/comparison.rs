@@ -7,10 +7,10 @@ use figures::palette::sign;
 use ground_motion::STANDARD_GRAVITY;
 use study::fragility::Interval;
 use study::results::WallResults;
+use study::tables::in_g;
 
 use crate::contents::Manifest;
 use crate::legend::looks;
-use crate::tables::in_g;
 
 /// Height of the lane of a model \[px\].
 const LANE: usize = 13;

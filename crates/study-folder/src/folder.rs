@@ -63,12 +63,7 @@ impl Folder {
     }
 
     fn create(path: &Path, manifest: Manifest) -> Result<Self, FolderError> {
-        let runs = path.join(RUNS);
-        std::fs::create_dir_all(&runs).map_err(|source| FolderError::File {
-            path: runs,
-            what: "made",
-            source,
-        })?;
+        make(&path.join(RUNS))?;
         let mut draft = Draft::new(&path.join(STUDY), b"")?;
         draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
         draft.write(|file| file.write_all(b"\n"))?;
@@ -149,12 +144,7 @@ impl Folder {
 
     fn keep_bytes(&self, part: usize, bytes: &[u8]) -> Result<(), FolderError> {
         let file = self.file(part);
-        let folder = file::folder(&file);
-        std::fs::create_dir_all(folder).map_err(|source| FolderError::File {
-            path: folder.to_owned(),
-            what: "made",
-            source,
-        })?;
+        make(file::folder(&file))?;
         // no need to wait for the disk: a part that a power failure damages is computed again
         file::to_file_unsynced(&file, bytes)
     }
@@ -220,6 +210,12 @@ impl Folder {
             }
         }
     }
+}
+
+/// Makes a folder, and those that it lies in.
+fn make(path: &Path) -> Result<(), FolderError> {
+    let failed = |source| FolderError::File { path: path.to_owned(), what: "made", source };
+    std::fs::create_dir_all(path).map_err(failed)
 }
 
 /// Reads the description of the study in a folder.

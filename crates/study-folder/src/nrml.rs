@@ -6,9 +6,9 @@ use std::io::{self, Write};
 use figures::escaped;
 use study::document::ReportOptions;
 use study::fragility::FragilityFunction;
+use study::tables::in_g;
 
 use crate::contents::Manifest;
-use crate::tables::in_g;
 
 /// Φ⁻¹(1 − 1e-4): beyond `minIML` and `maxIML` lies a probability of 1e-4.
 const TAIL: f64 = 3.719_016_485_455_709;

@@ -10,11 +10,11 @@ use study::counted;
 use study::fragility::Interval;
 use study::ida::Exceedance;
 use study::results::WallResults;
+use study::tables::in_g;
 
 use crate::contents::{Contents, Manifest};
 use crate::legend::{key, looks, spelled_out};
 use crate::plots::{Shown, curves, fragility, top};
-use crate::tables::in_g;
 
 /// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
 const MOST_POINTS: usize = 100_000;

@@ -4,10 +4,10 @@ use figures::many_lines::ManyLines;
 use study::fragility::{fractile, steps};
 use study::ida::{Curve, Exceedance, Run};
 use study::results::WallResults;
+use study::tables::in_g;
 
 use crate::contents::Manifest;
 use crate::legend::looks;
-use crate::tables::in_g;
 
 /// Size of every plot \[px\]; with one size, their letters have one size too.
 pub(crate) const SIZE: [f64; 2] = [340.0, 260.0];

@@ -6,11 +6,11 @@ use figures::escaped;
 use figures::many_lines::ManyLines;
 use study::fragility::fractile;
 use study::results::WallResults;
+use study::tables::in_g;
 
 use crate::contents::Manifest;
 use crate::legend::looks;
 use crate::plots::{POINTS, SIZE};
-use crate::tables::in_g;
 
 /// Fractiles that the tables list.
 const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];

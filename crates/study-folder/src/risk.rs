@@ -9,13 +9,13 @@ use ground_motion::STANDARD_GRAVITY;
 use study::document::WallClass;
 use study::fragility::{FragilityFunction, Interval};
 use study::results::WallResults;
+use study::tables::in_g;
 
 use crate::contents::Manifest;
 use crate::csv::{optional, quoted};
 use crate::error::FolderError;
 use crate::file::{self, Draft};
 use crate::nrml;
-use crate::tables::in_g;
 
 /// Names of the files.
 const FILES: [&str; 2] = ["fragility_curves.csv", "fragilities.xml"];

@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 
-use ground_motion::STANDARD_GRAVITY;
 use study::fragility::between;
 use study::results::WallResults;
 use study::tables::{COLLAPSES, Cell, FRAGILITIES, LEVELS, Names, Table};
@@ -55,9 +54,4 @@ fn text(cell: &Cell<'_>) -> String {
         Cell::Count(count) => count.to_string(),
         Cell::Flag(flag) => u8::from(flag).to_string(),
     }
-}
-
-/// Returns an acceleration in g.
-pub(crate) fn in_g(acceleration: f64) -> f64 {
-    acceleration / STANDARD_GRAVITY
 }

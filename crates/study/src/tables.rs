@@ -125,6 +125,6 @@ impl<'a> Names<'a> {
 }
 
 /// Returns an acceleration in g.
-fn in_g(acceleration: f64) -> f64 {
+pub fn in_g(acceleration: f64) -> f64 {
     acceleration / STANDARD_GRAVITY
 }
