@@ -3,8 +3,6 @@
 use crate::circolare::{PARAPET, checked};
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
-const STRIP: &str =
-    "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\noverburden = 1e4\n";
 
 /// A table `[check]` on soil B of a rigid wall, with more keys.
 fn table(more: &str) -> String {
@@ -51,10 +49,7 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         (at_height("", "{ modes = [] }"), "each mode needs a period above 0 s"),
         (with(building), "state building_damping, the damping of the building"),
         (
-            at_height(
-                ", building_damping = 0.5, damping = 0.5",
-                "{ storeys = 3, period = 0.3, height_ratio = 1 }",
-            ),
+            with(building).replace("0.32", "0.32, building_damping = 0.5, damping = 0.5"),
             "xi_k = 0.5 leaves no amplification: [C7.2.6] does not hold",
         ),
         (open("").replace("soil = \"B\"\n", "before_activation = \"rigid\"\n"), "soil is missing"),
@@ -67,56 +62,35 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         (with("records = { synthetic = { count = 2 } }"), "found 2; at least 3 records (NTC 7.3.5)"),
     ];
     for (text, message) in cases {
-        let error = checked(&format!("{PARAPET}{text}")).expect_err(message);
-        assert!(error.contains(message), "{error}\nfor {text}");
+        let error = refuses(&format!("{PARAPET}{text}"), message);
         assert!(error.starts_with("scene.toml, line"), "{error}");
     }
 }
 
-/// Walls that the check cannot take.
+/// Walls that the check cannot take: what their scenes add to the parapet, and their tables.
 #[test]
 fn walls_that_do_not_go_with_the_statements_are_refused() {
     let with = |more: &str| table(&format!("SLV = {SITE}\nSLC = {SITE}\n{more}"));
-    let law = |more: &str| open(&format!("before_activation = \"law\"\n{more}"));
-    let full = format!(
-        "{PARAPET}kinematics = \"trigonometric\"\n[force_law]\nforce_law = \"rigid_linear\"\na3 = 1\n\
-         [damping]\ndamping_model = \"none\"\n[impact]\nimpact = \"restitution\"\n"
-    );
-    let cases = [
-        (
-            format!("{PARAPET}overburden = 5e3\n{}", with("")),
-            "state whether the overburden's mass moves along",
-        ),
-        (format!("{STRIP}{}", with("overburden_mass = 1")), "the top of a strip wall is held"),
-        (
-            format!(
-                "{PARAPET}[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n{}",
-                law("")
-            ),
-            "has no elastic branch",
-        ),
-        (
-            format!(
-                "{PARAPET}[force_law]\nforce_law = \"trilinear\"\na1 = 0.03\na3 = 1\nd1 = 0.7\n{}",
-                with("")
-            ),
-            "state \"law\"",
-        ),
-        (format!("{full}{}", with("")), "small rotations"),
-        (
-            format!("{PARAPET}{}", with("").replace("SLC = { ", "SLC = { displacement = 0.3, ")),
-            "SLC.displacement = 0.3 m must be above 0 and below u_0 = 0.2",
-        ),
-        (
-            format!("{PARAPET}{}", with("").replace("SLC = { ", "SLC = { displacement = 0.05, ")),
-            "SLC comes before SLV: d_SLC = 0.05 m is below d_SLV = 0.08",
-        ),
-        (
-            format!("{PARAPET}[force_law]\na1 = 0.5\n{}", law("")),
-            "the elastic branch reaches d_SLV: the wall does not rock before SLV",
-        ),
-    ];
-    refuses_all(&cases);
+    let local = |d: f64| with("").replace("SLC = { ", &format!("SLC = {{ displacement = {d}, "));
+    let law = || open("before_activation = \"law\"\n");
+    let strip = "mechanism = \"vertical_spanning\"\noverburden = 1e4\n";
+    let rigid = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n";
+    let trilinear = "[force_law]\nforce_law = \"trilinear\"\na1 = 0.03\na3 = 1\nd1 = 0.7\n";
+    let full = format!("kinematics = \"trigonometric\"\n{rigid}[impact]\nimpact = \"restitution\"\n");
+    let first = "SLC comes before SLV: d_SLC = 0.05 m is below d_SLV = 0.08";
+    let slow = "the elastic branch reaches d_SLV: the wall does not rock before SLV";
+    for (wall, table, message) in [
+        ("overburden = 5e3\n", with(""), "state whether the overburden's mass moves along"),
+        (strip, with("overburden_mass = 1"), "the top of a strip wall is held"),
+        (rigid, law(), "has no elastic branch"),
+        (trilinear, with(""), "state \"law\""),
+        (&full, with(""), "small rotations"),
+        ("", local(0.3), "SLC.displacement = 0.3 m must be above 0 and below u_0 = 0.2"),
+        ("", local(0.05), first),
+        ("[force_law]\na1 = 0.5\n", law(), slow),
+    ] {
+        refuses(&format!("{PARAPET}{wall}{table}"), message);
+    }
 }
 
 /// Spectra and records that do not go with the limit state.
@@ -125,82 +99,59 @@ fn demands_that_do_not_serve_are_refused() {
     let with = |more: &str| table(&format!("SLV = {SITE}\nSLC = {SITE}\n{more}"));
     let spectrum = |points: &str, damping: f64| {
         let given = format!("SLC = {{ ag = 0.2, spectrum = {points}, spectrum_damping = {damping} }}");
-        format!("{PARAPET}{}", table(&format!("SLV = {SITE}\n{given}")))
+        table(&format!("SLV = {SITE}\n{given}"))
     };
     let [to_nine, to_two] = ["[[0, 0.2], [9, 0.01]]", "[[0, 0.2], [2, 0.01]]"];
-    let building = "building = { modes = [{ period = 0.3, participation = 1 }] }";
     let damped = "{ ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }";
-    let records = "method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }";
-    refuses_all(&[
+    let in_building = spectrum(to_nine, 0.1).replace(SITE, damped)
+        + "building = { modes = [{ period = 0.3, participation = 1 }] }";
+    let records = with("method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }");
+    let as_they_are = "takes them as they are: state record_scale = \"none\"";
+    for (table, message) in [
         (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),
         (spectrum(to_two, 0.1), "SLC needs the spectrum up to T = 3.1"),
         (spectrum("[[1, 0.2], [2, 0.01]]", 0.1), "T from 0 on that rises"),
-        (format!("{}{building}", spectrum(to_nine, 0.1).replace(SITE, damped)), "leave [check.building] out"),
-        (
-            format!("{PARAPET}{}", with(records).replace(SITE, "{ ag = 0.15 }")),
-            "takes them as they are: state record_scale = \"none\"",
-        ),
-    ]);
+        (in_building, "leave [check.building] out"),
+        (records.replace(SITE, "{ ag = 0.15 }"), as_they_are),
+    ] {
+        refuses(&format!("{PARAPET}{table}"), message);
+    }
 }
 
-fn refuses_all(cases: &[(String, &str)]) {
-    for (text, message) in cases {
-        let error = checked(text).expect_err(message);
-        assert!(error.contains(message), "{error}\nfor {text}");
-    }
+/// Checks that a scene is refused with a message, which is returned whole.
+fn refuses(text: &str, message: &str) -> String {
+    let error = checked(text).expect_err(message);
+    assert!(error.contains(message), "{error}\nfor {text}");
+    error
 }
 
 #[test]
 fn what_the_engineer_should_know_is_warned_of() {
     let state = |name: &str, more: &str| format!("{name} = {{ ag = 0.15, F0 = 2.45, TC = 0.32{more} }}\n");
+    let slv = |more: &str| table(&(state("SLV", "") + more));
+    let damped = |more: &str| table(&(state("SLV", ", building_damping = 0.1") + more));
+    let records = |count: u32| slv(&format!("records = {{ synthetic = {{ count = {count} }} }}"));
     let roof = "building = { storeys = 3, period = 0.3, height_ratio = 1.0 }";
     let low = "building = { modes = [{ period = 0.3, participation = 0.1 }] }";
-    let damped = ", building_damping = 0.1";
-    let cases = [
-        (
-            table(&(state("SLV", "") + &state("SLC", ""))),
-            "a_g does not rise from SLV to SLC: 0.15 and 0.15 g",
-        ),
-        (
-            table(&state("SLV", "").replace("0.32", "1.2")),
-            "T_C* = 1.2 s is above 1 s; check that it is given in seconds",
-        ),
-        (table(&(state("SLV", "") + "use_class = \"IV\"")), "use class IV is checked for SLD too"),
-        (table(&(state("SLV", damped) + low)), "SLV: a_Z = "),
-        (
-            table(&(state("SLV", "") + "records = { synthetic = { count = 3 } }")),
-            "3 records: the least favourable one counts",
-        ),
-        (
-            table(&(state("SLV", "") + "records = { synthetic = { count = 7 } }")),
-            "7 records: the mean counts",
-        ),
-        (
-            format!("[tie]\ntie_height = 3\ntie_stiffness = 2e4\n{}", table(&(state("SLV", damped) + roof))),
-            "the tie has no tie_strength: it never breaks",
-        ),
-        (
-            open("before_activation = \"beam\"\nyoung_modulus = 3e11")
-                .replace("TC = 0.32 }", "TC = 0.32, building_damping = 0.1 }")
-                + low,
-            "S_eZ(T0) = ",
-        ),
-    ];
-    for (text, message) in cases {
-        let verdict = checked(&format!("{PARAPET}{text}")).unwrap();
-        assert!(
-            verdict.warnings.iter().any(|warning| warning.contains(message)),
-            "{:?} for {text}",
-            verdict.warnings
-        );
+    let tie = "[tie]\ntie_height = 3\ntie_stiffness = 2e4\n";
+    let beam = open("before_activation = \"beam\"\nyoung_modulus = 3e11")
+        .replace("TC = 0.32 }", "TC = 0.32, building_damping = 0.1 }");
+    for (text, message) in [
+        (slv(&state("SLC", "")), "a_g does not rise from SLV to SLC: 0.15 and 0.15 g"),
+        (slv("").replace("0.32", "1.2"), "T_C* = 1.2 s is above 1 s; check that it is given in seconds"),
+        (slv("use_class = \"IV\""), "use class IV is checked for SLD too"),
+        (damped(low), "SLV: a_Z = "),
+        (records(3), "3 records: the least favourable one counts"),
+        (records(7), "7 records: the mean counts"),
+        (format!("{tie}{}", damped(roof)), "the tie has no tie_strength: it never breaks"),
+        (beam + low, "S_eZ(T0) = "),
+    ] {
+        let warnings = checked(&format!("{PARAPET}{text}")).unwrap().warnings;
+        assert!(warnings.iter().any(|warning| warning.contains(message)), "{warnings:?} for {text}");
     }
     let tall = "[geometry]\nheight = 8\nthickness = 0.4\n";
-    let verdict = checked(&format!("{tall}{}", table(&state("SLC", "")))).unwrap();
-    assert!(
-        verdict.warnings[0].contains("NTC 3.2.3.2 admits its spectra up to 4 s"),
-        "{:?}",
-        verdict.warnings
-    );
-    let quiet = checked(&format!("{PARAPET}{}", table(&state("SLV", "")))).unwrap();
-    assert!(quiet.warnings.is_empty(), "{:?}", quiet.warnings);
+    let warnings = checked(&format!("{tall}{}", table(&state("SLC", "")))).unwrap().warnings;
+    assert!(warnings[0].contains("NTC 3.2.3.2 admits its spectra up to 4 s"), "{warnings:?}");
+    let quiet = checked(&format!("{PARAPET}{}", slv(""))).unwrap().warnings;
+    assert!(quiet.is_empty(), "{quiet:?}");
 }
