@@ -154,7 +154,7 @@ pub fn measure_at(
     let other = exact.then(|| adaptive.history(1.0)).transpose().map_err(failed)?;
     let probed = best.history(1.0 + PROBE).map_err(failed)?;
     let scale = wall.displacement_scale();
-    let amplification = 1.0 + largest_difference(&reference, &probed, scale) / PROBE;
+    let amplification = 1.0 + differences(&reference, &probed, scale).fold(0.0, f64::max) / PROBE;
     let measurement = |&setting: &Setting| {
         let trial = Trial::new(problem, &wall, setting);
         let history = trial.history(1.0)?;
@@ -176,16 +176,10 @@ pub fn measure_at(
     })
 }
 
-/// Counts the samples before either run overturned.
-fn compared(a: &History, b: &History) -> usize {
-    let count = a.displacements.len();
-    let until = |history: &History| history.displacements.iter().position(|u| u.is_nan()).unwrap_or(count);
-    until(a).min(until(b))
-}
-
-fn largest_difference(a: &History, b: &History, scale: f64) -> f64 {
-    let pairs = a.displacements.iter().zip(&b.displacements).take(compared(a, b));
-    pairs.map(|(a, b)| (a - b).abs() / scale).fold(0.0, f64::max)
+/// Returns |Δu|/`u_ins` at the samples before either run overturned.
+fn differences(a: &History, b: &History, scale: f64) -> impl Iterator<Item = f64> {
+    let pairs = a.displacements.iter().zip(&b.displacements);
+    pairs.map(move |(a, b)| (a - b).abs() / scale).take_while(|difference| !difference.is_nan())
 }
 
 fn compare(
@@ -195,9 +189,8 @@ fn compare(
     reference: &History,
     scale: f64,
 ) -> Measurement {
-    let count = compared(history, reference);
-    let pairs = || history.displacements.iter().zip(&reference.displacements).take(count);
-    let squares: f64 = pairs().map(|(a, b)| ((a - b) / scale).powi(2)).sum();
+    let differences = || differences(history, reference, scale);
+    let squares: f64 = differences().map(|difference| difference.powi(2)).sum();
     let peak = reference.outcome.state.peaks.largest();
     let stands = history.outcome.overturning.or(reference.outcome.overturning).is_none();
     let error_overturning = match (history.outcome.overturning, reference.outcome.overturning) {
@@ -208,8 +201,8 @@ fn compare(
     Measurement {
         setting,
         seconds,
-        error_max: largest_difference(history, reference, scale),
-        error_rms: (squares / count.max(1) as f64).sqrt(),
+        error_max: differences().fold(0.0, f64::max),
+        error_rms: (squares / differences().count().max(1) as f64).sqrt(),
         error_peak: stands.then(|| (history.outcome.state.peaks.largest() - peak).abs() / peak),
         error_overturning,
         work: history.outcome.work,

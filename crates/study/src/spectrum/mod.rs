@@ -193,16 +193,11 @@ fn shaped(
         Err(SpectrumError::Value { name, value, limit: format!("above 0 and at most {highest:.4}") })
     };
     positive(size.label(), value, 1e6)?;
-    let ratio = match slenderness {
-        Slenderness::Ratio => {
-            positive(slenderness.label(), row, 1e6)?;
-            row
-        }
-        Slenderness::Angle => {
-            positive(slenderness.label(), row, FRAC_PI_4)?;
-            1.0 / libm::tan(row)
-        }
+    let (highest, ratio) = match slenderness {
+        Slenderness::Ratio => (1e6, row),
+        Slenderness::Angle => (FRAC_PI_4, 1.0 / libm::tan(row)),
     };
+    positive(slenderness.label(), row, highest)?;
     let height = match size {
         Size::Height => value,
         // 2R = √(h² + b²) = h √(1 + (b/h)²)
