@@ -289,20 +289,17 @@ fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
 }
 
 fn topography(table: &CheckTable) -> Result<f64, CheckError> {
-    let factor = match &table.topography {
-        None => Some(1.0),
-        Some(Topography::Factor(factor)) => Some(*factor).filter(|factor| (1.0..=1.4).contains(factor)),
+    let (factor, given) = match &table.topography {
+        None => return Ok(1.0),
+        Some(Topography::Factor(factor)) => {
+            (Some(*factor).filter(|factor| (1.0..=1.4).contains(factor)), factor.to_string())
+        }
         Some(Topography::Category(name)) => {
-            let categories = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)];
-            categories.into_iter().find(|(category, _)| category == name).map(|(_, factor)| factor)
+            let mut categories = [("T1", 1.0), ("T2", 1.2), ("T3", 1.2), ("T4", 1.4)].into_iter();
+            (categories.find(|(category, _)| category == name).map(|(_, factor)| factor), format!("{name:?}"))
         }
     };
     factor.ok_or_else(|| {
-        let given = match &table.topography {
-            Some(Topography::Factor(factor)) => factor.to_string(),
-            Some(Topography::Category(name)) => format!("{name:?}"),
-            None => String::new(),
-        };
         let message = format!("topography = {given} must be \"T1\" to \"T4\", or S_T from 1 to 1.4");
         CheckError::value(&["topography"], message)
     })

@@ -107,14 +107,13 @@ pub(super) fn report(
     };
     let Some(table) = table else { return Ok(report) };
     let spec = table.get_ref();
+    let refused = |message: String| Err(place.error(table.span(), message));
     if let Some(fractions) = &spec.fractions {
         if fractions.is_empty() {
-            let message = "fractions is empty; list at least one fraction of u_ins";
-            return Err(place.error(table.span(), message));
+            return refused("fractions is empty; list at least one fraction of u_ins".into());
         }
         if let Some(fraction) = fractions.iter().find(|fraction| !(**fraction > 0.0 && **fraction <= 1.0)) {
-            let message = format!("{fraction} is not a fraction of u_ins above 0 and at most 1");
-            return Err(place.error(table.span(), message));
+            return refused(format!("{fraction} is not a fraction of u_ins above 0 and at most 1"));
         }
         report.fractions.clone_from(fractions);
     }
@@ -127,15 +126,13 @@ pub(super) fn report(
     }
     if let Some(resamples) = spec.resamples {
         if !(100..=MOST_RESAMPLES).contains(&resamples) {
-            let message = format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}");
-            return Err(place.error(table.span(), message));
+            return refused(format!("resamples = {resamples} must be from 100 to {MOST_RESAMPLES}"));
         }
         report.resamples = resamples;
     }
     if let Some(beta) = spec.modelling_uncertainty {
         if !(0.0..=MOST_UNCERTAINTY).contains(&beta) {
-            let message = format!("modelling_uncertainty = {beta} must be from 0 to {MOST_UNCERTAINTY}");
-            return Err(place.error(table.span(), message));
+            return refused(format!("modelling_uncertainty = {beta} must be from 0 to {MOST_UNCERTAINTY}"));
         }
         report.modelling_uncertainty = beta;
     }
