@@ -72,10 +72,8 @@ pub fn trial(building: &Building, parts: &Parts) -> Result<Trial, BuildingError>
     for &step in &steps {
         let history = plan.run(step, true).ok();
         let before = linear.last().and_then(|(_, history)| history.as_ref());
-        let is_settled = match (before, &history) {
-            (Some(before), Some(history)) => error(before, history) <= REFERENCE_ERROR,
-            _ => false,
-        };
+        let pair = before.zip(history.as_ref());
+        let is_settled = pair.is_some_and(|(before, now)| error(before, now) <= REFERENCE_ERROR);
         linear.push((step, history));
         if is_settled {
             reference = linear.last().and_then(|(_, history)| history.clone());
