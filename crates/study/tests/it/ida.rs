@@ -19,8 +19,7 @@ fn walls() -> Vec<NamedWall> {
         a1: 0.02,
         ..Parameters::default()
     };
-    let named = |name: &str, parameters| NamedWall::new(name, parameters);
-    vec![named("3", parapet), named("8", strip)]
+    vec![NamedWall::new("3", parapet), NamedWall::new("8", strip)]
 }
 
 fn records(count: u64) -> Vec<NamedRecord> {
@@ -32,7 +31,11 @@ fn records(count: u64) -> Vec<NamedRecord> {
 }
 
 fn study(levels: Levels, models: Vec<Model>) -> Study {
-    Study::new(walls(), records(3), models, IntensityMeasure::default(), levels).unwrap()
+    with_records(records(3), levels, models)
+}
+
+fn with_records(records: Vec<NamedRecord>, levels: Levels, models: Vec<Model>) -> Study {
+    Study::new(walls(), records, models, IntensityMeasure::default(), levels).unwrap()
 }
 
 const HUNT: Levels = Levels::HuntAndFill { first: 0.5, increase: 0.5, top: 60.0, resolution: 0.01, gap: 0.2 };
@@ -177,14 +180,7 @@ fn intensities_scale_with_the_motion() {
     let of = |factor: f64| {
         let motion = record.scaled(factor);
         let records = vec![NamedRecord { name: "one".into(), motion }];
-        Study::new(
-            walls(),
-            records,
-            vec![Model::new(EnergyLoss::Restitution)],
-            IntensityMeasure::default(),
-            HUNT,
-        )
-        .unwrap()
+        with_records(records, HUNT, vec![Model::new(EnergyLoss::Restitution)])
     };
     let (one, four) = (of(1.0), of(4.0));
     assert!((four.intensity(0) / one.intensity(0) - 4.0).abs() < 1e-12);
