@@ -65,11 +65,6 @@ impl Sought {
             Self::TieStiffness => [1e-2 * weight / height, 1e5 * weight / height],
         }
     }
-
-    /// Returns whether the largest value that passes is sought, not the smallest.
-    fn is_largest(self) -> bool {
-        self == Self::Height
-    }
 }
 
 /// What was found.
@@ -142,7 +137,8 @@ pub fn find(
         check(parameters, floors, statement, records)?;
     }
     let curve = tries.iter().map(|&(value, (zeta, _))| (value, zeta)).collect();
-    if sought.is_largest() {
+    // of heights the largest is sought
+    if sought == Sought::Height {
         tries.reverse();
     }
     let passes = |&(_, (_, passed)): &(f64, (f64, bool))| passed;
