@@ -19,12 +19,6 @@ pub fn to_file(path: &Path, content: &[u8]) -> Result<(), FolderError> {
     Draft::new(path, content)?.commit(true).map(drop)
 }
 
-/// Writes a file like [`to_file`] without waiting for the disk: after a power failure its content may be
-/// damaged.
-pub(crate) fn to_file_unsynced(path: &Path, content: &[u8]) -> Result<(), FolderError> {
-    Draft::new(path, content)?.commit(false).map(drop)
-}
-
 /// Removes a file, if there is one.
 ///
 /// # Errors

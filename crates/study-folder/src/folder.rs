@@ -146,7 +146,7 @@ impl Folder {
         let file = self.file(part);
         make(file::folder(&file))?;
         // no need to wait for the disk: a part that a power failure damages is computed again
-        file::to_file_unsynced(&file, bytes)
+        Draft::new(&file, bytes)?.commit(false).map(drop)
     }
 
     /// Returns those of the parts given that are missing.
