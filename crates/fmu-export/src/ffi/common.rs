@@ -6,7 +6,7 @@ use super::kinds::Kinds;
 use super::types::{
     Boolean, CallbackFunctions, Component, Integer, Real, Status, Text, Type, ValueReference, status,
 };
-use crate::call::Call;
+use crate::call::{Call, Phase};
 use crate::failure::Failure;
 use crate::instance::Instance;
 use crate::log::{Logger, Sink};
@@ -144,16 +144,12 @@ functions! {
     };
     /// `fmi2EnterInitializationMode`
     enter_initialization_mode<Model>(): EnterInitializationMode, |instance| {
-        instance.enter_initialization_mode();
-        Ok(())
+        instance.enter(Phase::InitializationMode)
     };
     /// `fmi2ExitInitializationMode`, `fmi3ExitInitializationMode`
     exit_initialization_mode<Model>(): ExitInitializationMode, Instance::exit_initialization_mode;
     /// `fmi2Terminate`, `fmi3Terminate`
-    terminate<Model>(): Terminate, |instance| {
-        instance.terminate();
-        Ok(())
-    };
+    terminate<Model>(): Terminate, |instance| instance.enter(Phase::Terminated);
     /// `fmi2Reset`, `fmi3Reset`
     reset<Model>(): Reset, |instance| {
         instance.reset();

@@ -3,13 +3,12 @@
 use super::arguments::{array, place, zeroed};
 use super::guard::functions;
 use super::types::{Boolean, Component, EventInfo, Real, Status};
-use crate::call::Call;
-use crate::instance::Instance;
+use crate::call::{Call, Phase};
 use crate::model::{ModelExchange, Update};
 
 functions! {
     /// `fmi2EnterEventMode`, `fmi3EnterEventMode`
-    enter_event_mode<ModelExchange>(): EnterEventMode, Instance::enter_event_mode;
+    enter_event_mode<ModelExchange>(): EnterEventMode, |instance| instance.enter(Phase::EventMode);
     /// `fmi2NewDiscreteStates`
     new_discrete_states<ModelExchange>(information: *mut EventInfo): NewDiscreteStates, |instance| {
         // SAFETY: `information` is NULL or points to room for one value that nobody else uses during the
@@ -28,8 +27,7 @@ functions! {
     };
     /// `fmi2EnterContinuousTimeMode`, `fmi3EnterContinuousTimeMode`
     enter_continuous_time_mode<ModelExchange>(): EnterContinuousTimeMode, |instance| {
-        instance.enter_continuous_time_mode();
-        Ok(())
+        instance.enter(Phase::ContinuousTimeMode)
     };
     /// `fmi2CompletedIntegratorStep`, `fmi3CompletedIntegratorStep`
     completed_integrator_step<ModelExchange>(

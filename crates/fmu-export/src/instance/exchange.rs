@@ -2,7 +2,6 @@
 
 use super::Instance;
 use crate::access;
-use crate::call::Phase;
 use crate::failure::Failure;
 use crate::limits;
 use crate::model::{Interface, ModelExchange, Update};
@@ -16,10 +15,6 @@ impl<M: ModelExchange> Instance<M> {
             Interface::ModelExchange => self.now.model.update(&mut self.logger.log()),
             Interface::CoSimulation => Ok(Update::default()),
         }
-    }
-
-    pub(crate) fn enter_continuous_time_mode(&mut self) {
-        self.now.phase = Phase::ContinuousTimeMode;
     }
 
     /// Completes a step of the solver. Returns whether the model asks for Event Mode.

@@ -41,6 +41,11 @@ pub(crate) struct Purpose<M: Model> {
 }
 
 impl<M: Model> Purpose<M> {
+    /// What an instance of FMI 3.0 is made for, with Event Mode and without early returns.
+    pub(crate) const fn fmi3(interface: Interface, states: &'static [M::Real]) -> Self {
+        Self { version: Version::Fmi3, interface, states, event_mode: true, early_return: false }
+    }
+
     /// Returns whether the instance can be in `phase`.
     fn has(&self, phase: Phase) -> bool {
         let steps = self.interface == Interface::CoSimulation;
@@ -197,10 +202,6 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn enter_initialization_mode(&mut self) {
-        self.now.phase = Phase::InitializationMode;
-    }
-
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Failure> {
         self.calculate()?;
         self.now.model.initialize(&mut self.logger.log())?;
@@ -208,16 +209,14 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Failure> {
-        if !self.purpose.has(Phase::EventMode) {
+    /// Goes to a phase. [`call`](Self::call) has refused those of the other kind of instance, which leaves
+    /// Event Mode.
+    pub(crate) fn enter(&mut self, phase: Phase) -> Result<(), Failure> {
+        if !self.purpose.has(phase) {
             return Err("the instance was made with eventModeUsed = fmi3False".into());
         }
-        self.now.phase = Phase::EventMode;
+        self.now.phase = phase;
         Ok(())
-    }
-
-    pub(crate) fn terminate(&mut self) {
-        self.now.phase = Phase::Terminated;
     }
 
     /// Resets everything to its state after instantiation, except the log categories and the saved states.

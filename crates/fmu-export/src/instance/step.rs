@@ -102,10 +102,6 @@ impl<M: Model> Instance<M> {
         Ok((size > 0.0 && duration > 0.0).then_some((step, end)))
     }
 
-    pub(crate) fn enter_step_mode(&mut self) {
-        self.now.phase = Phase::StepMode;
-    }
-
     pub(crate) fn uses_event_mode(&self) -> bool {
         self.purpose.event_mode
     }

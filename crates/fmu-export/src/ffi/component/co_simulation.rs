@@ -6,8 +6,8 @@ use super::bindings::exports::fmi::fmi3::co_simulation::{
     IntervalFraction, IntervalQualifier, Status, VariableDependency,
 };
 use super::methods::common_methods;
-use super::resource::{Resource, purpose, references_and_orders};
-use crate::call::Call;
+use super::resource::{Resource, references_and_orders};
+use crate::call::{Call, Phase};
 use crate::instance::Purpose;
 use crate::model::{Interface, ModelExchange};
 
@@ -31,7 +31,7 @@ impl<M: ModelExchange> GuestCoSimulationInstance for CoSimulation<M> {
         early_return: bool,
         intermediate_variables: Vec<u32>,
     ) -> Option<CoSimulationInstance> {
-        let purpose = Purpose { event_mode, early_return, ..purpose(Interface::CoSimulation, &[]) };
+        let purpose = Purpose { event_mode, early_return, ..Purpose::fmi3(Interface::CoSimulation, &[]) };
         let warning = "required-intermediate-variables: a component cannot ask for inputs inside a step; use \
                        set-input-derivatives";
         let warning = (!intermediate_variables.is_empty()).then_some(warning);

@@ -59,8 +59,7 @@ macro_rules! life {
         fn enter_initialization_mode(&self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
             self.0.run(Call::EnterInitializationMode, |instance| {
                 instance.setup_experiment(crate::model::Experiment { tolerance, start, stop })?;
-                instance.enter_initialization_mode();
-                Ok(())
+                instance.enter(Phase::InitializationMode)
             })
         }
 
@@ -69,7 +68,7 @@ macro_rules! life {
         }
 
         fn enter_event_mode(&self) -> Status {
-            self.0.run(Call::EnterEventMode, |instance| instance.enter_event_mode())
+            self.0.run(Call::EnterEventMode, |instance| instance.enter(Phase::EventMode))
         }
 
         fn update_discrete_states(&self) -> Result<DiscreteStatesInfo, Status> {
@@ -87,11 +86,11 @@ macro_rules! life {
         }
 
         fn enter_step_mode(&self) -> Status {
-            self.0.run(Call::EnterStepMode, |instance| Ok(instance.enter_step_mode()))
+            self.0.run(Call::EnterStepMode, |instance| instance.enter(Phase::StepMode))
         }
 
         fn terminate(&self) -> Status {
-            self.0.run(Call::Terminate, |instance| Ok(instance.terminate()))
+            self.0.run(Call::Terminate, |instance| instance.enter(Phase::Terminated))
         }
 
         fn reset(&self) -> Status {

@@ -6,9 +6,9 @@ use super::bindings::exports::fmi::fmi3::model_exchange::{
     IntervalQualifier, ModelExchangeInstance, Status, VariableDependency,
 };
 use super::methods::common_methods;
-use super::resource::{Resource, purpose};
-use crate::call::Call;
-use crate::instance::Instance;
+use super::resource::Resource;
+use crate::call::{Call, Phase};
+use crate::instance::{Instance, Purpose};
 use crate::model::{Interface, ModelExchange};
 
 impl<M: ModelExchange> Guest for Component<M> {
@@ -28,17 +28,14 @@ impl<M: ModelExchange> GuestModelExchangeInstance for Exchange<M> {
         _visible: bool,
         logging_on: bool,
     ) -> Option<ModelExchangeInstance> {
-        let purpose = purpose(Interface::ModelExchange, M::STATES);
+        let purpose = Purpose::fmi3(Interface::ModelExchange, M::STATES);
         let texts = [name, token, resources];
         Resource::<M>::new("instantiate-model-exchange", texts, logging_on, purpose, None)
             .map(|resource| ModelExchangeInstance::new(Self(resource)))
     }
 
     fn enter_continuous_time_mode(&self) -> Status {
-        self.0.run(Call::EnterContinuousTimeMode, |instance| {
-            instance.enter_continuous_time_mode();
-            Ok(())
-        })
+        self.0.run(Call::EnterContinuousTimeMode, |instance| instance.enter(Phase::ContinuousTimeMode))
     }
 
     fn set_time(&self, time: f64) -> Status {

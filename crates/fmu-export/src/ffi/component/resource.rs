@@ -2,12 +2,12 @@
 
 use super::bindings::fmi::fmi3::callbacks::log_message;
 use super::bindings::fmi::fmi3::types::Status;
-use crate::call::{Call, Version};
+use crate::call::Call;
 use crate::failure::Failure;
 use crate::ffi::fmi3::check_count;
 use crate::instance::{Instance, Purpose};
 use crate::log::{self, Category, Logger};
-use crate::model::{Interface, Model, ModelExchange};
+use crate::model::{Model, ModelExchange};
 use std::cell::RefCell;
 use std::mem::MaybeUninit;
 use std::panic;
@@ -117,11 +117,6 @@ impl<M: Model> Resource<M> {
             set(instance)
         })
     }
-}
-
-/// Returns what an instance of this boundary is made for.
-pub(super) fn purpose<M: Model>(interface: Interface, states: &'static [M::Real]) -> Purpose<M> {
-    Purpose { version: Version::Fmi3, interface, states, event_mode: true, early_return: false }
 }
 
 /// Value references and orders of derivatives.

@@ -5,7 +5,6 @@ use super::types::{
     LogMessageCallback, PreemptionCallback,
 };
 use crate::access;
-use crate::call::Version;
 use crate::ffi::arguments::{array, required_text, text};
 use crate::ffi::common::make;
 use crate::ffi::types::{Text, ValueReference, status};
@@ -41,13 +40,7 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
 ) -> Instance {
     let logger = || Logger::new(sink(environment, log_message), logging_on);
     make("fmi3InstantiateModelExchange", logger, |logger| {
-        let purpose = Purpose {
-            version: Version::Fmi3,
-            interface: Interface::ModelExchange,
-            states: M::STATES,
-            event_mode: true,
-            early_return: false,
-        };
+        let purpose = Purpose::fmi3(Interface::ModelExchange, M::STATES);
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
         instance::Instance::<M>::new(name, token, path, purpose, logger)
@@ -89,13 +82,8 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
         if let Some(failure) = intermediate.iter().find_map(|reference| served(reference).err()) {
             logger.log().warning(format_args!("intermediate updates are for continuous inputs: {failure}"));
         }
-        let purpose = Purpose {
-            version: Version::Fmi3,
-            interface: Interface::CoSimulation,
-            states: &[],
-            event_mode: event_mode_used,
-            early_return: early_return_allowed,
-        };
+        let (event_mode, early_return) = (event_mode_used, early_return_allowed);
+        let purpose = Purpose { event_mode, early_return, ..Purpose::fmi3(Interface::CoSimulation, &[]) };
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
         let mut made = instance::Instance::<M>::new(name, token, path, purpose, logger)?;

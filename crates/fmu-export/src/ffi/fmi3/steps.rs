@@ -2,7 +2,7 @@
 
 use super::types::Boolean;
 use super::values::check_count;
-use crate::call::Call;
+use crate::call::{Call, Phase};
 use crate::ffi::arguments::{array, array_mut, place, to_get};
 use crate::ffi::guard::{self, functions};
 use crate::ffi::types::{Component, OK, Status, ValueReference};
@@ -66,14 +66,10 @@ functions! {
     ): EnterInitializationMode, |instance| {
         let (tolerance, stop) = (tolerance_defined.then_some(tolerance), stop_defined.then_some(stop));
         instance.setup_experiment(Experiment { tolerance, start, stop })?;
-        instance.enter_initialization_mode();
-        Ok(())
+        instance.enter(Phase::InitializationMode)
     };
     /// `fmi3EnterStepMode`
-    enter_step_mode<Model>(): EnterStepMode, |instance| {
-        instance.enter_step_mode();
-        Ok(())
-    };
+    enter_step_mode<Model>(): EnterStepMode, |instance| instance.enter(Phase::StepMode);
     /// `fmi3UpdateDiscreteStates`
     update_discrete_states<ModelExchange>(
         discrete_states_need_update: *mut Boolean, terminate_simulation: *mut Boolean,
