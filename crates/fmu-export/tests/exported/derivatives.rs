@@ -5,7 +5,7 @@ use crate::importer::Importer;
 use crate::spring::{Integer, Real};
 use fmu_export::ffi::types::{ERROR, OK, Status};
 
-fn set_rate(importer: &Importer, reference: u32, order: i32, value: f64) -> Status {
+pub fn set_rate(importer: &Importer, reference: u32, order: i32, value: f64) -> Status {
     // SAFETY: the instance lives; one of each.
     unsafe { fmi2SetRealInputDerivatives(importer.component, &reference, 1, &order, &value) }
 }
@@ -50,16 +50,10 @@ fn other_input_derivatives_are_refused() {
 fn outputs_have_derivatives_of_order_1() {
     let importer = Importer::swinging();
     let references = [Real::X.reference(), Real::V.reference()];
-    let mut rates = [f64::NAN; 2];
+    let (c, mut rates) = (importer.component, [f64::NAN; 2]);
     // SAFETY: the instance lives; two of each.
     let status = unsafe {
-        fmi2GetRealOutputDerivatives(
-            importer.component,
-            references.as_ptr(),
-            2,
-            [1, 1].as_ptr(),
-            rates.as_mut_ptr(),
-        )
+        fmi2GetRealOutputDerivatives(c, references.as_ptr(), 2, [1, 1].as_ptr(), rates.as_mut_ptr())
     };
     assert_eq!((status, rates), (OK, [0.0, -4.0]));
     for (reference, order, part) in [
@@ -79,18 +73,11 @@ fn outputs_have_derivatives_of_order_1() {
 
 fn directional(importer: &Importer, unknowns: &[u32], knowns: &[u32], seeds: &[f64]) -> Option<Vec<f64>> {
     let mut values = vec![f64::NAN; unknowns.len()];
+    let (u, k) = (unknowns.as_ptr(), knowns.as_ptr());
+    let (seeds, sums) = (seeds.as_ptr(), values.as_mut_ptr());
     // SAFETY: the instance lives; the arrays are as long as stated.
     let status = unsafe {
-        let (u, k) = (unknowns.as_ptr(), knowns.as_ptr());
-        fmi2GetDirectionalDerivative(
-            importer.component,
-            u,
-            unknowns.len(),
-            k,
-            knowns.len(),
-            seeds.as_ptr(),
-            values.as_mut_ptr(),
-        )
+        fmi2GetDirectionalDerivative(importer.component, u, unknowns.len(), k, knowns.len(), seeds, sums)
     };
     (status == OK).then_some(values)
 }

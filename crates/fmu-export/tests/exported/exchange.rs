@@ -3,11 +3,10 @@
 use crate::allocator;
 use crate::fmi2::*;
 use crate::importer::{Importer, instantiate};
-use crate::spring::{FAIL_IN_STEP, Integer, PANIC_IN_STEP, Real, Spring};
+use crate::spring::{FAIL_IN_STEP, GUID, Integer, PANIC_IN_STEP, Real, Spring};
 use fmu_export::Model;
 use fmu_export::ffi::types::{CO_SIMULATION, ERROR, EventInfo, MODEL_EXCHANGE, OK, Status};
 use fmu_export::ffi::{Kinds, common};
-use std::ffi::CString;
 use std::ptr;
 
 /// Instances for Model Exchange.
@@ -15,48 +14,30 @@ pub struct Exchange;
 
 impl Exchange {
     pub fn instantiated() -> Importer {
-        let (component, journal) = instantiate("one", MODEL_EXCHANGE, Spring::GUID, None, false);
-        assert!(!component.is_null(), "{:?}", journal.take());
-        Importer { component, journal }
+        Importer::of(instantiate("one", MODEL_EXCHANGE, Spring::GUID, None, false))
     }
 
     pub fn in_initialization_mode() -> Importer {
-        let importer = Self::instantiated();
-        // SAFETY: the instance lives.
-        unsafe {
-            assert_eq!(fmi2SetupExperiment(importer.component, 0, 0.0, 0.0, 0, 0.0), OK);
-            assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
-        }
-        importer
+        Self::instantiated().initializing()
     }
 
     pub fn in_event_mode() -> Importer {
-        let importer = Self::in_initialization_mode();
-        assert_eq!(importer.set(Real::XStart, 1.0), OK);
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, OK);
-        importer
+        Self::instantiated().released()
     }
 
     pub fn in_continuous_time_mode() -> Importer {
         let importer = Self::in_event_mode();
         assert_eq!(update(&importer), Ok(EventInfo::default()));
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2EnterContinuousTimeMode(importer.component) }, OK);
-        importer
+        importer.after(&[fmi2EnterContinuousTimeMode])
     }
 
     pub fn terminated() -> Importer {
-        let importer = Self::in_event_mode();
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2Terminate(importer.component) }, OK);
-        importer
+        Self::in_event_mode().after(&[fmi2Terminate])
     }
 
     pub fn in_error() -> Importer {
         let importer = Self::in_event_mode();
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2SetTime(importer.component, f64::NAN) }, ERROR);
+        assert_eq!(set_time(&importer, f64::NAN), ERROR);
         importer
     }
 }
@@ -66,6 +47,11 @@ fn update(importer: &Importer) -> Result<EventInfo, Status> {
     // SAFETY: the instance lives.
     let status = unsafe { fmi2NewDiscreteStates(importer.component, &mut information) };
     if status == OK { Ok(information) } else { Err(status) }
+}
+
+fn set_time(importer: &Importer, time: f64) -> Status {
+    // SAFETY: the instance lives.
+    unsafe { fmi2SetTime(importer.component, time) }
 }
 
 fn set_states(importer: &Importer, states: [f64; 2]) -> Status {
@@ -92,8 +78,7 @@ fn states_go_in_and_derivatives_come_out() {
     // dx/dt = v, dv/dt = F − 4 x
     assert_eq!(numbers(&importer, fmi2GetDerivatives), [0.125, 1.0]);
     assert_eq!(numbers(&importer, fmi2GetEventIndicators), [0.5]);
-    // SAFETY: the instance lives.
-    assert_eq!(unsafe { fmi2SetTime(importer.component, 2.5) }, OK);
+    assert_eq!(set_time(&importer, 2.5), OK);
     assert_eq!(importer.get(Real::Time), 2.5);
 }
 
@@ -105,11 +90,9 @@ fn an_event_changes_the_discrete_state() {
     assert_eq!(numbers(&importer, fmi2GetEventIndicators), [-0.25]);
     let (mut event, mut end) = (7, 7);
     // SAFETY: the instance lives.
-    unsafe {
-        assert_eq!(fmi2CompletedIntegratorStep(importer.component, 1, &mut event, &mut end), OK);
-        assert_eq!((event, end), (1, 0));
-        assert_eq!(fmi2EnterEventMode(importer.component), OK);
-    }
+    let status = unsafe { fmi2CompletedIntegratorStep(importer.component, 1, &mut event, &mut end) };
+    assert_eq!((status, event, end), (OK, 1, 0));
+    importer.expect_ok(&[fmi2EnterEventMode]);
     let changed = EventInfo {
         new_discrete_states_needed: 1,
         values_of_continuous_states_changed: 1,
@@ -136,7 +119,7 @@ fn counts_and_numbers_that_are_wrong_are_refused() {
         ),
         ("infinite state", |i| set_states(i, [0.0, f64::INFINITY]), ["v = inf", "finite"]),
         ("NaN", |i| set_states(i, [f64::NAN, 0.0]), ["x = NaN", "finite"]),
-        ("time", |i| unsafe { fmi2SetTime(i.component, f64::INFINITY) }, ["time = inf", "finite"]),
+        ("time", |i| set_time(i, f64::INFINITY), ["time = inf", "finite"]),
         (
             "indicators",
             |i| unsafe { fmi2GetEventIndicators(i.component, [0.0; 2].as_mut_ptr(), 2) },
@@ -161,14 +144,12 @@ fn go_on(importer: &Importer) -> Vec<u64> {
     let [v, a] = numbers(importer, fmi2GetDerivatives);
     let [x, _] = numbers(importer, fmi2GetContinuousStates);
     assert_eq!(set_states(importer, [x + 0.75 * v, v + 0.75 * a]), OK);
-    // SAFETY: the instance lives.
-    unsafe { assert_eq!(fmi2EnterEventMode(importer.component), OK) };
+    importer.expect_ok(&[fmi2EnterEventMode]);
     let information = update(importer).unwrap();
     let mut all = vec![u64::from(information.values_of_continuous_states_changed.unsigned_abs())];
     all.extend(numbers::<2>(importer, fmi2GetContinuousStates).map(f64::to_bits));
     all.extend(numbers::<1>(importer, fmi2GetEventIndicators).map(f64::to_bits));
-    // SAFETY: the instance lives.
-    unsafe { assert_eq!(fmi2EnterContinuousTimeMode(importer.component), OK) };
+    importer.expect_ok(&[fmi2EnterContinuousTimeMode]);
     all
 }
 
@@ -183,11 +164,7 @@ fn a_state_resumes_in_another_instance_of_its_kind_alone() {
     assert_eq!(crate::states::bytes(&other), stored);
     assert_eq!(go_on(&other), expected);
     let steps = Importer::in_step_mode();
-    let mut state = ptr::null_mut();
-    // SAFETY: the instance lives; the array is as long as stated.
-    let status =
-        unsafe { fmi2DeSerializeFMUstate(steps.component, stored.as_ptr().cast(), stored.len(), &mut state) };
-    assert_eq!(status, ERROR);
+    assert_eq!(crate::states::load(&steps, &stored), Err(ERROR));
     steps.expect_error(&["another kind of instance"]);
 }
 
@@ -208,8 +185,7 @@ fn the_functions_of_the_other_kind_say_so() {
     assert_eq!(importer.step(0.0, 0.1), ERROR);
     importer.expect_error(&["fmi2DoStep", "not for an instance of Model Exchange"]);
     let importer = Importer::in_step_mode();
-    // SAFETY: the instance lives.
-    assert_eq!(unsafe { fmi2SetTime(importer.component, 0.0) }, ERROR);
+    assert_eq!(set_time(&importer, 0.0), ERROR);
     importer.expect_error(&["fmi2SetTime", "not for an instance of co-simulation"]);
 }
 
@@ -229,23 +205,14 @@ fn a_state_may_be_set_like_an_input_once_it_runs() {
 
 #[test]
 fn a_library_of_one_kind_refuses_the_other() {
-    let guid = CString::new(Spring::GUID).unwrap();
     let make = |kinds: &Kinds<Spring>, kind| {
+        let (name, guid) = (c"one".as_ptr(), GUID.as_ptr());
         // SAFETY: the texts live; NULL callbacks are allowed.
         unsafe {
-            let component = common::instantiate::<Spring>(
-                kinds,
-                c"one".as_ptr(),
-                kind,
-                guid.as_ptr(),
-                ptr::null(),
-                ptr::null(),
-                0,
-                0,
-            );
-            let made = !component.is_null();
+            let component =
+                common::instantiate::<Spring>(kinds, name, kind, guid, ptr::null(), ptr::null(), 0, 0);
             fmi2FreeInstance(component);
-            made
+            !component.is_null()
         }
     };
     for (kinds, exchange, steps) in
@@ -276,7 +243,7 @@ fn no_order_of_calls_does_harm() {
                     1 => fmi2NewDiscreteStates(c, &mut EventInfo::default()),
                     2 => fmi2EnterContinuousTimeMode(c),
                     3 => fmi2CompletedIntegratorStep(c, 1, &mut 0, &mut 0),
-                    4 => fmi2SetTime(c, number),
+                    4 => set_time(&importer, number),
                     5 => set_states(&importer, [number, 1.0 - number]),
                     6 => fmi2GetDerivatives(c, [0.0; 2].as_mut_ptr(), 2),
                     7 => importer.set(Real::Force, number),

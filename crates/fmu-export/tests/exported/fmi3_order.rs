@@ -6,14 +6,13 @@
 )]
 
 use crate::fmi3::*;
-use crate::importer::{Importer, Journal, Message, write_down_3};
-use crate::order::{Function, Phase, check_order};
-use crate::spring::{Boolean, COPIES_PANIC, Integer, Real, Spring, Text};
-use fmu_export::Model;
+use crate::importer::{Call, Importer, Journal, Message, write_down_3};
+use crate::order::{Phase, check_order, with_state};
+use crate::spring::{Boolean, COPIES_PANIC, GUID, Integer, Real, Text};
 use fmu_export::ffi::fmi3::types::IntermediateUpdateCallback;
-use fmu_export::ffi::types::{Component, ERROR, FATAL, OK, Status};
-use std::ffi::{CStr, CString, c_void};
-use std::ptr::{self, null, null_mut};
+use fmu_export::ffi::types::{Component, ERROR, FATAL, FmuState, OK, Status};
+use std::ffi::{CStr, c_char};
+use std::ptr::{null, null_mut};
 
 /// Instances as FMI 3.0 makes them. Freeing is the same in both versions.
 pub struct Fmi3;
@@ -25,44 +24,40 @@ impl Fmi3 {
 
     /// An instance whose importer sets inputs inside steps.
     pub fn updated(event_mode: bool, early_return: bool, update: IntermediateUpdateCallback) -> Importer {
-        let (journal, token) = (Journal::new(), CString::new(Spring::GUID).unwrap());
-        let environment = ptr::from_ref(&*journal).cast_mut().cast();
+        Self::with_intermediate(None, false, [event_mode, early_return], update)
+    }
+
+    /// An instance whose importer names a variable for intermediate updates.
+    fn with_intermediate(
+        variable: Option<Real>,
+        logging: bool,
+        [event_mode, early_return]: [bool; 2],
+        update: IntermediateUpdateCallback,
+    ) -> Importer {
+        let journal = Journal::new();
+        let reference = variable.map(Real::reference);
         let component = unsafe {
             fmi3InstantiateCoSimulation(
                 c"one".as_ptr(),
-                token.as_ptr(),
+                GUID.as_ptr(),
                 null(),
                 false,
-                false,
+                logging,
                 event_mode,
                 early_return,
-                null(),
-                0,
-                environment,
+                reference.as_ref().map_or(null(), std::ptr::from_ref),
+                usize::from(reference.is_some()),
+                journal.environment(),
                 Some(write_down_3),
                 update,
             )
         };
-        assert!(!component.is_null(), "{:?}", journal.take());
-        Importer { component, journal }
+        Importer::of((component, journal))
     }
 
     pub fn model_exchange() -> Importer {
-        let (journal, token) = (Journal::new(), CString::new(Spring::GUID).unwrap());
-        let environment = ptr::from_ref(&*journal).cast_mut().cast();
-        let component = unsafe {
-            fmi3InstantiateModelExchange(
-                c"one".as_ptr(),
-                token.as_ptr(),
-                null(),
-                false,
-                false,
-                environment,
-                Some(write_down_3),
-            )
-        };
-        assert!(!component.is_null(), "{:?}", journal.take());
-        Importer { component, journal }
+        let journal = Journal::new();
+        Importer::of((instantiate_exchange(GUID.as_ptr(), &journal), journal))
     }
 
     fn plain() -> Importer {
@@ -80,12 +75,10 @@ impl Fmi3 {
     }
 }
 
-/// Does `calls` with an instance.
-fn after(importer: Importer, calls: &[unsafe extern "C" fn(Component) -> Status]) -> Importer {
-    for call in calls {
-        assert_eq!(unsafe { call(importer.component) }, OK);
-    }
-    importer
+/// An instance for Model Exchange; NULL where the token is refused.
+fn instantiate_exchange(token: *const c_char, journal: &Journal) -> Component {
+    let (name, log) = (c"one".as_ptr(), Some(write_down_3 as _));
+    unsafe { fmi3InstantiateModelExchange(name, token, null(), false, false, journal.environment(), log) }
 }
 
 fn initializing(importer: Importer) -> Importer {
@@ -102,7 +95,7 @@ fn in_error(importer: Importer) -> Importer {
 fn lost() -> Importer {
     let importer = Fmi3::started(Fmi3::plain());
     COPIES_PANIC.set(true);
-    let status = unsafe { fmi3Reset(importer.component) };
+    let status = importer.call(fmi3Reset);
     COPIES_PANIC.set(false);
     assert_eq!(status, FATAL);
     importer
@@ -115,15 +108,15 @@ const PHASES: [Phase; 14] = [
     ('N', || initializing(Fmi3::plain())),
     ('S', || Fmi3::started(Fmi3::plain())),
     ('X', || Fmi3::started(Fmi3::co_simulation(true, false))),
-    ('Y', || after(Fmi3::started(Fmi3::co_simulation(true, false)), &[fmi3EnterStepMode])),
-    ('T', || after(Fmi3::started(Fmi3::plain()), &[fmi3Terminate])),
+    ('Y', || Fmi3::started(Fmi3::co_simulation(true, false)).after(&[fmi3EnterStepMode])),
+    ('T', || Fmi3::started(Fmi3::plain()).after(&[fmi3Terminate])),
     ('E', || in_error(Fmi3::plain())),
     ('F', lost),
     ('i', Fmi3::model_exchange),
     ('n', || initializing(Fmi3::model_exchange())),
     ('v', || Fmi3::started(Fmi3::model_exchange())),
-    ('c', || after(Fmi3::started(Fmi3::model_exchange()), &[fmi3EnterContinuousTimeMode])),
-    ('t', || after(Fmi3::started(Fmi3::model_exchange()), &[fmi3Terminate])),
+    ('c', || Fmi3::started(Fmi3::model_exchange()).after(&[fmi3EnterContinuousTimeMode])),
+    ('t', || Fmi3::started(Fmi3::model_exchange()).after(&[fmi3Terminate])),
     ('e', || in_error(Fmi3::model_exchange())),
 ];
 
@@ -138,7 +131,7 @@ const NEVER: &str = "";
 /// Each function, the phases it is allowed in by FMI 3.0.2 (sections 2.3, 3.2 and 4.2), and a call with
 /// arguments that are in order.
 #[rustfmt::skip]
-const FUNCTIONS: [(&str, &str, Function); 70] = [
+const FUNCTIONS: [(&str, &str, Call); 70] = [
     ("fmi3SetDebugLogging", ALIVE, |c| unsafe { fmi3SetDebugLogging(c, false, 0, null()) }),
     ("fmi3EnterInitializationMode", "Ii",
      |c| unsafe { fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) }),
@@ -235,16 +228,7 @@ const FUNCTIONS: [(&str, &str, Function); 70] = [
     ("fmi3ActivateModelPartition", NEVER, |c| unsafe { fmi3ActivateModelPartition(c, 1, 0.0) }),
 ];
 
-unsafe fn with_state(c: Component, body: unsafe fn(Component, *mut c_void) -> Status) -> Status {
-    let mut state = null_mut();
-    // Where the instance cannot be saved the state stays NULL, which the body's function then sees.
-    unsafe {
-        fmi3GetFMUState(c, &mut state);
-        body(c, state)
-    }
-}
-
-unsafe fn serialize(c: Component, state: *mut c_void) -> (Status, Vec<u8>) {
+unsafe fn serialize(c: Component, state: FmuState) -> (Status, Vec<u8>) {
     let mut size = 0;
     unsafe {
         fmi3SerializedFMUStateSize(c, state, &mut size);
@@ -253,7 +237,7 @@ unsafe fn serialize(c: Component, state: *mut c_void) -> (Status, Vec<u8>) {
     }
 }
 
-unsafe fn serialize_and_back(c: Component, state: *mut c_void) -> Status {
+unsafe fn serialize_and_back(c: Component, state: FmuState) -> Status {
     unsafe {
         let (_, bytes) = serialize(c, state);
         fmi3DeserializeFMUState(c, bytes.as_ptr(), bytes.len(), &mut null_mut())
@@ -288,7 +272,7 @@ fn what_is_not_supported_says_why() {
         importer.expect_error(&[name, reason]);
     }
     let importer = Fmi3::started(Fmi3::plain());
-    assert_eq!(unsafe { fmi3EnterEventMode(importer.component) }, ERROR);
+    assert_eq!(importer.call(fmi3EnterEventMode), ERROR);
     importer.expect_error(&["fmi3EnterEventMode", "eventModeUsed = fmi3False"]);
 }
 
@@ -300,12 +284,7 @@ fn the_version_is_3_0() {
 #[test]
 fn instances_that_cannot_be_had_are_refused_with_a_message() {
     let journal = Journal::new();
-    let environment = || ptr::from_ref(&*journal).cast_mut().cast();
-    let log = Some(write_down_3 as _);
-    let good = CString::new(Spring::GUID).unwrap();
-    let exchange = |token: *const _| unsafe {
-        fmi3InstantiateModelExchange(null(), token, null(), false, false, environment(), log)
-    };
+    let exchange = |token| instantiate_exchange(token, &journal);
     let refused = |component: Component, parts: &[&str]| {
         assert!(component.is_null());
         crate::importer::expect_error(&journal, parts);
@@ -316,12 +295,12 @@ fn instances_that_cannot_be_had_are_refused_with_a_message() {
     let component = unsafe {
         fmi3InstantiateScheduledExecution(
             null(),
-            good.as_ptr(),
+            GUID.as_ptr(),
             null(),
             false,
             false,
-            environment(),
-            log,
+            journal.environment(),
+            Some(write_down_3),
             None,
             None,
             None,
@@ -331,7 +310,7 @@ fn instances_that_cannot_be_had_are_refused_with_a_message() {
     // no name and no callback are fine
     unsafe {
         let component =
-            fmi3InstantiateModelExchange(null(), good.as_ptr(), null(), false, true, null_mut(), None);
+            fmi3InstantiateModelExchange(null(), GUID.as_ptr(), null(), false, true, null_mut(), None);
         assert!(!component.is_null());
         assert_eq!(fmi3Terminate(component), ERROR);
         fmi3FreeInstance(component);
@@ -341,31 +320,10 @@ fn instances_that_cannot_be_had_are_refused_with_a_message() {
 /// Importers such as fmusim list all that they record.
 #[test]
 fn intermediate_variables_that_are_no_continuous_inputs_get_a_warning() {
-    let good = CString::new(Spring::GUID).unwrap();
     for (variable, part) in [(Real::X, "x is not an input"), (Real::Push, "push is not continuous")] {
-        let journal = Journal::new();
-        let environment = ptr::from_ref(&*journal).cast_mut().cast();
-        let reference = variable.reference();
-        let component = unsafe {
-            fmi3InstantiateCoSimulation(
-                null(),
-                good.as_ptr(),
-                null(),
-                false,
-                true,
-                false,
-                false,
-                &reference,
-                1,
-                environment,
-                Some(write_down_3 as _),
-                None,
-            )
-        };
-        assert!(!component.is_null());
-        let messages = journal.take();
+        let importer = Fmi3::with_intermediate(Some(variable), true, [false; 2], None);
+        let messages = importer.journal.take();
         let named = |message: &Message| message.category == "logStatusWarning" && message.text.contains(part);
         assert_eq!(messages.iter().filter(|message| named(message)).count(), 1, "{messages:?}");
-        unsafe { fmi3FreeInstance(component) };
     }
 }

@@ -5,9 +5,10 @@
     reason = "each call states what it is given; the instance lives"
 )]
 
+use crate::derivatives::set_rate;
 use crate::fmi3::*;
 use crate::fmi3_order::Fmi3;
-use crate::importer::Importer;
+use crate::importer::{Call, Importer};
 use crate::spring::{Boolean, EVENT_IN_STEP, Integer, Real, Text};
 use fmu_export::ffi::types::{Component, ERROR, OK, Status};
 use fmu_export::{FIRST_INDICATOR_REFERENCE, TIME_REFERENCE};
@@ -22,7 +23,7 @@ fn get(importer: &Importer, reference: u32) -> f64 {
 }
 
 /// What a step came to: status, event handling needed, early return, last successful time.
-fn step(importer: &Importer, point: f64, size: f64) -> (Status, bool, bool, f64) {
+pub fn step(importer: &Importer, point: f64, size: f64) -> (Status, bool, bool, f64) {
     let (mut event, mut terminate, mut early, mut last) = (true, true, true, f64::NAN);
     let status = unsafe {
         fmi3DoStep(importer.component, point, size, true, &mut event, &mut terminate, &mut early, &mut last)
@@ -56,8 +57,6 @@ fn each_type_has_its_own_functions() {
     assert_eq!((law, substeps, held), (2, 9, true));
     assert!(importer.journal.take().is_empty());
 }
-
-type Call = unsafe fn(Component) -> Status;
 
 #[test]
 #[rustfmt::skip]
@@ -102,7 +101,7 @@ fn bad_arguments_are_refused() {
         let status = unsafe { fmi3SetInt64(importer.component, &Integer::Law.reference(), 1, &law, 1) };
         assert_eq!(status, ERROR);
         importer.expect_error(&[&format!("law = {law} is not one of its items: linear = 1, cubic = 2")]);
-        assert_eq!(unsafe { fmi3Reset(importer.component) }, OK);
+        importer.expect_ok(&[fmi3Reset]);
     }
 }
 
@@ -120,10 +119,9 @@ fn the_experiment_comes_with_initialization_mode() {
         importer.expect_error(&["fmi3EnterInitializationMode", part]);
     }
     let importer = Fmi3::co_simulation(false, false);
-    unsafe {
-        assert_eq!(fmi3EnterInitializationMode(importer.component, true, 1e-6, 2.0, true, 3.0), OK);
-        assert_eq!(fmi3ExitInitializationMode(importer.component), OK);
-    }
+    let status = unsafe { fmi3EnterInitializationMode(importer.component, true, 1e-6, 2.0, true, 3.0) };
+    assert_eq!(status, OK);
+    importer.expect_ok(&[fmi3ExitInitializationMode]);
     assert_eq!(get(&importer, TIME_REFERENCE), 2.0);
     assert_eq!(get(&importer, Real::Trim.reference()), 1e-6);
     assert_eq!(step(&importer, 2.0, 1.0), (OK, false, false, 3.0));
@@ -137,11 +135,10 @@ fn a_step_ends_early_at_an_event_only_where_that_is_allowed() {
     for (event_mode, early_return) in [(false, false), (false, true), (true, false), (true, true)] {
         let importer = Fmi3::started(Fmi3::co_simulation(event_mode, early_return));
         let c = importer.component;
-        unsafe {
-            assert_eq!(fmi3SetInt32(c, &Integer::Fault.reference(), 1, &EVENT_IN_STEP, 1), OK);
-            if event_mode {
-                assert_eq!(fmi3EnterStepMode(c), OK);
-            }
+        let fault = Integer::Fault.reference();
+        assert_eq!(unsafe { fmi3SetInt32(c, &fault, 1, &EVENT_IN_STEP, 1) }, OK);
+        if event_mode {
+            importer.expect_ok(&[fmi3EnterStepMode]);
         }
         let expected = if early_return { 0.5 } else { 1.0 };
         let found = step(&importer, 0.0, 1.0);
@@ -214,30 +211,12 @@ fn derivatives_are_summed_over_knowns_or_unknowns() {
     let mut found = [0.0; 2];
     let (unknowns, knowns, seeds) = ([v, x], [force, x], [2.0, 5.0]);
     unsafe {
-        let status = fmi3GetDirectionalDerivative(
-            c,
-            unknowns.as_ptr(),
-            2,
-            knowns.as_ptr(),
-            2,
-            seeds.as_ptr(),
-            2,
-            found.as_mut_ptr(),
-            2,
-        );
-        assert_eq!((status, found), (OK, [2.0 - 20.0, 15.0]));
-        let status = fmi3GetAdjointDerivative(
-            c,
-            unknowns.as_ptr(),
-            2,
-            knowns.as_ptr(),
-            2,
-            seeds.as_ptr(),
-            2,
-            found.as_mut_ptr(),
-            2,
-        );
-        assert_eq!((status, found), (OK, [2.0, -8.0 + 15.0]));
+        let (unknowns, knowns, seeds) = (unknowns.as_ptr(), knowns.as_ptr(), seeds.as_ptr());
+        let sums = found.as_mut_ptr();
+        assert_eq!(fmi3GetDirectionalDerivative(c, unknowns, 2, knowns, 2, seeds, 2, sums, 2), OK);
+        assert_eq!(found, [2.0 - 20.0, 15.0]);
+        assert_eq!(fmi3GetAdjointDerivative(c, unknowns, 2, knowns, 2, seeds, 2, sums, 2), OK);
+        assert_eq!(found, [2.0, -8.0 + 15.0]);
         let mut derivative = 0.0;
         assert_eq!(fmi3GetOutputDerivatives(c, &v, 1, &1, &mut derivative, 1), OK);
         assert_eq!(derivative, -4.0);
@@ -254,10 +233,7 @@ fn a_state_goes_from_one_version_to_the_other() {
     assert_eq!(get(&new, Real::X.reference()), old.get(Real::X));
     // Event Mode of co-simulation is no phase of one that does not use it
     let events = Fmi3::started(Fmi3::co_simulation(true, false));
-    let stored = crate::states::bytes(&events);
-    let mut state = null_mut();
-    let status = unsafe { fmi3DeserializeFMUState(new.component, stored.as_ptr(), stored.len(), &mut state) };
-    assert_eq!(status, ERROR);
+    assert_eq!(crate::states::load(&new, &crate::states::bytes(&events)), Err(ERROR));
     new.expect_error(&["fmi3DeserializeFMUState"]);
 }
 
@@ -292,11 +268,7 @@ fn inputs_run_linearly_to_what_is_set_inside_a_step() {
     assert_eq!(step(&importer, 0.0, 0.5), (OK, false, false, 0.5));
     assert_eq!(ASKED.get(), 0.5);
     // FMI 2.0 says the same with a derivative
-    unsafe {
-        let force = Real::Force.reference();
-        let status = crate::fmi2::fmi2SetRealInputDerivatives(reference.component, &force, 1, &1, &2.0);
-        assert_eq!(status, OK);
-    }
+    assert_eq!(set_rate(&reference, Real::Force.reference(), 1, 2.0), OK);
     assert_eq!(reference.step(0.0, 0.5), OK);
     assert_eq!(get(&importer, Real::X.reference()).to_bits(), reference.get(Real::X).to_bits());
     assert_eq!(get(&importer, Real::Force.reference()), 1.0);

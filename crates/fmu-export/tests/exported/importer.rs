@@ -2,9 +2,10 @@
 
 use crate::fmi2::{
     fmi2DoStep, fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance, fmi2GetInteger,
-    fmi2GetReal, fmi2Instantiate, fmi2SetInteger, fmi2SetReal, fmi2SetupExperiment, fmi2Terminate,
+    fmi2GetReal, fmi2GetString, fmi2Instantiate, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal,
+    fmi2SetupExperiment, fmi2Terminate,
 };
-use crate::spring::{Integer, Real, Spring};
+use crate::spring::{self, Integer, Real, Spring};
 use fmu_export::Model;
 use fmu_export::ffi::types::{
     CO_SIMULATION, CallbackFunctions, CallbackLogger, Component, ComponentEnvironment, OK, Status, Text, Type,
@@ -51,16 +52,25 @@ impl Journal {
         std::mem::take(&mut *self.0.lock().unwrap())
     }
 
+    /// The pointer that the library hands back with each message.
+    pub fn environment(&self) -> ComponentEnvironment {
+        ptr::from_ref(self).cast_mut().cast()
+    }
+
     pub fn callbacks(&self) -> CallbackFunctions {
-        CallbackFunctions {
-            logger: Some(as_logger(write_down)),
-            allocate_memory: None,
-            free_memory: None,
-            step_finished: None,
-            component_environment: ptr::from_ref(self).cast_mut().cast(),
-        }
+        let logger = Some(as_logger(write_down));
+        CallbackFunctions { logger, component_environment: self.environment(), ..SILENT }
     }
 }
+
+/// Callbacks without a logger.
+pub const SILENT: CallbackFunctions = CallbackFunctions {
+    logger: None,
+    allocate_memory: None,
+    free_memory: None,
+    step_finished: None,
+    component_environment: ptr::null_mut(),
+};
 
 /// A logger that takes the one pointer after the format.
 pub type FixedLogger = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text, *const c_char);
@@ -92,6 +102,12 @@ unsafe extern "C" fn write_down(
     journal.0.lock().unwrap().push(text);
 }
 
+/// A C function that takes an instance alone.
+pub type Plain = unsafe extern "C" fn(Component) -> Status;
+
+/// A call of a C function with arguments of its own.
+pub type Call = unsafe fn(Component) -> Status;
+
 /// An instance that is freed in the end.
 pub struct Importer {
     pub component: Component,
@@ -108,42 +124,61 @@ impl Importer {
     }
 
     pub fn logging(on: bool) -> Self {
-        let (component, journal) = instantiate("one", CO_SIMULATION, Spring::GUID, None, on);
+        Self::of(instantiate("one", CO_SIMULATION, Spring::GUID, None, on))
+    }
+
+    /// What was made, which is an instance.
+    pub fn of((component, journal): (Component, Box<Journal>)) -> Self {
         assert!(!component.is_null(), "{:?}", journal.take());
         Self { component, journal }
     }
 
     pub fn in_initialization_mode() -> Self {
-        let importer = Self::new();
-        // SAFETY: the instance lives.
-        unsafe {
-            assert_eq!(fmi2SetupExperiment(importer.component, 0, 0.0, 0.0, 0, 0.0), OK);
-            assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
-        }
-        importer
+        Self::new().initializing()
     }
 
     pub fn in_step_mode() -> Self {
-        let importer = Self::in_initialization_mode();
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, OK);
-        importer
+        Self::in_initialization_mode().after(&[fmi2ExitInitializationMode])
     }
 
-    /// A spring that swings from 1 m.
     pub fn swinging() -> Self {
-        let importer = Self::in_initialization_mode();
-        assert_eq!(importer.set(Real::XStart, 1.0), OK);
-        // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, OK);
-        importer
+        Self::new().released()
     }
 
     pub fn terminated() -> Self {
-        let importer = Self::in_step_mode();
+        Self::in_step_mode().after(&[fmi2Terminate])
+    }
+
+    /// The instance in Initialization Mode.
+    pub fn initializing(self) -> Self {
         // SAFETY: the instance lives.
-        assert_eq!(unsafe { fmi2Terminate(importer.component) }, OK);
-        importer
+        assert_eq!(unsafe { fmi2SetupExperiment(self.component, 0, 0.0, 0.0, 0, 0.0) }, OK);
+        self.after(&[fmi2EnterInitializationMode])
+    }
+
+    /// The instance after Initialization Mode, as a spring that swings from 1 m.
+    pub fn released(self) -> Self {
+        let importer = self.initializing();
+        assert_eq!(importer.set(Real::XStart, 1.0), OK);
+        importer.after(&[fmi2ExitInitializationMode])
+    }
+
+    /// The instance after some calls, which succeed.
+    pub fn after(self, functions: &[Plain]) -> Self {
+        self.expect_ok(functions);
+        self
+    }
+
+    #[track_caller]
+    pub fn expect_ok(&self, functions: &[Plain]) {
+        for &function in functions {
+            assert_eq!(self.call(function), OK, "{:?}", self.journal.take());
+        }
+    }
+
+    pub fn call(&self, function: Plain) -> Status {
+        // SAFETY: the instance lives.
+        unsafe { function(self.component) }
     }
 
     pub fn set(&self, variable: Real, value: f64) -> Status {
@@ -154,6 +189,11 @@ impl Importer {
     pub fn set_integer(&self, variable: Integer, value: i32) -> Status {
         // SAFETY: the instance lives; one reference, one value.
         unsafe { fmi2SetInteger(self.component, &variable.reference(), 1, &value) }
+    }
+
+    pub fn set_boolean(&self, variable: spring::Boolean, value: i32) -> Status {
+        // SAFETY: the instance lives; one reference, one value.
+        unsafe { fmi2SetBoolean(self.component, &variable.reference(), 1, &value) }
     }
 
     pub fn get(&self, variable: Real) -> f64 {
@@ -170,6 +210,15 @@ impl Importer {
         let status = unsafe { fmi2GetInteger(self.component, &variable.reference(), 1, &mut value) };
         assert_eq!(status, OK, "{:?}", self.journal.take());
         value
+    }
+
+    pub fn get_text(&self, variable: spring::Text) -> String {
+        let mut text = ptr::null();
+        // SAFETY: the instance lives; one reference, one value, which lives until the next call.
+        unsafe {
+            assert_eq!(fmi2GetString(self.component, &variable.reference(), 1, &mut text), OK);
+            CStr::from_ptr(text).to_str().unwrap().to_owned()
+        }
     }
 
     pub fn step(&self, point: f64, size: f64) -> Status {

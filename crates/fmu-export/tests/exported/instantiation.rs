@@ -1,37 +1,22 @@
 //! Instantiation: kinds, guids, resources, names, callbacks.
 
 use crate::fmi2::*;
-use crate::importer::{Importer, Journal, expect_error, instantiate};
-use crate::spring::{Real, Spring, Text};
-use fmu_export::ffi::types::{CO_SIMULATION, CallbackFunctions, Component, ERROR, OK};
+use crate::importer::{Importer, Journal, SILENT, expect_error, instantiate};
+use crate::spring::{GUID, Real, Spring, Text};
+use fmu_export::ffi::types::{CO_SIMULATION, CallbackFunctions, ERROR, OK};
 use fmu_export::{Model, fnv1a_128};
-use std::ffi::CStr;
 use std::path::PathBuf;
 use std::process::Command;
 use std::{fs, ptr};
 
-fn text(c: Component, variable: Text) -> String {
-    let mut text = ptr::null();
-    // SAFETY: the instance lives; one reference, one value.
-    unsafe {
-        assert_eq!(fmi2GetString(c, &variable.reference(), 1, &mut text), OK);
-        CStr::from_ptr(text).to_str().unwrap().to_owned()
-    }
-}
-
 /// What an instance with this guid and location made of them; None if it was refused.
 fn made_of(guid: &str, location: Option<&str>) -> Result<[String; 2], Box<Journal>> {
-    let (c, journal) = instantiate("one", CO_SIMULATION, guid, location, false);
-    if c.is_null() {
+    let (component, journal) = instantiate("one", CO_SIMULATION, guid, location, false);
+    if component.is_null() {
         return Err(journal);
     }
-    // SAFETY: the instance lives until it is freed.
-    unsafe {
-        assert_eq!(fmi2EnterInitializationMode(c), OK);
-        let texts = [Text::Label, Text::Home].map(|variable| text(c, variable));
-        fmi2FreeInstance(c);
-        Ok(texts)
-    }
+    let importer = Importer::of((component, journal)).after(&[fmi2EnterInitializationMode]);
+    Ok([Text::Label, Text::Home].map(|variable| importer.get_text(variable)))
 }
 
 /// A resources folder with a name that needs escapes, and the guid of what is in it.
@@ -134,12 +119,10 @@ fn hostile_locations_harm_nobody() {
 
 #[test]
 fn an_unusable_location_is_a_warning() {
-    let (component, journal) = instantiate("one", CO_SIMULATION, Spring::GUID, Some("http://host/p"), true);
-    let messages = journal.take();
+    let made = instantiate("one", CO_SIMULATION, Spring::GUID, Some("http://host/p"), true);
+    let messages = Importer::of(made).journal.take();
     assert_eq!(messages[0].category, "logStatusWarning");
     assert!(messages[0].text.contains("http://host/p"));
-    // SAFETY: the instance lives, for the last time.
-    unsafe { fmi2FreeInstance(component) };
 }
 
 #[test]
@@ -153,16 +136,9 @@ fn a_model_that_refuses_or_panics_gives_no_instance() {
 
 #[test]
 fn names_may_be_missing_and_callbacks_too() {
-    let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
-    let silent = CallbackFunctions {
-        logger: None,
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        component_environment: ptr::null_mut(),
-    };
+    let guid = GUID.as_ptr();
     for name in [ptr::null(), c"".as_ptr(), c"\xff\xfe".as_ptr(), c"%s%n".as_ptr()] {
-        for callbacks in [ptr::null(), ptr::from_ref(&silent)] {
+        for callbacks in [ptr::null(), ptr::from_ref(&SILENT)] {
             // SAFETY: texts and callbacks live until the call returns; the instance lives until it is freed.
             unsafe {
                 let c = fmi2Instantiate(name, CO_SIMULATION, guid, ptr::null(), callbacks, 1, 1);
@@ -186,21 +162,16 @@ fn names_may_be_missing_and_callbacks_too() {
 fn texts_that_are_no_text_are_refused() {
     let journal = Journal::new();
     let callbacks = journal.callbacks();
-    // SAFETY: texts and callbacks live until the call returns.
-    unsafe {
-        let latin_1 = c"\xfc".as_ptr();
-        let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
-        assert!(
-            fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, ptr::null(), ptr::null(), &callbacks, 0, 0)
-                .is_null()
-        );
-        expect_error(&journal, &["fmuGUID is NULL"]);
-        assert!(
-            fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, latin_1, ptr::null(), &callbacks, 0, 0).is_null()
-        );
-        expect_error(&journal, &["fmuGUID is not UTF-8"]);
-        assert!(fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, guid, latin_1, &callbacks, 0, 0).is_null());
-        expect_error(&journal, &["fmuResourceLocation is not UTF-8"]);
+    let (name, latin_1) = (c"one".as_ptr(), c"\xfc".as_ptr());
+    for (guid, location, message) in [
+        (ptr::null(), ptr::null(), "fmuGUID is NULL"),
+        (latin_1, ptr::null(), "fmuGUID is not UTF-8"),
+        (GUID.as_ptr(), latin_1, "fmuResourceLocation is not UTF-8"),
+    ] {
+        // SAFETY: texts and callbacks live until the call returns.
+        let made = unsafe { fmi2Instantiate(name, CO_SIMULATION, guid, location, &callbacks, 0, 0) };
+        assert!(made.is_null());
+        expect_error(&journal, &[message]);
     }
 }
 
@@ -213,11 +184,10 @@ fn an_environment_may_be_null_while_there_is_a_logger() {
     type Fixed = unsafe extern "C" fn(ComponentEnvironment, Text, Status, Text, Text);
     // SAFETY: both are pointers to C functions, and one that takes fewer arguments leaves the rest alone.
     let logger = unsafe { std::mem::transmute::<Fixed, CallbackLogger>(deaf) };
-    let callbacks = CallbackFunctions { logger: Some(logger), ..Journal::new().callbacks() };
-    let callbacks = CallbackFunctions { component_environment: ptr::null_mut(), ..callbacks };
+    let callbacks = CallbackFunctions { logger: Some(logger), ..SILENT };
     // SAFETY: texts and callbacks live until the call returns; the instance lives until it is freed.
     unsafe {
-        let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
+        let guid = GUID.as_ptr();
         let c = fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, guid, ptr::null(), &callbacks, 0, 1);
         assert_eq!(fmi2DoStep(c, 0.0, 0.1, 1), ERROR);
         fmi2FreeInstance(c);

@@ -6,12 +6,10 @@
 )]
 
 use crate::fmi2::*;
-use crate::importer::Importer;
+use crate::importer::{Call, Importer};
 use crate::spring::{Boolean, Integer, Real, Text};
-use fmu_export::ffi::types::{Component, ERROR, OK, Status};
+use fmu_export::ffi::types::{ERROR, OK};
 use std::ptr::{null, null_mut};
-
-type Call = unsafe fn(Component) -> Status;
 
 #[test]
 #[rustfmt::skip]

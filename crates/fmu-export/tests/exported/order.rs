@@ -7,10 +7,10 @@
 
 use crate::exchange::Exchange;
 use crate::fmi2::*;
-use crate::importer::Importer;
+use crate::importer::{Call, Importer};
 use crate::spring::{Boolean, COPIES_PANIC, Integer, Real, Text};
-use fmu_export::ffi::types::{Component, DISCARD, ERROR, EventInfo, FATAL, OK, Status};
-use std::ffi::CStr;
+use fmu_export::ffi::types::{Component, DISCARD, ERROR, EventInfo, FATAL, FmuState, OK, Status};
+use std::ffi::{CStr, c_char};
 use std::ptr;
 
 /// Large letters are for co-simulation, small ones for Model Exchange.
@@ -35,11 +35,10 @@ fn in_error() -> Importer {
     importer
 }
 
-fn lost() -> Importer {
+pub fn lost() -> Importer {
     let importer = Importer::in_step_mode();
     COPIES_PANIC.set(true);
-    // SAFETY: the instance lives.
-    let status = unsafe { fmi2Reset(importer.component) };
+    let status = importer.call(fmi2Reset);
     COPIES_PANIC.set(false);
     assert_eq!(status, FATAL);
     assert_eq!(importer.journal.take().last().unwrap().category, "logStatusFatal");
@@ -49,12 +48,10 @@ fn lost() -> Importer {
 /// A letter, and an instance in that phase.
 pub type Phase = (char, fn() -> Importer);
 
-pub type Function = unsafe fn(Component) -> Status;
-
 /// Each function, the phases it is allowed in by FMI 2.0.5 (sections 3.2.3 and 4.2.4), and a call with
 /// arguments that are in order.
 #[rustfmt::skip]
-const FUNCTIONS: [(&str, &str, Function); 40] = [
+const FUNCTIONS: [(&str, &str, Call); 40] = [
     ("fmi2SetDebugLogging", "INSTE.invcte", |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) }),
     ("fmi2SetupExperiment", "I.....i.....", |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) }),
     ("fmi2EnterInitializationMode", "I.....i.....", |c| unsafe { fmi2EnterInitializationMode(c) }),
@@ -78,7 +75,7 @@ const FUNCTIONS: [(&str, &str, Function); 40] = [
      |c| unsafe { with_state(c, |c, mut state| fmi2FreeFMUstate(c, &mut state)) }),
     ("fmi2SerializedFMUstateSize", "INSTE.invcte",
      |c| unsafe { with_state(c, |c, state| fmi2SerializedFMUstateSize(c, state, &mut 0)) }),
-    ("fmi2SerializeFMUstate", "INSTE.invcte", |c| unsafe { with_state(c, serialize) }),
+    ("fmi2SerializeFMUstate", "INSTE.invcte", |c| unsafe { with_state(c, |c, state| serialize(c, state).0) }),
     ("fmi2DeSerializeFMUstate", "INSTE.invcte", |c| unsafe { with_state(c, serialize_and_back) }),
     ("fmi2GetDirectionalDerivative", ".NSTE..nvcte",
      |c| unsafe {
@@ -112,7 +109,8 @@ const FUNCTIONS: [(&str, &str, Function); 40] = [
      |c| unsafe { fmi2GetNominalsOfContinuousStates(c, [0.0; 2].as_mut_ptr(), 2) }),
 ];
 
-unsafe fn with_state(c: Component, body: unsafe fn(Component, *mut std::ffi::c_void) -> Status) -> Status {
+/// Does `body` with a saved state of an instance of either version.
+pub unsafe fn with_state(c: Component, body: unsafe fn(Component, FmuState) -> Status) -> Status {
     let mut state = ptr::null_mut();
     // SAFETY: the instance lives. Where it cannot be saved the state stays NULL, which the body's function
     // then sees.
@@ -122,24 +120,21 @@ unsafe fn with_state(c: Component, body: unsafe fn(Component, *mut std::ffi::c_v
     }
 }
 
-unsafe fn serialize(c: Component, state: *mut std::ffi::c_void) -> Status {
-    let mut bytes = [0; 400];
+unsafe fn serialize(c: Component, state: FmuState) -> (Status, Vec<c_char>) {
     let mut size = 0;
-    // SAFETY: the instance lives, and the array is large enough for what it writes.
+    // SAFETY: the instance lives, and the array is as long as stated.
     unsafe {
         fmi2SerializedFMUstateSize(c, state, &mut size);
-        fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), size.min(bytes.len()))
+        let mut bytes = vec![0; size];
+        (fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), size), bytes)
     }
 }
 
-unsafe fn serialize_and_back(c: Component, state: *mut std::ffi::c_void) -> Status {
-    let mut bytes = [0; 400];
-    let mut size = 0;
-    // SAFETY: the instance lives, and the array is large enough for what it writes.
+unsafe fn serialize_and_back(c: Component, state: FmuState) -> Status {
+    // SAFETY: the instance lives, and the array is as long as stated.
     unsafe {
-        fmi2SerializedFMUstateSize(c, state, &mut size);
-        fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr(), size.min(bytes.len()));
-        fmi2DeSerializeFMUstate(c, bytes.as_ptr(), size, &mut ptr::null_mut())
+        let (_, bytes) = serialize(c, state);
+        fmi2DeSerializeFMUstate(c, bytes.as_ptr(), bytes.len(), &mut ptr::null_mut())
     }
 }
 
@@ -148,7 +143,7 @@ fn every_function_is_served_in_its_phases_alone() {
     check_order(&FUNCTIONS, &PHASES);
 }
 
-pub fn check_order(functions: &[(&str, &str, Function)], phases: &[Phase]) {
+pub fn check_order(functions: &[(&str, &str, Call)], phases: &[Phase]) {
     for &(name, allowed, function) in functions {
         for &(phase, in_phase) in phases {
             let importer = in_phase();
@@ -186,12 +181,7 @@ fn an_error_leaves_getters_and_reset() {
         assert_eq!(unsafe { function(importer.component) }, ERROR, "{name}");
         assert_eq!(importer.get(Real::X), 1.0);
         assert_eq!(importer.step(0.0, 0.1), ERROR);
-        // SAFETY: the instance lives.
-        unsafe {
-            assert_eq!(fmi2Reset(importer.component), OK);
-            assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
-            assert_eq!(fmi2ExitInitializationMode(importer.component), OK);
-        }
+        importer.expect_ok(&[fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode]);
         assert_eq!(importer.get(Real::X), 0.0);
         assert_eq!(importer.step(0.0, 0.1), OK);
     }
@@ -235,7 +225,6 @@ fn reset_gives_a_fresh_instance_bit_for_bit() {
     let used = Importer::swinging();
     assert_eq!(used.set(Real::Force, 3.0), OK);
     assert_eq!(used.step(0.0, 0.1), OK);
-    // SAFETY: the instance lives.
-    unsafe { assert_eq!(fmi2Reset(used.component), OK) };
+    used.expect_ok(&[fmi2Reset]);
     assert_eq!(crate::states::bytes(&used), crate::states::bytes(&fresh));
 }

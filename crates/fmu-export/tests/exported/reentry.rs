@@ -2,14 +2,13 @@
 
 use crate::allocator;
 use crate::fmi2::*;
-use crate::importer::{FixedLogger, as_logger};
-use crate::spring::{Integer, Real, Spring, TALK_IN_STEP};
-use fmu_export::Model;
+use crate::importer::{FixedLogger, SILENT, as_logger};
+use crate::spring::{GUID, Integer, Real, TALK_IN_STEP};
 use fmu_export::ffi::types::{
     CO_SIMULATION, CallbackFunctions, Component, ComponentEnvironment, ERROR, OK, Status, Text,
 };
 use std::cell::{Cell, RefCell};
-use std::ffi::{CString, c_char};
+use std::ffi::c_char;
 use std::ptr;
 
 thread_local! {
@@ -47,18 +46,10 @@ unsafe extern "C" fn free(_: ComponentEnvironment, _: Text, _: Status, _: Text, 
 }
 
 fn instantiate(logger: FixedLogger) -> Component {
-    let guid = CString::new(Spring::GUID).unwrap();
-    let callbacks = CallbackFunctions {
-        logger: Some(as_logger(logger)),
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        component_environment: ptr::null_mut(),
-    };
+    let callbacks = CallbackFunctions { logger: Some(as_logger(logger)), ..SILENT };
+    let (name, guid) = (c"one".as_ptr(), GUID.as_ptr());
     // SAFETY: texts and callbacks live until the call returns.
-    let component = unsafe {
-        fmi2Instantiate(c"one".as_ptr(), CO_SIMULATION, guid.as_ptr(), ptr::null(), &callbacks, 0, 1)
-    };
+    let component = unsafe { fmi2Instantiate(name, CO_SIMULATION, guid, ptr::null(), &callbacks, 0, 1) };
     INSTANCE.set(component);
     component
 }

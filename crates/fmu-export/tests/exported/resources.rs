@@ -1,9 +1,9 @@
 //! Memory and threads.
 
 use crate::allocator;
-use crate::fmi2::{fmi2FreeInstance, fmi2GetFMUstate};
+use crate::fmi2::{fmi2FreeInstance, fmi2GetFMUstate, fmi2Instantiate};
 use crate::importer::{Importer, Journal};
-use crate::spring::Real;
+use crate::spring::{GUID, Real};
 use fmu_export::ffi::types::{CO_SIMULATION, OK};
 use std::{ptr, thread};
 
@@ -11,19 +11,11 @@ use std::{ptr, thread};
 fn a_hundred_thousand_instances_leave_nothing_behind() {
     let journal = Journal::new();
     let callbacks = journal.callbacks();
-    let guid = c"{0123456789abcdef0123456789abcdef}".as_ptr();
+    let (name, guid) = (c"one".as_ptr(), GUID.as_ptr());
     let cycle = || {
         // SAFETY: texts and callbacks live until the call returns; the instance lives until it is freed.
         unsafe {
-            let c = crate::fmi2::fmi2Instantiate(
-                c"one".as_ptr(),
-                CO_SIMULATION,
-                guid,
-                ptr::null(),
-                &callbacks,
-                0,
-                0,
-            );
+            let c = fmi2Instantiate(name, CO_SIMULATION, guid, ptr::null(), &callbacks, 0, 0);
             // A state that the importer forgets goes with its instance.
             let status = fmi2GetFMUstate(c, &mut ptr::null_mut());
             fmi2FreeInstance(c);

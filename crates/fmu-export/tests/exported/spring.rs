@@ -5,6 +5,7 @@ use fmu_export::{
     Update, Variability, Variable, VariableId,
 };
 use std::cell::Cell;
+use std::ffi::CStr;
 
 thread_local! {
     /// Makes every copy of a spring on this thread panic.
@@ -47,6 +48,9 @@ macro_rules! variables {
         }
     };
 }
+
+/// The guid for C.
+pub const GUID: &CStr = c"{0123456789abcdef0123456789abcdef}";
 
 const FREE: Kind = Kind::Real { start: Some(0.0), min: None, max: None };
 

@@ -1,6 +1,7 @@
 //! Communication steps and the experiment.
 
 use crate::allocator;
+use crate::derivatives::set_rate;
 use crate::fmi2::*;
 use crate::importer::Importer;
 use crate::spring::{FAIL_IN_STEP, Integer, Real};
@@ -20,12 +21,7 @@ fn set_up(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> (Importer, S
 fn started(start: f64, stop: Option<f64>) -> Importer {
     let (importer, status) = set_up(None, start, stop);
     assert_eq!(status, OK);
-    // SAFETY: the instance lives.
-    unsafe {
-        assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
-        assert_eq!(fmi2ExitInitializationMode(importer.component), OK);
-    }
-    importer
+    importer.after(&[fmi2EnterInitializationMode, fmi2ExitInitializationMode])
 }
 
 fn time(importer: &Importer) -> f64 {
@@ -132,13 +128,7 @@ fn a_clock_that_differs_is_made_up_for() {
     let importer = Importer::in_step_mode();
     assert_eq!(importer.step(0.0, 0.1), OK);
     // A force that grows by 1 N/s measures how long a step is.
-    // SAFETY: the instance lives; one of each.
-    unsafe {
-        assert_eq!(
-            fmi2SetRealInputDerivatives(importer.component, &Real::Force.reference(), 1, &1, &1.0),
-            OK
-        );
-    };
+    assert_eq!(set_rate(&importer, Real::Force.reference(), 1, 1.0), OK);
     assert_eq!(importer.step(0.1 + 5e-10, 0.1), OK);
     assert_eq!(time(&importer), 0.1 + 5e-10 + 0.1);
     // Eight substeps, each rounded once.
@@ -172,11 +162,10 @@ fn a_step_that_fails_is_an_error_and_never_discarded() {
 fn what_can_be_told_of_the_status_is_told() {
     let importer = Importer::logging(true);
     let c = importer.component;
+    importer.expect_ok(&[fmi2EnterInitializationMode, fmi2ExitInitializationMode]);
+    importer.journal.take();
     // SAFETY: the instance lives.
     unsafe {
-        assert_eq!(fmi2EnterInitializationMode(c), OK);
-        assert_eq!(fmi2ExitInitializationMode(c), OK);
-        importer.journal.take();
         let mut status = 77;
         assert_eq!((fmi2GetStatus(c, 0, &mut status), status), (OK, OK));
         let mut terminated = 77;

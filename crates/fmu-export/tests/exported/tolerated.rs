@@ -5,12 +5,13 @@
     reason = "each call states what it is given; the instance lives"
 )]
 
+use crate::derivatives::set_rate;
 use crate::exchange::Exchange;
 use crate::fmi2::*;
 use crate::fmi3::*;
 use crate::fmi3_order::Fmi3;
-use crate::fmi3_values::{ASKED, set_force};
-use crate::importer::Importer;
+use crate::fmi3_values::{ASKED, set_force, step};
+use crate::importer::{Call, Importer};
 use crate::spring::{Boolean, Integer, Real, Text};
 use crate::states::bytes;
 use fmu_export::ffi::types::{Component, ERROR, OK, Status, WARNING};
@@ -21,17 +22,7 @@ const UNKNOWN: u32 = 999;
 
 /// A swinging spring in step mode of FMI 3.0 with Event Mode.
 fn stepping_with_events() -> Importer {
-    let importer = Fmi3::started(Fmi3::co_simulation(true, false));
-    assert_eq!(unsafe { fmi3EnterStepMode(importer.component) }, OK);
-    importer
-}
-
-fn step3(importer: &Importer, point: f64, size: f64) -> (Status, bool, bool, bool, f64) {
-    let (mut event, mut end, mut early, mut last) = (true, true, true, f64::NAN);
-    let status = unsafe {
-        fmi3DoStep(importer.component, point, size, true, &mut event, &mut end, &mut early, &mut last)
-    };
-    (status, event, end, early, last)
+    Fmi3::started(Fmi3::co_simulation(true, false)).after(&[fmi3EnterStepMode])
 }
 
 #[test]
@@ -57,7 +48,7 @@ fn a_discrete_input_is_set_in_step_mode_to_the_value_that_it_has_alone() {
         let before = bytes(&importer);
         assert_eq!(set(c, false), OK, "{name}: {:?}", importer.journal.take());
         assert_eq!(bytes(&importer), before);
-        assert_eq!(step3(&importer, 0.0, 0.25).0, OK);
+        assert_eq!(step(&importer, 0.0, 0.25).0, OK);
         assert!(importer.journal.take().is_empty());
         assert_eq!(set(c, true), ERROR);
         importer.expect_error(&[&format!("{name} is not continuous"), "in step mode", "in Event Mode"]);
@@ -116,13 +107,11 @@ fn a_boolean_is_read_as_a_real_with_one_warning() {
             assert!(messages[0].text.contains(part), "{messages:?}");
         }
         // a reset instance is the same instance
-        unsafe {
-            assert_eq!(fmi2Reset(c), OK);
-            if third {
-                assert_eq!(fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0), OK);
-            } else {
-                assert_eq!(fmi2EnterInitializationMode(c), OK);
-            }
+        importer.expect_ok(&[fmi2Reset]);
+        if third {
+            assert_eq!(unsafe { fmi3EnterInitializationMode(c, false, 0.0, 0.0, false, 0.0) }, OK);
+        } else {
+            importer.expect_ok(&[fmi2EnterInitializationMode]);
         }
         assert_eq!(read(), (OK, [0.0; 3]));
         importer.journal.take().iter().for_each(|message| assert_ne!(message.status, WARNING));
@@ -138,12 +127,10 @@ fn other_types_are_not_read_as_reals() {
     }
 }
 
-type Getter = unsafe fn(Component) -> Status;
-
 #[test]
 #[rustfmt::skip]
 fn a_getter_that_fails_leaves_the_instance_usable() {
-    let getters: [(&str, Getter); 8] = [
+    let getters: [(&str, Call); 8] = [
         ("fmi2GetReal", |c| unsafe { fmi2GetReal(c, &UNKNOWN, 1, &mut 0.0) }),
         ("fmi2GetReal", |c| unsafe { fmi2GetReal(c, null(), 1, &mut 0.0) }),
         ("fmi2GetInteger", |c| unsafe { fmi2GetInteger(c, &UNKNOWN, 1, &mut 0) }),
@@ -165,7 +152,7 @@ fn a_getter_that_fails_leaves_the_instance_usable() {
         assert_eq!(importer.set(Real::Force, 1.0), OK, "{name}");
         assert_eq!(importer.step(0.0, 0.25), OK, "{name}");
     }
-    let getters: [(&str, Getter); 8] = [
+    let getters: [(&str, Call); 8] = [
         ("fmi3GetFloat64", |c| unsafe { fmi3GetFloat64(c, &UNKNOWN, 1, &mut 0.0, 1) }),
         ("fmi3GetFloat32", |c| unsafe { fmi3GetFloat32(c, &Real::X.reference(), 1, &mut 0.0, 1) }),
         ("fmi3GetInt32", |c| unsafe { fmi3GetInt32(c, &Integer::Law.reference(), 1, &mut 0, 1) }),
@@ -181,7 +168,7 @@ fn a_getter_that_fails_leaves_the_instance_usable() {
         let importer = stepping_with_events();
         assert_eq!(unsafe { getter(importer.component) }, ERROR, "{name}");
         importer.expect_error(&[name]);
-        assert_eq!(step3(&importer, 0.0, 0.25), (OK, false, false, false, 0.25), "{name}");
+        assert_eq!(step(&importer, 0.0, 0.25), (OK, false, false, 0.25), "{name}");
     }
 }
 
@@ -214,8 +201,7 @@ fn a_getter_out_of_turn_leaves_the_instance_where_it_is() {
 fn a_step_of_length_0_does_nothing() {
     let importer = Importer::swinging();
     assert_eq!(importer.step(0.0, 0.5), OK);
-    let (force, rate) = (Real::Force.reference(), 2.0);
-    unsafe { assert_eq!(fmi2SetRealInputDerivatives(importer.component, &force, 1, &1, &rate), OK) };
+    assert_eq!(set_rate(&importer, Real::Force.reference(), 1, 2.0), OK);
     let before = bytes(&importer);
     for (point, size) in [(0.5, 0.0), (0.5, -0.0), (0.5 + 1e-10, 0.0), (0.5 - 1e-10, 0.0)] {
         assert_eq!(importer.step(point, size), OK, "{:?}", importer.journal.take());
@@ -238,16 +224,16 @@ fn a_step_of_length_0_does_nothing() {
 fn a_step_of_length_0_answers_in_fmi_3() {
     for importer in [stepping_with_events(), Fmi3::started(Fmi3::updated(false, true, Some(set_force)))] {
         let before = bytes(&importer);
-        assert_eq!(step3(&importer, 0.0, 0.0), (OK, false, false, false, 0.0));
+        assert_eq!(step(&importer, 0.0, 0.0), (OK, false, false, 0.0));
         assert_eq!(bytes(&importer), before);
         assert!(ASKED.get().is_nan(), "there are no inputs at its end to ask for");
     }
     let importer = stepping_with_events();
-    assert_eq!(step3(&importer, 0.0, 0.5).0, OK);
-    assert_eq!(step3(&importer, 0.5, 0.0), (OK, false, false, false, 0.5));
+    assert_eq!(step(&importer, 0.0, 0.5).0, OK);
+    assert_eq!(step(&importer, 0.5, 0.0), (OK, false, false, 0.5));
     for size in [-0.1, f64::NAN, f64::INFINITY] {
         let importer = stepping_with_events();
-        assert_eq!(step3(&importer, 0.0, size).0, ERROR);
+        assert_eq!(step(&importer, 0.0, size).0, ERROR);
         importer.expect_error(&["fmi3DoStep", "communicationStepSize"]);
     }
 }

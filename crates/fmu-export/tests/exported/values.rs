@@ -3,7 +3,7 @@
 use crate::fmi2::*;
 use crate::importer::Importer;
 use crate::spring::{Boolean, Integer, Real, Text};
-use fmu_export::ffi::types::{ERROR, OK};
+use fmu_export::ffi::types::{Component, ERROR, OK, Status};
 use std::ffi::CStr;
 use std::ptr;
 
@@ -20,19 +20,15 @@ fn what_is_set_is_got() {
     let importer = Importer::in_initialization_mode();
     assert_eq!(importer.set(Real::Stiffness, 9.0), OK);
     assert_eq!(importer.set_integer(Integer::Law, 2), OK);
-    let c = importer.component;
-    let mut flag = -1;
-    let mut label = ptr::null();
+    let (c, mut flag) = (importer.component, -1);
+    // C's truth is anything but 0.
+    assert_eq!(importer.set_boolean(Boolean::Clamped, 2), OK);
     // SAFETY: the instance lives; one reference, one value.
-    let label = unsafe {
-        // C's truth is anything but 0.
-        assert_eq!(fmi2SetBoolean(c, &Boolean::Clamped.reference(), 1, &2), OK);
+    unsafe {
         assert_eq!(fmi2SetString(c, &Text::Label.reference(), 1, &c"Fäden %s".as_ptr()), OK);
         assert_eq!(fmi2GetBoolean(c, &Boolean::Clamped.reference(), 1, &mut flag), OK);
-        assert_eq!(fmi2GetString(c, &Text::Label.reference(), 1, &mut label), OK);
-        CStr::from_ptr(label)
-    };
-    assert_eq!((flag, label), (1, c"Fäden %s"));
+    }
+    assert_eq!((flag, importer.get_text(Text::Label)), (1, "Fäden %s".to_owned()));
     assert_eq!(importer.get(Real::Stiffness), 9.0);
     assert_eq!(importer.get_integer(Integer::Law), 2);
 }
@@ -79,17 +75,13 @@ fn calculated_values_follow_sets_in_initialization_mode() {
 fn contradictions_are_told_when_values_are_asked_for() {
     let importer = Importer::in_initialization_mode();
     assert_eq!(importer.set(Real::XStart, 1.0), OK);
-    // SAFETY: the instance lives; one reference, one value.
-    unsafe {
-        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Clamped.reference(), 1, &1), OK);
-        assert_eq!(fmi2ExitInitializationMode(importer.component), ERROR);
-    }
+    assert_eq!(importer.set_boolean(Boolean::Clamped, 1), OK);
+    assert_eq!(importer.call(fmi2ExitInitializationMode), ERROR);
     importer.expect_error(&["fmi2ExitInitializationMode", "x_start = 1 m"]);
 
     let importer = Importer::in_initialization_mode();
     assert_eq!(importer.set_integer(Integer::Substeps, 13), OK);
-    // SAFETY: the instance lives.
-    assert_eq!(unsafe { fmi2ExitInitializationMode(importer.component) }, ERROR);
+    assert_eq!(importer.call(fmi2ExitInitializationMode), ERROR);
     importer.expect_error(&["substeps = 13"]);
 }
 
@@ -152,15 +144,11 @@ fn only_inputs_and_parameters_are_set_and_those_in_their_phase() {
     let importer = Importer::new();
     assert_eq!(importer.set_integer(Integer::Count, 1), ERROR);
     importer.expect_error(&["count is an output"]);
-    // SAFETY: the instances live; one reference, one value.
-    unsafe {
-        let importer = Importer::in_step_mode();
-        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Clamped.reference(), 1, &1), ERROR);
-        let importer = Importer::new();
-        assert_eq!(fmi2SetBoolean(importer.component, &Boolean::Moving.reference(), 1, &1), ERROR);
-        let importer = Importer::in_step_mode();
-        assert_eq!(fmi2SetString(importer.component, &Text::Label.reference(), 1, &c"".as_ptr()), ERROR);
-    }
+    assert_eq!(Importer::in_step_mode().set_boolean(Boolean::Clamped, 1), ERROR);
+    assert_eq!(Importer::new().set_boolean(Boolean::Moving, 1), ERROR);
+    let (importer, label) = (Importer::in_step_mode(), Text::Label.reference());
+    // SAFETY: the instance lives; one reference, one value.
+    assert_eq!(unsafe { fmi2SetString(importer.component, &label, 1, &c"".as_ptr()) }, ERROR);
 }
 
 #[test]
@@ -182,41 +170,35 @@ fn one_bad_value_leaves_all_as_they_were() {
 
     let importer = Importer::in_initialization_mode();
     let references = [Text::Label.reference(), Text::Label.reference()];
+    let latin_1 = c"\xfc".as_ptr();
+    let values = [c"other".as_ptr(), latin_1];
     // SAFETY: the instance lives; two references, two values, both texts.
-    unsafe {
-        let latin_1 = c"\xfc".as_ptr();
-        let values = [c"other".as_ptr(), latin_1];
-        assert_eq!(fmi2SetString(importer.component, references.as_ptr(), 2, values.as_ptr()), ERROR);
-        importer.expect_error(&["UTF-8"]);
-        let mut label = ptr::null();
-        assert_eq!(fmi2GetString(importer.component, references.as_ptr(), 1, &mut label), OK);
-        assert_eq!(CStr::from_ptr(label), c"spring");
-    }
+    let status = unsafe { fmi2SetString(importer.component, references.as_ptr(), 2, values.as_ptr()) };
+    assert_eq!(status, ERROR);
+    importer.expect_error(&["UTF-8"]);
+    assert_eq!(importer.get_text(Text::Label), "spring");
 }
 
 #[test]
 fn unknown_references_are_refused() {
-    // References of another type are unknown as well.
-    for reference in [0, 999, u32::MAX, Integer::Law.reference()] {
-        // SAFETY: the instances live; one reference, one value.
-        unsafe {
-            let importer = Importer::in_initialization_mode();
-            assert_eq!(fmi2GetReal(importer.component, &reference, 1, &mut 0.0), ERROR);
-            importer.expect_error(&["fmi2GetReal", &reference.to_string()]);
-            let importer = Importer::in_initialization_mode();
-            assert_eq!(fmi2SetReal(importer.component, &reference, 1, &0.0), ERROR);
-            importer.expect_error(&["fmi2SetReal", &reference.to_string()]);
-        }
-    }
-    // SAFETY: the instances live; one reference, one value.
+    let refused = |reference: u32, name: &str, call: unsafe fn(Component, &u32) -> Status| {
+        let importer = Importer::in_initialization_mode();
+        // SAFETY: the instance lives; one reference, one value.
+        assert_eq!(unsafe { call(importer.component, &reference) }, ERROR);
+        importer.expect_error(&[name, &reference.to_string()]);
+    };
+    // SAFETY: the instance lives; one reference, one value.
     unsafe {
-        let c = |importer: &Importer| importer.component;
-        let importers = [(); 6].map(|()| Importer::in_initialization_mode());
-        assert_eq!(fmi2GetInteger(c(&importers[0]), &1, 1, &mut 0), ERROR);
-        assert_eq!(fmi2SetInteger(c(&importers[1]), &1, 1, &0), ERROR);
-        assert_eq!(fmi2GetBoolean(c(&importers[2]), &1, 1, &mut 0), ERROR);
-        assert_eq!(fmi2SetBoolean(c(&importers[3]), &1, 1, &0), ERROR);
-        assert_eq!(fmi2GetString(c(&importers[4]), &1, 1, &mut ptr::null()), ERROR);
-        assert_eq!(fmi2SetString(c(&importers[5]), &1, 1, &c"".as_ptr()), ERROR);
+        // References of another type are unknown as well.
+        for reference in [0, 999, u32::MAX, Integer::Law.reference()] {
+            refused(reference, "fmi2GetReal", |c, reference| fmi2GetReal(c, reference, 1, &mut 0.0));
+            refused(reference, "fmi2SetReal", |c, reference| fmi2SetReal(c, reference, 1, &0.0));
+        }
+        refused(1, "fmi2GetInteger", |c, reference| fmi2GetInteger(c, reference, 1, &mut 0));
+        refused(1, "fmi2SetInteger", |c, reference| fmi2SetInteger(c, reference, 1, &0));
+        refused(1, "fmi2GetBoolean", |c, reference| fmi2GetBoolean(c, reference, 1, &mut 0));
+        refused(1, "fmi2SetBoolean", |c, reference| fmi2SetBoolean(c, reference, 1, &0));
+        refused(1, "fmi2GetString", |c, reference| fmi2GetString(c, reference, 1, &mut ptr::null()));
+        refused(1, "fmi2SetString", |c, reference| fmi2SetString(c, reference, 1, &c"".as_ptr()));
     }
 }
