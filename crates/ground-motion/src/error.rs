@@ -74,6 +74,21 @@ pub enum GroundMotionError {
     Content { file: String, line: usize, expected: String, found: String, remedy: String },
 }
 
+/// Refuses a parameter that is outside its limits.
+pub(crate) fn check_parameter(
+    holds: bool,
+    name: &'static str,
+    value: f64,
+    limit: &'static str,
+) -> Result<(), GroundMotionError> {
+    if holds { Ok(()) } else { Err(GroundMotionError::Parameter { name, value, limit }) }
+}
+
+/// Refuses a parameter that is not positive and finite.
+pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), GroundMotionError> {
+    check_parameter(value > 0.0 && value.is_finite(), name, value, "positive and finite")
+}
+
 /// A fault in a record's text, before the name of its file is known.
 #[derive(Debug)]
 pub(crate) struct Fault {

@@ -18,7 +18,7 @@
 
 use std::f64::consts::PI;
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, check_parameter, check_positive};
 use crate::motion::{GroundMotion, floor_index};
 
 /// Steps in a period.
@@ -169,7 +169,8 @@ impl Pulse {
         check_positive("frequency [Hz]", self.frequency)?;
         match self.shape {
             Shape::Ricker { centre } => {
-                check(centre >= 0.0 || centre.is_nan(), "centre [s]", centre, "zero or positive")?;
+                let holds = centre >= 0.0 || centre.is_nan();
+                check_parameter(holds, "centre [s]", centre, "zero or positive")?;
                 check_finite("centre [s]", centre)
             }
             Shape::Harmonic { phase, end } => {
@@ -181,14 +182,6 @@ impl Pulse {
     }
 }
 
-fn check(holds: bool, name: &'static str, value: f64, limit: &'static str) -> Result<(), GroundMotionError> {
-    if holds { Ok(()) } else { Err(GroundMotionError::Parameter { name, value, limit }) }
-}
-
 fn check_finite(name: &'static str, value: f64) -> Result<(), GroundMotionError> {
-    check(value.is_finite(), name, value, "finite")
-}
-
-fn check_positive(name: &'static str, value: f64) -> Result<(), GroundMotionError> {
-    check(value > 0.0 && value.is_finite(), name, value, "positive and finite")
+    check_parameter(value.is_finite(), name, value, "finite")
 }

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use oscillator::{Green, KinematicState, Oscillator};
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, check_parameter};
 use crate::motion::{GroundMotion, floor_index};
 
 /// Usual damping ratio of response spectra (-).
@@ -84,10 +84,7 @@ impl Spectrum {
     /// # Errors
     /// If the damping ratio is not from 0 to below 1.
     pub fn new(damping: f64, maxima: Maxima) -> Result<Self, GroundMotionError> {
-        if !(0.0..1.0).contains(&damping) {
-            let limit = "from 0 to below 1";
-            return Err(GroundMotionError::Parameter { name: "damping ratio", value: damping, limit });
-        }
+        check_parameter((0.0..1.0).contains(&damping), "damping ratio", damping, "from 0 to below 1")?;
         Ok(Self { damping, maxima })
     }
 
@@ -106,16 +103,16 @@ impl Spectrum {
             return Ok(motion.peak());
         }
         let [shortest, longest] = PERIOD_LIMITS;
-        if !(shortest..=longest).contains(&period) {
-            let limit = "0 or from 0.001 to 100 s";
-            return Err(GroundMotionError::Parameter { name: "period", value: period, limit });
-        }
+        check_parameter(
+            (shortest..=longest).contains(&period),
+            "period",
+            period,
+            "0 or from 0.001 to 100 s",
+        )?;
         let omega = TAU / period;
         let pieces = (motion.step() / period * PIECES_PER_PERIOD).ceil().max(1.0);
-        if pieces > PIECES_PER_STEP {
-            let limit = "at most 500 periods of the oscillator";
-            return Err(GroundMotionError::Parameter { name: "time step in s", value: motion.step(), limit });
-        }
+        let limit = "at most 500 periods of the oscillator";
+        check_parameter(pieces <= PIECES_PER_STEP, "time step in s", motion.step(), limit)?;
         let oscillator = Oscillator::new(2.0 * self.damping * omega, omega * omega);
         let mut piece = Piece::new(oscillator, motion.step() / pieces);
         let mut search = Search { state: [0.0; 2], largest: 0.0 };
@@ -154,14 +151,7 @@ impl Spectrum {
     /// # Errors
     /// As [`acceleration`](Self::acceleration), and if there is no period.
     pub fn average(&self, motion: &GroundMotion, periods: &[f64]) -> Result<f64, GroundMotionError> {
-        if periods.is_empty() {
-            let limit = "1 or more";
-            return Err(GroundMotionError::Parameter {
-                name: "number of periods of AvgSA",
-                value: 0.0,
-                limit,
-            });
-        }
+        check_parameter(!periods.is_empty(), "number of periods of AvgSA", 0.0, "1 or more")?;
         let logarithms = self.accelerations(motion, periods)?.into_iter().map(libm::log).sum::<f64>();
         Ok(libm::exp(logarithms / periods.len() as f64))
     }

@@ -17,7 +17,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 use oscillator::Oscillator;
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, check_parameter, check_positive};
 use crate::motion::{GroundMotion, floor_index};
 
 /// Largest ωΔt of the fastest mode: the relative error is then 3e-8.
@@ -88,22 +88,14 @@ impl Storeys {
     /// If there is no storey or more than 200, if a mass or stiffness is not positive, or if a damping ratio
     /// is not from 0 to below 1.
     pub fn new(storeys: &[Storey]) -> Result<Self, GroundMotionError> {
-        let parameter = |name, value, limit| GroundMotionError::Parameter { name, value, limit };
-        if storeys.is_empty() || storeys.len() > MOST_STOREYS {
-            return Err(parameter("number of storeys", storeys.len() as f64, "from 1 to 200"));
-        }
-        for storey in storeys {
-            for (name, value) in
-                [("mass of a storey in kg", storey.mass), ("stiffness of a storey in N/m", storey.stiffness)]
-            {
-                if !(value > 0.0 && value.is_finite()) {
-                    return Err(parameter(name, value, "positive and finite"));
-                }
-            }
-            if !(0.0..1.0).contains(&storey.damping_ratio) {
-                let value = storey.damping_ratio;
-                return Err(parameter("damping ratio of a storey", value, "from 0 to below 1"));
-            }
+        let count = storeys.len();
+        let holds = (1..=MOST_STOREYS).contains(&count);
+        check_parameter(holds, "number of storeys", count as f64, "from 1 to 200")?;
+        for &Storey { mass, stiffness, damping_ratio } in storeys {
+            check_positive("mass of a storey in kg", mass)?;
+            check_positive("stiffness of a storey in N/m", stiffness)?;
+            let holds = (0.0..1.0).contains(&damping_ratio);
+            check_parameter(holds, "damping ratio of a storey", damping_ratio, "from 0 to below 1")?;
         }
         Ok(Self { storeys: storeys.to_vec(), modes: modes(storeys)? })
     }
@@ -180,10 +172,8 @@ fn modes(storeys: &[Storey]) -> Result<Vec<Mode>, GroundMotionError> {
     let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(matrix);
     let mut modes = Vec::with_capacity(count);
     for (n, &square) in eigenvalues.iter().enumerate() {
-        if !(square > 0.0 && square.is_finite()) {
-            let limit = "of usual magnitude, beside those of the other storeys";
-            return Err(GroundMotionError::Parameter { name: "stiffness of a storey", value: square, limit });
-        }
+        let limit = "of usual magnitude, beside those of the other storeys";
+        check_parameter(square > 0.0 && square.is_finite(), "stiffness of a storey", square, limit)?;
         // φ = M^{-1/2} y with yᵀ y = 1, so Γ = φᵀ M 1 = Σ √m y
         let phi: Vec<_> = (0..count).map(|i| eigenvectors[(i, n)] / storeys[i].mass.sqrt()).collect();
         let factor: f64 = storeys.iter().zip(&phi).map(|(storey, phi)| storey.mass * phi).sum();

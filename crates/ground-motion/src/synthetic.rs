@@ -27,7 +27,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, check_parameter};
 use crate::motion::{GroundMotion, floor_index};
 
 /// Soil layer of Kanai and Tajimi, firm ground.
@@ -76,14 +76,8 @@ impl SyntheticMotion {
     /// If the duration, the step or the peak is outside its limits.
     pub fn motion(&self) -> Result<GroundMotion, GroundMotionError> {
         let Self { duration, step, peak, .. } = *self;
-        if !(10.0..=600.0).contains(&duration) {
-            let name = "duration [s]";
-            return Err(GroundMotionError::Parameter { name, value: duration, limit: "from 10 to 600" });
-        }
-        if !(0.0005..=0.02).contains(&step) {
-            let limit = "from 0.0005 to 0.02";
-            return Err(GroundMotionError::Parameter { name: "step [s]", value: step, limit });
-        }
+        check_parameter((10.0..=600.0).contains(&duration), "duration [s]", duration, "from 10 to 600")?;
+        check_parameter((0.0005..=0.02).contains(&step), "step [s]", step, "from 0.0005 to 0.02")?;
         let intervals = floor_index((duration / step).round());
         let mut noise = Noise::new(self.seed);
         let mut soil = FilterState::default();
