@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+use ground_motion::{Record, RecordOptions, parse};
+
 mod chain;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
@@ -19,3 +21,16 @@ mod specimen;
 mod spectrum;
 mod storeys;
 mod synthetic;
+
+/// Reads a text as the file of a name.
+fn read(name: &str, text: &str, options: &RecordOptions) -> Result<Record, String> {
+    parse(name, text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
+}
+
+/// Checks that a message has all of some words.
+#[track_caller]
+fn assert_mentions(error: &str, words: &[&str]) {
+    for word in words {
+        assert!(error.contains(word), "`{word}` is missing in: {error}");
+    }
+}

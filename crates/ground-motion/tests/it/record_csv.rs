@@ -1,7 +1,9 @@
 //! Text tables: with and without a header line, one column with a step, and what is refused.
 
-use ground_motion::{Format, Record, RecordOptions, Unit, parse};
+use ground_motion::{Format, Record, RecordOptions, Unit};
 use proptest::prelude::*;
+
+use crate::assert_mentions;
 
 fn si() -> RecordOptions {
     RecordOptions { unit: Some(Unit::MetrePerSecondSquared), ..RecordOptions::default() }
@@ -16,16 +18,14 @@ fn with_column(column: &str) -> RecordOptions {
 }
 
 fn read(text: &str, options: &RecordOptions) -> Result<Record, String> {
-    parse("x.csv", text.as_bytes().to_vec(), options).map_err(|error| error.to_string())
+    crate::read("x.csv", text, options)
 }
 
 #[track_caller]
 fn assert_refused(text: &str, options: &RecordOptions, fragments: &[&str]) {
     let error = read(text, options).expect_err(text);
     assert!(error.starts_with("x.csv, line "), "{error}");
-    for fragment in fragments {
-        assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
-    }
+    assert_mentions(&error, fragments);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use ground_motion::{Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, parse, read};
 use proptest::prelude::*;
 
+use crate::assert_mentions;
 use crate::specimen::{self, SAMPLES};
 
 fn stated() -> RecordOptions {
@@ -26,9 +27,7 @@ fn noise() -> Vec<u8> {
 fn assert_refused(path: &PathBuf, fragments: &[&str]) {
     let error = read(path, &stated()).expect_err("no record").to_string();
     assert!(error.starts_with(&path.display().to_string()), "{error}");
-    for fragment in fragments {
-        assert!(error.contains(fragment), "`{fragment}` is missing in: {error}");
-    }
+    assert_mentions(&error, fragments);
 }
 
 #[test]
