@@ -1,27 +1,20 @@
 //! Compares the model description with the promised names, and the documentation with the description.
 
 use fmu_export::{Kind, Variable, VariableId};
+use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
-    BooleanVariable, DampingModel, EccentricityMode, ForceLaw, Impact, IntegerVariable, Mechanism,
-    RealVariable, RestitutionSource, Rocking, Softening, Solver, StringVariable, TieSide,
+    DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RealVariable, RestitutionSource, Rocking,
+    Softening, Solver, TieSide,
 };
 use rocking_wall::wall::{Parameters, usage};
+
+use crate::page;
 
 const XML: &str = include_str!("../../modelDescription/modelDescription.xml");
 const PAGE: &str = include_str!("../../modelDescription/documentation/index.html");
 
-/// Every variable, in the order of the description: value references count from 1 in it.
 fn variables() -> Vec<&'static Variable> {
-    fn of<V: VariableId>() -> impl Iterator<Item = &'static Variable> {
-        V::ALL.iter().map(|variable| variable.variable())
-    }
-    let mut all: Vec<_> = of::<RealVariable>()
-        .chain(of::<IntegerVariable>())
-        .chain(of::<BooleanVariable>())
-        .chain(of::<StringVariable>())
-        .collect();
-    all.sort_by_key(|variable| variable.reference);
-    all
+    page::variables::<Unit>()
 }
 
 #[test]
@@ -129,30 +122,7 @@ fn times_are_shown_in_seconds() {
 #[test]
 fn the_documentation_lists_every_variable_with_its_default() {
     for variable in variables() {
-        let name = variable.name;
-        let head = format!("<tr><td><code>{name}</code></td>");
-        assert_eq!(PAGE.matches(&head).count(), 1, "{name} has one row in documentation/index.html");
-        let row = PAGE.split(&head).nth(1).and_then(|rest| rest.split("</tr>").next()).unwrap_or_default();
-        // The columns are unit, default and meaning; without a default there is no such column.
-        let cells: Vec<_> = row.split("<td>").skip(1).map(|cell| cell.trim_end_matches("</td>")).collect();
-        let default = match &variable.kind {
-            Kind::Real { start, .. } => start.map(|start| cells[1].parse() == Ok(start)),
-            Kind::Enumeration { start, items } => start.map(|start| {
-                items
-                    .iter()
-                    .any(|item| item.value == start && cells[1] == format!("<code>{}</code>", item.name))
-            }),
-            Kind::Boolean { start } => start.map(|start| cells[1] == start.to_string()),
-            Kind::Integer { start, .. } => start.map(|start| cells[1] == start.to_string()),
-            Kind::String { start } => start.map(|start| cells[1] == start),
-        };
-        assert_ne!(
-            default,
-            Some(false),
-            "{name}: the page's default {:?} is not the description's",
-            cells[1]
-        );
-        assert_eq!(cells.len(), if default.is_some() { 3 } else { 2 }, "{name}: {row}");
+        let (name, row) = (variable.name, page::row(PAGE, variable));
         let condition = usage(&Parameters::default()).find(|usage| usage.name == name).unwrap().condition;
         let place = format!("{{where {name}}}");
         assert_eq!(row.contains(&place), !condition.is_empty(), "{name}: {place} in {row}");
@@ -169,7 +139,5 @@ fn the_documentation_lists_every_variable_with_its_default() {
 
 #[test]
 fn the_documentation_needs_nothing_from_outside() {
-    for text in ["http://", "https://", "<script", "<img", "<link", "url("] {
-        assert!(!PAGE.contains(text), "{text}");
-    }
+    page::assert_needs_nothing_from_outside(PAGE);
 }

@@ -18,6 +18,7 @@ mod model_exchange;
 mod numerics;
 mod one_sided;
 mod overturning;
+mod page;
 mod properties;
 mod record_path;
 mod ties;

@@ -47,6 +47,9 @@ fn check_names(crates: &BTreeSet<String>, notices: &str) {
 
 #[test]
 fn every_linked_crate_is_named() {
+    let [ours, others] = crates(&["rocking-floor", "--features", "fmu"]);
+    check_names(&others, "crates/floor/modelDescription/documentation/licenses/notices.txt");
+    assert!(ours.contains("fmu-export") && !ours.contains("rocking-wall"), "{ours:?}");
     let [ours, others] = crates(&["rocking-wall", "--features", "fmu"]);
     check_names(&others, "modelDescription/documentation/licenses/notices.txt");
     assert!(others.contains("nalgebra") && ours.contains("ground-motion"), "{ours:?}, {others:?}");

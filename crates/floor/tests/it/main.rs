@@ -4,6 +4,8 @@ mod coupling;
 mod description;
 mod hysteresis;
 mod linear;
+#[path = "../../../../tests/it/page.rs"]
+mod page;
 
 use fmu_export::{Experiment, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit;
