@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Excitation, Simulation};
-use rocking_wall::solver::{Segment, Work};
+use rocking_wall::solver::Work;
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{Parameters, Support};
 use serde::Deserialize;
@@ -58,7 +58,7 @@ pub(crate) fn advance_to(simulation: &mut Simulation, excitation: Option<&Excita
         let remaining = time - now;
         let segment = match excitation {
             Some(excitation) => excitation.segment(now, remaining),
-            None => Segment { duration: remaining, from: Support::default(), to: Support::default() },
+            None => crate::still(remaining),
         };
         let last = segment.duration >= remaining;
         simulation.advance(&segment).unwrap();

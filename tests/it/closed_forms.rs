@@ -5,6 +5,8 @@ use rocking_wall::solver::{Phase, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RestitutionSource};
 use rocking_wall::wall::{Parameters, Support, equivalence, restitution};
 
+use crate::{start, still};
+
 /// Relative to the scale of the quantity.
 const TOLERANCE: f64 = 1e-12;
 
@@ -13,12 +15,7 @@ fn undamped() -> Parameters {
 }
 
 fn free(simulation: &mut Simulation, duration: f64) {
-    let still = Support::default();
-    simulation.advance(&Segment { duration, from: still, to: still }).expect("a free motion");
-}
-
-fn start(parameters: &Parameters) -> Simulation {
-    Simulation::new(parameters, None, 0.0, Support::default()).expect("a valid wall")
+    simulation.advance(&still(duration)).expect("a free motion");
 }
 
 /// u = e^{−ξωt} (A cos ω_d t + B sin ω_d t), under-, over- and critically damped, in steps of any size.
@@ -220,13 +217,11 @@ fn too_many_impacts_end_at_rest() {
         u_start: 1e-6,
         ..undamped()
     });
-    let still = Support::default();
-    let step =
-        simulation.advance(&Segment { duration: 1e3, from: still, to: still }).expect("it ends at rest");
+    let step = simulation.advance(&still(1e3)).expect("it ends at rest");
     let progress = simulation.progress();
     assert!(step.put_to_rest);
     assert_eq!((progress.state.phase, progress.work.impacts), (Phase::Resting, 100_000));
-    let step = simulation.advance(&Segment { duration: 1e3, from: still, to: still }).expect("it rests");
+    let step = simulation.advance(&still(1e3)).expect("it rests");
     assert!(!step.put_to_rest);
 }
 

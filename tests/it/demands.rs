@@ -7,16 +7,10 @@ use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Demands, Extremes, Instant, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
-use rocking_wall::wall::{Ends, Parameters, Support};
+use rocking_wall::wall::{Ends, Parameters, Support, Wall};
 
 use crate::configuration::{configuration, mostly};
-use crate::properties::walls;
-
-const FREE: Segment = Segment {
-    duration: 0.01,
-    from: Support { bottom: 0.0, top: 0.0, drift: 0.0 },
-    to: Support { bottom: 0.0, top: 0.0, drift: 0.0 },
-};
+use crate::properties::{onset, walls};
 
 fn undamped(law: ForceLaw) -> Parameters {
     Parameters { force_law: law, damping_model: DampingModel::None, ..Parameters::default() }
@@ -24,10 +18,10 @@ fn undamped(law: ForceLaw) -> Parameters {
 
 /// Free motion in steps of 10 ms.
 fn free(parameters: &Parameters, steps: u32, fractions: &[f64]) -> (Simulation, Demands) {
-    let mut simulation = Simulation::new(parameters, None, 0.0, Support::default()).unwrap();
+    let mut simulation = crate::start(parameters);
     let mut demands = simulation.demands(Support::default(), fractions);
     for _ in 0..steps {
-        simulation.advance_watched(&FREE, &mut demands).unwrap();
+        simulation.advance_watched(&crate::still(0.01), &mut demands).unwrap();
     }
     (simulation, demands)
 }
@@ -72,7 +66,7 @@ fn elastic_vibration_has_its_closed_form() {
 #[test]
 fn crossings_of_a_rigid_wall_have_their_closed_form() {
     let wall = undamped(ForceLaw::RigidLinear);
-    let rate = Simulation::new(&wall, None, 0.0, Support::default()).unwrap().wall().rocking_rate();
+    let rate = Wall::new(&wall).unwrap().rocking_rate();
     let velocity = 0.9;
     let parameters = Parameters { u_start: 0.0, u_dot_start: velocity * rate * 0.2, ..wall };
     let (_, demands) = free(&parameters, 100, &[0.3, 0.5, 0.6]);
@@ -186,15 +180,13 @@ proptest! {
         step in prop::sample::select(vec![1e-4, 2e-3, 0.01, 1.0]),
         motion in prop::collection::vec(-1.2_f64..1.2, 8..200),
     ) {
-        let upright = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
-        let body = upright.wall().body();
-        let onset = body.strength.positive / (body.participation * body.effective_mass);
-        let parameters = Parameters { u_start: start * body.instability.positive, ..parameters };
-        let mut watched = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+        let wall = Wall::new(&parameters).unwrap();
+        let u_start = start * wall.body().instability.positive;
+        let mut watched = crate::start(&Parameters { u_start, ..parameters });
         let mut demands = watched.demands(Support::default(), &[]);
         let mut alone = watched.clone();
         for ends in motion.windows(2) {
-            let [from, to] = [ends[0], ends[1]].map(|part| Support::rigid(onset * part));
+            let [from, to] = [ends[0], ends[1]].map(|part| Support::rigid(onset(&wall) * part));
             let segment = Segment { duration: step, from, to };
             let expected = watched.advance_watched(&segment, &mut demands).unwrap();
             prop_assert_eq!(alone.advance(&segment).unwrap(), expected);
@@ -216,9 +208,8 @@ fn extremes_hold_between_samples() {
     mostly(0.2, (walls(), motions), |(parameters, motion)| {
         const PARTS: u32 = 400;
         let step = 0.04;
-        let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
-        let body = simulation.wall().body();
-        let onset = body.strength.positive / (body.participation * body.effective_mass);
+        let mut simulation = crate::start(&parameters);
+        let onset = onset(simulation.wall());
         let supports: Vec<_> = motion
             .iter()
             .map(|&(bottom, top, drift)| Support { bottom: onset * bottom, top: onset * top, drift })

@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use fmu_export::{Environment, Interface, Log, Model as _, Step};
+use fmu_export::{Interface, Log, Model as _, Step};
 use ground_motion::GroundMotion;
 use rocking_wall::choices::Mechanism;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
-use rocking_wall::unit::Unit;
 use rocking_wall::variables::RealVariable;
 
 use crate::chain::{STOREYS, TAIL, ground, integrated, storeys};
+use crate::instantiated;
 
 const PARAPET: &str = "
 [geometry]
@@ -98,13 +98,7 @@ fn the_response_on_a_floor_is_right_to_1e_6() {
 fn the_unit_of_a_scene_stands_on_its_floor() {
     let text = scene(STRIP, "bottom = 2\ndrift = true", 0.05);
     let response = Response::of(&Scene::parse("scene", &text, ".".as_ref()).unwrap()).unwrap();
-    let environment = Environment {
-        interface: Interface::CoSimulation,
-        instance_name: "strip",
-        resources: None,
-        payload: Some(text.as_bytes()),
-    };
-    let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+    let mut unit = instantiated(Interface::CoSimulation, Some(&text), &mut Log::silent());
     unit.initialize(&mut Log::silent()).unwrap();
     for step in 0..100 {
         let step = Step { from: 0.1 * f64::from(step), duration: 0.1, may_end_early: false };

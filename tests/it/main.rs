@@ -5,6 +5,12 @@
 
 use std::path::Path;
 
+use fmu_export::{Environment, Interface, Log, Model};
+use rocking_wall::simulation::Simulation;
+use rocking_wall::solver::Segment;
+use rocking_wall::unit::Unit;
+use rocking_wall::wall::{Parameters, Support};
+
 mod capacity;
 mod cases;
 #[path = "../../crates/ground-motion/tests/it/chain.rs"]
@@ -30,4 +36,21 @@ mod wiring;
 /// Returns the root of the workspace.
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Returns a wall at its start, between supports that do not move.
+fn start(parameters: &Parameters) -> Simulation {
+    Simulation::new(parameters, None, 0.0, Support::default()).expect("a valid wall")
+}
+
+/// Returns a segment in which the supports do not move.
+fn still(duration: f64) -> Segment {
+    Segment { duration, from: Support::default(), to: Support::default() }
+}
+
+/// Returns a unit as an importer instantiates it, with the scene inside its FMU if there is one.
+fn instantiated(interface: Interface, scene: Option<&str>, log: &mut Log<'_>) -> Unit {
+    let payload = scene.map(str::as_bytes);
+    Unit::instantiate(Environment { interface, instance_name: "wall", resources: None, payload }, log)
+        .unwrap()
 }

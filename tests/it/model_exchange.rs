@@ -1,13 +1,14 @@
 //! Tests what an importer's solver meets: events with all that they did, the damping beyond a branch, the
 //! scene's own motion.
 
-use fmu_export::{Environment, Experiment, Interface, Log, Model as _, ModelExchange as _};
+use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Handled, Simulation};
 use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
-use rocking_wall::unit::Unit;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
+
+use crate::{instantiated, start};
 
 /// A rigid parapet that starts at 0.02 m, with restitution 0.9.
 fn rigid() -> Parameters {
@@ -19,10 +20,6 @@ fn rigid() -> Parameters {
         u_start: 0.02,
         ..Parameters::default()
     }
-}
-
-fn start(parameters: &Parameters) -> Simulation {
-    Simulation::new(parameters, None, 0.0, Support::default()).unwrap()
 }
 
 /// Sets the motion and handles the event there.
@@ -265,13 +262,7 @@ fn the_scenes_own_motion_goes_on_from_sample_to_sample() {
                 [motion]\nharmonic = { amplitude = 0.5, frequency = 20.0, duration = 0.02 }\n";
     let scene = Scene::parse("scene", text, std::path::Path::new(".")).unwrap();
     let motion = scene.support_motion().unwrap().unwrap();
-    let environment = Environment {
-        interface: Interface::ModelExchange,
-        instance_name: "wall",
-        resources: None,
-        payload: Some(text.as_bytes()),
-    };
-    let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+    let mut unit = instantiated(Interface::ModelExchange, Some(text), &mut Log::silent());
     unit.setup_experiment(Experiment { start: START, ..Experiment::default() });
     unit.initialize(&mut Log::silent()).unwrap();
     let mass = unit.real(RealVariable::Mass);

@@ -11,6 +11,7 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 
 use crate::configuration::mostly;
 use crate::properties::{COMPARED, motions};
+use crate::{start, still};
 
 fn parapet() -> Parameters {
     Parameters {
@@ -142,7 +143,7 @@ fn work_is_stored_or_dissipated() {
     let damping = wall.elastic_damping() / wall.body().effective_mass;
     let onset = wall.body().strength.positive / wall.body().effective_mass;
     let factor = wall.body().forcing(Support::rigid(1.0));
-    let mut simulation = Simulation::new(&parameters, None, 0.0, Support::default()).unwrap();
+    let mut simulation = start(&parameters);
     let forcing = |time: f64| 1.6 * onset * libm::sin(4.0 * time);
     let (step, mut input, mut lost, mut largest) = (2e-4, 0.0, 0.0, 0.0_f64);
     let weights = [7.0, 32.0, 12.0, 32.0, 7.0].map(|weight| weight / 90.0 * step);
@@ -276,10 +277,9 @@ fn work_of_the_scenes() {
 #[test]
 fn newmark_locates_no_ordinary_corner() {
     let free = Parameters { solver: Solver::Newmark, newmark_step: 0.01, u_start: 0.15, ..parapet() };
-    let still = Support::default();
-    let mut simulation = Simulation::new(&free, None, 0.0, still).unwrap();
+    let mut simulation = start(&free);
     for _ in 0..500 {
-        simulation.advance(&Segment { duration: 0.01, from: still, to: still }).unwrap();
+        simulation.advance(&still(0.01)).unwrap();
     }
     let Progress { state, work, .. } = *simulation.progress();
     assert!(state.peaks.negative > 0.04, "{state:?}");
@@ -291,7 +291,7 @@ fn newmark_locates_no_ordinary_corner() {
 fn the_adaptive_solver_takes_the_elastic_branch_exactly() {
     let by = |solver: Solver| {
         let elastic = Parameters { solver, tolerance: 1e-3, a1: 0.5, u_start: 0.05, ..parapet() };
-        let mut simulation = Simulation::new(&elastic, None, 0.0, Support::default()).unwrap();
+        let mut simulation = start(&elastic);
         for n in 0..200 {
             let [from, to] = [n, n + 1].map(|n| Support::rigid(0.05 * libm::sin(0.1 * f64::from(n))));
             simulation.advance(&Segment { duration: 0.02, from, to }).unwrap();

@@ -208,9 +208,8 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
 #[test]
 fn one_sided_starts_and_rests() {
     let parameters = undamped();
-    let still = Support::default();
     let towards = Parameters { u_dot_start: -0.1, ..parameters.clone() };
-    let start = Simulation::new(&towards, None, 0.0, still).unwrap().progress().state;
+    let start = crate::start(&towards).progress().state;
     assert_eq!((start.velocity, start.phase), (0.1 * 0.4, Phase::Moving));
     // −λ a_g rises through 0 after half of the segment
     let mut simulation = Simulation::new(&parameters, None, 0.0, Support::rigid(1.0)).unwrap();

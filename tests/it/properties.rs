@@ -10,6 +10,7 @@ use rocking_wall::variables::{
 use rocking_wall::wall::{Ends, Parameters, Support, Wall};
 
 use crate::configuration::{configuration, mostly};
+use crate::{start, still};
 
 /// A random valid wall at rest.
 pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
@@ -60,6 +61,12 @@ pub(crate) fn walls() -> impl Strategy<Value = Parameters> {
 /// Accelerations of a random piecewise linear motion, in units of the wall's strength.
 pub(crate) fn motions() -> impl Strategy<Value = Vec<f64>> {
     proptest::collection::vec(-1.8_f64..1.8, 8..40)
+}
+
+/// Returns the acceleration of both supports at which the rigid wall begins to rock to u > 0 \[m/s²\].
+pub(crate) fn onset(wall: &Wall) -> f64 {
+    let body = wall.body();
+    body.strength.positive / (body.participation * body.effective_mass)
 }
 
 struct Run {
@@ -199,16 +206,15 @@ fn exact_and_adaptive_agree() {
 /// Free motion never gains energy, ½ m u̇² + ∫F du.
 #[test]
 fn energy_never_grows() {
-    mostly(0.9, (walls(), -0.95_f64..0.95, 1e-3_f64..0.5), |(parameters, start, step)| {
+    mostly(0.9, (walls(), -0.95_f64..0.95, 1e-3_f64..0.5), |(parameters, share, step)| {
         let wall = Wall::new(&parameters).expect("a valid wall");
-        let parameters = Parameters { u_start: start * wall.body().instability.of(start), ..parameters };
-        let still = Support::default();
-        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
+        let parameters = Parameters { u_start: share * wall.body().instability.of(share), ..parameters };
+        let mut simulation = start(&parameters);
         let scale = wall.energy(wall.displacement_scale() * 0.9, 0.0).abs().max(1e-300);
         let mut before = wall.energy(parameters.u_start, 0.0);
         let mut pieces = 0;
         for step_count in 0..200 {
-            simulation.advance(&Segment { duration: step, from: still, to: still }).expect("a free motion");
+            simulation.advance(&still(step)).expect("a free motion");
             let Progress { state, work, .. } = *simulation.progress();
             if state.overturned {
                 return Ok([step_count, 200]);
@@ -229,9 +235,8 @@ proptest! {
     /// A wall at rest stays at rest without motion of its supports.
     #[test]
     fn rest_stays_rest(parameters in walls(), duration in 1e-6_f64..100.0) {
-        let still = Support::default();
-        let mut simulation = Simulation::new(&parameters, None, 0.0, still).expect("a valid wall");
-        simulation.advance(&Segment { duration, from: still, to: still }).expect("rest");
+        let mut simulation = start(&parameters);
+        simulation.advance(&still(duration)).expect("rest");
         prop_assert_eq!(simulation.progress().state.displacement, 0.0);
         prop_assert_eq!(simulation.progress().state.velocity, 0.0);
     }

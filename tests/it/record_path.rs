@@ -1,17 +1,14 @@
 //! Compares the record path with the path over segments, which the FMU uses.
 
-use std::cell::Cell;
-
 use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::{Method, Motion, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
-use crate::configuration::configuration;
-use crate::properties::{motions, walls};
+use crate::configuration::{configuration, mostly};
+use crate::properties::{motions, onset, walls};
 
 /// A wall's motion and the start of a run under a forcing.
 fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, RunStart) {
@@ -44,9 +41,7 @@ proptest! {
     #[test]
     fn any_step_agrees(parameters in moving(), motion in motions(), exponent in -4.0_f64..1.0) {
         let wall = Wall::new(&parameters).unwrap();
-        let body = wall.body();
-        let onset = body.strength.positive / (body.participation * body.effective_mass);
-        let accelerations: Vec<f64> = motion.iter().map(|a| onset * a).collect();
+        let accelerations: Vec<f64> = motion.iter().map(|a| onset(&wall) * a).collect();
         let step = 10.0_f64.powf(exponent) / wall.rocking_rate();
         agree(&parameters, &accelerations, step)?;
     }
@@ -75,30 +70,15 @@ proptest! {
         let tight = Parameters { damping_model, force_law, tolerance: 1e-14, ..wall };
         prop_assume!(Wall::new(&tight).is_ok());
         let wall = Wall::new(&tight).unwrap();
-        let body = wall.body();
-        let onset = body.strength.positive / (body.participation * body.effective_mass);
-        let accelerations: Vec<f64> = motion.iter().map(|a| onset * a).collect();
+        let accelerations: Vec<f64> = motion.iter().map(|a| onset(&wall) * a).collect();
         let step = 10.0_f64.powf(exponent) / wall.rocking_rate();
         let usual = Parameters { tolerance: 1e-8, ..tight.clone() };
-        let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
-        let (history, _) = alone(&usual, &forcing, step, 1.0);
-        let by_segments = segments(&usual, &accelerations, step);
-        let reference = segments(&tight, &accelerations, step);
-        let probe = 1e-8;
-        let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
-        let changed = segments(&tight, &changed, step);
-        let standing =
-            reference.iter().zip(&changed).take_while(|(a, b)| !a.state.overturned && !b.state.overturned);
-        let standing = standing.count();
-        let apart = |other: &dyn Fn(usize) -> f64| {
-            let scale = wall.displacement_scale();
-            let apart = |i: usize| (reference[i].state.displacement - other(i)).abs() / scale;
-            (0..standing).map(apart).fold(0.0, f64::max)
-        };
-        let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
-        prop_assume!(amplification < 1e5);
-        let allowed = 1e-9 * amplification;
-        for difference in [apart(&|i| history[i]), apart(&|i| by_segments[i].state.displacement)] {
+        let (history, _) = alone(&usual, &forcing(&wall, &accelerations), step, 1.0);
+        let by_segments = displacements(&segments(&usual, &accelerations, step));
+        let reference = Reference::new(&tight, &accelerations, step);
+        prop_assume!(reference.amplification < 1e5);
+        let allowed = 1e-9 * reference.amplification;
+        for difference in [history, by_segments].map(|history| reference.apart(&history)) {
             prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
         }
     }
@@ -119,15 +99,9 @@ pub(crate) fn batches_agree(walls: impl Strategy<Value = Parameters>) {
     // fine steps go side by side, coarse ones one by one
     let refinement = prop_oneof![1_u32..20, 20_u32..200];
     let cases = (walls, motions(), refinement, 2_usize..20, any::<bool>());
-    let (all, compared) = (Cell::new(0), Cell::new(0));
-    let outcome = TestRunner::new(configuration()).run(&cases, |(wall, motion, refinement, count, until)| {
-        compared.set(compared.get() + lanes_agree(&wall, &motion, refinement, count, until)?);
-        all.set(all.get() + count);
-        Ok(())
+    mostly(COMPARED, cases, |(wall, motion, refinement, count, until)| {
+        Ok([lanes_agree(&wall, &motion, refinement, count, until)?, count])
     });
-    outcome.unwrap_or_else(|error| panic!("{error}"));
-    let (compared, all) = (compared.get(), all.get());
-    assert!(compared as f64 >= COMPARED * all as f64, "{compared} of {all} runs could be compared");
 }
 
 /// Compares the runs of a batch with each alone in one, and with single runs, for a motion in units of the
@@ -173,10 +147,8 @@ pub(crate) fn records_agree(
     refinement: u32,
 ) -> Result<(), TestCaseError> {
     let wall = Wall::new(parameters).unwrap();
-    let body = wall.body();
-    let onset = body.strength.positive / (body.participation * body.effective_mass);
     // fine steps are plain ones, coarse ones are searched
-    let accelerations: Vec<f64> = refined(motion, refinement).iter().map(|a| onset * a).collect();
+    let accelerations: Vec<f64> = refined(motion, refinement).iter().map(|a| onset(&wall) * a).collect();
     let step = 0.3 / wall.rocking_rate() / f64::from(refinement);
     agree(parameters, &accelerations, step)
 }
@@ -239,37 +211,60 @@ fn refined(motion: &[f64], parts: u32) -> Vec<f64> {
     refined
 }
 
+/// A motion over segments one by one, up to where it overturns, and how much the wall amplifies a change.
+struct Reference {
+    progress: Vec<Progress>,
+    /// Number of samples at which the wall stands, with slightly more motion too.
+    standing: usize,
+    scale: f64,
+    amplification: f64,
+}
+
+impl Reference {
+    fn new(parameters: &Parameters, accelerations: &[f64], step: f64) -> Self {
+        let (probe, more) = (1e-8, 1.0 + 1e-8);
+        let progress = segments(parameters, accelerations, step);
+        let changed: Vec<f64> = accelerations.iter().map(|a| a * more).collect();
+        let (u_start, u_dot_start) = (parameters.u_start * more, parameters.u_dot_start * more);
+        let changed = segments(&Parameters { u_start, u_dot_start, ..parameters.clone() }, &changed, step);
+        let both = progress.iter().zip(&changed);
+        let standing = both.take_while(|(a, b)| !a.state.overturned && !b.state.overturned).count();
+        let scale = Wall::new(parameters).unwrap().displacement_scale();
+        let mut reference = Self { progress, standing, scale, amplification: 1.0 };
+        reference.amplification += reference.apart(&displacements(&changed)) / probe;
+        reference
+    }
+
+    /// Returns the largest |Δu|/u_ins of another history while the wall stands.
+    fn apart(&self, history: &[f64]) -> f64 {
+        let pairs = self.progress.iter().zip(history).take(self.standing);
+        pairs.map(|(own, u)| (own.state.displacement - u).abs() / self.scale).fold(0.0, f64::max)
+    }
+}
+
+fn displacements(history: &[Progress]) -> Vec<f64> {
+    history.iter().map(|progress| progress.state.displacement).collect()
+}
+
+fn forcing(wall: &Wall, accelerations: &[f64]) -> Vec<f64> {
+    accelerations.iter().map(|&a| wall.body().forcing(Support::rigid(a))).collect()
+}
+
 /// Compares a run over a record with segments one by one.
 fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<(), TestCaseError> {
-    let wall = Wall::new(parameters).unwrap();
-    let body = wall.body();
-    let forcing: Vec<f64> = accelerations.iter().map(|&a| body.forcing(Support::rigid(a))).collect();
+    let forcing = forcing(&Wall::new(parameters).unwrap(), accelerations);
     let (history, outcome) = alone(parameters, &forcing, step, 1.0);
-    let reference = segments(parameters, accelerations, step);
-    let probe = 1e-8;
-    let changed: Vec<f64> = accelerations.iter().map(|a| a * (1.0 + probe)).collect();
-    let (u_start, u_dot_start) = (parameters.u_start * (1.0 + probe), parameters.u_dot_start * (1.0 + probe));
-    let changed = segments(&Parameters { u_start, u_dot_start, ..parameters.clone() }, &changed, step);
-    let scale = wall.displacement_scale();
-    let standing = reference
-        .iter()
-        .zip(&changed)
-        .take_while(|(a, b)| !a.state.overturned && !b.state.overturned)
-        .count();
-    let apart = |other: &dyn Fn(usize) -> f64| {
-        (0..standing).map(|i| (reference[i].state.displacement - other(i)).abs() / scale).fold(0.0, f64::max)
-    };
-    let amplification = 1.0 + apart(&|i| changed[i].state.displacement) / probe;
-    prop_assume!(amplification < 1e5);
+    let reference = Reference::new(parameters, accelerations, step);
+    prop_assume!(reference.amplification < 1e5);
     // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13
     // likewise
-    let end = reference[standing - 1];
-    let allowed = amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
-    let difference = apart(&|i| history[i]);
+    let end = reference.progress[reference.standing - 1];
+    let allowed = reference.amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
+    let difference = reference.apart(&history);
     prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
-    if standing == reference.len() {
+    if reference.standing == reference.progress.len() {
         let peaks = outcome.state.peaks.largest() - end.state.peaks.largest();
-        prop_assert!(peaks.abs() / scale <= allowed, "peaks differ by {peaks:e} m");
+        prop_assert!(peaks.abs() / reference.scale <= allowed, "peaks differ by {peaks:e} m");
         prop_assert_eq!(outcome.overturning, None);
     }
     Ok(())

@@ -4,13 +4,14 @@ use proptest::prelude::*;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
-use rocking_wall::solver::{ACCURACY, Segment};
+use rocking_wall::solver::ACCURACY;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, TieSide};
 use rocking_wall::wall::{Parameters, Support, Wall, Warning};
 
 use crate::configuration::{configuration, mostly};
 use crate::properties::{COMPARED, motions, solvers_agree, splits, walls};
 use crate::record_path::{batches_agree, records_agree};
+use crate::still;
 
 /// A parapet with a tie from 0.1 to 1000 times as stiff as the wall.
 pub(crate) fn tied() -> impl Strategy<Value = Parameters> {
@@ -55,19 +56,18 @@ fn the_tie_stores_energy() {
         let free = Parameters { damping_model: DampingModel::None, impact: Impact::None, ..parameters };
         let alone = Wall::new(&Parameters { tie_stiffness: 0.0, ..free.clone() }).unwrap();
         let u_start = start * alone.body().instability.of(start);
-        let still = Support::default();
         let parameters = Parameters { u_start, ..free };
-        let mut simulation = Simulation::new(&parameters, None, 0.0, still).unwrap();
+        let mut simulation = crate::start(&parameters);
         let (m, stiffness) = (alone.body().effective_mass, parameters.tie_stiffness);
         let energy = |simulation: &Simulation| {
             let state = simulation.progress().state;
-            let force = simulation.outputs(still).tie_force;
+            let force = simulation.outputs(Support::default()).tie_force;
             let stored = 0.5 * force * force / stiffness;
             (alone.energy(state.displacement, state.velocity) + stored / m, force)
         };
         let (first, _) = energy(&simulation);
         for count in 0..200 {
-            simulation.advance(&Segment { duration: step, from: still, to: still }).unwrap();
+            simulation.advance(&still(step)).unwrap();
             let (now, force) = energy(&simulation);
             prop_assert!(force >= 0.0);
             if simulation.progress().state.departed {
@@ -265,13 +265,10 @@ fn the_tie_pulls_on_its_side_while_the_wall_is_on_its_supports() {
 fn the_largest_force_is_at_the_turning_point() {
     let hard =
         Parameters { tie_stiffness: 1e9, tie_slack: 0.0, tie_side: TieSide::Positive, ..tied_parapet() };
-    let still = Support::default();
     for u_start in [-0.03, -0.05, -0.08, -0.11] {
-        let mut simulation =
-            Simulation::new(&Parameters { u_start, ..hard.clone() }, None, 0.0, still).unwrap();
-        let mut demands = simulation.demands(still, &[]);
-        let segment = Segment { duration: 3.0, from: still, to: still };
-        simulation.advance_watched(&segment, &mut demands).unwrap();
+        let mut simulation = crate::start(&Parameters { u_start, ..hard.clone() });
+        let mut demands = simulation.demands(Support::default(), &[]);
+        simulation.advance_watched(&still(3.0), &mut demands).unwrap();
         let (tie, highest) = (demands.tie.unwrap(), demands.displacement.highest);
         let wanted = simulation.wall().tie().unwrap().force(highest.value);
         assert!(highest.value > 0.0 && wanted > 1e4, "{highest:?}");

@@ -1,12 +1,12 @@
 //! Tests the derivatives that the unit states, against differences of what it computes.
 
-use fmu_export::{
-    Environment, Experiment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _,
-};
+use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, IntegerVariable as I, Mechanism, RealVariable as V, TieSide,
 };
+
+use crate::instantiated;
 
 /// Outputs that depend on the present state and inputs.
 const OUTPUTS: [V; 9] = [
@@ -25,8 +25,7 @@ const STEP: f64 = 1e-5;
 const INPUTS: [V; 4] = [V::AG, V::ABottom, V::ATop, V::Drift];
 
 fn unit(interface: Interface, reals: &[(V, f64)], choices: &[(I, i32)]) -> Unit {
-    let environment = Environment { interface, instance_name: "wall", resources: None, payload: None };
-    let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+    let mut unit = instantiated(interface, None, &mut Log::silent());
     for &(variable, value) in choices {
         unit.set_integer(variable, value);
     }
@@ -224,13 +223,7 @@ fn a_step_ends_just_after_overturning() {
         // 0.1 ns, or four roundings of time; the second search for the time is a little off the first
         let margin = f64::max(1e-10, 4.0 * f64::EPSILON * start);
         for n in 0..20 {
-            let environment = Environment {
-                interface: Interface::CoSimulation,
-                instance_name: "wall",
-                resources: None,
-                payload: None,
-            };
-            let mut unit = Unit::instantiate(environment, &mut Log::silent()).unwrap();
+            let mut unit = instantiated(Interface::CoSimulation, None, &mut Log::silent());
             unit.set_real(V::UStart, 0.19);
             unit.set_real(V::UDotStart, 0.1 + 0.013 * f64::from(n));
             unit.setup_experiment(Experiment { start, ..Experiment::default() });

@@ -3,11 +3,13 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use fmu_export::{Category, Environment, Filter, Interface, Log, Model, Status, Step};
+use fmu_export::{Category, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{DampingModel, IntegerVariable, RealVariable, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Wall, usage};
+
+use crate::instantiated;
 
 /// What a multilinear law replaces is warned of too.
 #[test]
@@ -35,8 +37,7 @@ fn logged_by(
     let sink = texts.clone();
     let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
     let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
-    let environment = Environment { interface, instance_name: "wall", resources: None, payload: None };
-    let mut unit = Unit::instantiate(environment, &mut log).unwrap();
+    let mut unit = instantiated(interface, None, &mut log);
     change(&mut unit);
     let started = unit.initialize(&mut log);
     for step in 0..3_u32 {
