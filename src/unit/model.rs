@@ -95,10 +95,6 @@ impl Model for Unit {
         }
     }
 
-    fn text(&self, variable: StringVariable) -> &str {
-        match variable {}
-    }
-
     #[allow(unreachable_patterns, reason = "the states are outputs, too")]
     fn set_real(&mut self, variable: RealVariable, value: f64) {
         use RealVariable as V;
@@ -122,10 +118,6 @@ impl Model for Unit {
     }
 
     fn set_boolean(&mut self, _variable: BooleanVariable, _value: bool) {}
-
-    fn set_text(&mut self, variable: StringVariable, _value: &str) {
-        match variable {}
-    }
 
     fn set_input_derivative(&mut self, variable: RealVariable, value: f64) -> bool {
         self.input(variable).map(|input| input.rate = value).is_some()

@@ -29,7 +29,7 @@ fn getters() -> String {
     };
     part("fn real(", "fn integer(").replace("V::", "RealVariable::")
         + &part("fn integer(", "fn boolean(").replace("V::", "IntegerVariable::")
-        + &part("fn boolean(", "fn text(")
+        + &part("fn boolean(", "fn set_real(")
 }
 
 /// The fields of the parameters.

@@ -1,6 +1,6 @@
 //! The floor as an FMI model.
 
-use fmu_export::{Environment, Experiment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
+use fmu_export::{Environment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
@@ -165,16 +165,11 @@ impl Model for Unit {
         Ok(Self { interface: environment.interface, ..Self::of(parameters)? })
     }
 
-    #[allow(clippy::match_same_arms, reason = "four walls to a line")]
     fn real(&self, variable: RealVariable) -> f64 {
         use RealVariable as V;
         let (state, base) = (&self.state, &self.base);
         match variable {
-            V::AG => self.inputs.ground.value,
-            V::Reaction1 | V::Reaction2 | V::Reaction3 | V::Reaction4 => self.inputs.get(variable),
-            V::Reaction5 | V::Reaction6 | V::Reaction7 | V::Reaction8 => self.inputs.get(variable),
-            V::Impulse1 | V::Impulse2 | V::Impulse3 | V::Impulse4 => self.inputs.get(variable),
-            V::Impulse5 | V::Impulse6 | V::Impulse7 | V::Impulse8 => self.inputs.get(variable),
+            real_input!() => self.inputs.get(variable),
             V::Displacement => state.displacement,
             V::Velocity => state.velocity,
             V::Acceleration => self.acceleration(),
@@ -211,10 +206,6 @@ impl Model for Unit {
         }
     }
 
-    fn text(&self, variable: StringVariable) -> &str {
-        match variable {}
-    }
-
     fn set_real(&mut self, variable: RealVariable, value: f64) {
         match variable {
             real_input!() => self.inputs.set(variable, value),
@@ -236,10 +227,6 @@ impl Model for Unit {
     }
 
     fn set_boolean(&mut self, _variable: BooleanVariable, _value: bool) {}
-
-    fn set_text(&mut self, variable: StringVariable, _value: &str) {
-        match variable {}
-    }
 
     fn set_input_derivative(&mut self, variable: RealVariable, value: f64) -> bool {
         self.inputs.continuous(variable).map(|input| input.rate = value).is_some()
@@ -326,8 +313,6 @@ impl Model for Unit {
         self.state = State::new(&self.floor, displacement_start, velocity_start, self.load());
         Ok(())
     }
-
-    fn setup_experiment(&mut self, _experiment: Experiment) {}
 
     fn initialize(&mut self, log: &mut Log<'_>) -> Result<(), Failure> {
         self.calculate()?;
