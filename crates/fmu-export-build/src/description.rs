@@ -27,10 +27,7 @@ impl Description {
 
     /// Interprets and checks the element `root`, whose text is `text`.
     pub(crate) fn from_root(root: Element, text: String) -> Result<Self, Fault> {
-        if root.name != "fmiModelDescription" {
-            let found = root.name.clone();
-            return Err(root.fault(Problem::UnexpectedElement { expected: "fmiModelDescription", found }));
-        }
+        root.expect("fmiModelDescription")?;
         let version = root.required("fmiVersion")?;
         if version != "2.0" {
             return Err(root.fault(Problem::Version { found: version.to_owned() }));
@@ -83,7 +80,7 @@ impl Description {
         let structure = self.root.child("ModelStructure");
         let unknowns = structure.map_or(&[][..], |structure| structure.children_of("Derivatives")).iter();
         let pair = |unknown: &Element| {
-            let index: usize = unknown.attribute("index")?.trim().parse().ok()?;
+            let index = unknown.index("index")?;
             let derivative = self.variables.get(index.checked_sub(1)?)?;
             Some((derivative, self.variables.get(derivative.derivative?.checked_sub(1)?)?))
         };
@@ -95,9 +92,13 @@ impl Description {
         self.variables.iter().map(|variable| variable.name.as_str())
     }
 
+    fn variable(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().find(|variable| variable.name == name)
+    }
+
     /// The value reference of the variable `name`.
     pub fn reference(&self, name: &str) -> Option<u32> {
-        self.variables.iter().find(|variable| variable.name == name).map(|variable| variable.reference)
+        Some(self.variable(name)?.reference)
     }
 
     /// The text as it was read, with `guid` as its guid. Variables have no annotations; where they matter
@@ -109,10 +110,7 @@ impl Description {
 
     /// Where the variable `name` matters, in words; `None` for one that always does, or that is not there.
     pub fn condition(&self, name: &str) -> Option<String> {
-        self.variables
-            .iter()
-            .find(|variable| variable.name == name)
-            .and_then(|variable| condition(variable, &self.variables))
+        condition(self.variable(name)?, &self.variables)
     }
 
     /// The description in canonical form: no comments, two blanks per level.

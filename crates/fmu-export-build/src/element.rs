@@ -19,6 +19,13 @@ pub(crate) struct Element {
 }
 
 impl Element {
+    /// An element without children, on no line of a text.
+    pub(crate) fn new(name: &str, attributes: &[(&str, &str)]) -> Self {
+        let owned = |&(name, value): &(&str, &str)| (name.to_owned(), value.to_owned());
+        let attributes = attributes.iter().map(owned).collect();
+        Self { name: name.to_owned(), line: 0, attributes, children: Vec::new() }
+    }
+
     /// Reads the root element of the document `text`.
     pub(crate) fn parse(text: &str) -> Result<Self, Fault> {
         let mut reader = Reader::from_str(text);
@@ -119,8 +126,12 @@ impl Element {
         expected: &'static str,
     ) -> Result<Option<T>, Fault> {
         let Some(text) = self.attribute(name) else { return Ok(None) };
-        let bad = || Problem::BadValue { attribute: name.to_owned(), value: text.to_owned(), expected };
-        text.trim().parse().map(Some).map_err(|_| self.fault(bad()))
+        text.trim().parse().map(Some).map_err(|_| self.fault(Problem::bad_value(name, text, expected)))
+    }
+
+    /// The index that a checked attribute states.
+    pub(crate) fn index(&self, attribute: &str) -> Option<usize> {
+        self.attribute(attribute)?.trim().parse().ok()
     }
 
     /// Sets the attribute `name` to a value. A new attribute goes to the end.
@@ -149,6 +160,20 @@ impl Element {
     /// The first child element called `name`, to be changed.
     pub(crate) fn child_mut(&mut self, name: &str) -> Option<&mut Element> {
         self.children.iter_mut().find(|child| child.name == name)
+    }
+
+    /// Puts `child` before the first of the children with these names, or else at the end.
+    pub(crate) fn insert_before(&mut self, names: &[&str], child: Element) {
+        let at = self.children.iter().position(|other| names.contains(&other.name.as_str()));
+        self.children.insert(at.unwrap_or(self.children.len()), child);
+    }
+
+    /// Refuses an element that is not called `expected`.
+    pub(crate) fn expect(&self, expected: &'static str) -> Result<(), Fault> {
+        if self.name == expected {
+            return Ok(());
+        }
+        Err(self.fault(Problem::UnexpectedElement { expected, found: self.name.clone() }))
     }
 
     /// A problem on this element's line.

@@ -115,3 +115,9 @@ pub enum Problem {
     #[error("`{name}` has {dependencies} dependencies, but dependenciesKind has {kinds} entries")]
     UnequalDependencies { name: String, dependencies: usize, kinds: usize },
 }
+
+impl Problem {
+    pub(crate) fn bad_value(attribute: &str, value: &str, expected: &'static str) -> Self {
+        Self::BadValue { attribute: attribute.to_owned(), value: value.to_owned(), expected }
+    }
+}

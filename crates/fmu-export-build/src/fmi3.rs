@@ -41,10 +41,7 @@ impl Additions {
     /// Text that is not an element `<fmi3>`, with its line.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let root = Element::parse(text)?;
-        if root.name != "fmi3" {
-            let found = root.name.clone();
-            return Err(root.fault(Problem::UnexpectedElement { expected: "fmi3", found }));
-        }
+        root.expect("fmi3")?;
         Ok(Self { root })
     }
 
@@ -70,7 +67,7 @@ impl Additions {
         }
         terminals.children.retain(|terminal| !terminal.children.is_empty());
         let any = !terminals.children.is_empty();
-        let mut root = element("fmiTerminalsAndIcons", &[("fmiVersion", "3.0")]);
+        let mut root = Element::new("fmiTerminalsAndIcons", &[("fmiVersion", "3.0")]);
         root.children.push(terminals);
         any.then(|| root.to_xml())
     }
@@ -89,7 +86,7 @@ impl Description {
     /// A variable that takes a name or a value reference of the added ones, with its line.
     pub fn to_fmi3(&self, additions: &Additions, token: &str) -> Result<(String, Option<String>), Fault> {
         self.check_reserved()?;
-        let mut root = element("fmiModelDescription", &[]);
+        let mut root = Element::new("fmiModelDescription", &[]);
         for (name, value) in &self.root.attributes {
             match name.as_str() {
                 "fmiVersion" => root.set_attribute(name, "3.0".to_owned()),
@@ -147,14 +144,14 @@ impl Description {
     }
 
     fn variables3(&self, variables: &Element, types: &mut Types) -> Element {
-        let mut list = element("ModelVariables", &[]);
+        let mut list = Element::new("ModelVariables", &[]);
         list.children.extend(variables.children.iter().map(|variable| self.variable3(variable, types)));
         if !self.has_time() {
             list.children.insert(0, self.time(types));
         }
         for number in self.indicators() {
             let reference = (FIRST_INDICATOR_REFERENCE + number - 1).to_string();
-            list.children.push(element(
+            list.children.push(Element::new(
                 "Float64",
                 &[
                     ("name", &indicator_name(number)),
@@ -170,7 +167,7 @@ impl Description {
     }
 
     fn time(&self, types: &mut Types) -> Element {
-        let mut time = element(
+        let mut time = Element::new(
             "Float64",
             &[
                 ("name", "time"),
@@ -208,7 +205,7 @@ impl Description {
                 own if is_real && is_of_type(own) => {}
                 "derivative" => written.set_attribute(name, self.references(value)),
                 "start" if typed.name == "String" => {
-                    written.children.push(element("Start", &[("value", value)]));
+                    written.children.push(Element::new("Start", &[("value", value)]));
                 }
                 _ => written.set_attribute(name, value.clone()),
             }
@@ -218,14 +215,14 @@ impl Description {
 
     /// The lists of unknowns become one list, and indices value references.
     fn structure3(&self, structure: &Element) -> Element {
-        let mut written = element("ModelStructure", &[]);
+        let mut written = Element::new("ModelStructure", &[]);
         for (list, name) in [
             ("Outputs", "Output"),
             ("Derivatives", "ContinuousStateDerivative"),
             ("InitialUnknowns", "InitialUnknown"),
         ] {
             for unknown in structure.children_of(list) {
-                let mut new = element(name, &[]);
+                let mut new = Element::new(name, &[]);
                 for (attribute, value) in &unknown.attributes {
                     match attribute.as_str() {
                         "index" => new.set_attribute("valueReference", self.references(value)),
@@ -238,7 +235,7 @@ impl Description {
         }
         for number in self.indicators() {
             let reference = (FIRST_INDICATOR_REFERENCE + number - 1).to_string();
-            written.children.push(element("EventIndicator", &[("valueReference", &reference)]));
+            written.children.push(Element::new("EventIndicator", &[("valueReference", &reference)]));
         }
         written
     }
@@ -259,7 +256,7 @@ fn indicator_name(number: u32) -> String {
 
 /// `<ModelExchange>` or `<CoSimulation>` with the names of FMI 3.0.
 fn interface(old: &Element, additions: &Element) -> Element {
-    let mut new = element(&old.name, &[]);
+    let mut new = Element::new(&old.name, &[]);
     for (name, value) in &old.attributes {
         let (name, value) = match name.as_str() {
             "canGetAndSetFMUstate" => ("canGetAndSetFMUState", value.as_str()),
@@ -297,14 +294,6 @@ fn insert_types(root: &mut Element, types: Types) {
     if children.is_empty() {
         return;
     }
-    let follows = |child: &Element| {
-        ["LogCategories", "DefaultExperiment", "ModelVariables"].contains(&child.name.as_str())
-    };
-    let at = root.children.iter().position(follows).unwrap_or(root.children.len());
-    root.children.insert(at, Element { children, ..element("TypeDefinitions", &[]) });
-}
-
-fn element(name: &str, attributes: &[(&str, &str)]) -> Element {
-    let attributes = attributes.iter().map(|&(name, value)| (name.to_owned(), value.to_owned())).collect();
-    Element { name: name.to_owned(), line: 0, attributes, children: Vec::new() }
+    let follows = ["LogCategories", "DefaultExperiment", "ModelVariables"];
+    root.insert_before(&follows, Element { children, ..Element::new("TypeDefinitions", &[]) });
 }

@@ -110,11 +110,6 @@ impl Indices {
     fn get(&self, old: usize) -> Option<usize> {
         self.0.get(&old).copied()
     }
-
-    /// The new index of what the attribute says.
-    fn of(&self, element: &Element, attribute: &str) -> Option<usize> {
-        self.get(element.attribute(attribute)?.trim().parse().ok()?)
-    }
 }
 
 fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(String, String)]) {
@@ -126,7 +121,7 @@ fn retain_variables(variables: &mut Element, indices: &Indices, starts: &[(Strin
     for variable in &mut variables.children {
         let name = variable.attribute("name").unwrap_or_default().to_owned();
         let Some(typed) = variable.children.first_mut() else { continue };
-        match indices.of(typed, "derivative") {
+        match typed.index("derivative").and_then(|old| indices.get(old)) {
             Some(state) => typed.set_attribute("derivative", state.to_string()),
             // The state is not kept, so this is no longer a derivative of it.
             None => typed.attributes.retain(|(attribute, _)| attribute != "derivative"),
@@ -163,19 +158,15 @@ fn retain_unknowns(structure: &mut Element, indices: &Indices, variables: &[Vari
             "Derivatives" => is_derivative(old),
             _ => kept(old).is_some() && (!initial || exposed(old)),
         };
-        list.children.retain(|unknown| old_index(unknown).is_some_and(belongs));
+        list.children.retain(|unknown| unknown.index("index").is_some_and(belongs));
         for unknown in &mut list.children {
-            if let Some(new) = old_index(unknown).and_then(|old| indices.get(old)) {
+            if let Some(new) = unknown.index("index").and_then(|old| indices.get(old)) {
                 unknown.set_attribute("index", new.to_string());
             }
             retain_dependencies(unknown, |old| indices.get(old).filter(|_| initial || known(old)));
         }
     }
     structure.children.retain(|list| !list.children.is_empty());
-}
-
-fn old_index(unknown: &Element) -> Option<usize> {
-    unknown.attribute("index")?.trim().parse().ok()
 }
 
 /// Renumbers the dependencies by `new_index`, which gives none for those that are gone.
@@ -223,11 +214,7 @@ fn set_experiment(root: &mut Element, experiment: DefaultExperiment) {
     const NAME: &str = "DefaultExperiment";
     if root.child(NAME).is_none() {
         // The schema's order: after the log categories, before annotations and variables.
-        let before = ["VendorAnnotations", "ModelVariables"];
-        let at = root.children.iter().position(|element| before.contains(&element.name.as_str()));
-        let element =
-            Element { name: NAME.to_owned(), line: root.line, attributes: Vec::new(), children: Vec::new() };
-        root.children.insert(at.unwrap_or(root.children.len()), element);
+        root.insert_before(&["VendorAnnotations", "ModelVariables"], Element::new(NAME, &[]));
     }
     if let Some(element) = root.child_mut(NAME) {
         for (attribute, value) in [

@@ -124,11 +124,8 @@ impl List<'_> {
         let words = |attribute| unknown.attribute(attribute).map(|text: &str| text.split_ascii_whitespace());
         let mut dependencies = 0;
         for word in words("dependencies").into_iter().flatten() {
-            let index = word.parse().map_err(|_| Problem::BadValue {
-                attribute: "dependencies".to_owned(),
-                value: word.to_owned(),
-                expected: "an index",
-            })?;
+            let index = word.parse();
+            let index = index.map_err(|_| Problem::bad_value("dependencies", word, "an index"))?;
             let at = position(variables, index, "dependencies", &name)?;
             if !(self.known)(at, &variables[at]) {
                 let on = variables[at].name.clone();

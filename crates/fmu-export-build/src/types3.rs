@@ -130,8 +130,7 @@ pub(crate) fn is_of_type(attribute: &str) -> bool {
 }
 
 fn float_type(name: &str) -> Element {
-    let attributes = vec![("name".to_owned(), name.to_owned())];
-    Element { name: "Float64Type".to_owned(), line: 0, attributes, children: Vec::new() }
+    Element::new("Float64Type", &[("name", name)])
 }
 
 fn name(kind: &Element) -> &str {

@@ -117,10 +117,7 @@ named! {
 impl Variable {
     /// Reads one element of the `<ModelVariables>` of `root`.
     pub(crate) fn read(root: &Element, element: &Element) -> Result<Self, Fault> {
-        if element.name != "ScalarVariable" {
-            let found = element.name.clone();
-            return Err(element.fault(Problem::UnexpectedElement { expected: "ScalarVariable", found }));
-        }
+        element.expect("ScalarVariable")?;
         let name = element.required("name")?.to_owned();
         element.required("valueReference")?;
         let typed = element
@@ -226,11 +223,9 @@ impl Kind {
             let value: Option<f64> = own_or_inherited(typed, inherited, name, "a number")?;
             // Importers write these as text, and infinity has several spellings.
             match value.filter(|value| !value.is_finite()) {
-                Some(value) => Err(typed.fault(Problem::BadValue {
-                    attribute: name.to_owned(),
-                    value: value.to_string(),
-                    expected: "a finite number",
-                })),
+                Some(value) => {
+                    Err(typed.fault(Problem::bad_value(name, &value.to_string(), "a finite number")))
+                }
                 None => Ok(value),
             }
         };
@@ -277,11 +272,7 @@ fn boolean(typed: &Element) -> Result<Option<bool>, Fault> {
         None => Ok(None),
         Some("true" | "1") => Ok(Some(true)),
         Some("false" | "0") => Ok(Some(false)),
-        Some(value) => Err(typed.fault(Problem::BadValue {
-            attribute: "start".to_owned(),
-            value: value.to_owned(),
-            expected: "true or false",
-        })),
+        Some(value) => Err(typed.fault(Problem::bad_value("start", value, "true or false"))),
     }
 }
 
