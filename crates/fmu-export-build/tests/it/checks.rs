@@ -1,6 +1,6 @@
 //! Every check: the right description with one mistake, and the message it gets.
 
-use crate::{BLOCK, block_with};
+use crate::{BLOCK, Folder, block_with};
 use fmu_export_build::{Description, DescriptionError, generate};
 
 /// The message for the description with `from` replaced by `to`; the line in it is that of `from`.
@@ -332,14 +332,12 @@ fn model_exchange_lists_its_derivatives() {
 
 #[test]
 fn the_message_of_generate_starts_with_file_and_line() {
-    let folder = std::env::temp_dir().join(format!("fmu-export-build-checks-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let xml = folder.join("broken.xml");
-    let missing = generate(&xml, &folder).unwrap_err();
+    let folder = Folder::new("checks");
+    let xml = folder.path("broken.xml");
+    let missing = generate(&xml, &folder.0).unwrap_err();
     assert!(matches!(missing, DescriptionError::Read { .. }), "{missing}");
     std::fs::write(&xml, block_with("start=\"0.1\"", "")).unwrap();
-    let broken = generate(&xml, &folder).unwrap_err().to_string();
+    let broken = generate(&xml, &folder.0).unwrap_err().to_string();
     assert_eq!(broken, format!("{}:24: `x_start` needs a start value, being a parameter", xml.display()));
-    assert!(!folder.join("variables.rs").exists());
-    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(!folder.path("variables.rs").exists());
 }

@@ -8,10 +8,14 @@ const LAYERS: &str = "name=\"layers\"";
 
 /// The block with `<Where …/>` as the condition of its layers.
 fn with_where(place: &str) -> Result<Description, Fault> {
-    let (before, after) = BLOCK.split_once(LAYERS).unwrap();
-    let (own, rest) = after.split_once("</ScalarVariable>").unwrap();
-    let note = format!("<Annotations><Tool name=\"t\">{place}</Tool></Annotations>");
-    Description::parse(&format!("{before}{LAYERS}{own}{note}</ScalarVariable>{rest}"))
+    Description::parse(&annotated(BLOCK, LAYERS, place))
+}
+
+/// A text with `<Where …/>` as the condition of the variable that has `name`.
+fn annotated(text: &str, name: &str, place: &str) -> String {
+    let (before, variable) = text.split_once(name).unwrap();
+    let note = format!("<Annotations><Tool name=\"t\">{place}</Tool></Annotations></ScalarVariable>");
+    format!("{before}{name}{}", variable.replacen("</ScalarVariable>", &note, 1))
 }
 
 #[test]
@@ -30,16 +34,10 @@ fn a_condition_is_told_in_words() {
 /// What makes a parameter count is worth nothing where that parameter does not count itself.
 #[test]
 fn a_condition_includes_those_of_the_parameters_that_it_names() {
-    let own = "<Annotations><Tool name=\"t\"><Where surface=\"sand\"/><Where weight_given=\"not 0\"/></Tool>\
-               </Annotations>";
-    let (before, start) = BLOCK.split_once("name=\"x_start\"").unwrap();
-    let start = start.replacen("</ScalarVariable>", &format!("{own}</ScalarVariable>"), 1);
-    let text = format!("{before}name=\"x_start\"{start}").replace("layers", "weight_given");
-    let (before, x) = text.split_once("name=\"x\"").unwrap();
-    let place =
-        "<Annotations><Tool name=\"t\"><Where x_start=\"0\" surface=\"wet_ice sand\"/></Tool></Annotations>";
-    let x = x.replacen("</ScalarVariable>", &format!("{place}</ScalarVariable>"), 1);
-    let description = Description::parse(&format!("{before}name=\"x\"{x}")).unwrap();
+    let own = "<Where surface=\"sand\"/><Where weight_given=\"not 0\"/>";
+    let text = annotated(BLOCK, "name=\"x_start\"", own).replace("layers", "weight_given");
+    let text = annotated(&text, "name=\"x\"", "<Where x_start=\"0\" surface=\"wet_ice sand\"/>");
+    let description = Description::parse(&text).unwrap();
     assert_eq!(
         description.condition("x").unwrap(),
         "x_start = 0 and surface = sand and surface = wet_ice or sand, or \
@@ -54,11 +52,7 @@ fn a_condition_follows_the_whole_description() {
     let text = description.text_with_guid(&description.guid());
     let text = text.replace("description=\"where surface = sand\"", "description=\"a > b\"");
     assert_ne!(text, description.text_with_guid(&description.guid()));
-    let (before, layers) = text.split_once(LAYERS).unwrap();
-    let note =
-        "<Annotations><Tool name=\"t\"><Where surface=\"sand\"/></Tool></Annotations></ScalarVariable>";
-    let layers = layers.replacen("</ScalarVariable>", note, 1);
-    let description = Description::parse(&format!("{before}{LAYERS}{layers}")).unwrap();
+    let description = Description::parse(&annotated(&text, LAYERS, "<Where surface=\"sand\"/>")).unwrap();
     let packaged = description.text_with_guid(&description.guid());
     assert!(packaged.contains("description=\"a > b; where surface = sand\""), "{packaged}");
 }

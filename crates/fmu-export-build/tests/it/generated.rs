@@ -1,18 +1,15 @@
 //! The generated modules, as text; the crates that include them compile them.
 
-use crate::{BLOCK, block_with};
+use crate::{BLOCK, Folder, block_with, exchange};
 use fmu_export_build::{Description, generate};
 
 /// The modules generated from the description `xml`; `test` names a folder of its own.
 fn module(test: &str, xml: &str) -> String {
-    let folder = std::env::temp_dir().join(format!("fmu-export-build-{test}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let description = folder.join("modelDescription.xml");
+    let folder = Folder::new(test);
+    let description = folder.path("modelDescription.xml");
     std::fs::write(&description, xml).unwrap();
-    generate(&description, &folder).unwrap();
-    let code = ["variables.rs", "choices.rs"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
-    std::fs::remove_dir_all(&folder).unwrap();
-    code.concat()
+    generate(&description, &folder.0).unwrap();
+    ["variables.rs", "choices.rs"].map(|name| std::fs::read_to_string(folder.path(name)).unwrap()).concat()
 }
 
 /// The text between the braces of the first item that starts with `head`.
@@ -39,10 +36,7 @@ fn each_base_type_has_an_enum_of_its_variables() {
 
 #[test]
 fn states_and_derivatives_are_named() {
-    let text =
-        BLOCK.replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\">");
-    let text = text.replace("<CoSimulation", "<ModelExchange modelIdentifier=\"block\"/><CoSimulation");
-    let code = module("states", &text);
+    let code = module("states", &exchange());
     for line in [
         "pub const CONTINUOUS_STATES: &[RealVariable] = &[RealVariable::X];",
         "pub const DERIVATIVES: &[RealVariable] = &[RealVariable::XDot];",

@@ -11,6 +11,7 @@ mod pack;
 mod reduced;
 
 use fmu_export_build::Description;
+use std::path::PathBuf;
 
 /// A description that is right.
 const BLOCK: &str = include_str!("block.xml");
@@ -19,6 +20,34 @@ const BLOCK: &str = include_str!("block.xml");
 fn block_with(from: &str, to: &str) -> String {
     assert_eq!(BLOCK.matches(from).count(), 1, "{from:?} must occur once");
     BLOCK.replace(from, to)
+}
+
+/// The right description for Model Exchange too, with 4 event indicators.
+fn exchange() -> String {
+    let both =
+        "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\"><ModelExchange modelIdentifier=\"block\"/>";
+    block_with("guid=\"{fingerprint}\">", both)
+}
+
+/// A folder of its own for a test, which goes with this.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("fmu-export-build-{test}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
 }
 
 #[test]

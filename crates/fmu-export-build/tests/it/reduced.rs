@@ -1,12 +1,16 @@
 //! Descriptions with fewer variables.
 
-use crate::BLOCK;
+use crate::{BLOCK, exchange};
 use fmu_export_build::{DefaultExperiment, Description, Reduction, ReductionError};
 
-fn reduce(keep: &dyn Fn(&str) -> bool, starts: &[(&str, &str)]) -> Result<Description, ReductionError> {
+fn reduce(
+    text: &str,
+    keep: &dyn Fn(&str) -> bool,
+    starts: &[(&str, &str)],
+) -> Result<Description, ReductionError> {
     let starts: Vec<_> =
         starts.iter().map(|(name, start)| ((*name).to_owned(), (*start).to_owned())).collect();
-    Description::parse(BLOCK).unwrap().reduced(&Reduction {
+    Description::parse(text).unwrap().reduced(&Reduction {
         model_name: "block on sand",
         description: "Sand & nothing else",
         guid: "{a-b}",
@@ -19,7 +23,7 @@ fn reduce(keep: &dyn Fn(&str) -> bool, starts: &[(&str, &str)]) -> Result<Descri
 #[test]
 fn what_is_left_out_leaves_no_trace() {
     let keep = |name: &str| !["force", "x_dot", "surface"].contains(&name);
-    let reduced = reduce(&keep, &[("x_start", "0.25"), ("layers", "4")]).unwrap();
+    let reduced = reduce(BLOCK, &keep, &[("x_start", "0.25"), ("layers", "4")]).unwrap();
     // Indices count anew, value references stay, x is no state without x_dot.
     let expected = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="block on sand" guid="{a-b}" description="Sand &amp; nothing else">
@@ -75,7 +79,7 @@ fn what_is_left_out_leaves_no_trace() {
 
 #[test]
 fn states_and_their_derivatives_stay_related() {
-    let reduced = reduce(&|name| name != "force", &[]).unwrap().to_xml();
+    let reduced = reduce(BLOCK, &|name| name != "force", &[]).unwrap().to_xml();
     assert!(reduced.contains("<Real unit=\"m/s\" derivative=\"1\"/>"), "{reduced}");
     assert!(reduced.contains("<Derivatives>\n      <Unknown index=\"2\" dependencies=\"\"/>"), "{reduced}");
     assert!(
@@ -86,25 +90,11 @@ fn states_and_their_derivatives_stay_related() {
 
 #[test]
 fn model_exchange_goes_with_a_state() {
-    let text =
-        BLOCK.replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\">");
-    let text = text.replace("<CoSimulation", "<ModelExchange modelIdentifier=\"block\"/><CoSimulation");
-    let description = Description::parse(&text).unwrap();
-    let reduce = |left_out: &str| {
-        let reduction = Reduction {
-            model_name: "block",
-            description: "",
-            guid: "{a-b}",
-            keep: &|name| name != left_out,
-            starts: &[],
-            experiment: DefaultExperiment { start: 0.0, stop: 1.0, step: 0.1, tolerance: 1e-6 },
-        };
-        description.reduced(&reduction).unwrap().to_xml()
-    };
-    assert!(reduce("force").contains("<ModelExchange"));
-    assert!(reduce("force").contains("numberOfEventIndicators=\"4\""));
+    let without = |left_out: &str| reduce(&exchange(), &|name| name != left_out, &[]).unwrap().to_xml();
+    assert!(without("force").contains("<ModelExchange"));
+    assert!(without("force").contains("numberOfEventIndicators=\"4\""));
     for state in ["x", "x_dot"] {
-        let reduced = reduce(state);
+        let reduced = without(state);
         assert!(
             !reduced.contains("ModelExchange") && !reduced.contains("numberOfEventIndicators"),
             "{reduced}"
@@ -115,10 +105,10 @@ fn model_exchange_goes_with_a_state() {
 #[test]
 fn start_values_are_checked() {
     let all = |_: &str| true;
-    let unknown = reduce(&all, &[("weigth", "1")]).unwrap_err();
+    let unknown = reduce(BLOCK, &all, &[("weigth", "1")]).unwrap_err();
     let message = "a start value is given for `weigth`, which the reduced description does not have";
     assert_eq!(unknown.to_string(), message);
-    let left_out = reduce(&|name| name != "layers", &[("layers", "1")]);
+    let left_out = reduce(BLOCK, &|name| name != "layers", &[("layers", "1")]);
     assert_eq!(left_out.unwrap_err(), ReductionError::NoSuchVariable { name: "layers".to_owned() });
     for (name, start, message) in [
         ("layers", "10", "the start value 10 of `layers` is outside its limits 1 to 9"),
@@ -127,7 +117,7 @@ fn start_values_are_checked() {
         ("weight", "3", "`weight` must not have a start value, being calculated"),
         ("x_start", "inf", "start=\"inf\" is not a finite number"),
     ] {
-        let error = reduce(&all, &[(name, start)]).unwrap_err().to_string();
+        let error = reduce(BLOCK, &all, &[(name, start)]).unwrap_err().to_string();
         assert!(error.ends_with(message), "{error}");
     }
 }
