@@ -16,6 +16,14 @@ fn assert_near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} for {expected}");
 }
 
+fn rigid() -> Wall {
+    made(&Parameters {
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        ..Parameters::default()
+    })
+}
+
 /// On the softening line k_sec = k₀ (1 − f)/f; on the elastic branch the period is T₁.
 #[test]
 fn secant_periods_have_their_closed_form() {
@@ -40,12 +48,7 @@ fn secant_periods_have_their_closed_form() {
 /// a* of a rigid parapet at u = 0 is the acceleration at which it begins to rock, g tan α.
 #[test]
 fn the_rigid_curve_starts_at_the_onset_of_rocking() {
-    let parameters = Parameters {
-        force_law: ForceLaw::RigidLinear,
-        damping_model: DampingModel::None,
-        ..Parameters::default()
-    };
-    let corners = made(&parameters).capacity_corners(1.0);
+    let corners = rigid().capacity_corners(1.0);
     assert_eq!(corners.len(), 2);
     assert_near(corners[0].spectral_acceleration, 9.81 * 0.1);
     assert_eq!((corners[0].displacement, corners[0].force_ratio), (0.0, 1.0));
@@ -58,12 +61,7 @@ fn the_rigid_curve_starts_at_the_onset_of_rocking() {
 fn the_onset_of_rocking_is_that_of_the_law() {
     let with = |parameters: Parameters| made(&parameters).rocking_onset();
     let onset = 9.81 * 0.1;
-    let rigid = Parameters {
-        force_law: ForceLaw::RigidLinear,
-        damping_model: DampingModel::None,
-        ..Parameters::default()
-    };
-    assert_near(with(rigid), onset);
+    assert_near(rigid().rocking_onset(), onset);
     assert_near(with(Parameters::default()), 0.97 * onset);
     let trilinear = Parameters { force_law: ForceLaw::Trilinear, d1: 0.6, ..Parameters::default() };
     assert_near(with(trilinear), 0.6 * onset);

@@ -17,11 +17,6 @@ const PARAPET: &str = "
 [geometry]
 height = 1.2
 thickness = 0.3
-[force_law]
-a1 = 0.05
-[damping]
-damping_model = \"constant_coefficient\"
-xi = 0.05
 ";
 
 const STRIP: &str = "
@@ -31,6 +26,10 @@ height = 3.0
 thickness = 0.2
 hinge_ratio = 0.6
 overburden = 5000.0
+";
+
+/// Force law and damping of both.
+const LAW: &str = "
 [force_law]
 a1 = 0.05
 [damping]
@@ -40,7 +39,7 @@ xi = 0.05
 
 /// A wall, its supports, and storeys without damping under the synthetic motion.
 fn scene(shape: &str, supports: &str, damping_ratio: f64) -> String {
-    let mut text = format!("{shape}[supports]\n{supports}\n");
+    let mut text = format!("{shape}{LAW}[supports]\n{supports}\n");
     for (mass, stiffness) in STOREYS {
         // writing to a String cannot fail
         let _ = write!(text, "[[storeys]]\nmass = {mass:?}\nstiffness = {stiffness:?}\n");

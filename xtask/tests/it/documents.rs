@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::root;
 use crate::tidy::files;
+use crate::{read, root};
 
 const ENDINGS: [&str; 7] = [".rs", ".py", ".c", ".toml", ".xml", ".html", ".md"];
 
@@ -50,7 +50,7 @@ fn documents_name_what_exists() {
             let mut cells = line.split('|').skip(1);
             let (Some(first), Some(second)) = (cells.next(), cells.next()) else { continue };
             let Some(file) = quoted(first).find(|word| is_path(word)) else { continue };
-            let source = std::fs::read_to_string(root().join(file)).unwrap();
+            let source = read(file);
             for name in quoted(second) {
                 assert!(has_name(&source, name), "{place}: {file} has no {name}");
                 rows += 1;
@@ -62,7 +62,7 @@ fn documents_name_what_exists() {
 
 #[test]
 fn every_equation_of_the_paper_has_its_place() {
-    let text = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let text = read("docs/architecture.md");
     let section = text.split("\n### ").find(|section| section.starts_with("Equations of the paper")).unwrap();
     for equation in 1..=23 {
         assert!(section.contains(&format!("({equation})")), "Eq. ({equation}) is not in the table");
@@ -72,9 +72,9 @@ fn every_equation_of_the_paper_has_its_place() {
 /// The modules of a crate are those that its head lists, in the same order.
 #[test]
 fn modules_are_listed_as_in_the_source() {
-    let text = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let text = read("docs/architecture.md");
     for (title, source) in [("rocking-wall", "src/lib.rs"), ("study", "crates/study/src/lib.rs")] {
-        let source = std::fs::read_to_string(root().join(source)).unwrap();
+        let source = read(source);
         let modules = |lines: &str, start: &str| -> Vec<String> {
             let rows = lines.lines().filter_map(|line| line.strip_prefix(start)?.split('|').next());
             rows.flat_map(quoted).map(str::to_owned).collect()
@@ -91,7 +91,6 @@ fn modules_are_listed_as_in_the_source() {
 /// The page of the export layer holds the example, so that a reader needs nothing else.
 #[test]
 fn the_readme_of_the_export_layer_is_its_example() {
-    let read = |name: &str| std::fs::read_to_string(root().join(name)).unwrap();
     let page = read("crates/fmu-export/README.md");
     for (language, file) in [("xml", "modelDescription.xml"), ("rust", "build.rs"), ("rust", "src/lib.rs")] {
         let text = read(&format!("examples/fmu/{file}"));

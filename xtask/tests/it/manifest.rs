@@ -6,16 +6,12 @@ use std::process::Command;
 
 use serde_json::Value;
 
+use crate::{cargo, read};
+
 /// The packages that cargo knows of, with `--no-deps` those of the workspace.
 fn packages(arguments: &[&str]) -> Vec<Value> {
-    let output = Command::new(env!("CARGO"))
-        .current_dir(crate::root())
-        .args(["metadata", "--format-version", "1", "--locked"])
-        .args(arguments)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let metadata = cargo(&["metadata", "--format-version", "1", "--locked"], arguments);
+    let metadata: Value = serde_json::from_str(&metadata).unwrap();
     metadata["packages"].as_array().unwrap().clone()
 }
 
@@ -38,14 +34,13 @@ fn no_dependency_needs_a_newer_rust_than_the_project_states() {
         }
     }
     assert!(2 * compared > packages.len(), "{compared} of {} packages state a version", packages.len());
-    let workflow = std::fs::read_to_string(crate::root().join(".github/workflows/ci.yml")).unwrap();
+    let workflow = read(".github/workflows/ci.yml");
     assert!(workflow.contains(&format!("cargo +{stated} check")), "the workflow checks another version");
 }
 
 #[test]
 fn versions_agree() {
     let version = env!("CARGO_PKG_VERSION");
-    let read = |name: &str| std::fs::read_to_string(crate::root().join(name)).unwrap();
     for package in packages(&["--no-deps"]) {
         assert_eq!(package["version"], version, "{}", package["name"]);
         for dependency in package["dependencies"].as_array().unwrap() {
@@ -71,7 +66,7 @@ fn versions_agree() {
 /// The project has no public home yet: its address is a placeholder.
 #[test]
 fn the_address_of_the_repository_stands_in_one_place() {
-    let root = std::fs::read_to_string(crate::root().join("Cargo.toml")).unwrap();
+    let root = read("Cargo.toml");
     let address = root.lines().find_map(|line| line.strip_prefix("repository = ")).unwrap().trim_matches('"');
     let list =
         Command::new("git").args(["grep", "-l", "-F", "-e", address]).current_dir(crate::root()).output();
@@ -80,7 +75,7 @@ fn the_address_of_the_repository_stands_in_one_place() {
 
 #[test]
 fn every_crate_has_what_a_registry_shows() {
-    let kept = std::fs::read_to_string(crate::root().join("xtask/src/package.rs")).unwrap();
+    let kept = read("xtask/src/package.rs");
     for package in packages(&["--no-deps"]) {
         let name = package["name"].as_str().unwrap();
         let is_published = package["publish"].is_null();
@@ -164,14 +159,8 @@ fn arrows_between_crates_point_one_way() {
 
 /// Crates and their features behind a `|`, as cargo builds them.
 fn built(arguments: &[&str]) -> BTreeSet<String> {
-    let output = Command::new(env!("CARGO"))
-        .current_dir(crate::root())
-        .args(["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p}|{f}"])
-        .args(arguments)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
+    let tree = ["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p}|{f}"];
+    cargo(&tree, arguments).lines().map(str::to_owned).collect()
 }
 
 /// What cargo has built for the Rust tests it takes for the wheel, unless a feature differs somewhere below.

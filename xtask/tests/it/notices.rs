@@ -1,7 +1,8 @@
 //! The notices inside the FMU and the Python package name every crate in them.
 
 use std::collections::BTreeSet;
-use std::process::Command;
+
+use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
 const ABOVE_THE_UNIT: [&str; 10] = [
@@ -19,15 +20,9 @@ const ABOVE_THE_UNIT: [&str; 10] = [
 
 /// The crates that a package links: those of this workspace, and others.
 fn crates(package: &[&str]) -> [BTreeSet<String>; 2] {
-    let output = Command::new(env!("CARGO"))
-        .current_dir(crate::root())
-        .args(["tree", "--offline", "--locked", "--edges", "normal,no-proc-macro"])
-        .args(["--prefix", "none", "--package"])
-        .args(package)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let tree = String::from_utf8(output.stdout).unwrap();
+    let tree =
+        ["tree", "--offline", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--package"];
+    let tree = cargo(&tree, package);
     let root = crate::root().canonicalize().unwrap().display().to_string();
     let (ours, others): (Vec<_>, Vec<_>) = tree.lines().partition(|line| line.contains(&root));
     let names = |lines: Vec<&str>| {
@@ -38,7 +33,7 @@ fn crates(package: &[&str]) -> [BTreeSet<String>; 2] {
 
 /// Checks that a file names crates.
 fn check_names(crates: &BTreeSet<String>, notices: &str) {
-    let text = std::fs::read_to_string(crate::root().join(notices)).unwrap();
+    let text = read(notices);
     let named: BTreeSet<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
     for name in crates {
         assert!(named.contains(name.as_str()), "{notices} does not name {name}");
@@ -53,7 +48,7 @@ fn every_linked_crate_is_named() {
     let [ours, others] = crates(&["rocking-wall", "--features", "fmu"]);
     check_names(&others, "modelDescription/documentation/licenses/notices.txt");
     assert!(others.contains("nalgebra") && ours.contains("ground-motion"), "{ours:?}, {others:?}");
-    let locked = std::fs::read_to_string(crate::root().join("Cargo.lock")).unwrap();
+    let locked = read("Cargo.lock");
     for other in ABOVE_THE_UNIT {
         assert!(locked.contains(&format!("\nname = \"{other}\"\n")), "nothing here links {other}");
         assert!(!ours.contains(other) && !others.contains(other), "the unit links {other}");
