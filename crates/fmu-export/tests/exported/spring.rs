@@ -90,7 +90,7 @@ variables! { Text:
     Home 41 "home" Output Discrete None, Kind::String { start: None };
 }
 
-#[derive(PartialEq, Debug)]
+#[derive(PartialEq, Debug, Default)]
 pub struct Spring {
     stiffness: f64,
     x_start: f64,
@@ -146,28 +146,8 @@ impl Model for Spring {
         log.info(format_args!("{} is a spring", environment.instance_name));
         let label = environment.payload.map_or("spring".into(), String::from_utf8_lossy);
         let home = environment.resources.map(|path| path.to_string_lossy()).unwrap_or_default();
-        Ok(Self {
-            stiffness: 4.0,
-            x_start: 0.0,
-            period: 0.0,
-            force: 0.0,
-            force_rate: 0.0,
-            push: 0.0,
-            trim: 0.0,
-            bias: 0.0,
-            x: 0.0,
-            v: 0.0,
-            law: 1,
-            substeps: 8,
-            fault: 0,
-            count: 0,
-            clamped: false,
-            held: false,
-            below: false,
-            time: 0.0,
-            label: label.into_owned(),
-            home: home.into_owned(),
-        })
+        let (label, home) = (label.into_owned(), home.into_owned());
+        Ok(Self { stiffness: 4.0, law: 1, substeps: 8, label, home, ..Self::default() })
     }
 
     fn real(&self, variable: Real) -> f64 {
