@@ -41,15 +41,7 @@ macro_rules! common_methods {
             set_shift_decimal(Vec<u32>, Vec<f64>) -> Status = SetShiftDecimal;
             set_shift_fraction(Vec<u32>, Vec<IntervalFraction>) -> Status = SetShiftFraction;
         }
-        $crate::ffi::component::methods::life! {}
-        $crate::ffi::component::methods::derivatives! {}
-    };
-}
-pub(super) use common_methods;
 
-/// The life of an instance, its events, texts and states.
-macro_rules! life {
-    () => {
         fn set_debug_logging(&self, logging_on: bool, categories: Vec<String>) -> Status {
             self.0.run(Call::SetDebugLogging, |instance| {
                 instance.set_debug_logging(logging_on, categories.iter().map(|name| Ok(name.as_str())))
@@ -126,13 +118,7 @@ macro_rules! life {
                 instance.forget(handle)
             })
         }
-    };
-}
-pub(super) use life;
 
-/// Derivatives.
-macro_rules! derivatives {
-    () => {
         fn get_output_derivatives(&self, requests: Vec<(u32, u32)>) -> Result<Vec<f64>, Status> {
             let (references, orders) = super::resource::references_and_orders(&requests);
             self.0.values(Call::GetRealOutputDerivatives, requests.len(), |instance, values| {
@@ -165,7 +151,7 @@ macro_rules! derivatives {
         }
     };
 }
-pub(super) use derivatives;
+pub(super) use common_methods;
 
 /// Getters and setters of the values of a type.
 macro_rules! values {
