@@ -7,7 +7,6 @@ use crate::fmu;
 use crate::python::Environment;
 
 const DOCUMENT: &str = "docs/coupling.md";
-const MARK: &str = "figures";
 
 /// Measures, writes the page, the CSV file and the figures of the document.
 pub(crate) fn run() -> Result<()> {
@@ -20,10 +19,7 @@ pub(crate) fn run() -> Result<()> {
     succeed(&mut measure, "see its message above")?;
     let path = folder.join("coupling.md");
     let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let document = root().join(DOCUMENT);
-    let text = std::fs::read_to_string(&document).map_err(|error| format!("{DOCUMENT}: {error}"))?;
-    let text = figures::replaced(DOCUMENT, &text, MARK, &table)?;
-    std::fs::write(&document, text).map_err(|error| format!("{DOCUMENT}: {error}"))?;
+    figures::write(DOCUMENT, &[("figures", table)])?;
     println!("written {DOCUMENT}, fmu_out/coupling.html, fmu_out/coupling.csv");
     Ok(())
 }

@@ -34,17 +34,15 @@ pub(crate) fn run(record: Option<&str>) -> Result<()> {
         wall(&["stability", "--csv", "fmu_out/stability.csv", "--html", "fmu_out/stability.html"])?;
     let csv = std::fs::read_to_string(root().join("fmu_out/accuracy.csv"))
         .map_err(failed("fmu_out/accuracy.csv"))?;
-    let document = root().join(DOCUMENT);
-    let mut text = std::fs::read_to_string(&document).map_err(failed(DOCUMENT))?;
-    for (mark, figures) in [
-        ("accuracy", condensed(&csv)),
-        ("stability", fenced(&stability)),
-        ("rotations", fenced(rotations)),
-        ("peers", fenced(&outlined(&peers))),
-    ] {
-        text = replaced(DOCUMENT, &text, mark, &figures)?;
-    }
-    std::fs::write(&document, text).map_err(failed(DOCUMENT))?;
+    write(
+        DOCUMENT,
+        &[
+            ("accuracy", condensed(&csv)),
+            ("stability", fenced(&stability)),
+            ("rotations", fenced(rotations)),
+            ("peers", fenced(&outlined(&peers))),
+        ],
+    )?;
     beside_other_tools()?;
     println!("written {DOCUMENT}, fmu_out/accuracy.html, fmu_out/stability.html");
     validation()?;
@@ -76,15 +74,15 @@ fn beside_other_tools() -> Result<()> {
 
 /// Compares the model with each published test: its numbers and its picture.
 pub(crate) fn validation() -> Result<()> {
-    let mut text = std::fs::read_to_string(root().join(VALIDATION)).map_err(failed(VALIDATION))?;
+    let mut figures = Vec::new();
     for entry in std::fs::read_dir(root().join(TESTS)).map_err(failed(TESTS))? {
         let file = entry.map_err(failed(TESTS))?.file_name().to_string_lossy().into_owned();
         let Some(name) = file.strip_suffix(".toml") else { continue };
         let plot = format!("docs/images/{name}.svg");
         let table = wall(&["validate", &format!("{TESTS}/{file}"), "--plot", &plot])?;
-        text = replaced(VALIDATION, &text, name, &fenced(&table))?;
+        figures.push((name.to_owned(), fenced(&table)));
     }
-    std::fs::write(root().join(VALIDATION), text).map_err(failed(VALIDATION))?;
+    write(VALIDATION, &figures)?;
     println!("written {VALIDATION} and its pictures");
     Ok(())
 }
@@ -95,9 +93,7 @@ pub(crate) fn validation() -> Result<()> {
 /// As [`run`].
 pub(crate) fn verification() -> Result<()> {
     let formulas = wall(&["verify", "--markdown", "-"])?;
-    let text = std::fs::read_to_string(root().join(VERIFICATION)).map_err(failed(VERIFICATION))?;
-    let text = replaced(VERIFICATION, &text, "formulas", &format!("\n{formulas}"))?;
-    std::fs::write(root().join(VERIFICATION), text).map_err(failed(VERIFICATION))?;
+    write(VERIFICATION, &[("formulas", format!("\n{formulas}"))])?;
     println!("written {VERIFICATION}");
     Ok(())
 }
@@ -106,8 +102,17 @@ fn fenced(text: &str) -> String {
     format!("```text\n{}\n```\n", text.trim_matches('\n'))
 }
 
-/// Replaces the text between `<!-- mark -->` and `<!-- end mark -->` in a document.
-pub(crate) fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<String> {
+/// Writes figures between the marks `<!-- mark -->` and `<!-- end mark -->` of a document.
+pub(crate) fn write(document: &'static str, figures: &[(impl AsRef<str>, String)]) -> Result<()> {
+    let path = root().join(document);
+    let mut text = std::fs::read_to_string(&path).map_err(failed(document))?;
+    for (mark, figures) in figures {
+        text = replaced(document, &text, mark.as_ref(), figures)?;
+    }
+    std::fs::write(path, text).map_err(failed(document))
+}
+
+fn replaced(document: &str, text: &str, mark: &str, figures: &str) -> Result<String> {
     let (begin, end) = (format!("<!-- {mark} -->\n"), format!("<!-- end {mark} -->"));
     let missing = || format!("{document}: expected the marks `{}` and `{end}`", begin.trim_end());
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::command::{Result, cargo, program, root, succeed, target};
-use crate::platform::{self, Platform, has_rust_library, reproducible};
+use crate::platform::{self, Platform, check_rust_library, reproducible};
 use crate::universal;
 
 /// The linker of the library.
@@ -56,7 +56,12 @@ pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
     let library = library(unit, Linker::System)?;
-    pack(unit, &[(host(), library)], &programs("dev", &["fmu-export-build"])?)
+    pack(unit, &[(host(), library)], &packer()?)
+}
+
+/// Builds `fmu-pack`, and returns its folder.
+fn packer() -> Result<PathBuf> {
+    programs("dev", &["fmu-export-build"])
 }
 
 /// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
@@ -66,9 +71,7 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
     for unit in UNITS {
         let path = match &platforms {
             None => build(unit)?,
-            Some(platforms) => {
-                pack(unit, &libraries(unit, platforms)?, &programs("dev", &["fmu-export-build"])?)?
-            }
+            Some(platforms) => pack(unit, &libraries(unit, platforms)?, &packer()?)?,
         };
         println!("{}", path.display());
         built.push(path);
@@ -127,10 +130,7 @@ pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
 
 /// Checks that this machine can build WebAssembly components.
 pub(crate) fn check_component() -> Result<()> {
-    if has_rust_library(COMPONENT)? {
-        return Ok(());
-    }
-    Err(format!("the Rust library for {COMPONENT} is missing: run `rustup target add {COMPONENT}`"))
+    check_rust_library(COMPONENT)
 }
 
 /// Builds the WebAssembly component of a unit, and returns its path.

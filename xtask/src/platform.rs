@@ -136,10 +136,18 @@ fn installed(platforms: Vec<&'static Platform>) -> Result<Vec<&'static Platform>
 }
 
 /// Returns whether this machine has the Rust library for a target.
-pub(crate) fn has_rust_library(target: &str) -> Result<bool> {
+fn has_rust_library(target: &str) -> Result<bool> {
     let mut rustc = program("rustc");
     rustc.args(["--print", "target-libdir", "--target", target]);
     Ok(Path::new(output(&mut rustc, "install Rust")?.trim()).is_dir())
+}
+
+/// Checks that this machine has the Rust library for a target.
+pub(crate) fn check_rust_library(target: &str) -> Result<()> {
+    if has_rust_library(target)? {
+        return Ok(());
+    }
+    Err(format!("the Rust library for {target} is missing: run `rustup target add {target}`"))
 }
 
 /// Makes what a build gives independent of its folders, with more flags of the linker.

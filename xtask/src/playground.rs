@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::command::{Result, cargo, program, root, succeed, target};
-use crate::platform::{has_rust_library, reproducible};
+use crate::platform::{check_rust_library, reproducible};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const PAGE: &str = "fmu_out/playground.html";
@@ -12,10 +12,7 @@ const LARGEST: u64 = 1_500_000;
 
 /// Checks that this machine can compile to WebAssembly.
 pub(crate) fn check_target() -> Result<()> {
-    if has_rust_library(TARGET)? {
-        return Ok(());
-    }
-    Err(format!("the Rust library for {TARGET} is missing: run `rustup target add {TARGET}`"))
+    check_rust_library(TARGET)
 }
 
 /// Builds the page.
