@@ -1,12 +1,12 @@
 //! Every check: the right description with one mistake, and the message it gets.
 
-use crate::{BLOCK, Folder, block_with};
+use crate::{BLOCK, Folder, block_with, quoted};
 use fmu_export_build::{Description, DescriptionError, generate};
 
 /// The message for the description with `from` replaced by `to`; the line in it is that of `from`.
 #[track_caller]
 fn refused(from: &str, to: &str, message: &str) {
-    let at = BLOCK.find(from).expect("the text to replace is there");
+    let at = BLOCK.find(&quoted(from)).expect("the text to replace is there");
     let line = BLOCK[..at].matches('\n').count() + 1;
     refused_at(from, to, &format!("line {line}: {message}"));
 }
@@ -20,164 +20,149 @@ fn refused_at(from: &str, to: &str, message: &str) {
 
 #[test]
 fn names() {
-    refused("name=\"x_dot\"", "name=\"force\"", "the name `force` was used on line 20 already");
+    refused("name='x_dot'", "name='force'", "the name `force` was used on line 20 already");
     refused(
-        "name=\"x_start\"",
-        "name=\"x.dot\"",
+        "name='x_start'",
+        "name='x.dot'",
         "`x.dot` and `x_dot` on line 22 both become the Rust name XDot",
     );
-    refused("name=\"weight\"", "name=\"1\"", "`1` cannot be turned into a Rust name");
-    refused("name=\"weight\"", "name=\"self\"", "`self` cannot be turned into a Rust name");
+    refused("name='weight'", "name='1'", "`1` cannot be turned into a Rust name");
+    refused("name='weight'", "name='self'", "`self` cannot be turned into a Rust name");
     // In different enums equal Rust names do not clash.
-    assert!(Description::parse(&block_with("name=\"moving\"", "name=\"X\"")).is_ok());
+    assert!(Description::parse(&block_with("name='moving'", "name='X'")).is_ok());
 }
 
 #[test]
 fn value_references_are_unique_over_all_types() {
     refused(
-        "valueReference=\"60\"",
-        "valueReference=\"10\"",
+        "valueReference='60'",
+        "valueReference='10'",
         "`surface` has value reference 10, which `force` on line 20 has already; take a free one, \
          0 for example",
     );
-    refused(
-        "valueReference=\"60\"",
-        "valueReference=\"-1\"",
-        "valueReference=\"-1\" is not a value reference",
-    );
-    refused("valueReference=\"60\"", "", "<ScalarVariable> needs the attribute `valueReference`");
+    refused("valueReference='60'", "valueReference='-1'", "valueReference=\"-1\" is not a value reference");
+    refused("valueReference='60'", "", "<ScalarVariable> needs the attribute `valueReference`");
 }
 
 #[test]
 fn start_values_are_there_where_they_must_be_and_only_there() {
-    refused("unit=\"N\" start=\"0\"", "unit=\"N\"", "`force` needs a start value, being an input");
-    refused("max=\"9\" start=\"3\"", "max=\"9\"", "`layers` needs a start value, being a parameter");
+    refused("unit='N' start='0'", "unit='N'", "`force` needs a start value, being an input");
+    refused("max='9' start='3'", "max='9'", "`layers` needs a start value, being a parameter");
+    refused("initial='calculated'", "initial='exact'", "`x` needs a start value, being exact at the start");
     refused(
-        "initial=\"calculated\"",
-        "initial=\"exact\"",
-        "`x` needs a start value, being exact at the start",
-    );
-    refused(
-        "initial=\"calculated\"",
-        "initial=\"approx\"",
+        "initial='calculated'",
+        "initial='approx'",
         "`x` needs a start value, being approximate at the start",
     );
     refused(
-        "derivative=\"2\"",
-        "derivative=\"2\" start=\"0\"",
+        "derivative='2'",
+        "derivative='2' start='0'",
         "`x_dot` must not have a start value, being calculated",
     );
     refused(
         "<Boolean/>",
-        "<Boolean start=\"true\"/>",
+        "<Boolean start='true'/>",
         "`moving` must not have a start value, being calculated",
     );
 }
 
 #[test]
 fn units_and_types_are_declared() {
-    refused("unit=\"m/s\"", "unit=\"km/h\"", "the unit `km/h` of `x_dot` is not declared in UnitDefinitions");
+    refused("unit='m/s'", "unit='km/h'", "the unit `km/h` of `x_dot` is not declared in UnitDefinitions");
     refused(
-        "<Real unit=\"m\" ",
-        "<Real unit=\"ft\" ",
+        "<Real unit='m' ",
+        "<Real unit='ft' ",
         "the unit `ft` of `Length` is not declared in UnitDefinitions",
     );
     refused(
-        "displayUnit=\"mm\"",
-        "displayUnit=\"cm\"",
+        "displayUnit='mm'",
+        "displayUnit='cm'",
         "the display unit `cm` of `Length` is not declared with the unit `m`",
     );
     refused(
-        "unit=\"m/s\" derivative",
-        "unit=\"m/s\" displayUnit=\"mm\" derivative",
+        "unit='m/s' derivative",
+        "unit='m/s' displayUnit='mm' derivative",
         "the display unit `mm` of `x_dot` is not declared with the unit `m/s`",
     );
     refused(
-        "<Real declaredType=\"Length\"/>",
-        "<Real declaredType=\"Length\" unit=\"N\"/>",
+        "<Real declaredType='Length'/>",
+        "<Real declaredType='Length' unit='N'/>",
         "`x` has the unit `N`, but its type `Length` has `m`",
     );
     refused(
-        "<Real declaredType=\"Length\"/>",
-        "<Real declaredType=\"Lenght\"/>",
+        "<Real declaredType='Length'/>",
+        "<Real declaredType='Lenght'/>",
         "the type `Lenght` of `x` is not declared in TypeDefinitions as a Real",
     );
     refused(
-        "declaredType=\"Surface\"",
-        "declaredType=\"Length\"",
+        "declaredType='Surface'",
+        "declaredType='Length'",
         "the type `Length` of `surface` is not declared in TypeDefinitions as an Enumeration",
     );
 }
 
 #[test]
 fn causality_variability_and_initial_go_together() {
-    let parameter = "\"layers\" valueReference=\"70\" causality=\"parameter\" variability=\"fixed\"";
+    let parameter = "'layers' valueReference='70' causality='parameter' variability='fixed'";
     for (attributes, what) in [
-        ("causality=\"parameter\"", "parameter, continuous and without initial"),
+        ("causality='parameter'", "parameter, continuous and without initial"),
+        ("causality='parameter' variability='fixed' initial='calculated'", "parameter, fixed and calculated"),
+        ("causality='input' variability='fixed'", "input, fixed and without initial"),
+        ("causality='input' variability='discrete' initial='exact'", "input, discrete and exact"),
+        ("causality='output' variability='tunable'", "output, tunable and without initial"),
         (
-            "causality=\"parameter\" variability=\"fixed\" initial=\"calculated\"",
-            "parameter, fixed and calculated",
-        ),
-        ("causality=\"input\" variability=\"fixed\"", "input, fixed and without initial"),
-        ("causality=\"input\" variability=\"discrete\" initial=\"exact\"", "input, discrete and exact"),
-        ("causality=\"output\" variability=\"tunable\"", "output, tunable and without initial"),
-        (
-            "causality=\"calculatedParameter\" variability=\"fixed\" initial=\"exact\"",
+            "causality='calculatedParameter' variability='fixed' initial='exact'",
             "calculatedParameter, fixed and exact",
         ),
-        ("variability=\"constant\" initial=\"approx\"", "local, constant and approx"),
-        ("causality=\"independent\" variability=\"discrete\"", "independent, discrete and without initial"),
+        ("variability='constant' initial='approx'", "local, constant and approx"),
+        ("causality='independent' variability='discrete'", "independent, discrete and without initial"),
     ] {
-        let replacement = format!("\"layers\" valueReference=\"70\" {attributes}");
+        let replacement = format!("'layers' valueReference='70' {attributes}");
         refused(parameter, &replacement, &format!("`layers` cannot be {what} at once"));
     }
     refused(
-        "causality=\"output\" variability=\"discrete\"",
-        "causality=\"output\"",
+        "causality='output' variability='discrete'",
+        "causality='output'",
         "`moving` is continuous (which is what leaving out the variability means), but only a Real can be",
     );
-    refused("causality=\"input\"", "causality=\"inputs\"", "causality=\"inputs\" is not a causality");
+    refused("causality='input'", "causality='inputs'", "causality=\"inputs\" is not a causality");
 }
 
 #[test]
 fn limits_are_in_order_and_hold_for_the_start_value() {
     refused(
-        "min=\"1\" max=\"9\"",
-        "min=\"10\" max=\"9\"",
+        "min='1' max='9'",
+        "min='10' max='9'",
         "the limits of `layers` are crossed: min 10 exceeds max 9",
     );
     refused(
-        "max=\"9\" start=\"3\"",
-        "max=\"2\" start=\"3\"",
+        "max='9' start='3'",
+        "max='2' start='3'",
         "the start value 3 of `layers` is outside its limits 1 to 2",
     );
     // The upper limit is the type's.
     refused(
-        "start=\"0.1\"",
-        "start=\"50.1\"",
+        "start='0.1'",
+        "start='50.1'",
         "the start value 50.1 of `x_start` is outside its limits -0.00000005 to 50",
     );
-    assert!(Description::parse(&block_with("start=\"0.1\"", "start=\"50\"")).is_ok(), "limits are inclusive");
-    refused("start=\"0.1\"", "start=\"nan\"", "start=\"NaN\" is not a finite number");
-    refused("start=\"0.1\"", "start=\"0,1\"", "start=\"0,1\" is not a number");
-    refused("start=\"3\"", "start=\"3.5\"", "start=\"3.5\" is not a whole number of 32 bits");
+    assert!(Description::parse(&block_with("start='0.1'", "start='50'")).is_ok(), "limits are inclusive");
+    refused("start='0.1'", "start='nan'", "start=\"NaN\" is not a finite number");
+    refused("start='0.1'", "start='0,1'", "start=\"0,1\" is not a number");
+    refused("start='3'", "start='3.5'", "start=\"3.5\" is not a whole number of 32 bits");
 }
 
 #[test]
 fn enumerations() {
+    refused("start='2'", "start='3'", "the start value 3 of `surface` is not an item of its type `Surface`");
     refused(
-        "start=\"2\"",
-        "start=\"3\"",
-        "the start value 3 of `surface` is not an item of its type `Surface`",
-    );
-    refused(
-        "name=\"sand\" value=\"2\"",
-        "name=\"sand\" value=\"1\"",
+        "name='sand' value='2'",
+        "name='sand' value='1'",
         "the item `sand` has the value 1, which the item on line 13 has already",
     );
     refused(
-        "name=\"sand\"",
-        "name=\"wet-ice\"",
+        "name='sand'",
+        "name='wet-ice'",
         "`wet-ice` and `wet_ice` on line 13 both become the Rust name WetIce",
     );
 }
@@ -185,54 +170,50 @@ fn enumerations() {
 #[test]
 fn derivatives() {
     refused(
-        "derivative=\"2\"",
-        "derivative=\"9\"",
+        "derivative='2'",
+        "derivative='9'",
         "`x_dot` gives the index 9 in `derivative`, but there are only the variables 1 to 8",
     );
     refused(
-        "derivative=\"2\"",
-        "derivative=\"0\"",
+        "derivative='2'",
+        "derivative='0'",
         "`x_dot` gives the index 0 in `derivative`, but there are only the variables 1 to 8",
     );
     let rule = "and both must be continuous Reals and not the same";
-    refused(
-        "derivative=\"2\"",
-        "derivative=\"4\"",
-        &format!("`x_dot` is the derivative of `moving`, {rule}"),
-    );
-    refused("derivative=\"2\"", "derivative=\"3\"", &format!("`x_dot` is the derivative of `x_dot`, {rule}"));
+    refused("derivative='2'", "derivative='4'", &format!("`x_dot` is the derivative of `moving`, {rule}"));
+    refused("derivative='2'", "derivative='3'", &format!("`x_dot` is the derivative of `x_dot`, {rule}"));
 }
 
 #[test]
 fn the_structure_lists_exactly_what_it_must() {
     refused(
-        "index=\"4\" dependencies",
-        "index=\"8\" dependencies",
+        "index='4' dependencies",
+        "index='8' dependencies",
         "Outputs lists `weight`, which is not an output",
     );
-    refused("index=\"4\" dependencies", "index=\"2\" dependencies", "Outputs lists `x` twice");
+    refused("index='4' dependencies", "index='2' dependencies", "Outputs lists `x` twice");
     refused(
-        "index=\"4\" dependencies",
-        "index=\"9\" dependencies",
+        "index='4' dependencies",
+        "index='9' dependencies",
         "`Outputs` gives the index 9 in `index`, but there are only the variables 1 to 8",
     );
     refused_at(
-        "      <Unknown index=\"4\" dependencies=\"\"/>\n",
+        "      <Unknown index='4' dependencies=''/>\n",
         "",
         "line 30: Outputs leaves out `moving`, which is an output",
     );
     refused(
-        "index=\"3\" dependencies=\"1\"",
-        "index=\"2\" dependencies=\"1\"",
+        "index='3' dependencies='1'",
+        "index='2' dependencies='1'",
         "Derivatives lists `x`, which has no attribute `derivative`",
     );
     refused(
-        "<Unknown index=\"4\"/>",
-        "<Unknown index=\"5\"/>",
+        "<Unknown index='4'/>",
+        "<Unknown index='5'/>",
         "InitialUnknowns lists `x_start`, which is not calculated at the start",
     );
     refused_at(
-        "      <Unknown index=\"4\"/>\n",
+        "      <Unknown index='4'/>\n",
         "",
         "line 38: InitialUnknowns leaves out `moving`, which is calculated at the start",
     );
@@ -244,29 +225,29 @@ fn the_structure_lists_exactly_what_it_must() {
 #[test]
 fn dependencies() {
     refused(
-        "dependencies=\"1 2\" dependenciesKind=\"fixed dependent\"",
-        "dependencies=\"1 2\" dependenciesKind=\"fixed\"",
+        "dependencies='1 2' dependenciesKind='fixed dependent'",
+        "dependencies='1 2' dependenciesKind='fixed'",
         "`x_dot` has 2 dependencies, but dependenciesKind has 1 entries",
     );
-    refused("dependencies=\"1\"", "dependencies=\"one\"", "dependencies=\"one\" is not an index");
+    refused("dependencies='1'", "dependencies='one'", "dependencies=\"one\" is not an index");
     refused(
-        "dependencies=\"1\"",
-        "dependencies=\"12\"",
+        "dependencies='1'",
+        "dependencies='12'",
         "`x_dot` gives the index 12 in `dependencies`, but there are only the variables 1 to 8",
     );
     refused(
-        "dependencies=\"1\"",
-        "dependencies=\"5\"",
+        "dependencies='1'",
+        "dependencies='5'",
         "in Derivatives, `x_dot` cannot depend on `x_start`, which is neither an input nor a state",
     );
     refused(
-        "dependencies=\"5\"",
-        "dependencies=\"8\"",
+        "dependencies='5'",
+        "dependencies='8'",
         "in InitialUnknowns, `x` cannot depend on `weight`, which is not known at the start",
     );
     refused(
-        "dependenciesKind=\"dependent constant\"",
-        "dependenciesKind=\"dependent fixed\"",
+        "dependenciesKind='dependent constant'",
+        "dependenciesKind='dependent fixed'",
         "in InitialUnknowns, the dependenciesKind of `weight` cannot contain \"fixed\", only dependent, \
          constant",
     );
@@ -274,23 +255,23 @@ fn dependencies() {
 
 #[test]
 fn the_frame() {
-    refused("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"", "fmiVersion is \"3.0\": only \"2.0\" is understood");
-    refused("guid=\"{fingerprint}\"", "", "<fmiModelDescription> needs the attribute `guid`");
-    refused_at("  <CoSimulation modelIdentifier=\"block\"/>\n", "", "line 2: <CoSimulation> is missing");
+    refused("fmiVersion='2.0'", "fmiVersion='3.0'", "fmiVersion is \"3.0\": only \"2.0\" is understood");
+    refused("guid='{fingerprint}'", "", "<fmiModelDescription> needs the attribute `guid`");
+    refused_at("  <CoSimulation modelIdentifier='block'/>\n", "", "line 2: <CoSimulation> is missing");
     refused_at("<Boolean/>", "", "line 23: <Real> is missing");
     refused("<Boolean/>", "<Bool/>", "expected <Real>, found <Bool>");
     let error = Description::parse(&BLOCK[..BLOCK.len() - 10]).unwrap_err().to_string();
     assert!(error.starts_with("line 45: not well-formed XML: "), "{error}");
 }
 
-const CO_SIMULATION: &str = "  <CoSimulation modelIdentifier=\"block\"/>\n";
-const EXCHANGE: &str = "<ModelExchange modelIdentifier=\"block\"/>";
-const INDICATORS: &str = " numberOfEventIndicators=\"2\">\n";
+const CO_SIMULATION: &str = "  <CoSimulation modelIdentifier='block'/>\n";
+const EXCHANGE: &str = "<ModelExchange modelIdentifier='block'/>";
+const INDICATORS: &str = " numberOfEventIndicators='2'>\n";
 
 /// The block for Model Exchange, `frame` being the end of its first tag.
 fn exchange(frame: &str, element: &str, other: &str) -> Result<Description, String> {
-    let head = format!("{{fingerprint}}\">\n{CO_SIMULATION}");
-    let text = block_with(&head, &format!("{{fingerprint}}\"{frame}{element}{other}"));
+    let head = format!("{{fingerprint}}'>\n{CO_SIMULATION}");
+    let text = block_with(&head, &format!("{{fingerprint}}'{frame}{element}{other}"));
     Description::parse(&text).map_err(|fault| fault.to_string())
 }
 
@@ -309,7 +290,7 @@ fn either_kind_or_both() {
         error.ends_with("numberOfEventIndicators belongs to <ModelExchange>, which is missing"),
         "{error}"
     );
-    let error = exchange(" numberOfEventIndicators=\"-1\">\n", EXCHANGE, "").unwrap_err();
+    let error = exchange(" numberOfEventIndicators='-1'>\n", EXCHANGE, "").unwrap_err();
     assert!(error.ends_with("numberOfEventIndicators=\"-1\" is not a number of event indicators"), "{error}");
     let error = exchange(INDICATORS, &EXCHANGE.replace("block", "brick"), CO_SIMULATION).unwrap_err();
     assert!(error.contains("\"block\" here and \"brick\" in <ModelExchange>"), "{error}");
@@ -319,10 +300,10 @@ fn either_kind_or_both() {
 
 #[test]
 fn model_exchange_lists_its_derivatives() {
-    let list = "    <Derivatives>\n      <Unknown index=\"3\" dependencies=\"1\"/>\n    </Derivatives>\n";
+    let list = "    <Derivatives>\n      <Unknown index='3' dependencies='1'/>\n    </Derivatives>\n";
     // x is no known state then, and nothing may depend on it
     let text = block_with(list, "")
-        .replace(CO_SIMULATION, EXCHANGE)
+        .replace(&quoted(CO_SIMULATION), EXCHANGE)
         .replace("guid=\"{fingerprint}\">", "guid=\"{fingerprint}\" numberOfEventIndicators=\"0\">")
         .replace("dependencies=\"2\" dependenciesKind=\"constant\"", "dependencies=\"\"")
         .replace("dependencies=\"1 2\" dependenciesKind=\"fixed dependent\"", "dependencies=\"1\"");
@@ -336,7 +317,7 @@ fn the_message_of_generate_starts_with_file_and_line() {
     let xml = folder.path("broken.xml");
     let missing = generate(&xml, &folder.0).unwrap_err();
     assert!(matches!(missing, DescriptionError::Read { .. }), "{missing}");
-    std::fs::write(&xml, block_with("start=\"0.1\"", "")).unwrap();
+    std::fs::write(&xml, block_with("start='0.1'", "")).unwrap();
     let broken = generate(&xml, &folder.0).unwrap_err().to_string();
     assert_eq!(broken, format!("{}:24: `x_start` needs a start value, being a parameter", xml.display()));
     assert!(!folder.path("variables.rs").exists());

@@ -16,17 +16,22 @@ use std::path::PathBuf;
 /// A description that is right.
 const BLOCK: &str = include_str!("block.xml");
 
-/// The right description with `from`, which must occur once, replaced.
+/// A text with double quotes for its single ones.
+fn quoted(text: &str) -> String {
+    text.replace('\'', "\"")
+}
+
+/// The right description with `from`, which must occur once, replaced; both with single quotes for double ones.
 fn block_with(from: &str, to: &str) -> String {
-    assert_eq!(BLOCK.matches(from).count(), 1, "{from:?} must occur once");
-    BLOCK.replace(from, to)
+    let [from, to] = [from, to].map(quoted);
+    assert_eq!(BLOCK.matches(&from).count(), 1, "{from:?} must occur once");
+    BLOCK.replace(&from, &to)
 }
 
 /// The right description for Model Exchange too, with 4 event indicators.
 fn exchange() -> String {
-    let both =
-        "guid=\"{fingerprint}\" numberOfEventIndicators=\"4\"><ModelExchange modelIdentifier=\"block\"/>";
-    block_with("guid=\"{fingerprint}\">", both)
+    let both = "guid='{fingerprint}' numberOfEventIndicators='4'><ModelExchange modelIdentifier='block'/>";
+    block_with("guid='{fingerprint}'>", both)
 }
 
 /// A folder of its own for a test, which goes with this.
@@ -70,6 +75,6 @@ fn the_guid_follows_from_the_text_but_not_from_itself() {
     assert_eq!(again.declared_guid(), description.guid());
     assert_eq!(again.guid(), description.guid());
     assert_eq!(packaged.replace(&description.guid(), "{fingerprint}"), BLOCK);
-    let other = Description::parse(&block_with("start=\"0.1\"", "start=\"0.2\"")).unwrap();
+    let other = Description::parse(&block_with("start='0.1'", "start='0.2'")).unwrap();
     assert_ne!(other.guid(), description.guid());
 }
