@@ -1,6 +1,8 @@
 //! Reactions and impulses of walls, saved states, derivatives.
 
-use fmu_export::{Log, Model, Step, VariableId};
+use std::sync::{Arc, Mutex};
+
+use fmu_export::{Category, Causality, Filter, Log, Model, Status, Step, VariableId};
 use rocking_floor::unit::Unit;
 use rocking_floor::variables::{Coupling, Hysteresis, RealVariable};
 
@@ -82,27 +84,17 @@ fn the_walls_sign_is_negated_once() {
 
 #[test]
 fn inputs_of_the_other_coupling_are_warned_of_once() {
-    let mut texts = Vec::new();
-    let mut warnings = |run: &mut dyn FnMut(&mut Log<'_>)| {
-        let sink = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));
-        let taken = sink.clone();
-        let mut push = move |_: fmu_export::Status, _: fmu_export::Category, text: &str| {
-            taken.lock().unwrap().push(text.to_owned());
-        };
-        let filter = fmu_export::Filter::ERRORS.with(fmu_export::Category::Warning);
-        run(&mut Log::new(&mut push, filter));
-        texts.append(&mut sink.lock().unwrap());
-    };
+    let texts = Arc::new(Mutex::new(Vec::new()));
+    let sink = texts.clone();
+    let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
+    let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
     let mut driven = Driven::linear(&[]);
     driven.set("impulse_4", 1.0);
-    warnings(&mut |log| {
-        for n in 0..3 {
-            driven
-                .unit
-                .do_step(Step { from: f64::from(n), duration: 1.0, may_end_early: false }, log)
-                .unwrap();
-        }
-    });
+    for n in 0..3 {
+        let step = Step { from: f64::from(n), duration: 1.0, may_end_early: false };
+        driven.unit.do_step(step, &mut log).unwrap();
+    }
+    let texts = texts.lock().unwrap();
     assert_eq!(texts.len(), 1, "{texts:?}");
     assert!(texts[0].contains("coupling = reactions"), "{texts:?}");
 }
@@ -120,21 +112,17 @@ fn derivatives_are_those_of_the_outputs() {
         let mut driven = Driven::new(&yielding, hysteresis, coupling);
         driven.step(0.001);
         assert_eq!(driven.yielding(), hysteresis == Hysteresis::Bilinear);
-        let inputs = RealVariable::ALL
-            .iter()
-            .filter(|input| input.variable().causality == fmu_export::Causality::Input);
-        let outputs: Vec<_> = RealVariable::ALL
-            .iter()
-            .filter(|output| output.variable().causality == fmu_export::Causality::Output)
-            .collect();
-        for &input in inputs {
+        let of = |causality: Causality| {
+            RealVariable::ALL.iter().copied().filter(move |id| id.variable().causality == causality)
+        };
+        for input in of(Causality::Input) {
             let at = |value: f64| {
                 let mut unit = driven.unit.clone();
                 unit.set_real(input, value);
                 unit
             };
             let (low, high) = (at(-64.0), at(64.0));
-            for &&output in &outputs {
+            for output in of(Causality::Output) {
                 let wanted = (high.real(output) - low.real(output)) / 128.0;
                 let found = driven.unit.directional_derivative(output, input).unwrap();
                 assert!(
@@ -187,12 +175,12 @@ fn a_step_that_fails_leaves_all_as_it_was() {
     driven.step(0.01);
     driven.set("a_g", 1e300);
     driven.rate("a_g", 1e300);
-    let before: Vec<_> =
-        RealVariable::ALL.iter().map(|&variable| driven.unit.real(variable).to_bits()).collect();
+    let values = |unit: &Unit| -> Vec<_> {
+        RealVariable::ALL.iter().map(|&variable| unit.real(variable).to_bits()).collect()
+    };
+    let before = values(&driven.unit);
     let failed =
         driven.unit.do_step(Step { from: 0.01, duration: 1e300, may_end_early: false }, &mut Log::silent());
     assert!(failed.is_err());
-    let after: Vec<_> =
-        RealVariable::ALL.iter().map(|&variable| driven.unit.real(variable).to_bits()).collect();
-    assert_eq!(before, after);
+    assert_eq!(values(&driven.unit), before);
 }

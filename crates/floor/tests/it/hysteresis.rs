@@ -202,17 +202,9 @@ fn whatever_happens_the_law_is_kept() {
             assert!(whole.damping_energy + whole.hysteretic_energy >= lost);
             let stretch = (whole.displacement - whole.plastic).abs();
             assert!(stretch <= LIMIT + 4.0 * f64::EPSILON * (LIMIT + whole.displacement.abs()), "{whole:?}");
-            for share in [0.0, 0.21, 0.7] {
-                let length = duration
-                    * (if share == 0.7 {
-                        0.3
-                    } else if share == 0.0 {
-                        0.21
-                    } else {
-                        0.49
-                    });
-                let load = Load { value: value + rate * duration * share, rate };
-                pieces.advance(&floor, load, length).unwrap();
+            for (from, share) in [(0.0, 0.21), (0.21, 0.49), (0.7, 0.3)] {
+                let load = Load { value: value + rate * duration * from, rate };
+                pieces.advance(&floor, load, duration * share).unwrap();
             }
             farthest = farthest.max(whole.displacement.abs());
             // rounding of the loads, of up to 12 m/s², over the time they have acted
