@@ -213,15 +213,9 @@ fn damping_goes_on_smoothly_beyond_a_branch() {
                 let order = (apart(2e-3) / apart(1e-3)).log2();
                 assert!((order - 3.0).abs() < 0.02, "{damping_model:?}: order {order}");
                 // beyond the inner end, inside, and beyond the outer one
-                for share in [-3.0, -1.0, -0.5, 0.1, 0.9, 0.999] {
-                    slope_is_that_of_the_value(
-                        branch,
-                        inner * (1.0 + 0.3 * share),
-                        size + slope * inner.abs(),
-                    );
-                }
-                for share in [0.1, 0.5, 0.99, 1.1, 1.5] {
-                    let place = inner + share * (outer - inner);
+                let near = [-3.0, -1.0, -0.5, 0.1, 0.9, 0.999].map(|share| inner * (1.0 + 0.3 * share));
+                let across = [0.1, 0.5, 0.99, 1.1, 1.5].map(|share| inner + share * (outer - inner));
+                for place in near.into_iter().chain(across) {
                     slope_is_that_of_the_value(branch, place, size + slope * inner.abs());
                 }
                 // beyond u₃, where F/u changes its sign

@@ -11,6 +11,7 @@ use rocking_wall::wall::{Parameters, Support, Wall};
 
 use crate::configuration::mostly;
 use crate::properties::{COMPARED, motions};
+use crate::record_path::alone;
 use crate::{start, still};
 
 fn parapet() -> Parameters {
@@ -241,16 +242,9 @@ fn normalised(parameters: &Parameters, motion: &[f64], factor: f64) -> Vec<f64> 
     let wall = Wall::new(parameters).unwrap();
     let onset = wall.body().strength.positive / wall.body().effective_mass;
     let step = 0.3 / wall.rocking_rate();
-    let method = Method::new(parameters, &wall, parameters.tolerance).unwrap();
-    let motion_of = Motion::new(wall, method);
     let forcing: Vec<f64> = motion.iter().map(|p| factor * onset * p).collect();
-    let solver = RecordSolver::new(&motion_of, step);
-    let start = RunStart { state: motion_of.start_under(0.0, 0.0, forcing[0]), factor: 1.0 };
-    let mut history = vec![0.0];
-    let scale = motion_of.wall().displacement_scale();
-    let mut observe = |_, u: f64, _| history.push(u / scale);
-    solver.run_observed(start, Forcing::Samples(&forcing), false, &mut observe).unwrap();
-    history
+    let (history, _) = alone(parameters, &forcing, step, 1.0);
+    history.into_iter().map(|u| u / wall.displacement_scale()).collect()
 }
 
 /// Pins the work of the committed scenes: a change that costs more shows here first.

@@ -21,7 +21,7 @@ fn prepared(parameters: &Parameters, forcing: &[f64], factor: f64) -> (Motion, R
 }
 
 /// Returns the history of u and the outcome of the run.
-fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Outcome) {
+pub(crate) fn alone(parameters: &Parameters, forcing: &[f64], step: f64, factor: f64) -> (Vec<f64>, Outcome) {
     let (motion, start) = prepared(parameters, forcing, factor);
     let mut history = vec![start.state.displacement];
     let solver = RecordSolver::new(&motion, step);

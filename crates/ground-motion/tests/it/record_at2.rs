@@ -7,9 +7,15 @@ use crate::assert_mentions;
 
 const HEADER: &str = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1/1/2000, Station, 90\n";
 const UNITS: &str = "ACCELERATION TIME SERIES IN UNITS OF G\n";
+const COUNT: &str = "NPTS= 6, DT= .005 SEC";
 /// Six samples over two lines, in g.
 const SAMPLES: &str = "  -.8075668E-03   .1000000E+00   .2500000E-01   0.5  -1.\n   .3\n";
 const VALUES: [f64; 6] = [-0.000_807_566_8, 0.1, 0.025, 0.5, -1.0, 0.3];
+
+/// A file with a line of count and step, and with samples.
+fn file(count: &str, samples: &str) -> String {
+    format!("{HEADER}{UNITS}{count}\n{samples}")
+}
 
 fn read(text: &str) -> Result<Record, String> {
     read_with(text, &RecordOptions::default())
@@ -39,7 +45,7 @@ fn reads_every_form_of_the_count_line() {
         ("npts = 6, dt = 5.0e-3 sec", 0.005),
         ("NPTS: 6, DT: 5.0D-3", 0.005),
     ] {
-        let record = read(&format!("{HEADER}{UNITS}{line}\n{SAMPLES}")).unwrap();
+        let record = read(&file(line, SAMPLES)).unwrap();
         assert_holds_the_samples(&record, step);
     }
 }
@@ -58,16 +64,13 @@ fn searches_for_the_count_line_between_blank_lines() {
 #[test]
 fn separates_numbers_that_touch() {
     let touching = "-.8075668E-03+.1000000E+00 .2500000E-01 0.5-1.\n.3D+00\n";
-    assert_holds_the_samples(
-        &read(&format!("{HEADER}{UNITS}NPTS= 6, DT= .005 SEC\n{touching}")).unwrap(),
-        0.005,
-    );
+    assert_holds_the_samples(&read(&file(COUNT, touching)).unwrap(), 0.005);
 }
 
 #[test]
 fn reads_a_station_name_in_latin_1() {
     let mut bytes = b"Ca\xf1on, 1/1/1980\n".to_vec();
-    bytes.extend_from_slice(format!("{UNITS}NPTS= 6, DT= .005 SEC\n{SAMPLES}").as_bytes());
+    bytes.extend_from_slice(format!("{UNITS}{COUNT}\n{SAMPLES}").as_bytes());
     let record = parse("x.AT2", bytes, &RecordOptions::default()).unwrap();
     assert_holds_the_samples(&record, 0.005);
     assert_eq!(record.header[0], "Cañon, 1/1/1980");
@@ -85,25 +88,25 @@ fn takes_the_unit_from_the_text() {
         ("Units: mm/s^2, corrected", Unit::MillimetrePerSecondSquared),
         ("units of m/s2", Unit::MetrePerSecondSquared),
     ] {
-        let record = read(&format!("{HEADER}{units}\nNPTS= 6, DT= .005 SEC\n{SAMPLES}")).unwrap();
+        let record = read(&format!("{HEADER}{units}\n{COUNT}\n{SAMPLES}")).unwrap();
         assert_eq!(record.unit, unit, "{units}");
         assert_eq!(record.motion.samples(), VALUES.map(|a| unit.to_si(a)));
     }
     // If the file states nothing, the user's value counts; a value that contradicts the file is an error.
     let gal = RecordOptions { unit: Some(Unit::CentimetrePerSecondSquared), ..RecordOptions::default() };
     for units in ["", "IN UNITS OF COUNTS\n"] {
-        let text = format!("{HEADER}{units}NPTS= 6, DT= .005 SEC\n{SAMPLES}");
+        let text = format!("{HEADER}{units}{COUNT}\n{SAMPLES}");
         assert_eq!(read_with(&text, &gal).unwrap().unit, Unit::CentimetrePerSecondSquared);
         let error = read(&text).unwrap_err();
         assert!(error.contains("line 3: expected a unit") && error.contains("state the unit"), "{error}");
     }
-    let error = read_with(&format!("{HEADER}{UNITS}NPTS= 6, DT= .005 SEC\n{SAMPLES}"), &gal).unwrap_err();
+    let error = read_with(&file(COUNT, SAMPLES), &gal).unwrap_err();
     assert!(error.contains("x.AT2, line 3: expected the stated unit cm/s2, found g"), "{error}");
 }
 
 #[test]
 fn refuses_a_step_that_contradicts_the_file() {
-    let text = format!("{HEADER}{UNITS}NPTS= 6, DT= .005 SEC\n{SAMPLES}");
+    let text = file(COUNT, SAMPLES);
     let with_step = |step| read_with(&text, &RecordOptions { step: Some(step), ..RecordOptions::default() });
     assert!(with_step(0.005).is_ok());
     let error = with_step(0.01).unwrap_err();
@@ -114,29 +117,23 @@ fn refuses_a_step_that_contradicts_the_file() {
 #[test]
 fn refuses_damaged_files() {
     for (text, fragments) in [
+        (file("NPTS= 7, DT= .005 SEC", SAMPLES), &["line 6", "7 samples", "NPTS on line 4", "found 6"][..]),
+        (file("NPTS= 5, DT= .005 SEC", SAMPLES), &["5 samples", "found 6"]),
+        (file("NPTS= 99999999999999999999, DT= .005 SEC", SAMPLES), &["line 4", "NPTS"]),
+        (file("NPTS= 6, DT= 0 SEC", SAMPLES), &["line 4", "DT= 0"]),
+        (file("NPTS= 6, DT= nan SEC", SAMPLES), &["line 4"]),
+        (file("NPTS= 6, DT= 5.0 MSEC", SAMPLES), &["line 4", "must be in seconds"]),
+        (file("NPTS= 6", SAMPLES), &["line 4"]),
+        (file("NPTS, DT", SAMPLES), &["line 4"]),
+        (file("NPTS= 1, DT= .005 SEC", ".1\n"), &["line 5", "at least two samples", "found 1"]),
+        (file("NPTS= 2, DT= 1e308 SEC", ".1 NaN\n"), &["line 5", "`NaN`"]),
+        (file("NPTS= 3, DT= 1e308 SEC", ".1 .2 .3\n"), &["line 5", "time step"]),
+        (file("NPTS= 2, DT= .005 SEC", ".1 inf\n"), &["line 5", "`inf`"]),
+        (file("NPTS= 2, DT= .005 SEC", ".1 1e308\n"), &["line 5", "`1e308`"]),
+        (file("NPTS= 2, DT= .005 SEC", ".1\n\n*******\n"), &["line 7", "`*******`"]),
+        (file("NPTS= 2, DT= .005 SEC", ".123.456\n"), &["line 5", "`.123.456`"]),
         (
-            format!("{HEADER}{UNITS}NPTS= 7, DT= .005 SEC\n{SAMPLES}"),
-            &["line 6", "7 samples", "NPTS on line 4", "found 6"][..],
-        ),
-        (format!("{HEADER}{UNITS}NPTS= 5, DT= .005 SEC\n{SAMPLES}"), &["5 samples", "found 6"]),
-        (format!("{HEADER}{UNITS}NPTS= 99999999999999999999, DT= .005 SEC\n{SAMPLES}"), &["line 4", "NPTS"]),
-        (format!("{HEADER}{UNITS}NPTS= 6, DT= 0 SEC\n{SAMPLES}"), &["line 4", "DT= 0"]),
-        (format!("{HEADER}{UNITS}NPTS= 6, DT= nan SEC\n{SAMPLES}"), &["line 4"]),
-        (format!("{HEADER}{UNITS}NPTS= 6, DT= 5.0 MSEC\n{SAMPLES}"), &["line 4", "must be in seconds"]),
-        (format!("{HEADER}{UNITS}NPTS= 6\n{SAMPLES}"), &["line 4"]),
-        (format!("{HEADER}{UNITS}NPTS, DT\n{SAMPLES}"), &["line 4"]),
-        (
-            format!("{HEADER}{UNITS}NPTS= 1, DT= .005 SEC\n.1\n"),
-            &["line 5", "at least two samples", "found 1"],
-        ),
-        (format!("{HEADER}{UNITS}NPTS= 2, DT= 1e308 SEC\n.1 NaN\n"), &["line 5", "`NaN`"]),
-        (format!("{HEADER}{UNITS}NPTS= 3, DT= 1e308 SEC\n.1 .2 .3\n"), &["line 5", "time step"]),
-        (format!("{HEADER}{UNITS}NPTS= 2, DT= .005 SEC\n.1 inf\n"), &["line 5", "`inf`"]),
-        (format!("{HEADER}{UNITS}NPTS= 2, DT= .005 SEC\n.1 1e308\n"), &["line 5", "`1e308`"]),
-        (format!("{HEADER}{UNITS}NPTS= 2, DT= .005 SEC\n.1\n\n*******\n"), &["line 7", "`*******`"]),
-        (format!("{HEADER}{UNITS}NPTS= 2, DT= .005 SEC\n.123.456\n"), &["line 5", "`.123.456`"]),
-        (
-            format!("{HEADER}VELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 6, DT= .005 SEC\n{SAMPLES}"),
+            format!("{HEADER}VELOCITY TIME SERIES IN UNITS OF CM/S\n{COUNT}\n{SAMPLES}"),
             &["line 3", "an acceleration record", "VELOCITY"],
         ),
         (format!("{HEADER}{UNITS}{SAMPLES}"), &["line 1", "NPTS", "PEER NGA"]),
