@@ -45,13 +45,9 @@ fn sides_are_those_that_a_wall_can_rock_to() {
         let wall = Wall::new(parameters).unwrap();
         (wall.sides().collect::<Vec<_>>(), wall.has_equal_sides())
     };
-    let two = Parameters::default();
-    assert_eq!(sides(&two), (vec![1.0, -1.0], true));
+    assert_eq!(sides(&Parameters::default()), (vec![1.0, -1.0], true));
     for (rocking, side) in [(Rocking::OneSidedPositive, 1.0), (Rocking::OneSidedNegative, -1.0)] {
-        let (damping_model, impact) = (DampingModel::None, Impact::Restitution);
-        let one =
-            Parameters { rocking, damping_model, impact, restitution: 0.5, u_start: 0.0, ..two.clone() };
-        assert_eq!(sides(&one), (vec![side], false));
+        assert_eq!(sides(&Parameters { rocking, ..undamped() }), (vec![side], false));
     }
 }
 
@@ -131,12 +127,9 @@ fn analytic_restitution_against_transverse_walls() {
         let parameters = Parameters {
             thickness: b,
             height: h,
-            rocking: Rocking::OneSidedPositive,
-            impact: Impact::Restitution,
+            restitution: COMPUTED,
             restitution_source: RestitutionSource::Analytic,
-            damping_model: DampingModel::None,
-            u_start: 0.0,
-            ..Parameters::default()
+            ..undamped()
         };
         let wall = Wall::new(&parameters).unwrap();
         close(wall.restitution(), e);

@@ -23,53 +23,40 @@ pub(crate) struct Platform {
     link: &'static [&'static str],
 }
 
-/// A library has a name of its own instead of the path of its build.
-const MACOS: &[&str] = &["-Clink-arg=-Wl,-install_name,@rpath/library.dylib"];
-/// Zig leaves the time out of what it links as optimised.
-const WINDOWS: &[&str] = &["-Clink-arg=-O2"];
+const LINUX: Platform = Platform {
+    target: "x86_64-unknown-linux-gnu",
+    glibc: ".2.17",
+    fmi2: Some("linux64"),
+    fmi3: "x86_64-linux",
+    library: ("lib", ".so"),
+    link: &[],
+};
+const WINDOWS: Platform = Platform {
+    target: "x86_64-pc-windows-gnu",
+    glibc: "",
+    fmi2: Some("win64"),
+    fmi3: "x86_64-windows",
+    library: ("", ".dll"),
+    // zig leaves the time out of what it links as optimised
+    link: &["-Clink-arg=-O2"],
+};
+const MACOS: Platform = Platform {
+    target: "x86_64-apple-darwin",
+    glibc: "",
+    fmi2: Some("darwin64"),
+    fmi3: "x86_64-darwin",
+    library: ("lib", ".dylib"),
+    // a library has a name of its own instead of the path of its build
+    link: &["-Clink-arg=-Wl,-install_name,@rpath/library.dylib"],
+};
 
 /// Every platform.
 pub(crate) const PLATFORMS: [Platform; 5] = [
-    Platform {
-        target: "x86_64-unknown-linux-gnu",
-        glibc: ".2.17",
-        fmi2: Some("linux64"),
-        fmi3: "x86_64-linux",
-        library: ("lib", ".so"),
-        link: &[],
-    },
-    Platform {
-        target: "aarch64-unknown-linux-gnu",
-        glibc: ".2.17",
-        fmi2: None,
-        fmi3: "aarch64-linux",
-        library: ("lib", ".so"),
-        link: &[],
-    },
-    Platform {
-        target: "x86_64-pc-windows-gnu",
-        glibc: "",
-        fmi2: Some("win64"),
-        fmi3: "x86_64-windows",
-        library: ("", ".dll"),
-        link: WINDOWS,
-    },
-    Platform {
-        target: "x86_64-apple-darwin",
-        glibc: "",
-        fmi2: Some("darwin64"),
-        fmi3: "x86_64-darwin",
-        library: ("lib", ".dylib"),
-        link: MACOS,
-    },
-    Platform {
-        target: "aarch64-apple-darwin",
-        glibc: "",
-        fmi2: Some("darwin64"),
-        fmi3: "aarch64-darwin",
-        library: ("lib", ".dylib"),
-        link: MACOS,
-    },
+    LINUX,
+    Platform { target: "aarch64-unknown-linux-gnu", fmi2: None, fmi3: "aarch64-linux", ..LINUX },
+    WINDOWS,
+    MACOS,
+    Platform { target: "aarch64-apple-darwin", fmi3: "aarch64-darwin", ..MACOS },
 ];
 
 /// Oldest macOS that libraries and programs run on.
