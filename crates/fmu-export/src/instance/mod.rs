@@ -209,8 +209,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Goes to a phase. [`call`](Self::call) has refused those of the other kind of instance, which leaves
-    /// Event Mode.
+    /// Goes to a phase. It can only be out of reach if it is Event Mode: [`call`](Self::call) has refused
+    /// the functions for the other kind of instance.
     pub(crate) fn enter(&mut self, phase: Phase) -> Result<(), Failure> {
         if !self.purpose.has(phase) {
             return Err("the instance was made with eventModeUsed = fmi3False".into());
