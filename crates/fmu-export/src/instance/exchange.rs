@@ -42,13 +42,11 @@ impl<M: ModelExchange> Instance<M> {
     }
 
     pub(crate) fn states(&mut self, values: &mut [f64]) -> Result<(), Failure> {
-        check_count("continuous states", values.len(), M::STATES.len())?;
-        self.read(M::STATES, values)
+        self.read("continuous states", M::STATES, values)
     }
 
     pub(crate) fn derivatives(&mut self, values: &mut [f64]) -> Result<(), Failure> {
-        check_count("derivatives", values.len(), M::DERIVATIVES.len())?;
-        self.read(M::DERIVATIVES, values)
+        self.read("derivatives", M::DERIVATIVES, values)
     }
 
     pub(crate) fn nominals(&mut self, values: &mut [f64]) -> Result<(), Failure> {
@@ -96,7 +94,8 @@ impl<M: ModelExchange> Instance<M> {
         Ok(indicators[index])
     }
 
-    fn read(&mut self, variables: &[M::Real], values: &mut [f64]) -> Result<(), Failure> {
+    fn read(&mut self, what: &str, variables: &[M::Real], values: &mut [f64]) -> Result<(), Failure> {
+        check_count(what, values.len(), variables.len())?;
         self.calculate()?;
         for (value, &variable) in values.iter_mut().zip(variables) {
             *value = limits::finite(variable.variable(), self.now.model.real(variable))?;

@@ -4,7 +4,7 @@ use super::{Instance, Purpose, Snapshot, check_experiment};
 use crate::call::Phase;
 use crate::failure::Failure;
 use crate::log::Status;
-use crate::model::{Experiment, Interface, Model};
+use crate::model::{Experiment, Model};
 use crate::state::{self, Kind, StateCodec};
 
 /// A handle is the address of a state in `saved`.
@@ -53,13 +53,15 @@ impl<M: Model> Instance<M> {
 
 impl<M: Model> Snapshot<M> {
     fn transfer(&mut self, codec: &mut StateCodec<'_>, purpose: &Purpose<M>) -> Result<(), Failure> {
-        let (mut phase, mut kind) = (self.phase.number(), interface_number(purpose.interface));
+        // 0 for Model Exchange, 1 for co-simulation
+        let kind_here = purpose.interface as u64;
+        let (mut phase, mut kind) = (self.phase.number(), kind_here);
         codec.u64(&mut phase)?;
         codec.f64(&mut self.time)?;
         codec.bool(&mut self.stale)?;
         codec.u64(&mut kind)?;
         self.phase = Phase::from_number(phase).ok_or("the state is of no known phase")?;
-        if kind != interface_number(purpose.interface) || !purpose.has(self.phase) {
+        if kind != kind_here || !purpose.has(self.phase) {
             return Err("the state is of another kind of instance, Model Exchange or co-simulation".into());
         }
         let Experiment { tolerance, start, stop } = &mut self.experiment;
@@ -68,13 +70,6 @@ impl<M: Model> Snapshot<M> {
         codec.option(stop)?;
         check_experiment(self.experiment)?;
         self.model.transfer_state(codec)
-    }
-}
-
-fn interface_number(interface: Interface) -> u64 {
-    match interface {
-        Interface::ModelExchange => 0,
-        Interface::CoSimulation => 1,
     }
 }
 
