@@ -193,18 +193,11 @@ fn too_short() -> Failure {
     Failure::from("the state is too short: bytes are missing")
 }
 
-/// Which states a library reads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Kind<'a> {
-    /// Of the instance.
-    pub(crate) guid: &'a str,
-    /// The model's [`STATE_VERSION`](crate::Model::STATE_VERSION).
-    pub(crate) version: u64,
-}
-
-/// Returns what `write` writes, in its envelope.
+/// Returns what `write` writes, in its envelope with the guid of the instance and the version of what the
+/// model writes ([`STATE_VERSION`](crate::Model::STATE_VERSION)).
 pub(crate) fn seal(
-    kind: Kind<'_>,
+    guid: &str,
+    version: u64,
     write: impl FnOnce(&mut StateCodec<'_>) -> Result<(), Failure>,
 ) -> Result<Vec<u8>, Failure> {
     let mut payload = Vec::new();
@@ -212,30 +205,29 @@ pub(crate) fn seal(
     write(&mut codec)?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());
-    add_counted(&mut bytes, kind.guid.as_bytes());
-    bytes.extend(kind.version.to_le_bytes());
+    add_counted(&mut bytes, guid.as_bytes());
+    bytes.extend(version.to_le_bytes());
     add_counted(&mut bytes, &payload);
     bytes.extend(fnv1a_64(&bytes).to_le_bytes());
     Ok(bytes)
 }
 
-/// Returns a reader of the payload in `bytes`, after the envelope has been checked against `kind`.
-pub(crate) fn open<'a>(kind: Kind<'_>, bytes: &'a [u8]) -> Result<StateCodec<'a>, Failure> {
+/// Returns a reader of the payload in `bytes`, after the envelope has been checked against both.
+pub(crate) fn open<'a>(guid: &str, version: u64, bytes: &'a [u8]) -> Result<StateCodec<'a>, Failure> {
     let mut rest = bytes;
     if &take_array(&mut rest)? != MAGIC {
         return Err("the bytes are not a state of an instance of this library".into());
     }
     check_version("format", u64::from_le_bytes(take_array(&mut rest)?), VERSION)?;
-    let guid = take_counted(&mut rest)?;
-    if guid != kind.guid.as_bytes() {
+    let found = take_counted(&mut rest)?;
+    if found != guid.as_bytes() {
         return Err(Failure(format!(
             "the state is of another version of this unit, or of another unit: its guid is {:?}, this \
-             instance has {:?}; go on with the FMU that saved it",
-            String::from_utf8_lossy(guid),
-            kind.guid
+             instance has {guid:?}; go on with the FMU that saved it",
+            String::from_utf8_lossy(found)
         )));
     }
-    check_version("model's state", u64::from_le_bytes(take_array(&mut rest)?), kind.version)?;
+    check_version("model's state", u64::from_le_bytes(take_array(&mut rest)?), version)?;
     let payload = take_counted(&mut rest)?;
     let checked = &bytes[..bytes.len() - rest.len()];
     let checksum = u64::from_le_bytes(take_array(&mut rest)?);
@@ -260,7 +252,7 @@ fn check_version(of: &str, found: u64, expected: u64) -> Result<(), Failure> {
 mod tests {
     use super::*;
 
-    const KIND: Kind<'_> = Kind { guid: "{0123}", version: 7 };
+    const GUID: &str = "{0123}";
 
     #[derive(Clone, PartialEq, Debug, Default)]
     struct Sample(f64, u64, i32, bool, Vec<u8>);
@@ -276,13 +268,13 @@ mod tests {
     }
 
     fn sample() -> Vec<u8> {
-        seal(KIND, |codec| Sample(-0.0, u64::MAX, -7, true, b"abc".to_vec()).transfer(codec)).unwrap()
+        seal(GUID, 7, |codec| Sample(-0.0, u64::MAX, -7, true, b"abc".to_vec()).transfer(codec)).unwrap()
     }
 
     #[test]
     fn what_was_written_is_read() {
         let bytes = sample();
-        let (mut reader, mut read) = (open(KIND, &bytes).unwrap(), Sample::default());
+        let (mut reader, mut read) = (open(GUID, 7, &bytes).unwrap(), Sample::default());
         read.transfer(&mut reader).unwrap();
         assert_eq!(read.0.to_bits(), (-0.0_f64).to_bits());
         assert_eq!(read, Sample(-0.0, u64::MAX, -7, true, b"abc".to_vec()));
@@ -293,14 +285,14 @@ mod tests {
     fn every_damage_is_seen() {
         let bytes = sample();
         for at in 0..bytes.len() {
-            assert!(open(KIND, &bytes[..at]).is_err(), "cut at {at}");
+            assert!(open(GUID, 7, &bytes[..at]).is_err(), "cut at {at}");
             for flip in 1..=u8::MAX {
                 let mut damaged = bytes.clone();
                 damaged[at] ^= flip;
-                assert!(open(KIND, &damaged).is_err(), "byte {at} flipped by {flip}");
+                assert!(open(GUID, 7, &damaged).is_err(), "byte {at} flipped by {flip}");
             }
         }
-        assert!(open(KIND, &[&bytes[..], &[0]].concat()).is_err());
+        assert!(open(GUID, 7, &[&bytes[..], &[0]].concat()).is_err());
     }
 
     #[test]
@@ -308,30 +300,30 @@ mod tests {
         let bytes = sample();
         let mut of_old_format = bytes.clone();
         of_old_format[MAGIC.len()] -= 1;
-        let refused = |kind, bytes: &[u8], why: &str| {
-            let Failure(message) = open(kind, bytes).unwrap_err();
+        let refused = |guid, version, bytes: &[u8], why: &str| {
+            let Failure(message) = open(guid, version, bytes).unwrap_err();
             assert!(message.contains(why), "{message}");
         };
-        refused(KIND, &of_old_format, "version 2 of the format, this library reads version 3");
-        refused(Kind { guid: "{0124}", ..KIND }, &bytes, "of another version of this unit");
-        refused(Kind { version: 8, ..KIND }, &bytes, "version 7 of the model's state, this library reads");
+        refused(GUID, 7, &of_old_format, "version 2 of the format, this library reads version 3");
+        refused("{0124}", 7, &bytes, "of another version of this unit");
+        refused(GUID, 8, &bytes, "version 7 of the model's state, this library reads");
     }
 
     #[test]
     fn a_length_beyond_the_end_is_refused() {
-        let bytes = seal(KIND, |codec| codec.u64(&mut u64::MAX.clone())).unwrap();
-        assert!(open(KIND, &bytes).unwrap().bytes(&mut Vec::new()).is_err());
+        let bytes = seal(GUID, 7, |codec| codec.u64(&mut u64::MAX.clone())).unwrap();
+        assert!(open(GUID, 7, &bytes).unwrap().bytes(&mut Vec::new()).is_err());
     }
 
     #[test]
     fn what_is_left_over_is_refused() {
         let bytes = sample();
-        assert!(open(KIND, &bytes).unwrap().finish().is_err());
+        assert!(open(GUID, 7, &bytes).unwrap().finish().is_err());
     }
 
     #[test]
     fn a_truth_value_is_0_or_1() {
-        let bytes = seal(KIND, |codec| codec.array([2]).map(drop)).unwrap();
-        assert!(open(KIND, &bytes).unwrap().bool(&mut false).is_err());
+        let bytes = seal(GUID, 7, |codec| codec.array([2]).map(drop)).unwrap();
+        assert!(open(GUID, 7, &bytes).unwrap().bool(&mut false).is_err());
     }
 }

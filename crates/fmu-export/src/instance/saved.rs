@@ -5,7 +5,7 @@ use crate::call::Phase;
 use crate::failure::Failure;
 use crate::log::Status;
 use crate::model::{Experiment, Model};
-use crate::state::{self, Kind, StateCodec};
+use crate::state::{self, StateCodec};
 
 /// A handle is the address of a state in `saved`.
 impl<M: Model> Instance<M> {
@@ -31,12 +31,11 @@ impl<M: Model> Instance<M> {
 
     pub(crate) fn serialize(&mut self, handle: usize) -> Result<Vec<u8>, Failure> {
         let snapshot = self.saved.get_mut(&handle).ok_or_else(unknown_state)?;
-        let kind = Kind { guid: &self.guid, version: M::STATE_VERSION };
-        state::seal(kind, |codec| snapshot.transfer(codec, &self.purpose))
+        state::seal(&self.guid, M::STATE_VERSION, |codec| snapshot.transfer(codec, &self.purpose))
     }
 
     pub(crate) fn deserialize(&mut self, bytes: &[u8]) -> Result<usize, Failure> {
-        let mut codec = state::open(Kind { guid: &self.guid, version: M::STATE_VERSION }, bytes)?;
+        let mut codec = state::open(&self.guid, M::STATE_VERSION, bytes)?;
         let mut snapshot = self.fresh.clone();
         snapshot.transfer(&mut codec, &self.purpose)?;
         codec.finish()?;
