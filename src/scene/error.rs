@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::motion::LONGEST_TAIL;
 use crate::simulation::RunError;
 use crate::wall::ParameterError;
 use ground_motion::GroundMotionError;
@@ -109,20 +108,4 @@ pub fn check_duration(name: &str, value: f64, limit: f64) -> Result<(), SceneErr
         return Ok(());
     }
     Err(SceneError::Value { message: format!("{name} = {value} s must be above 0 and at most {limit:e} s") })
-}
-
-/// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
-///
-/// # Errors
-/// [`SceneError::Value`].
-///
-/// ```
-/// let error = rocking_wall::scene::check_tail(-1.0).unwrap_err();
-/// assert_eq!(error.to_string(), "tail = -1 s must be from 0 to 1e6 s");
-/// ```
-pub fn check_tail(tail: f64) -> Result<(), SceneError> {
-    if (0.0..=LONGEST_TAIL).contains(&tail) {
-        return Ok(());
-    }
-    Err(SceneError::Value { message: format!("tail = {tail} s must be from 0 to {LONGEST_TAIL:e} s") })
 }

@@ -25,13 +25,13 @@ use crate::wall::{COMPUTABLE, Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
 pub use document::Document;
-pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, fingerprint};
+pub use motion::{DEFAULT_TAIL, LONGEST_TAIL, check_tail, fingerprint};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable, TopTable};
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::{parse_toml, read_text};
-pub use error::{Place, SceneError, check_duration, check_tail};
+pub use error::{Place, SceneError, check_duration};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;

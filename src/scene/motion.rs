@@ -12,7 +12,7 @@ use ground_motion::{
     Unit, read,
 };
 
-use super::error::{Place, SceneError, check_tail};
+use super::error::{Place, SceneError};
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -169,6 +169,22 @@ impl From<GroundMotionError> for Problem {
     fn from(error: GroundMotionError) -> Self {
         Self::Motion(error)
     }
+}
+
+/// Checks the free vibration after a motion \[s\]: from 0 to [`LONGEST_TAIL`].
+///
+/// # Errors
+/// [`SceneError::Value`].
+///
+/// ```
+/// let error = rocking_wall::scene::check_tail(-1.0).unwrap_err();
+/// assert_eq!(error.to_string(), "tail = -1 s must be from 0 to 1e6 s");
+/// ```
+pub fn check_tail(tail: f64) -> Result<(), SceneError> {
+    if (0.0..=LONGEST_TAIL).contains(&tail) {
+        return Ok(());
+    }
+    Err(SceneError::Value { message: format!("tail = {tail} s must be from 0 to {LONGEST_TAIL:e} s") })
 }
 
 fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded, Problem> {

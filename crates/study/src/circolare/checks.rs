@@ -5,13 +5,13 @@ use rocking_wall::wall::{Parameters, Wall};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
-use super::dynamic::DynamicCheck;
 use super::error::CheckError;
 use super::floor::Mode;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, UseClass};
 use super::verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, TieBreak, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Side, SideVerdict, SideVerdicts,
+    TieBreak, Verdict,
 };
 use super::{CODE, LimitState, Records};
 

@@ -9,14 +9,13 @@ use record::RecordSolver;
 use rocking_wall::scene::Floors;
 use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Tie, Wall};
-use serde::Serialize;
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
 use super::error::CheckError;
 use super::records::Records;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
-use super::verdict::{Deciding, Governs, Side, SideVerdict, SideVerdicts};
+use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
 use crate::halving::begins_at;
 use crate::ida::{DEFAULT_TAIL, Shaking};
@@ -30,51 +29,6 @@ const POWERS: std::ops::RangeInclusive<i32> = -463..=463;
 const AT_ONCE: usize = 64;
 /// Halvings of the step in which the first failure lies: to 1e-5 of the factor.
 const HALVINGS: u32 = 10;
-
-/// The dynamic check of a wall.
-#[derive(Clone, Debug, Serialize)]
-pub struct DynamicCheck {
-    /// SLV.
-    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
-    pub slv: Option<DynamicState>,
-    /// SLC.
-    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
-    pub slc: Option<DynamicState>,
-}
-
-/// The dynamic check of a limit state.
-#[derive(Clone, Debug, Serialize)]
-pub struct DynamicState {
-    /// Whether no run exceeds `d_0` and the mean of the maxima is within the threshold.
-    pub passed: bool,
-    /// Mean of the maxima of |d|, or of fewer than 7 records the largest \[m\].
-    pub d: f64,
-    /// Threshold over it, each side by its own \[-\].
-    pub ratio: f64,
-    /// How many runs exceed `d_0`.
-    pub beyond_d0: usize,
-    /// The lowest factor on all records that fails \[-\].
-    #[serde(rename = "zeta_E")]
-    pub zeta: f64,
-    /// The side of the largest |d| over its threshold.
-    pub side: Side,
-    /// The runs.
-    pub runs: Vec<DynamicRun>,
-}
-
-/// A run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DynamicRun {
-    /// Name of the record.
-    pub record: String,
-    /// Factor on the record \[-\].
-    pub factor: f64,
-    /// Largest d on the sides u > 0 and u < 0 \[m\].
-    pub d: [f64; 2],
-    /// Whether one of them exceeds `d_0`, or the displacement at which the model ends before: that of the
-    /// strength of the tie, or `u_ins`.
-    pub beyond_d0: bool,
-}
 
 /// Thresholds of both sides; infinite on one to which the wall cannot rock \[m\].
 #[derive(Clone, Copy, Debug)]
@@ -129,20 +83,6 @@ impl Thresholds {
 }
 
 impl DynamicCheck {
-    fn states(&self) -> impl Iterator<Item = (Deciding, &DynamicState)> {
-        let states = [(Deciding::Slv, &self.slv), (Deciding::Slc, &self.slc)];
-        states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
-    }
-
-    /// Returns whether every limit state holds.
-    pub fn passed(&self) -> bool {
-        self.states().all(|(_, state)| state.passed)
-    }
-
-    pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
-        self.states().map(|(limit_state, state)| Governs { side: state.side, limit_state, zeta: state.zeta })
-    }
-
     pub(super) fn warnings(&self, parameters: &Parameters, statement: &Statement) -> Vec<String> {
         let mut warnings = Vec::new();
         let count = self.states().next().map_or(0, |(_, state)| state.runs.len());

@@ -35,7 +35,6 @@ mod warnings;
 
 pub use checks::{LARGEST_LOSS, check, demands};
 pub use demand::{Demand, MEAN_COUNTS_FROM};
-pub use dynamic::{DynamicCheck, DynamicRun, DynamicState};
 pub use error::CheckError;
 pub use find::{Found, Sought, find};
 pub use floor::{FloorSpectrum, Mode, frame_acceleration};
@@ -47,7 +46,8 @@ pub use table::{
     UseClass, in_table, read_table,
 };
 pub use verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, Governs, Side, SideVerdict, SideVerdicts, TieBreak, Verdict,
+    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs, Side,
+    SideVerdict, SideVerdicts, TieBreak, Verdict,
 };
 pub use walls::{WallVerdict, Walls};
 

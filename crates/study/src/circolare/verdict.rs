@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use super::dynamic::DynamicCheck;
-
 /// The outcome of a check. Serialized it is what `wall check --json` prints: SI units, `a_g` in g.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
@@ -216,4 +214,65 @@ pub struct DisplacementCheck {
     /// Whether `a_g` is that of SLD, which is larger, C8.7.1.2.1.8.
     #[serde(rename = "raised_to_SLD")]
     pub raised: bool,
+}
+
+/// The dynamic check of a wall.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicCheck {
+    /// SLV.
+    #[serde(rename = "SLV", skip_serializing_if = "Option::is_none")]
+    pub slv: Option<DynamicState>,
+    /// SLC.
+    #[serde(rename = "SLC", skip_serializing_if = "Option::is_none")]
+    pub slc: Option<DynamicState>,
+}
+
+/// The dynamic check of a limit state.
+#[derive(Clone, Debug, Serialize)]
+pub struct DynamicState {
+    /// Whether no run exceeds `d_0` and the mean of the maxima is within the threshold.
+    pub passed: bool,
+    /// Mean of the maxima of |d|, or of fewer than 7 records the largest \[m\].
+    pub d: f64,
+    /// Threshold over it, each side by its own \[-\].
+    pub ratio: f64,
+    /// How many runs exceed `d_0`.
+    pub beyond_d0: usize,
+    /// The lowest factor on all records that fails \[-\].
+    #[serde(rename = "zeta_E")]
+    pub zeta: f64,
+    /// The side of the largest |d| over its threshold.
+    pub side: Side,
+    /// The runs.
+    pub runs: Vec<DynamicRun>,
+}
+
+/// A run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DynamicRun {
+    /// Name of the record.
+    pub record: String,
+    /// Factor on the record \[-\].
+    pub factor: f64,
+    /// Largest d on the sides u > 0 and u < 0 \[m\].
+    pub d: [f64; 2],
+    /// Whether one of them exceeds `d_0`, or the displacement at which the model ends before: that of the
+    /// strength of the tie, or `u_ins`.
+    pub beyond_d0: bool,
+}
+
+impl DynamicCheck {
+    pub(super) fn states(&self) -> impl Iterator<Item = (Deciding, &DynamicState)> {
+        let states = [(Deciding::Slv, &self.slv), (Deciding::Slc, &self.slc)];
+        states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)))
+    }
+
+    /// Returns whether every limit state holds.
+    pub fn passed(&self) -> bool {
+        self.states().all(|(_, state)| state.passed)
+    }
+
+    pub(super) fn governs(&self) -> impl Iterator<Item = Governs> {
+        self.states().map(|(limit_state, state)| Governs { side: state.side, limit_state, zeta: state.zeta })
+    }
 }

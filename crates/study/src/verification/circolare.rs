@@ -6,7 +6,6 @@ use rocking_wall::scene::{Place, Scene, SceneError};
 
 use super::error::VerificationError;
 use super::formula::{Check, Formula};
-use super::studies::formula;
 use crate::circolare::{
     GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
 };
@@ -91,7 +90,7 @@ pub(super) fn examples() -> Result<Formula, VerificationError> {
             }
         }
     }
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Check by Circolare 7/2019",
             "the-check-by-circolare-72019",

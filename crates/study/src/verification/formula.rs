@@ -17,6 +17,14 @@ pub struct Formula {
     pub checks: Vec<Check>,
 }
 
+impl Formula {
+    pub(super) fn new([title, section, statement, reference, why]: [&str; 5], checks: Vec<Check>) -> Self {
+        let [title, section, statement, reference, why] =
+            [title, section, statement, reference, why].map(str::to_owned);
+        Self { title, section, statement, reference, why, checks }
+    }
+}
+
 /// A computed number beside its reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Check {

@@ -2,7 +2,6 @@
 
 use super::error::VerificationError;
 use super::formula::{Check, Formula};
-use super::studies::formula;
 use crate::reproduce::tables::{table_3, table_4, table_5};
 use crate::reproduce::{Cell, Table, Value};
 
@@ -23,7 +22,7 @@ pub(super) fn tables() -> Result<Formula, VerificationError> {
     };
     let fourth = |row: &[Cell], _: usize| (0.0005, number(&row[4]));
     let fifth = |row: &[Cell], column: usize| (if column < 7 { 0.0 } else { 0.0005 }, number(&row[6]));
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Tables 3, 4 and 5 of the paper",
             "damping",

@@ -34,12 +34,6 @@ pub(super) const FORMULAS: [Group; 10] = [
 /// 45 units of rounding.
 const ROUNDING: f64 = 1e-14;
 
-pub(super) fn formula([title, section, statement, reference, why]: [&str; 5], checks: Vec<Check>) -> Formula {
-    let [title, section, statement, reference, why] =
-        [title, section, statement, reference, why].map(str::to_owned);
-    Formula { title, section, statement, reference, why, checks }
-}
-
 fn rigid() -> Parameters {
     Parameters {
         force_law: ForceLaw::RigidLinear,
@@ -59,7 +53,7 @@ fn equivalences() -> Result<Formula, VerificationError> {
     let of = |quantity, computed, reference| {
         Check::of(("e = 0.9", quantity, "-"), [computed, reference], ROUNDING)
     };
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Equivalent damping ratios of other authors",
             "damping",
@@ -93,7 +87,7 @@ fn capacity_curve() -> Result<Formula, VerificationError> {
     let name = "rocking_onset";
     checks.push(Check::of(("bilinear", name, "m/s2"), [wall.rocking_onset(), 0.97 * onset], ROUNDING));
     checks.push(Check::of(("trilinear", name, "m/s2"), [trilinear.rocking_onset(), 0.6 * onset], ROUNDING));
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Capacity curve",
             "capacity-curve",
@@ -145,7 +139,7 @@ fn capacity_against_demand() -> Result<Formula, VerificationError> {
             checks.push(Check::of((name, quantity, unit), [computed, reference], 5e-6));
         }
     }
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Capacity against demand",
             "capacity-against-demand",
@@ -178,7 +172,7 @@ fn demands() -> Result<Formula, VerificationError> {
     let of = |quantity, unit, computed, reference| {
         Check::of(("released, e = 0.9", quantity, unit), [computed, reference], 1e-12)
     };
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Demands between samples",
             "demands",
@@ -209,7 +203,7 @@ fn response_spectrum() -> Result<Formula, VerificationError> {
     }
     let computed = spectrum.average(&step, &AVERAGE_PERIODS)?;
     checks.push(Check::of(("1 m/s2 for 5 s", "AvgSA", "m/s2"), [computed, overshoot], 1e-11));
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Response spectrum",
             "records-and-their-intensity",
@@ -244,7 +238,7 @@ fn storeys() -> Result<Formula, VerificationError> {
     let of = |quantity, computed, reference| {
         Check::of(("two equal storeys", quantity, "s"), [computed, reference], 1e-13)
     };
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Storeys between ground and wall",
             "floors-between-ground-and-wall",
@@ -273,7 +267,7 @@ fn half_sine() -> Result<Formula, VerificationError> {
         let spectrum = over_pulses(&rigid(), PulseForm::HalfSine, &[2.0], &[amplitude], 1);
         spectrum.map(|spectrum| spectrum.points[0][0].overturning.is_some())
     })?;
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Overturning by a half sine",
             "rocking-spectra",
@@ -292,7 +286,7 @@ fn fragility() -> Result<Formula, VerificationError> {
     let two = std::f64::consts::LN_2;
     let of =
         |case, quantity, computed, reference| Check::of((case, quantity, "-"), [computed, reference], 1e-12);
-    Ok(formula(
+    Ok(Formula::new(
         [
             "Fragilities",
             "incremental-dynamic-analysis",
