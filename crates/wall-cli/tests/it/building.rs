@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::command_line::{args, folder, refused, text, wall};
+use crate::command_line::{args, content, folder, json, printed, refused};
 
 const FLOOR: &str = "[[floor]]\nname = \"low\"\n";
 
@@ -64,19 +64,17 @@ fn the_program_prints_peaks_and_writes_histories() {
     fs::write(folder.join("b.toml"), BUILDING).unwrap();
     let arguments =
         args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html --svg b.svg");
-    let output = wall(&folder, &arguments);
-    let shown = text(&output.stdout);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    let shown = printed(&folder, &arguments);
     let row = |name: &str| shown.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
     assert!(row("light").ends_with("no") && row("thin").contains(" at "), "{shown}");
-    let csv = fs::read_to_string(folder.join("h.csv")).unwrap();
+    let csv = content(&folder, "h.csv");
     assert!(
         csv.starts_with("time_s,ground.acceleration_m_s2,floor_1.acceleration_m_s2,floor_1.drift_m,"),
         "{}",
         &csv[..80]
     );
     assert!(!folder.join("fmu_out").exists(), "a run writes no SSP");
-    let svg = fs::read_to_string(folder.join("b.svg")).unwrap();
+    let svg = content(&folder, "b.svg");
     // the last time that |u| exceeds u_ins, from the history itself
     let place = csv.lines().next().unwrap().split(',').position(|name| name == "thin.u_ratio").unwrap();
     let cell = |line: &str, place: usize| line.split(',').nth(place).unwrap().parse::<f64>().unwrap();
@@ -85,12 +83,11 @@ fn the_program_prints_peaks_and_writes_histories() {
     let said = format!("The thin exceeds u_ins at 8.4 s, comes back and falls at {falls:.1} s");
     assert!(falls > 10.0 && svg.contains(&said) && svg.contains("skewX") && !svg.contains("<script"));
     assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
-    let page = fs::read_to_string(folder.join("p.html")).unwrap();
+    let page = content(&folder, "p.html");
     assert!(page.contains(&format!("<p class=\"verdict falls\">{said}")));
     let links = page.replace("http://www.w3.org/2000/svg", "");
     assert!(!links.contains("http") && !page.contains("{{") && !page.contains("NaN"));
-    let json = wall(&folder, &[&arguments[..5], &["--tail", "2", "--json"]].concat());
-    let json: serde_json::Value = serde_json::from_str(&text(&json.stdout)).unwrap();
+    let json = json(&folder, &[&arguments[..5], &["--tail", "2", "--json"]].concat());
     assert!(json["walls"][0]["overturn_time"].is_null() && json["walls"][1]["overturn_time"].is_f64());
     refused(&folder, &["building", "b.toml", "--csv", "x.csv"], &["--record", "--synthetic"]);
     refused(&folder, &["building", "b.toml", "--synthetic", "--tolerance", "0"], &["--tolerance"]);

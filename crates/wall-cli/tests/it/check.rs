@@ -1,18 +1,11 @@
 //! `wall check` and `wall tie`.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use ground_motion::{Spectrum, SyntheticMotion};
 use rocking_wall::scene::Scene;
 
-use crate::command_line::{folder, refused, text, wall};
-
-fn printed(folder: &Path, arguments: &[&str]) -> String {
-    let output = wall(folder, arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    text(&output.stdout)
-}
+use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, succeed, text, wall};
 
 /// The hand calculations of docs/model.md, to the last printed digit.
 #[test]
@@ -41,10 +34,9 @@ fn a_check_is_that_by_hand() {
             assert_eq!(value, row[2 + column], "{}: {text}", row[0]);
         }
     }
-    let json = [&["check", "--json", "--html", "check.html"], &spectrum[..]].concat();
-    let value: serde_json::Value = serde_json::from_str(&printed(&folder, &json)).unwrap();
+    let value = json(&folder, &[&["check", "--json", "--html", "check.html"], &spectrum[..]].concat());
     assert_eq!(value["secant_fraction"], 0.4);
-    assert!(std::fs::read_to_string(folder.join("check.html")).unwrap().contains("<svg"));
+    assert!(content(&folder, "check.html").contains("<svg"));
 }
 
 #[test]
@@ -84,11 +76,8 @@ fn a_check_on_storeys_takes_the_spectrum_of_the_floor() {
     let folder = folder("check_storeys");
     let scene = crate::root().join("scenes/parapet_on_a_roof.toml");
     let ground = SyntheticMotion::default().motion().unwrap();
-    let times = ground.samples().iter().enumerate();
-    let rows = times.map(|(k, sample)| format!("{:?},{sample:?}\n", k as f64 * ground.step()));
-    std::fs::write(folder.join("record.csv"), format!("time,a_g\n{}", rows.collect::<String>())).unwrap();
-    let arguments = ["check", scene.to_str().unwrap(), "--records", "record.csv", "--unit", "m/s2", "--json"];
-    let value: serde_json::Value = serde_json::from_str(&printed(&folder, &arguments)).unwrap();
+    succeed(&folder, &["motion", "--synthetic", "--csv", "record.csv"]);
+    let value = json(&folder, &["check", scene.to_str().unwrap(), "--records", "record.csv", "--json"]);
     assert_eq!(value["demand"], "median of 1 record felt on 3 storeys, T = 0.510, 0.211, 0.144 s");
     let side = &value["sides"][0];
     let number = |name: &str| side[name].as_f64().unwrap();
@@ -112,9 +101,7 @@ fn ties_of_several_stiffnesses() {
     let (folder, scene) = (folder("ties"), crate::root().join("scenes/shaken_parapet.toml"));
     let scene = scene.to_str().unwrap();
     let stiffness = ["--stiffness", "1e7,0,1e5", "--set", "tie_height=3", "--set", "tie_side=both"];
-    let value: serde_json::Value =
-        serde_json::from_str(&printed(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat()))
-            .unwrap();
+    let value = json(&folder, &[&["tie", scene, "--json"], &stiffness[..]].concat());
     let column = |name: &str| -> Vec<f64> {
         value["rows"].as_array().unwrap().iter().map(|row| row[name].as_f64().unwrap()).collect()
     };
@@ -137,10 +124,8 @@ const TIED: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n[fo
 fn a_check_by_the_code() {
     let folder = folder("check_code");
     std::fs::write(folder.join("scene.toml"), TIED).unwrap();
-    let json = |more: &[&str]| -> serde_json::Value {
-        serde_json::from_str(&printed(&folder, &[&["check", "scene.toml", "--json"], more].concat())).unwrap()
-    };
-    let value = json(&[]);
+    let check = |more: &[&str]| json(&folder, &[&["check", "scene.toml", "--json"], more].concat());
+    let value = check(&[]);
     assert_eq!((&value["code"], &value["passed"]), (&"circolare-2019".into(), &false.into()));
     assert_eq!(value["governs"]["side"], "positive");
     assert_eq!(value["governs"]["limit_state"], "SLV");
@@ -167,12 +152,11 @@ fn a_check_by_the_code() {
     assert_eq!(side["SLV"]["limited_by_tie"], true);
     assert_eq!(value["sides"]["negative"]["SLV"]["limited_by_tie"], false);
     let table = printed(&folder, &["check", "scene.toml"]);
-    assert!(table.contains("NOT PASSED: SLV governs with zeta_E = 0.728 (u > 0)"), "{table}");
-    assert!(table.contains("u > 0: the tie breaks at d_SLV"), "{table}");
-    let thick = json(&["--set", "thickness=1.2"]);
-    assert_eq!(thick["passed"], true);
+    let words = ["NOT PASSED: SLV governs with zeta_E = 0.728 (u > 0)", "u > 0: the tie breaks at d_SLV"];
+    assert_has(&table, &words);
+    assert_eq!(check(&["--set", "thickness=1.2"])["passed"], true);
     let one_side = printed(&folder, &["check", "scene.toml", "--set", "tie_stiffness=0"]);
-    assert!(one_side.contains("(both sides alike)"), "{one_side}");
+    assert_has(&one_side, &["(both sides alike)"]);
     refused(&folder, &["check", "scene.toml", "--records", "a.AT2"], &["scene.toml", "--records", "[check]"]);
     refused(&folder, &["check"], &["there is no demand", "[check]", "--spectrum"]);
 }
@@ -185,22 +169,19 @@ fn the_smallest_wall_that_passes_is_found() {
     let arguments = ["check", "scene.toml", "--set", "tie_stiffness=0"];
     for (sought, smaller) in [("thickness", 1.0 - 1e-6), ("height", 1.0 + 1e-6)] {
         let find = ["--find", sought, "--json", "--plot", "find.svg"];
-        let text = printed(&folder, &[&arguments[..], &find].concat());
-        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let found = json(&folder, &[&arguments[..], &find].concat());
         let value = found["value"].as_f64().unwrap();
         for (factor, passes) in [(1.0, true), (smaller, false)] {
             let set = format!("{sought}={}", value * factor);
-            let text = printed(&folder, &[&arguments[..], &["--set", &set, "--json"]].concat());
-            let verdict: serde_json::Value = serde_json::from_str(&text).unwrap();
+            let verdict = json(&folder, &[&arguments[..], &["--set", &set, "--json"]].concat());
             assert_eq!(verdict["passed"], passes, "{sought} = {set}");
         }
         assert!(found["curve"].as_array().unwrap().len() > 100);
-        assert!(std::fs::read_to_string(folder.join("find.svg")).unwrap().contains("ζ_E"));
+        assert!(content(&folder, "find.svg").contains("ζ_E"));
     }
     let words = ["tie_strength is sought, but the wall has no tie"];
     refused(&folder, &[&arguments[..], &["--find", "tie_strength"]].concat(), &words);
-    let output = wall(&folder, &[&arguments[..], &["--find", "width"]].concat());
-    assert!(text(&output.stderr).contains("expected thickness, height"));
+    fails(&folder, &[&arguments[..], &["--find", "width"]].concat(), &["expected thickness, height"]);
 }
 
 /// One row a wall, the worst first; a wall that cannot be checked stands above them with the reason.
@@ -213,14 +194,12 @@ fn many_walls_are_checked() {
     let study = format!("walls = [{{ table = \"walls.csv\" }}]\n[check]{table}");
     std::fs::write(folder.join("walls.toml"), study.replace("law", "rigid")).unwrap();
     let arguments = ["check", "walls.toml", "--csv", "out.csv", "--html", "out.html"];
-    let output = wall(&folder, &arguments);
-    assert!(!output.status.success());
-    assert!(text(&output.stderr).contains("1 of 3 walls could not be checked"));
-    let rows = std::fs::read_to_string(folder.join("out.csv")).unwrap();
+    fails(&folder, &arguments, &["1 of 3 walls could not be checked"]);
+    let rows = content(&folder, "out.csv");
     let rows: Vec<&str> = rows.lines().collect();
     assert!(rows[1].starts_with("loaded,") && rows[1].contains("overburden_mass is missing"), "{rows:?}");
     assert!(rows[2].starts_with("\"tall, thin\",no,") && rows[3].starts_with("low,yes,"), "{rows:?}");
-    let page = std::fs::read_to_string(folder.join("out.html")).unwrap();
+    let page = content(&folder, "out.html");
     assert!(page.contains("1 of 3 walls pass") && page.contains("tall, thin"));
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);

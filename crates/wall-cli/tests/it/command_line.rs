@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use serde_json::Value;
+
 /// Makes an empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -28,7 +30,55 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
+/// Returns a file of a folder as text.
+pub(crate) fn content(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
+}
+
+/// Returns the cells of a CSV file of a folder, row by row, without its header.
+pub(crate) fn rows(folder: &Path, name: &str) -> Vec<Vec<String>> {
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+    content(folder, name).lines().skip(1).map(cells).collect()
+}
+
+/// Runs a command that succeeds.
+#[track_caller]
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> Output {
+    let output = wall(folder, arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    output
+}
+
+/// Runs a command that succeeds, and returns what it prints.
+pub(crate) fn printed(folder: &Path, arguments: &[&str]) -> String {
+    text(&succeed(folder, arguments).stdout)
+}
+
+/// Runs a command that succeeds, and returns the JSON that it prints.
+pub(crate) fn json(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&printed(folder, arguments)).unwrap()
+}
+
+/// Expects a text that contains all `words`.
+#[track_caller]
+pub(crate) fn assert_has(text: &str, words: &[&str]) {
+    for word in words {
+        assert!(text.contains(word), "no {word:?} in {text}");
+    }
+}
+
+/// Runs `arguments`. Expects exit code 2 and a message that contains all `words`.
+#[track_caller]
+pub(crate) fn fails(folder: &Path, arguments: &[&str], words: &[&str]) -> Output {
+    let output = wall(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert_has(&message, words);
+    output
+}
+
 /// Runs `arguments`. Expects one line on stderr that contains all `words`, exit code 2, and no new file.
+#[track_caller]
 pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
     let names = || {
         let mut names: Vec<_> =
@@ -37,13 +87,9 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
         names
     };
     let before = names();
-    let output = wall(folder, arguments);
+    let output = fails(folder, arguments, words);
     let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
     assert_eq!(message.trim_end().lines().count(), 1, "{arguments:?}: {message}");
-    for word in words {
-        assert!(message.contains(word), "{arguments:?}: no {word:?} in {message}");
-    }
     assert!(output.stdout.is_empty(), "{arguments:?}: {}", text(&output.stdout));
     assert_eq!(names(), before, "{arguments:?}: left something behind");
 }
@@ -60,9 +106,7 @@ fn parameters_that_make_runs_long_are_named_before_the_run() {
     ] {
         let mut arguments = vec!["simulate", "--stop-time", "1e-4", "--set", "damping_model=none"];
         arguments.extend(settings);
-        let output = wall(&folder, &arguments);
-        let message = text(&output.stderr);
-        assert!(output.status.success() && message.contains(warning), "{settings:?}: {message}");
+        assert_has(&text(&succeed(&folder, &arguments).stderr), &[warning]);
     }
 }
 
@@ -229,7 +273,7 @@ fn messages_name_the_file_once() {
     write("shaken.toml", "[motion]\nrecord = \"record.csv\"\n");
     let message = text(&wall(&folder, &["simulate", "shaken.toml"]).stderr);
     assert_eq!(message.matches("record.csv").count(), 1, "{message}");
-    assert!(message.contains("shaken.toml, line 1") && message.contains("`unit`"), "{message}");
+    assert_has(&message, &["shaken.toml, line 1", "`unit`"]);
     refused(&folder, &["simulate", "--record", "record.csv"], &["--unit"]);
     refused(&folder, &["simulate", "record.csv"], &["record.csv, line 1", "--record"]);
 }
@@ -248,11 +292,8 @@ fn a_doubtful_record_is_noted() {
         wall(&folder, &["simulate", "--record", "record.csv", "--unit", "m/s2", "--html", "page.html"]);
     assert_eq!(output.status.code(), Some(0));
     let (summary, message) = (text(&output.stdout), text(&output.stderr));
-    assert!(message.contains("record.csv: unit: a peak of") && message.contains("cm/s2"), "{message}");
-    assert!(
-        summary.contains("1.0000 u_ins, where the wall falls\n") && summary.contains("mm, fallen\n"),
-        "{summary}"
-    );
+    assert_has(&message, &["record.csv: unit: a peak of", "cm/s2"]);
+    assert_has(&summary, &["1.0000 u_ins, where the wall falls\n", "mm, fallen\n"]);
 }
 
 /// Every example scene runs and stands or overturns as expected; summary and history agree.
@@ -267,10 +308,8 @@ fn example_scenes() {
             // the walls of a building are tested with `wall building`
             continue;
         }
-        let output = wall(&folder, &["simulate", scene.to_str().unwrap(), "--csv", "out.csv", "--json"]);
-        assert!(output.status.success(), "{}: {}", scene.display(), text(&output.stderr));
-        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let history = std::fs::read_to_string(folder.join("out.csv")).unwrap();
+        let summary = json(&folder, &["simulate", scene.to_str().unwrap(), "--csv", "out.csv", "--json"]);
+        let history = content(&folder, "out.csv");
         let column =
             history.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap());
         let largest = column.fold(0.0_f64, |largest, u| largest.max(u.abs()));
@@ -287,12 +326,7 @@ fn example_scenes() {
 #[test]
 fn machine_readable_output() {
     let folder = folder("machine_readable");
-    let json = |arguments: &[&str]| -> serde_json::Value {
-        let output = wall(&folder, arguments);
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        serde_json::from_slice(&output.stdout).unwrap()
-    };
-    let facts = json(&["describe", "--json"]);
+    let facts = json(&folder, &["describe", "--json"]);
     // Figure 2's wall: m = 1800 · 4 · 0.4 · 1, m_eff = 4/3 m, u_ins = b/2, F0 = W b/h
     assert_eq!(facts["mass"], 2880.0);
     assert_eq!(facts["effective_mass"], 3840.0);
@@ -300,12 +334,11 @@ fn machine_readable_output() {
         let found = facts[name].as_f64().unwrap();
         assert!((found - expected).abs() < 1e-12 * expected, "{name}: {found}");
     }
-    let schema = json(&["schema"]);
+    let schema = json(&folder, &["schema"]);
     assert_eq!(schema["properties"]["damping"]["properties"]["xi"]["maximum"], 10.0);
     assert!(schema["$defs"]["MotionTable"]["properties"]["record"].is_object());
     for shell in ["bash", "zsh", "fish"] {
-        let output = wall(&folder, &["completions", shell]);
-        assert!(output.status.success() && text(&output.stdout).contains("simulate"), "{shell}");
+        assert_has(&printed(&folder, &["completions", shell]), &["simulate"]);
     }
 }
 

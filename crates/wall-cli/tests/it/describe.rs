@@ -1,28 +1,24 @@
 //! Tests `wall describe`.
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, folder, json, printed, refused, succeed};
 
 #[test]
 fn describe_writes_the_curve() {
     let folder = folder("capacity");
     let arguments = ["describe", "--thresholds", "0.4,1", "--csv", "c.csv", "--plot", "c.svg"];
-    let output = wall(&folder, &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
-    assert!(table.contains("capacity curve, u > 0") && table.contains("T_sec [s]"), "{table}");
+    let table = printed(&folder, &arguments);
     // 2π √(2/3) / 1.918 rad/s
-    assert!(table.contains("2.67476"), "{table}");
-    let csv = std::fs::read_to_string(folder.join("c.csv")).unwrap();
+    assert_has(&table, &["capacity curve, u > 0", "T_sec [s]", "2.67476"]);
+    let csv = content(&folder, "c.csv");
     let kinds: Vec<_> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     assert_eq!(kinds, ["corner", "corner", "corner", "limit_state", "limit_state"]);
-    assert!(std::fs::read_to_string(folder.join("c.svg")).unwrap().contains("0.4 u_ins, T = 2.675 s"));
+    assert!(content(&folder, "c.svg").contains("0.4 u_ins, T = 2.675 s"));
     // legends name the limit state as it was given: 0.1 u_ins/u_ins is 0.09999999999999999 here
     let strip = crate::root().join("scenes/strip_between_floors.toml").display().to_string();
-    wall(&folder, &["describe", &strip, "--set", "thickness=0.41", "--plot", "d.svg"]);
-    let svg = std::fs::read_to_string(folder.join("d.svg")).unwrap();
+    succeed(&folder, &["describe", &strip, "--set", "thickness=0.41", "--plot", "d.svg"]);
+    let svg = content(&folder, "d.svg");
     assert!(svg.contains(">0.1 u_ins, T = ") && svg.contains(">0.4 u_ins, T = "));
-    let json: serde_json::Value =
-        serde_json::from_slice(&wall(&folder, &["describe", "--json"]).stdout).unwrap();
+    let json = json(&folder, &["describe", "--json"]);
     let limits = json["capacity"][0]["limit_states"].as_array().unwrap();
     assert_eq!(limits.len(), 4);
     assert!(limits[3]["secant_period"].is_null());

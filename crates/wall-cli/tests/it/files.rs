@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text, wall};
 
 const SCENE: &str = "title = \"A wall\"\nstop_time = 1\n[geometry]\nheight = 3\n";
 
@@ -12,12 +12,6 @@ fn scene(name: &str) -> std::path::PathBuf {
     let folder = folder(name);
     fs::write(folder.join("s.toml"), SCENE).unwrap();
     folder
-}
-
-fn succeed(folder: &Path, arguments: &[&str]) -> Output {
-    let output = wall(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    output
 }
 
 /// A record that leaves the ground at rest.
@@ -43,12 +37,12 @@ fn an_output_is_no_input_and_no_other_output() {
     ];
     for (arguments, words) in cases {
         refused(&folder, arguments, words);
-        assert_eq!(fs::read_to_string(folder.join("s.toml")).unwrap(), SCENE, "{arguments:?}");
-        assert_eq!(fs::read_to_string(folder.join("r.csv")).unwrap(), RECORD, "{arguments:?}");
+        assert_eq!(content(&folder, "s.toml"), SCENE, "{arguments:?}");
+        assert_eq!(content(&folder, "r.csv"), RECORD, "{arguments:?}");
     }
     // the results of a study beside a record of the same name
     write("study.toml", "[[walls]]\nscene = \"s.toml\"\n[records]\nfiles = [\"levels.csv\"]\nunit = \"g\"\n");
-    let study = fs::read_to_string(folder.join("study.toml")).unwrap();
+    let study = content(&folder, "study.toml");
     write(
         "study.toml",
         &format!("models = [\"CR\"]\nlevels = {{ method = \"grid\", values = [0.1] }}\n{study}"),
@@ -163,11 +157,11 @@ fn messages_are_short() {
     }
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let told = message(&[&["record", "--unit", "g"], &names[..]].concat());
-    assert!(told.contains("0.csv") && told.contains("30 of 30 files could not be read"), "{told}");
+    assert_has(&told, &["0.csv", "30 of 30 files could not be read"]);
     // numbers as people write them
     let pulse = "[motion.ricker]\namplitude = 1\nfrequency = 0.3\ncentre = 4\n";
     fs::write(folder.join("pulse.toml"), pulse).unwrap();
-    let summary = text(&succeed(&folder, &["simulate", "pulse.toml"]).stdout);
+    let summary = printed(&folder, &["simulate", "pulse.toml"]);
     assert!(summary.split(|c: char| !c.is_ascii_digit()).all(|digits| digits.len() < 8), "{summary}");
     for (arguments, number) in [
         (["simulate", "--set", "xi=1e300"], "xi = 1e300 is"),
@@ -185,8 +179,7 @@ fn a_peak_acceleration_may_have_a_unit() {
     let folder = folder("pga_unit");
     let peak = |pga: &str| {
         let arguments = ["motion", "--synthetic", "--pga", pga, "--csv", "motion.csv"];
-        let printed = text(&succeed(&folder, &arguments).stdout);
-        printed.split("peak ").nth(1).unwrap().to_owned()
+        printed(&folder, &arguments).split("peak ").nth(1).unwrap().to_owned()
     };
     assert_eq!(peak("2.5"), "2.5000 m/s²\n");
     for (pga, expected) in
@@ -195,9 +188,7 @@ fn a_peak_acceleration_may_have_a_unit() {
         assert_eq!(peak(pga), format!("{expected} m/s²\n"), "{pga}");
     }
     for pga in ["0.3h", "g", "0.3g0", ""] {
-        let output = wall(&folder, &["motion", "--synthetic", "--pga", pga, "--csv", "x.csv"]);
-        let message = text(&output.stderr);
-        assert!(output.status.code() == Some(2) && message.contains("such as 0.3g"), "{pga}: {message}");
+        fails(&folder, &["motion", "--synthetic", "--pga", pga, "--csv", "x.csv"], &["such as 0.3g"]);
     }
 }
 
@@ -206,7 +197,7 @@ fn the_csv_of_a_motion_is_a_record_with_its_unit() {
     let folder = folder("motion_csv");
     succeed(&folder, &["motion", "--synthetic", "--csv", "a.csv"]);
     succeed(&folder, &["motion", "--record", "a.csv", "--csv", "b.csv"]);
-    let [first, second] = ["a.csv", "b.csv"].map(|name| fs::read_to_string(folder.join(name)).unwrap());
+    let [first, second] = ["a.csv", "b.csv"].map(|name| content(&folder, name));
     assert!(first == second, "not read back as it was written");
     // importers look for the column of the input
     assert_eq!(first.lines().next().unwrap().split(',').nth(1), Some("a_g"));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text};
 
 /// Two walls, three synthetic records and one from a file, three models.
 const STUDY: &str = r#"
@@ -58,12 +58,6 @@ pub(crate) fn study(name: &str) -> PathBuf {
     folder
 }
 
-pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> String {
-    let output = wall(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout)
-}
-
 /// Every file of a folder of results, with its bytes.
 pub(crate) fn bytes(path: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = BTreeMap::new();
@@ -90,8 +84,8 @@ pub(crate) fn part_files(results: &Path) -> Vec<PathBuf> {
 fn threads_shards_and_interruptions_change_no_byte() {
     let folder = study("ida_bytes");
     let at = |name: &str| folder.join(name);
-    let printed = succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
-    assert!(printed.contains("runs/s a core") && printed.contains("CDR 5 %"), "{printed}");
+    let told = printed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
+    assert_has(&told, &["runs/s a core", "CDR 5 %"]);
     let whole = bytes(&at("one"));
     assert_eq!(part_files(&at("one")).len(), PARTS);
     for name in ["levels.csv", "collapses.csv", "fragilities.csv", "study.html", "study.json"] {
@@ -103,16 +97,12 @@ fn threads_shards_and_interruptions_change_no_byte() {
     // shards in folders of their own, and in one
     for shard in ["1/3", "2/3", "3/3"] {
         let own = format!("shard{}", &shard[..1]);
-        let printed = succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", &own]);
-        assert!(printed.contains("wall merge"), "{printed}");
+        let told = printed(&folder, &["ida", "study.toml", "--shard", shard, "-o", &own]);
+        assert_has(&told, &["wall merge"]);
         assert!(!at(&own).join("levels.csv").exists());
         succeed(&folder, &["ida", "study.toml", "--shard", shard, "-o", "shared"]);
     }
-    refused_in_words(
-        &folder,
-        &["merge", "shard1", "shard3", "-o", "part"],
-        &["8 of 24", "missing", "parapet, low"],
-    );
+    fails(&folder, &["merge", "shard1", "shard3", "-o", "part"], &["8 of 24", "missing", "parapet, low"]);
     succeed(&folder, &["merge", "shard1", "shard2", "shard3", "-o", "merged"]);
     assert!(bytes(&at("merged")) == whole, "merged shards");
     succeed(&folder, &["merge", "shared"]);
@@ -127,18 +117,14 @@ fn threads_shards_and_interruptions_change_no_byte() {
     fs::write(&runs[11], "").unwrap();
     fs::write(runs[3].with_file_name(".0000003.parquet.1.part"), "half").unwrap();
     fs::remove_file(at("two").join("fragilities.csv")).unwrap();
-    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
-    assert!(
-        text(&output.stderr).contains("16 of 24 combinations are done already"),
-        "{}",
-        text(&output.stderr)
-    );
+    let output = succeed(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert_has(&text(&output.stderr), &["16 of 24 combinations are done already"]);
     assert!(bytes(&at("two")) == whole, "after losses");
 
     // another report of the same runs computes nothing again
     fs::write(at("study.toml"), STUDY.replace("resamples = 200", "resamples = 300")).unwrap();
-    let output = wall(&folder, &["ida", "study.toml", "-o", "two"]);
-    assert!(text(&output.stderr).contains("24 of 24"), "{}", text(&output.stderr));
+    let output = succeed(&folder, &["ida", "study.toml", "-o", "two"]);
+    assert_has(&text(&output.stderr), &["24 of 24"]);
     let again = bytes(&at("two"));
     assert_eq!(again[Path::new("levels.csv")], whole[Path::new("levels.csv")]);
     assert_ne!(again[Path::new("fragilities.csv")], whole[Path::new("fragilities.csv")]);
@@ -174,22 +160,19 @@ fn damaged_files_are_computed_again() {
         fs::write(file, content).unwrap();
     }
     drop(parts);
-    let merged = wall(&folder, &["merge", "out"]);
-    let told = text(&merged.stderr);
-    assert!(told.contains("11 of 12 parts are damaged") && told.contains("22 of 24 combinations"), "{told}");
-    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
-    assert!(again.status.success(), "{}", text(&again.stderr));
-    assert!(text(&again.stderr).contains("11 of 12 parts are damaged"), "{}", text(&again.stderr));
+    fails(&folder, &["merge", "out"], &["11 of 12 parts are damaged", "22 of 24 combinations"]);
+    let again = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert_has(&text(&again.stderr), &["11 of 12 parts are damaged"]);
     assert!(bytes(&out) == whole, "a damaged file went into the results");
 
     let description = out.join("study.json");
     let content = fs::read_to_string(&description).unwrap();
     assert!(content.contains(&format!("\"sources\": \"{}\"", study::SOURCES)) && study::SOURCES.len() == 32);
     fs::write(&description, content.replace("A small study", "A smaml study")).unwrap();
-    refused_in_words(&folder, &["merge", "out"], &["study.json", "damaged", "remove it"]);
+    fails(&folder, &["merge", "out"], &["study.json", "damaged", "remove it"]);
     fs::remove_file(&description).unwrap();
-    let again = wall(&folder, &["ida", "study.toml", "-o", "out"]);
-    assert!(text(&again.stderr).contains("24 of 24 combinations are done already"));
+    let again = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
+    assert_has(&text(&again.stderr), &["24 of 24 combinations are done already"]);
     assert!(bytes(&out) == whole);
 }
 
@@ -209,16 +192,6 @@ fn processes_share_a_folder() {
     drop(other);
     succeed(&folder, &["merge", "out"]);
     assert!(!part.exists(), "the part of a killed process is left");
-}
-
-/// Like `refused`, for a message of several lines, or a command that keeps what it has merged so far.
-fn refused_in_words(folder: &Path, arguments: &[&str], words: &[&str]) {
-    let output = wall(folder, arguments);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    for word in words {
-        assert!(message.contains(word), "no {word:?} in {message}");
-    }
 }
 
 /// Kills the command repeatedly at arbitrary moments of a run, and starts it again.
@@ -267,7 +240,7 @@ fn tables_and_page_hold_the_runs() {
     let folder = study("ida_tables");
     succeed(&folder, &["ida", "study.toml"]);
     let results = folder.join("study_results");
-    let read = |name: &str| fs::read_to_string(results.join(name)).unwrap();
+    let read = |name: &str| content(&results, name);
     let collapses = read("collapses.csv");
     assert_eq!(collapses.lines().count(), 1 + COUNT);
     for line in collapses.lines().skip(1) {
@@ -313,7 +286,7 @@ fn other_studies_and_bad_ones_are_refused() {
     refused(&folder, &["ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
     refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
     refused(&folder, &["ida", "none.toml"], &["none.toml"]);
-    refused_in_words(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
+    fails(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);
     let cases: [(&str, &str, &[&str]); 22] = [
         ("method = \"hunt\"", "method = \"climb\"", &["line 6", "climb", "hunt, step, grid"]),
         ("gap = 0.3", "gap = 3", &["gap", "3", "from 0.01 to 1"]),
@@ -351,8 +324,8 @@ fn the_example_is_a_study() {
     let file = crate::root().join("studies/table_5.toml");
     // one of its 900 combinations; all of them take seconds in a release build
     let file = file.to_str().unwrap();
-    let printed = succeed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
-    assert!(printed.contains("shard 7 of 900 is done"), "{printed}");
+    let told = printed(&folder, &["ida", file, "-o", "out", "--shard", "7/900"]);
+    assert_has(&told, &["shard 7 of 900 is done"]);
     assert_eq!(part_files(&folder.join("out")).len(), 1);
 }
 
@@ -365,10 +338,10 @@ fn open_medians_have_their_bound() {
     let grid = "method = \"grid\"\nvalues = [0.05, 0.1, 0.15, 0.2]\n\n";
     let text_of = format!("{}{grid}{}", &STUDY[..from], &STUDY[to..]);
     fs::write(folder.join("study.toml"), text_of).unwrap();
-    let printed = succeed(&folder, &["ida", "study.toml", "-o", "out"]);
-    let table = fs::read_to_string(folder.join("out/fragilities.csv")).unwrap();
-    let page = fs::read_to_string(folder.join("out/study.html")).unwrap();
-    for (text, bound) in [(&printed, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
+    let told = printed(&folder, &["ida", "study.toml", "-o", "out"]);
+    let table = content(&folder, "out/fragilities.csv");
+    let page = content(&folder, "out/study.html");
+    for (text, bound) in [(&told, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
         assert!(text.contains(bound), "{text}");
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
     }

@@ -1,18 +1,9 @@
 //! `wall accuracy` and `wall stability`.
 
-use std::path::Path;
-
-use crate::command_line::{args, folder, refused, text, wall};
+use crate::command_line::{args, assert_has, content, folder, printed, refused, rows};
 
 fn scene() -> String {
     crate::root().join("scenes/plain_parapet.toml").display().to_string()
-}
-
-/// The lines of a CSV after its header, split; the first field may be quoted.
-fn rows(path: &Path) -> Vec<Vec<String>> {
-    let content = std::fs::read_to_string(path).unwrap();
-    let split = |line: &str| line.split(',').map(str::to_owned).collect();
-    content.lines().skip(1).map(split).collect()
 }
 
 #[test]
@@ -21,14 +12,12 @@ fn accuracy_measures_a_scene() {
     let peers = "scene,tool,setting,seconds,error_max\nwall 6 CDC,SciPy,RK45 1e-4,0.01,1e-3\n";
     std::fs::write(folder.join("peers.csv"), peers).unwrap();
     let measured = |outputs: &str| {
-        let output = wall(&folder, &[&["accuracy", &scene(), "--budget", "0"], &args(outputs)[..]].concat());
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        output
+        printed(&folder, &[&["accuracy", &scene(), "--budget", "0"], &args(outputs)[..]].concat())
     };
-    let output = measured("--peers peers.csv --csv a.csv --html a.html --linearisation l.csv");
+    let table = measured("--peers peers.csv --csv a.csv --html a.html --linearisation l.csv");
     measured("--plot a.svg");
     measured("--peers peers.csv --plot peers.svg");
-    let rows = rows(&folder.join("a.csv"));
+    let rows = rows(&folder, "a.csv");
     let errors = |solver: &str| -> Vec<f64> {
         rows.iter().filter(|row| row[1] == solver).map(|row| row[4].parse().unwrap()).collect()
     };
@@ -38,17 +27,16 @@ fn accuracy_measures_a_scene() {
     assert!(exact.iter().all(|&error| error < 1e-12), "{exact:?}");
     assert!(adaptive[5] < 1e-12 && adaptive[0] > adaptive[5], "{adaptive:?}");
     assert!(newmark[0] > 1e-3 && newmark[5] < 1e-4, "{newmark:?}");
-    let plot = std::fs::read_to_string(folder.join("a.svg")).unwrap();
-    assert!(["exact", "adaptive", "newmark", "run time (ms)"].iter().all(|name| plot.contains(name)));
-    let plot = std::fs::read_to_string(folder.join("peers.svg")).unwrap();
-    assert!(
-        ["SciPy", "Table 5, wall 6 CDC"].iter().all(|name| plot.contains(name)) && !plot.contains("newmark")
-    );
-    let page = std::fs::read_to_string(folder.join("a.html")).unwrap();
+    let plot = content(&folder, "a.svg");
+    assert_has(&plot, &["exact", "adaptive", "newmark", "run time (ms)"]);
+    let plot = content(&folder, "peers.svg");
+    assert_has(&plot, &["SciPy", "Table 5, wall 6 CDC"]);
+    assert!(!plot.contains("newmark"));
+    let page = content(&folder, "a.html");
     assert_eq!(page.matches("<figure>").count(), 6, "the scene, the peers, and small rotations");
-    let content = std::fs::read_to_string(folder.join("l.csv")).unwrap();
+    let content = content(&folder, "l.csv");
     assert_eq!(content.lines().count(), 1 + 2 * 3 * 15, "mechanisms, starts, angles");
-    assert!(text(&output.stdout).contains("1.56059 s instead of 1.56459 s"), "Figure 2");
+    assert!(table.contains("1.56059 s instead of 1.56459 s"), "Figure 2");
     assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
     assert!(page.contains("Beside other tools") && page.contains("exact, step"), "no words at the marks");
 }
@@ -56,9 +44,8 @@ fn accuracy_measures_a_scene() {
 #[test]
 fn stability_maps_every_solver() {
     let folder = folder("stability");
-    let output = wall(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let rows = rows(&folder.join("s.csv"));
+    let table = printed(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
+    let rows = rows(&folder, "s.csv");
     let maps = 2 * study::stability::maps().len();
     assert_eq!(rows.len(), maps * 9 * 2);
     let of = |solver: &'static str| rows.iter().filter(move |row| row[0] == solver);
@@ -67,9 +54,9 @@ fn stability_maps_every_solver() {
         assert!(row[5] == "true" && error <= 1e-7, "{row:?}");
     }
     assert!(of("newmark").any(|row| row[5] == "false"), "a scheme that is known to blow up does");
-    let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
+    let page = content(&folder, "s.html");
     assert_eq!(page.matches("<figure>").count(), maps);
-    assert!(!page.contains("{{") && !page.contains("NaN") && !text(&output.stdout).contains("BROKEN"));
+    assert!(!page.contains("{{") && !page.contains("NaN") && !table.contains("BROKEN"));
 }
 
 #[test]

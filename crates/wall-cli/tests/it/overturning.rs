@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use ground_motion::{GroundMotion, SyntheticMotion};
+use ground_motion::SyntheticMotion;
 use rocking_wall::response::{Fate, Response};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
@@ -10,7 +10,7 @@ use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use serde_json::Value;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, rows, succeed};
 
 /// Returns the fate of the default parapet under `scale` times the synthetic motion, with a tie of a
 /// stiffness [N/m] against both sides.
@@ -27,34 +27,27 @@ fn fate(scale: f64, tie_stiffness: f64) -> Fate {
 #[test]
 fn every_output_says_the_same_of_a_fall() {
     let folder = folder("overturning_rule");
-    let run = |arguments: &[&str]| {
-        let output = wall(&folder, arguments);
-        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-        text(&output.stdout)
-    };
-    let motion = ["motion", "--synthetic", "--scale", "3", "--csv", "strong.csv"];
-    run(&motion);
+    let run = |arguments: &[&str]| printed(&folder, arguments);
+    run(&["motion", "--synthetic", "--scale", "3", "--csv", "strong.csv"]);
     let record = ["--record", "strong.csv"];
     let told = run(&[&["simulate", "--html", "p.html"], &record[..]].concat());
-    assert!(told.contains("0.200000 m, 1.0000 u_ins, where the wall falls\n"), "{told}");
-    let page = fs::read_to_string(folder.join("p.html")).unwrap();
+    assert_has(&told, &["0.200000 m, 1.0000 u_ins, where the wall falls\n"]);
+    let page = content(&folder, "p.html");
     assert!(page.contains("<td>200.0 mm, 1.0000 u_ins, where the wall falls</td>"));
-    let value: Value = serde_json::from_str(&run(&[&["simulate", "--json"], &record[..]].concat())).unwrap();
+    let value = json(&folder, &[&["simulate", "--json"], &record[..]].concat());
     assert_eq!((&value["u_ratio_max"], &value["falls"]), (&1.0.into(), &true.into()), "{value}");
     let table = run(&["simulate", "--records", "strong.csv", "--csv", "table.csv"]);
-    assert!(table.contains("    200.00     1.0000  at "), "{table}");
-    let csv = fs::read_to_string(folder.join("table.csv")).unwrap();
-    assert!(
-        csv.lines().next().unwrap()
-            == "record,sign,pga_m_s2,u_max_m,u_ratio_max,overturned,overturn_time_s,falls"
-    );
+    assert_has(&table, &["    200.00     1.0000  at "]);
+    let csv = content(&folder, "table.csv");
+    let header = "record,sign,pga_m_s2,u_max_m,u_ratio_max,overturned,overturn_time_s,falls";
+    assert_eq!(csv.lines().next(), Some(header));
     assert!(csv.contains(",1.0,true,") && csv.ends_with(",true\n"), "{csv}");
     let study = "models = [\"CDR\"]\nlevels = { method = \"grid\", values = [0.1, 0.9] }\n\
                  intensity = { measure = \"PGA\" }\nrecords = { files = [\"strong.csv\"] }\n\
                  report = { resamples = 100 }\n[[walls]]\nname = \"p\"\n";
     fs::write(folder.join("study.toml"), study).unwrap();
     run(&["ida", "study.toml", "-o", "r"]);
-    let levels = fs::read_to_string(folder.join("r/levels.csv")).unwrap();
+    let levels = content(&folder, "r/levels.csv");
     let fallen: Vec<_> = levels.lines().filter(|line| line.contains(",1,1,")).collect();
     assert_eq!(fallen.len(), 1, "u/u_ins = 1 and overturned: {levels}");
 }
@@ -63,32 +56,24 @@ fn every_output_says_the_same_of_a_fall() {
 #[test]
 fn both_polarities_of_one_record_and_of_a_tie() {
     let folder = folder("polarities");
-    let run = |arguments: &[&str]| {
-        let output = wall(&folder, arguments);
-        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-        text(&output.stdout)
-    };
+    let run = |arguments: &[&str]| printed(&folder, arguments);
     run(&["motion", "--synthetic", "--csv", "r.csv"]);
     let both = ["simulate", "--record", "r.csv", "--both-polarities"];
     let alike = run(&both);
-    assert!(alike.contains("both sides of the wall are alike") && alike.contains("   ±  "), "{alike}");
+    assert_has(&alike, &["both sides of the wall are alike", "   ±  "]);
     let leaning = ["--set", "overburden=5000", "--set", "overburden_eccentricity=0.05", "--csv", "t.csv"];
     let leaning = [&leaning[..], &["--set", "eccentricity_mode=fixed_to_wall"]].concat();
     let told = run(&[&both[..], &leaning].concat());
     assert!(!told.contains("alike"), "{told}");
-    let rows = fs::read_to_string(folder.join("t.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = rows.lines().skip(1).map(|line| line.split(',').collect()).collect();
-    assert!(
-        rows.len() == 2 && rows[0][1] == "+1" && rows[1][1] == "-1" && rows[0][3] != rows[1][3],
-        "{rows:?}"
-    );
+    let [first, second] = rows(&folder, "t.csv").try_into().unwrap();
+    assert_eq!([&*first[1], &*second[1]], ["+1", "-1"]);
+    assert_ne!(first[3], second[3]);
     refused(&folder, &[&both[..], &["--html", "p.html"]].concat(), &["--html", "without --both-polarities"]);
-    let synthetic = wall(&folder, &["simulate", "--synthetic", "--both-polarities"]);
-    assert!(synthetic.status.code() == Some(2) && text(&synthetic.stderr).contains("--record <FILE>"));
+    fails(&folder, &["simulate", "--synthetic", "--both-polarities"], &["--record <FILE>"]);
 
-    let tie = |more: &[&str]| -> Value {
+    let tie = |more: &[&str]| {
         let tie = ["tie", "--records", "r.csv", "--set", "tie_height=3", "--stiffness", "1e5", "--json"];
-        serde_json::from_str(&run(&[&tie[..], more].concat())).unwrap()
+        json(&folder, &[&tie[..], more].concat())
     };
     let (one, two) = (tie(&[]), tie(&["--both-polarities"]));
     assert_eq!(
@@ -108,22 +93,15 @@ fn both_polarities_of_one_record_and_of_a_tie() {
 #[test]
 fn a_tie_that_holds_a_wall_beyond_u_ins() {
     let folder = folder("tie_back");
-    let motion = SyntheticMotion::default().motion().unwrap();
-    let scales = [1.5, 2.0, 2.5, 3.0];
-    let names: Vec<_> = scales.iter().map(|scale| format!("r{scale}.csv")).collect();
-    for (name, scale) in names.iter().zip(scales) {
-        let scaled: GroundMotion = motion.checked_scaled(scale).unwrap();
-        let rows = scaled.samples().iter().enumerate();
-        let rows: Vec<_> = rows.map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * motion.step())).collect();
-        fs::write(folder.join(name), format!("{}\n{}", ground_motion::CSV_HEADER, rows.concat())).unwrap();
+    let (scales, names) = ([1.5, 2.0, 2.5, 3.0], ["a.csv", "b.csv", "c.csv", "d.csv"]);
+    for (scale, name) in scales.iter().zip(names) {
+        succeed(&folder, &["motion", "--synthetic", "--scale", &scale.to_string(), "--csv", name]);
     }
-    let names: Vec<_> = names.iter().map(String::as_str).collect();
     let arguments = ["tie", "--set", "tie_height=3", "--set", "tie_side=both", "--stiffness", "0,1e4,1e7"];
     let arguments = [&arguments[..], &["--csv", "t.csv", "--records"], &names].concat();
-    let output = wall(&folder, &arguments);
-    let told = text(&output.stdout);
-    assert!(told.contains("tie at 3 m against both sides, 4 motions") && told.contains("[kN]"), "{told}");
-    let csv = fs::read_to_string(folder.join("t.csv")).unwrap();
+    let told = printed(&folder, &arguments);
+    assert_has(&told, &["tie at 3 m against both sides, 4 motions", "[kN]"]);
+    let csv = content(&folder, "t.csv");
     let header: Vec<_> = csv.lines().next().unwrap().split(',').collect();
     let column = |name: &str| -> Vec<f64> {
         let place = header.iter().position(|column| *column == name).unwrap();

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, folder, printed, refused, rows, succeed, text};
 
 #[test]
 fn calibrate_writes_a_table_a_csv_and_a_page() {
@@ -16,19 +16,16 @@ fn calibrate_writes_a_table_a_csv_and_a_page() {
     let arguments =
         ["calibrate", "strip.toml", "--set", "thickness=0.3", "--models", "constant_ratio", "--threads", "1"];
     let lists = ["--restitution", "0.85,0.9", "--a1", "0.02,0.05", "--csv", "c.csv", "--html", "c.html"];
-    let output = wall(&folder, &[&arguments[..], &lists[..]].concat());
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
-    assert!(table.contains("constant_ratio (CDR)") && table.contains("(paper: 0.35 a1^0.074)"), "{table}");
-    let csv = std::fs::read_to_string(folder.join("c.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let table = printed(&folder, &[&arguments[..], &lists[..]].concat());
+    assert_has(&table, &["constant_ratio (CDR)", "(paper: 0.35 a1^0.074)"]);
+    let rows = rows(&folder, "c.csv");
     assert_eq!(rows.len(), 4);
     for row in &rows {
         let [e, xi]: [f64; 2] = [row[3].parse().unwrap(), row[4].parse().unwrap()];
         // x of CDR is 0.25 to 0.28 for these a1
         assert!((0.22..0.30).contains(&(-xi / e.ln())), "{row:?}");
     }
-    let page = std::fs::read_to_string(folder.join("c.html")).unwrap();
+    let page = content(&folder, "c.html");
     assert_eq!(page.matches("<figure>").count(), 3, "over e, errors, over a1");
     assert!(page.contains("A &lt;strip&gt;") && !page.contains("{{") && !page.contains("NaN"));
 }
@@ -37,9 +34,7 @@ fn calibrate_writes_a_table_a_csv_and_a_page() {
 fn a_rigid_wall_is_calibrated_for_c_bar() {
     let folder = folder("calibrate_rigid");
     let arguments = ["calibrate", "--set", "force_law=rigid_linear", "--restitution", "0.9"];
-    let output = wall(&folder, &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("free_standing_block"), "{}", text(&output.stdout));
+    assert_has(&printed(&folder, &arguments), &["free_standing_block"]);
 }
 
 #[test]
@@ -72,15 +67,10 @@ fn reproduce_writes_one_page_of_everything() {
     std::fs::create_dir(folder.join("records")).unwrap();
     record(&folder.join("records/a.AT2"));
     std::fs::write(folder.join("records/notes.md"), "# no record\n").unwrap();
-    let output = wall(&folder, &["reproduce", "--records", "records", "-o", "paper.html"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let told = text(&output.stderr);
-    assert!(told.contains("left out") && told.contains("notes.md"), "{told}");
-    let summary = text(&output.stdout);
-    for name in ["Table 1", "Table 5", "Equations (20) to (23)", "Medians"] {
-        assert!(summary.contains(name), "{summary}");
-    }
-    let page = std::fs::read_to_string(folder.join("paper.html")).unwrap();
+    let output = succeed(&folder, &["reproduce", "--records", "records", "-o", "paper.html"]);
+    assert_has(&text(&output.stderr), &["left out", "notes.md"]);
+    assert_has(&text(&output.stdout), &["Table 1", "Table 5", "Equations (20) to (23)", "Medians"]);
+    let page = content(&folder, "paper.html");
     assert!(page.len() < 3 << 20, "{} bytes", page.len());
     assert!(!page.contains("{{") && !page.contains("NaN") && !page.contains("inf"), "a place left open");
     for number in 2..=15 {

@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use serde_json::Value;
-
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, succeed, text};
 use crate::specimen::{self, SAMPLES};
 
 /// A folder with two channels in CSMIP, one record in AT2 and one column of numbers.
@@ -21,9 +19,7 @@ fn records(name: &str) -> PathBuf {
 #[test]
 fn the_table_lists_every_channel() {
     let folder = records("record_table");
-    let output = wall(&folder, &["record", "two.V2", "one.AT2", "--periods", "0.3,1.5"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
+    let table = printed(&folder, &["record", "two.V2", "one.AT2", "--periods", "0.3,1.5"]);
     let lines: Vec<_> = table.lines().collect();
     for (line, words) in [
         (0, &["file", "format", "points", "step [s]", "PGA [g]", "AvgSA", "Sa(0.3 s)", "Sa(1.5 s)"][..]),
@@ -32,33 +28,25 @@ fn the_table_lists_every_channel() {
         (3, &["one.AT2", "PEER AT2", " 11 ", " 0.10529 "]),
         (4, &["5 % damping", "0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4 s"]),
     ] {
-        for word in words {
-            assert!(lines[line].contains(word), "no {word:?} in {}", lines[line]);
-        }
+        assert_has(lines[line], words);
     }
     // The eight samples end during the strong motion.
-    assert!(table.contains("check    two.V2 [2: Up]: ") && table.contains("is the end missing?"), "{table}");
+    assert_has(&table, &["check    two.V2 [2: Up]: ", "is the end missing?"]);
 }
 
 #[test]
 fn json_and_csv_hold_the_same_numbers() {
     let folder = records("record_json");
-    let output = wall(&folder, &["record", "two.V2", "--channel", "1", "--json", "--csv", "table.csv"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let value: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    let value = json(&folder, &["record", "two.V2", "--channel", "1", "--json", "--csv", "table.csv"]);
     let record = &value["records"][0];
     assert_eq!(value["records"].as_array().unwrap().len(), 1);
     assert_eq!(record["channel"], "1: 90 Deg");
     assert_eq!(record["points"], 11);
     assert!((record["pga_g"].as_f64().unwrap() - 103.25 / 980.665).abs() < 1e-12);
-    let csv = fs::read_to_string(folder.join("table.csv")).unwrap();
+    let csv = content(&folder, "table.csv");
     let mut lines = csv.lines();
-    assert!(
-        lines
-            .next()
-            .unwrap()
-            .starts_with("file,channel,format,points,step_s,duration_s,pga_g,average_sa_g,sa_0.2s_g")
-    );
+    let columns = "file,channel,format,points,step_s,duration_s,pga_g,average_sa_g,sa_0.2s_g";
+    assert!(lines.next().unwrap().starts_with(columns));
     let cells: Vec<_> = lines.next().unwrap().split(',').collect();
     assert_eq!(cells[..6], ["two.V2", "1: 90 Deg", "csmip", "11", "0.01", "0.1"]);
     assert_eq!(cells[7].parse::<f64>().unwrap(), record["average_sa_g"].as_f64().unwrap());
@@ -69,44 +57,36 @@ fn json_and_csv_hold_the_same_numbers() {
 fn plots_are_svg_or_png() {
     let folder = records("record_plot");
     for (name, start) in [("plot.svg", &b"<svg"[..]), ("plot.PNG", b"\x89PNG")] {
-        let output = wall(&folder, &["record", "two.V2", "one.AT2", "--plot", name]);
-        assert!(output.status.success(), "{}", text(&output.stderr));
+        let table = printed(&folder, &["record", "two.V2", "one.AT2", "--plot", name]);
         assert!(fs::read(folder.join(name)).unwrap().starts_with(start), "{name}");
-        assert!(text(&output.stdout).contains(&format!("written  {name}")));
+        assert!(table.contains(&format!("written  {name}")));
     }
-    let svg = fs::read_to_string(folder.join("plot.svg")).unwrap();
-    for word in ["two.V2 [1: 90 Deg]", "one.AT2", "time (s)", "period T (s)", "Sa (g)"] {
-        assert!(svg.contains(word), "no {word:?} in the plot");
-    }
+    let svg = content(&folder, "plot.svg");
+    assert_has(&svg, &["two.V2 [1: 90 Deg]", "one.AT2", "time (s)", "period T (s)", "Sa (g)"]);
     // With more records than colours, the plot shows the median of those that are not vertical.
     let many = [
         "record", "one.AT2", "one.AT2", "one.AT2", "two.V2", "two.V2", "two.V2", "two.V2", "--plot",
         "many.svg",
     ];
-    assert!(wall(&folder, &many).status.success());
-    assert!(fs::read_to_string(folder.join("many.svg")).unwrap().contains("median of 7 horizontal records"));
+    succeed(&folder, &many);
+    assert!(content(&folder, "many.svg").contains("median of 7 horizontal records"));
 }
 
 /// 100 times 0.07 is 7.000000000000001.
 #[test]
 fn percentages_are_printed_as_people_write_them() {
     let folder = records("record_percent");
-    let output = wall(&folder, &["record", "one.AT2", "--damping", "0.07", "--plot", "plot.svg"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("Sa in g at 7 % damping"), "{}", text(&output.stdout));
-    assert!(fs::read_to_string(folder.join("plot.svg")).unwrap().contains("Sa (g) at 7 % damping"));
+    let table = printed(&folder, &["record", "one.AT2", "--damping", "0.07", "--plot", "plot.svg"]);
+    assert_has(&table, &["Sa in g at 7 % damping"]);
+    assert!(content(&folder, "plot.svg").contains("Sa (g) at 7 % damping"));
 }
 
 #[test]
 fn one_bad_file_does_not_hide_the_others() {
     let folder = records("record_some");
-    let output = wall(&folder, &["record", "one.AT2", "column.csv", "none.AT2"]);
-    assert_eq!(output.status.code(), Some(2));
+    let words = ["column.csv, line 3: expected a stated step", "none.AT2: cannot be read", "2 of 3 files"];
+    let output = fails(&folder, &["record", "one.AT2", "column.csv", "none.AT2"], &words);
     assert!(text(&output.stdout).contains("one.AT2"));
-    let message = text(&output.stderr);
-    for words in ["column.csv, line 3: expected a stated step", "none.AT2: cannot be read", "2 of 3 files"] {
-        assert!(message.contains(words), "no {words:?} in {message}");
-    }
 }
 
 #[test]

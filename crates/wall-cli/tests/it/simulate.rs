@@ -6,25 +6,21 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::choices::Mechanism;
 use rocking_wall::scene::{Floors, StoreyTable, SupportsTable};
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, rows, succeed, text};
 
 #[test]
 fn the_program_reports_demands() {
     let folder = folder("demands");
-    let output = wall(&folder, &["simulate", "--synthetic", "--json", "--thresholds", "0.5,1"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let summary = json(&folder, &["simulate", "--synthetic", "--json", "--thresholds", "0.5,1"]);
     let demands = &summary["demands"];
     assert_eq!(demands["thresholds"][1]["time"], summary["overturn_time"]);
     assert_eq!(demands["thresholds"][0]["fraction"], 0.5);
     assert!(demands["reaction_bottom"]["lowest"]["value"].as_f64().unwrap() < 0.0);
-    let output = text(&wall(&folder, &["simulate", "--synthetic", "--html", "page.html"]).stdout);
-    for words in
-        ["base force", "first reached  0.1 u_ins at", "half cycles", "residual u", "up to overturning"]
-    {
-        assert!(output.contains(words), "no {words:?} in {output}");
-    }
-    assert!(fs::read_to_string(folder.join("page.html")).unwrap().contains("0.1 u_ins at"));
+    let table = printed(&folder, &["simulate", "--synthetic", "--html", "page.html"]);
+    let words =
+        ["base force", "first reached  0.1 u_ins at", "half cycles", "residual u", "up to overturning"];
+    assert_has(&table, &words);
+    assert!(content(&folder, "page.html").contains("0.1 u_ins at"));
     let folder = crate::command_line::folder("demands_refused");
     for bad in ["0", "1.5", "nan", "-0.1"] {
         refused(
@@ -46,9 +42,8 @@ fn pictures_show_the_transverse_walls() {
         let more = ["restitution=0.4", "damping_model=none", "u_start=0", "height=3"];
         let sets = sets.into_iter().chain(more).flat_map(|set| ["--set", set]);
         let arguments = ["simulate", "--synthetic", "--html", "w.html", "--svg", "w.svg"];
-        let output = wall(&folder, &arguments.into_iter().chain(sets).collect::<Vec<_>>());
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        ["w.html", "w.svg"].map(|name| fs::read_to_string(folder.join(name)).unwrap())
+        succeed(&folder, &arguments.into_iter().chain(sets).collect::<Vec<_>>());
+        ["w.html", "w.svg"].map(|name| content(&folder, name))
     };
     for (rocking, page, svg) in [
         // the wall is 0.4 m thick and 26 px wide, and turns about its foot at 110 px
@@ -95,15 +90,13 @@ fn supports_that_do_not_exist_are_refused() {
         fs::write(folder.join("s.toml"), &text).unwrap();
         refused(&folder, &["simulate", "s.toml"], words);
     }
-    let output = wall(&folder, &["simulate", "--synthetic", "--floor", "xi=0.3"]);
-    assert!(output.status.code() == Some(2) && text(&output.stderr).contains("a period"));
+    fails(&folder, &["simulate", "--synthetic", "--floor", "xi=0.3"], &["a period"]);
     refused(&folder, &["simulate", "--synthetic", "--floor", "T=0.3", "--hold"], &["--hold"]);
     let heavy = ["simulate", "--synthetic", "--floor", "T=0.3,xi=0.05,mass=1e4"];
-    let output = wall(&folder, &heavy);
-    assert!(text(&output.stderr).contains("wall building"), "{}", text(&output.stderr));
-    let light = wall(&folder, &["simulate", "--synthetic", "--floor", "T=0.3,xi=0.05,mass=1e6"]);
-    assert!(light.status.success() && light.stderr.is_empty());
-    assert!(text(&light.stdout).contains("felt on a floor, T = 0.300 s"), "{}", text(&light.stdout));
+    assert_has(&text(&succeed(&folder, &heavy).stderr), &["wall building"]);
+    let light = succeed(&folder, &["simulate", "--synthetic", "--floor", "T=0.3,xi=0.05,mass=1e6"]);
+    assert!(light.stderr.is_empty());
+    assert_has(&text(&light.stdout), &["felt on a floor, T = 0.300 s"]);
 }
 
 /// A wall with a loaded edge rocks differently under both signs of a record, and a table holds what single
@@ -119,31 +112,22 @@ fn many_records_make_a_table() {
         fs::write(folder.join(format!("records/{seed}.csv")), format!("time,a_g\n{}", rows.concat()))
             .unwrap();
     }
-    let run = |more: &[&str]| {
-        let mut arguments = vec!["simulate", "--set", "thickness=0.25", "--unit", "m/s2"];
-        arguments.extend(["--set", "overburden=2000", "--set", "overburden_eccentricity=0.05"]);
-        arguments.extend(more);
-        let output = wall(&folder, &arguments);
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        text(&output.stdout)
-    };
+    let wall = ["simulate", "--set", "thickness=0.25", "--set", "overburden=2000", "--unit", "m/s2"];
+    let wall = [&wall[..], &["--set", "overburden_eccentricity=0.05"]].concat();
     let files = ["records/0.csv", "records/1.csv", "records/2.csv", "records/3.csv"];
-    let mut arguments = vec!["--records"];
-    arguments.extend(files);
-    let table = run(&[&arguments[..], &["--both-polarities", "--csv", "table.csv"]].concat());
+    let arguments = [&["--records"], &files[..]].concat();
+    let both = [&wall[..], &arguments, &["--both-polarities", "--csv", "table.csv"]].concat();
+    let table = printed(&folder, &both);
     assert_eq!(table.lines().count(), 1 + 1 + 8 + 1 + 1, "{table}");
-    let csv = fs::read_to_string(folder.join("table.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
-    for (pair, file) in rows.chunks(2).zip(files) {
-        assert_eq!((pair[0][1], pair[1][1]), ("+1", "-1"));
+    for (pair, file) in rows(&folder, "table.csv").chunks(2).zip(files) {
+        assert_eq!((&*pair[0][1], &*pair[1][1]), ("+1", "-1"));
         assert_ne!(pair[0][3..], pair[1][3..], "{file}");
-        let single: serde_json::Value = serde_json::from_str(&run(&["--record", file, "--json"])).unwrap();
+        let single = json(&folder, &[&wall[..], &["--record", file, "--json"]].concat());
         let (u, ratio): (f64, f64) = (pair[0][3].parse().unwrap(), pair[0][4].parse().unwrap());
         assert!((single["u_max"].as_f64().unwrap() / u - 1.0).abs() < 1e-9);
         assert!((single["u_ratio_max"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-9);
     }
-    let json = run(&[&arguments[..], &["--json"]].concat());
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json = json(&folder, &[&wall[..], &arguments, &["--json"]].concat());
     assert_eq!(json["runs"].as_array().unwrap().len(), 4);
     let html = [&["simulate"], &arguments[..], &["--unit", "m/s2", "--html", "a.html"]].concat();
     refused(&folder, &html, &["--html", "--record"]);
@@ -157,8 +141,8 @@ fn the_animated_picture_of_a_wall_is_one_small_file() {
     let cases = [(&[][..], "falls at 12.6 s"), (&["--pga", "2.5"], "stands: 33 %"), (&strip, "falls")];
     for (settings, said) in cases {
         let svg = [&["simulate", "--synthetic", "--svg", "wall.svg"], settings].concat();
-        assert!(wall(&folder, &svg).status.success());
-        let svg = fs::read_to_string(folder.join("wall.svg")).unwrap();
+        succeed(&folder, &svg);
+        let svg = content(&folder, "wall.svg");
         assert!(svg.contains(said) && svg.contains("<animateTransform"), "{said}");
         assert!(svg.len() < 40_000 && !svg.contains("<script") && !svg.contains("NaN"), "{}", svg.len());
     }
@@ -193,8 +177,7 @@ fn what_full_rotations_do_not_know_is_refused_with_the_remedy() {
     let strip = apart.replacen("[geometry]", "[geometry]\nmechanism = \"vertical_spanning\"", 1);
     fs::write(folder.join("apart.toml"), strip).unwrap();
     refused(&folder, &["simulate", "apart.toml"], &["[motion.top]", "kinematics = linear"]);
-    let output = wall(&folder, &["simulate", "good.toml", "--html", "page.html"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let page = fs::read_to_string(folder.join("page.html")).unwrap();
+    succeed(&folder, &["simulate", "good.toml", "--html", "page.html"]);
+    let page = content(&folder, "page.html");
     assert!(page.contains("0.26 % short") && !page.contains("NaN"), "the error of small rotations");
 }

@@ -4,21 +4,15 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
 use study::spectrum::{Size, Slenderness, over_walls};
 
-use crate::command_line::{args, folder, refused, text, wall};
-
-/// A row of the CSV file as the program writes it: two axes, ratio, rocked, overturned, time.
-fn rows(path: &std::path::Path) -> Vec<Vec<String>> {
-    let content = std::fs::read_to_string(path).unwrap();
-    content.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
-}
+use crate::command_line::{args, assert_has, content, folder, printed, refused, rows, succeed};
 
 #[test]
 fn the_program_writes_a_table_and_a_page() {
     let folder = folder("spectrum");
     let arguments = ["spectrum", "--synthetic", "--heights", "1:3:3", "--ratios", "5:15:2", "--csv", "s.csv"];
-    let output = wall(&folder, &[&arguments[..], &["--html", "s.html", "--threads", "2"]].concat());
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let found = rows(&folder.join("s.csv"));
+    let words = printed(&folder, &[&arguments[..], &["--html", "s.html", "--threads", "2"]].concat());
+    // two axes, ratio, rocked, overturned, time
+    let found = rows(&folder, "s.csv");
     let axes: Vec<_> = found.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
     assert_eq!(
         axes,
@@ -39,32 +33,29 @@ fn the_program_writes_a_table_and_a_page() {
         assert_eq!(row[4].parse::<bool>().unwrap(), point.overturning.is_some());
         assert_eq!(row[5].parse::<f64>().ok(), point.overturning);
     }
-    let words = text(&output.stdout);
-    assert!(words.contains("points     6:") && words.contains("written    s.html"), "{words}");
-    let page = std::fs::read_to_string(folder.join("s.html")).unwrap();
+    assert_has(&words, &["points     6:", "written    s.html"]);
+    let page = content(&folder, "s.html");
     assert_eq!(page.matches("<title>height h (m) = ").count(), 6);
     assert!(!page.contains("{{") && !page.contains("NaN"), "a place left open");
     // the default parapet is beyond these axes, and on wider ones
     let own = "height h (m) = 4, slenderness h/b = 10: overturns at ";
     assert!(words.contains(own) && words.contains(", outside the map") && !page.contains(">your wall<"));
     let wider = ["spectrum", "--synthetic", "--heights", "2:5:2", "--ratios", "5:15:2", "--html", "w.html"];
-    assert!(wall(&folder, &[&wider[..], &["--svg", "w.svg"]].concat()).status.success());
-    let svg = std::fs::read_to_string(folder.join("w.svg")).unwrap();
+    succeed(&folder, &[&wider[..], &["--svg", "w.svg"]].concat());
+    let svg = content(&folder, "w.svg");
     assert!(svg.starts_with("<svg xmlns") && svg.contains(">your wall</text>") && !svg.contains("<title>"));
-    let page = std::fs::read_to_string(folder.join("w.html")).unwrap();
+    let page = content(&folder, "w.html");
     assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 
     let rigid = args("--set force_law=rigid_linear --set damping_model=none --set impact=restitution");
     let pulse = args("spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2");
-    let output = wall(&folder, &[&pulse[..], &rigid, &["--csv", "p.csv"]].concat());
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    succeed(&folder, &[&pulse[..], &rigid, &["--csv", "p.csv"]].concat());
     let outcomes: Vec<_> =
-        rows(&folder.join("p.csv")).iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
+        rows(&folder, "p.csv").iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
     assert_eq!(outcomes, [["false", "false"], ["false", "false"], ["true", "true"], ["true", "true"]]);
     // a pulse with its frequency and amplitude is a motion like any other
     let pulse = args("spectrum --pulse ricker --frequency 1 --amplitude 3 --radii 1:2:2 --angles 0.1:0.2:2");
-    let output = wall(&folder, &pulse);
-    assert!(text(&output.stdout).contains("semi-diagonal R (m)"), "{}", text(&output.stderr));
+    assert_has(&printed(&folder, &pulse), &["semi-diagonal R (m)"]);
 }
 
 #[test]

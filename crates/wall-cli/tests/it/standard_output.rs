@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text};
 
 /// `--csv -` writes the file that `--csv FILE` writes, and the summary goes to stderr; it names no file.
 #[test]
@@ -15,17 +15,9 @@ fn a_dash_is_standard_output() {
         &["describe", "--thresholds", "0.4"],
         &["calibrate", "--a1", "0.05", "--restitution", "0.9", "--models", "constant_ratio"],
     ] {
-        let run = |csv: &str| {
-            let output = wall(&folder, &[command, &["--csv", csv]].concat());
-            assert!(output.status.success(), "{command:?}: {}", text(&output.stderr));
-            output
-        };
+        let run = |csv: &str| succeed(&folder, &[command, &["--csv", csv]].concat());
         let (to_file, to_stdout) = (run("file.csv"), run("-"));
-        assert_eq!(
-            text(&to_stdout.stdout),
-            fs::read_to_string(folder.join("file.csv")).unwrap(),
-            "{command:?}"
-        );
+        assert_eq!(text(&to_stdout.stdout), content(&folder, "file.csv"), "{command:?}");
         let told = text(&to_stdout.stderr);
         let summary = text(&to_file.stdout);
         let summary: String =
@@ -56,9 +48,7 @@ fn a_scene_states_the_unit_of_its_peak() {
     let folder = folder("pga_unit");
     let told = |pga: &str| {
         fs::write(folder.join("s.toml"), format!("[motion]\nsynthetic = {{}}\npga = {pga}\n")).unwrap();
-        let output = wall(&folder, &["simulate", "s.toml", "--json"]);
-        assert!(output.status.success(), "{pga}: {}", text(&output.stderr));
-        text(&output.stdout)
+        printed(&folder, &["simulate", "s.toml", "--json"])
     };
     assert_eq!(told("\"0.3g\""), told("2.941995"));
     assert_eq!(told("\"300 cm/s2\""), told("3"));
@@ -87,7 +77,7 @@ fn columns_state_their_units() {
     ];
     const UNITS: [&str; 7] = ["_s", "_m", "_m_s", "_m_s2", "_n", "_n_m", "_rad"];
     let folder = folder("units");
-    wall(&folder, &["motion", "--synthetic", "--csv", "r.csv"]);
+    succeed(&folder, &["motion", "--synthetic", "--csv", "r.csv"]);
     let tied = ["--set", "tie_height=3", "--set", "tie_stiffness=1e5"];
     let commands: [&[&str]; 5] = [
         &["simulate", "--synthetic"],
@@ -97,9 +87,8 @@ fn columns_state_their_units() {
         &["spectrum", "--synthetic", "--heights", "2:3:2", "--ratios", "8:9:2"],
     ];
     for command in commands {
-        let output = wall(&folder, &[command, &["--csv", "-"]].concat());
-        let csv = text(&output.stdout);
-        let header = csv.lines().next().unwrap_or_else(|| panic!("{command:?}: {}", text(&output.stderr)));
+        let csv = printed(&folder, &[command, &["--csv", "-"]].concat());
+        let header = csv.lines().next().unwrap();
         for name in header.split(',') {
             let stated = UNITS.iter().any(|unit| name.ends_with(unit));
             assert!(stated || WITHOUT.contains(&name), "{command:?}: {name} of {header}");
@@ -112,12 +101,11 @@ fn columns_state_their_units() {
 fn the_acceleration_of_a_floor_is_not_called_that_of_the_ground() {
     let folder = folder("floor_label");
     let page = |more: &[&str]| {
-        let output = wall(&folder, &[&["simulate", "--synthetic", "--html", "p.html"], more].concat());
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        (text(&output.stdout), fs::read_to_string(folder.join("p.html")).unwrap())
+        let told = printed(&folder, &[&["simulate", "--synthetic", "--html", "p.html"], more].concat());
+        (told, content(&folder, "p.html"))
     };
     let (told, html) = page(&["--floor", "T=0.3,xi=0.05"]);
-    assert!(told.contains("peak ground acceleration") && told.contains("felt on a floor"), "{told}");
+    assert_has(&told, &["peak ground acceleration", "felt on a floor"]);
     assert!(html.contains("Acceleration of the floor") && !html.contains("a_g"), "a_g");
     let (told, html) = page(&[]);
     assert!(told.contains(", peak acceleration") && html.contains("Acceleration of the support"), "{told}");
@@ -127,9 +115,7 @@ fn the_acceleration_of_a_floor_is_not_called_that_of_the_ground() {
 #[test]
 fn deviations_from_print_are_explained() {
     let folder = folder("reproduce_words");
-    let output = wall(&folder, &["reproduce", "-o", "p.html"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let told = text(&output.stdout);
+    let told = printed(&folder, &["reproduce", "-o", "p.html"]);
     let tables: Vec<_> = told.lines().filter(|line| line.contains("round to print")).collect();
     assert!(tables.len() == 7 && tables.iter().all(|line| line.contains(": printed ")), "{told}");
     let table_1 = told.lines().skip_while(|line| !line.starts_with("Table 1")).nth(1).unwrap();
@@ -144,7 +130,7 @@ fn an_interrupted_study_says_that_it_resumes() {
     use std::process::{Command, Stdio};
     use std::time::Instant;
 
-    use crate::ida::{bytes, study, succeed};
+    use crate::ida::{bytes, study};
 
     let folder = study("ida_interrupted");
     let start = Instant::now();
@@ -171,23 +157,21 @@ fn an_interrupted_study_says_that_it_resumes() {
         is_told
     });
     assert!(interrupted, "the study was never interrupted");
-    let resumed = wall(&folder, &["ida", "study.toml", "-o", "broken"]);
-    assert!(resumed.status.success(), "{}", text(&resumed.stderr));
+    succeed(&folder, &["ida", "study.toml", "-o", "broken"]);
     assert!(bytes(&folder.join("broken")) == bytes(&folder.join("whole")));
     // the folder tells the study in words, not in those of the source
-    let manifest = fs::read_to_string(folder.join("whole/study.json")).unwrap();
-    assert!(manifest.contains("\"hunt from ") && manifest.contains("\"AvgSA over "), "{manifest}");
-    assert!(
-        !["HuntAndFill", "Computed", "periods: ["].iter().any(|word| manifest.contains(word)),
-        "{manifest}"
-    );
+    let manifest = content(&folder, "whole/study.json");
+    assert_has(&manifest, &["\"hunt from ", "\"AvgSA over "]);
+    for word in ["HuntAndFill", "Computed", "periods: ["] {
+        assert!(!manifest.contains(word), "{word} in {manifest}");
+    }
     // and another study is refused in words
-    let other = fs::read_to_string(folder.join("study.toml")).unwrap().replace("gap = 0.3", "gap = 0.2");
+    let other = content(&folder, "study.toml").replace("gap = 0.3", "gap = 0.2");
     fs::write(folder.join("other.toml"), other).unwrap();
-    let refusal = text(&wall(&folder, &["ida", "other.toml", "-o", "whole"]).stderr);
-    assert!(refusal.contains("found levels: hunt from ") && refusal.contains("gap 0.2)"), "{refusal}");
+    let words = ["found levels: hunt from ", "gap 0.2)"];
+    fails(&folder, &["ida", "other.toml", "-o", "whole"], &words);
     // short names are spelled out once
-    let page = fs::read_to_string(folder.join("whole/study.html")).unwrap();
+    let page = content(&folder, "whole/study.html");
     assert_eq!(page.matches("CDR: constant damping ratio").count(), 1);
     assert_eq!(page.matches("CR: coefficient of restitution").count(), 1);
 }

@@ -5,15 +5,15 @@ use std::fs;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use crate::command_line::{folder, refused};
-use crate::ida::{bytes, part_files, study, succeed};
+use crate::command_line::{content, folder, printed, refused, succeed};
+use crate::ida::{bytes, part_files, study};
 
 /// The parts hold the rows of levels.csv, in its order, for any reader of Parquet.
 #[test]
 fn parts_hold_what_the_csv_holds() {
     let folder = study("ida_parquet");
     succeed(&folder, &["ida", "study.toml", "-o", "out"]);
-    let csv = fs::read_to_string(folder.join("out/levels.csv")).unwrap();
+    let csv = content(&folder, "out/levels.csv");
     let mut lines = csv.lines().skip(1);
     let word = |(name, field): (&String, &Field)| match field {
         Field::Str(text) if text.contains(',') => format!("\"{text}\""),
@@ -48,11 +48,11 @@ fn a_large_study_shows_distributions() {
     let wall_row = |k: u32| format!("wall {k},{},0.3\n", 2.0 + 0.05 * f64::from(k));
     let rows: String = (0..41).map(wall_row).collect();
     fs::write(folder.join("walls.csv"), format!("name,height,thickness\n{rows}")).unwrap();
-    let printed = succeed(&folder, &["ida", "study.toml", "-o", "out", "--threads", "2"]);
-    assert!(printed.contains("of the walls have a lower median") && !printed.contains("wall 7"), "{printed}");
+    let told = printed(&folder, &["ida", "study.toml", "-o", "out", "--threads", "2"]);
+    assert!(told.contains("of the walls have a lower median") && !told.contains("wall 7"), "{told}");
     succeed(&folder, &["ida", "study.toml", "-o", "one", "--threads", "1"]);
     assert!(bytes(&folder.join("out")) == bytes(&folder.join("one")));
-    let page = fs::read_to_string(folder.join("out/study.html")).unwrap();
+    let page = content(&folder, "out/study.html");
     // one for each limit state, and the dispersions
     assert_eq!(page.matches("<svg").count(), 5);
     assert!(page.contains("41 walls") && page.contains("lowest medians"));

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{assert_has, content, folder, printed, refused};
 use crate::root;
 
 /// The document and its pictures are those of this program.
@@ -19,13 +19,11 @@ fn the_document_shows_what_the_program_computes() {
         }
         cases += 1;
         let name = path.file_stem().unwrap().to_str().unwrap();
-        let output = wall(&folder, &["validate", path.to_str().unwrap(), "--plot", "plot.svg"]);
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        let table = text(&output.stdout);
+        let table = printed(&folder, &["validate", path.to_str().unwrap(), "--plot", "plot.svg"]);
         let remedy = "run cargo xtask figures --validation";
         assert!(document.contains(table.trim_matches('\n')), "{name}: {remedy}\n{table}");
         assert!(document.contains(&format!("images/{name}.svg")), "{name}");
-        let drawn = fs::read_to_string(folder.join("plot.svg")).unwrap();
+        let drawn = content(&folder, "plot.svg");
         let kept = fs::read_to_string(root().join(format!("docs/images/{name}.svg"))).unwrap();
         assert!(drawn == kept, "docs/images/{name}.svg: {remedy}");
     }
@@ -41,9 +39,7 @@ fn the_example_of_the_document_can_be_used() {
         let (_, rest) = document.split_once(&format!("```{language}\n")).unwrap();
         fs::write(folder.join(file), rest.split_once("```").unwrap().0).unwrap();
     }
-    let output = wall(&folder, &["validate", "my_wall.toml"]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("fitted to the peaks"), "{}", text(&output.stdout));
+    assert_has(&printed(&folder, &["validate", "my_wall.toml"]), &["fitted to the peaks"]);
 }
 
 #[test]

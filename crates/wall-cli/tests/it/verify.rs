@@ -2,22 +2,20 @@
 
 use std::fs;
 
-use crate::command_line::{folder, refused, text, wall};
+use crate::command_line::{content, folder, json, printed, refused};
 use crate::root;
 
 #[test]
 fn the_manual_is_that_of_the_program() {
     let folder = folder("verify");
-    let output = wall(&folder, &["verify", "--markdown", "manual.md", "--html", "manual.html"]);
-    let table = text(&output.stdout);
-    assert_eq!(output.status.code(), Some(0), "{table}");
+    let table = printed(&folder, &["verify", "--markdown", "manual.md", "--html", "manual.html"]);
     assert!(table.contains(" 0 FAIL") && !table.contains(" FAIL\n"), "{table}");
     assert!(table.lines().filter(|line| line.ends_with("  PASS")).count() >= 130, "{table}");
-    let manual = fs::read_to_string(folder.join("manual.md")).unwrap();
+    let manual = content(&folder, "manual.md");
     let document = fs::read_to_string(root().join("docs/verification.md")).unwrap();
     let remedy = "docs/verification.md: run cargo xtask figures --verification";
     assert!(document.contains(&format!("<!-- formulas -->\n\n{manual}<!-- end formulas -->")), "{remedy}");
-    let page = fs::read_to_string(folder.join("manual.html")).unwrap();
+    let page = content(&folder, "manual.html");
     let titles: Vec<_> = manual.lines().filter_map(|line| line.strip_prefix("### ")).collect();
     assert!(titles.len() >= 28);
     assert!(titles.iter().all(|title| page.contains(&format!("<h2>{title}</h2>"))));
@@ -25,8 +23,7 @@ fn the_manual_is_that_of_the_program() {
 
 #[test]
 fn results_are_also_json() {
-    let output = wall(&folder("verify_json"), &["verify", "--json"]);
-    let value: serde_json::Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    let value = json(&folder("verify_json"), &["verify", "--json"]);
     assert_eq!((&value["failed"], &value["missing"]), (&0.into(), &0.into()));
     let of_formula = |formula: &serde_json::Value| formula["checks"].as_array().unwrap().clone();
     let checks: Vec<_> = value["formulas"].as_array().unwrap().iter().flat_map(of_formula).collect();

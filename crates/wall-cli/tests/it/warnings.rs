@@ -6,14 +6,12 @@ use rocking_wall::scene::GROUPS;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Wall, usage};
 
-use crate::command_line::{folder, text, wall};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, succeed, text};
 
 /// Runs `arguments` and returns what the program warns of.
 fn warned(arguments: &[&str]) -> String {
     // it writes no file; a folder that each of these tests cleared would vanish under the others
-    let output = wall(crate::root(), arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stderr)
+    text(&succeed(crate::root(), arguments).stderr)
 }
 
 #[test]
@@ -39,10 +37,7 @@ fn improbable_walls_are_warned_of() {
         for change in changes {
             arguments.extend(["--set", change]);
         }
-        let message = warned(&arguments);
-        for word in words {
-            assert!(message.contains(word), "{arguments:?}: no {word:?} in {message}");
-        }
+        assert_has(&warned(&arguments), &words);
     }
     // usual walls are silent
     assert_eq!(warned(&["simulate", "--stop-time", "0.1"]), "");
@@ -88,9 +83,7 @@ fn motions_stronger_than_any_record_are_warned_of() {
         &["ida", "usual.toml", "--output", "usual"],
     ];
     for (index, arguments) in cases.into_iter().enumerate() {
-        let output = wall(&folder, arguments);
-        let message = text(&output.stderr);
-        assert!(output.status.success(), "{arguments:?}: {message}");
+        let message = text(&succeed(&folder, arguments).stderr);
         let told = message.matches("a peak of 3000.0 m/s² is 305.9 g").count();
         assert_eq!(told, usize::from(index < 12), "{arguments:?}: {message}");
         assert_eq!(message.contains("check its scale"), index < 12, "{arguments:?}: {message}");
@@ -180,9 +173,7 @@ fn a_number_that_is_given_counts() {
     let used = |changes: &[&str]| {
         let mut arguments = vec!["describe", "--json"];
         arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
-        let output = wall(&folder("given"), &arguments);
-        assert!(output.status.success(), "{}", text(&output.stderr));
-        let facts: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let facts = json(&folder("given"), &arguments);
         ["xi_used", "restitution_used"].map(|name| facts[name].as_f64().unwrap())
     };
     assert_eq!(used(&["xi=0.2"])[0], 0.2);
@@ -200,10 +191,8 @@ fn a_number_that_is_given_counts() {
 #[test]
 fn a_start_beyond_u_ins_is_refused() {
     let folder = folder("start_beyond");
-    let output = wall(&folder, &["simulate", "--set", "thickness=0.25"]);
-    let message = text(&output.stderr);
     let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m: for a wall at rest set u_start = 0";
-    assert!(output.status.code() == Some(2) && message.contains(remedy), "{message}");
+    fails(&folder, &["simulate", "--set", "thickness=0.25"], &[remedy]);
     // what does not move has no start
     assert_eq!(warned(&["describe", "--set", "thickness=0.25"]), "");
     assert_eq!(warned(&["simulate", "--set", "thickness=0.37", "--stop-time", "1"]), "");
@@ -224,12 +213,11 @@ fn two_motions_are_both_shown() {
                  [motion]\nrecord = \"bottom.csv\"\nunit = \"m/s2\"\n\
                  [motion.top]\nrecord = \"top.csv\"\nunit = \"m/s2\"\n";
     std::fs::write(folder.join("strip.toml"), scene).unwrap();
-    let output = wall(&folder, &["simulate", "strip.toml", "--html", "page.html"]);
-    let summary = text(&output.stdout);
-    assert!(summary.contains("0.2500 m/s² (bottom), 0.7500 m/s² (top)"), "{summary}");
-    let page = std::fs::read_to_string(folder.join("page.html")).unwrap();
+    let summary = printed(&folder, &["simulate", "strip.toml", "--html", "page.html"]);
+    assert_has(&summary, &["0.2500 m/s² (bottom), 0.7500 m/s² (top)"]);
+    let page = content(&folder, "page.html");
     let motion = page.split("<figure>").find(|figure| figure.contains("id=\"motion\"")).unwrap();
-    assert!(motion.contains("bottom (grey), top (amber)"), "{motion}");
+    assert_has(motion, &["bottom (grey), top (amber)"]);
     for color in [figures::palette::DARK_GREY, figures::palette::AMBER] {
         assert!(motion.contains(&format!("stroke=\"{color}\"")), "no {color} in {motion}");
     }
@@ -239,10 +227,7 @@ fn two_motions_are_both_shown() {
 fn warned_of_study(name: &str, study: &str) -> String {
     let folder = folder(name);
     std::fs::write(folder.join("study.toml"), study).unwrap();
-    let output = wall(&folder, &["ida", "study.toml"]);
-    let message = text(&output.stderr);
-    assert!(output.status.success(), "{message}");
-    message
+    text(&succeed(&folder, &["ida", "study.toml"]).stderr)
 }
 
 /// The PGA at which a rigid wall starts to rock hardly depends on the record; that of its collapse does.
@@ -258,13 +243,12 @@ fn contradictions_of_a_common_beta_are_warned_of() {
         )
     };
     let message = warned_of_study("contradicted", &study("[0.001, 1]"));
-    for words in [
+    let words = [
         "warning: limit states contradict a common beta in 1 of 1 fits",
         ": wall \"parapet\" with CR rigid (0.08, 0.30); their fitted curves are rough",
         "see the steps on the page and beta_alone in fragilities.csv",
-    ] {
-        assert!(message.contains(words), "no {words:?} in {message}");
-    }
+    ];
+    assert_has(&message, &words);
     let alike = warned_of_study("not_contradicted", &study("[0.9, 1]"));
     assert!(!alike.contains("beta"), "{alike}");
 }
@@ -289,8 +273,8 @@ fn a_study_warns_of_much_work() {
         ("stiff", "force_law = { a1 = 1e-9 }", "omega1 = "),
     ] {
         let message = warned_of_study(&format!("work_{name}"), &study(settings));
-        assert!(message.contains(&format!("warning: wall \"slow\": {words}")), "{message}");
-        assert!(message.contains("computing takes as much longer than usual"), "{message}");
+        let wall = format!("warning: wall \"slow\": {words}");
+        assert_has(&message, &[&wall, "computing takes as much longer than usual"]);
     }
 }
 
@@ -303,7 +287,7 @@ fn a_study_warns_of_an_unusual_ratio() {
          records = { synthetic = { count = 1 } }\n[[walls]]\nname = \"a\"\n",
     );
     assert_eq!(message.matches("is unusual").count(), 1, "{message}");
-    assert!(message.contains("model \"CDC 5\": xi = 5 is unusual: 0 to 0.5 is usual"), "{message}");
+    assert_has(&message, &["model \"CDC 5\": xi = 5 is unusual: 0 to 0.5 is usual"]);
 }
 
 /// A study shakes its walls with its own records.
@@ -316,7 +300,7 @@ fn a_study_says_that_it_ignores_a_motion() {
                  [[walls]]\nscene = \"shaken.toml\"\n\
                  [[walls]]\nname = \"light\"\ngeometry = { density = 1.8 }\n";
     std::fs::write(folder.join("study.toml"), study).unwrap();
-    let message = text(&wall(&folder, &["ida", "study.toml"]).stderr);
-    assert!(message.contains("wall \"shaken\": the study ignores the motion of its scene"), "{message}");
-    assert!(message.contains("wall \"light\": density = 1.8 kg/m3 is unusual"), "{message}");
+    let message = text(&succeed(&folder, &["ida", "study.toml"]).stderr);
+    let shaken = "wall \"shaken\": the study ignores the motion of its scene";
+    assert_has(&message, &[shaken, "wall \"light\": density = 1.8 kg/m3 is unusual"]);
 }
