@@ -12,7 +12,8 @@
 //! ```
 
 use study::circolare::{
-    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, Statement, Verdict,
+    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, StateStatement, Statement,
+    Verdict,
 };
 
 use crate::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
@@ -107,32 +108,33 @@ pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, Ch
 ///
 /// # Errors
 /// [`CheckError`] of a record, or of points with another damping.
-pub fn over_demand(side: &SideVerdict, demands: &[Drawn<'_>]) -> Result<Plot, CheckError> {
-    let check = |state: LimitState| match state {
-        LimitState::Sld => None,
-        LimitState::Slv => side.slv,
-        LimitState::Slc => side.slc,
-    };
+pub fn over_demand(
+    side: &SideVerdict,
+    statement: &Statement,
+    demands: &[Option<Demand>; 3],
+) -> Result<Plot, CheckError> {
+    let shown = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)].into_iter();
+    let shown = shown.filter_map(|(state, check)| {
+        Some((statement.state(state)?, demands[state as usize].as_ref()?, check?))
+    });
+    let shown: Vec<(&StateStatement, &Demand, DisplacementCheck)> = shown.collect();
     // the demand on the ray of its period
     let place = |check: &DisplacementCheck| {
         (check.demand, check.demand * (std::f64::consts::TAU / check.period).powi(2))
     };
-    let shown = demands.iter().filter_map(|drawn| Some((drawn, check(drawn.state)?)));
-    let shown: Vec<(&Drawn<'_>, DisplacementCheck)> = shown.collect();
-    let ends = shown.iter().map(|(_, check)| place(check)).chain(side.corners.iter().copied());
+    let ends = shown.iter().map(|(.., check)| place(check)).chain(side.corners.iter().copied());
     let (right, top) = ends.fold((0.0_f64, 0.0_f64), |(d, a), end| (d.max(end.0), a.max(end.1)));
     // the plateau of a spectrum is far above what the wall takes
     let (right, top) = (1.1 * right, 1.35 * top);
     let [width, height] = SIZE;
     let scale = [width / right, height / top];
     let (mut series, mut marks) = (Vec::new(), Vec::new());
-    let longest = shown.iter().map(|(_, check)| check.period).fold(0.0, f64::max);
-    for (drawn, check) in shown {
-        let Drawn { state, demand, damping, .. } = *drawn;
-        let color = color(state);
+    let longest = shown.iter().map(|(.., check)| check.period).fold(0.0, f64::max);
+    for (given, demand, check) in shown {
+        let color = color(given.state);
         let last = demand.last_period().min(2.0 * longest);
         let at = |period: f64| {
-            let displacement = demand.spectral_displacement(state, period, damping)?;
+            let displacement = demand.spectral_displacement(given.state, period, given.damping)?;
             let acceleration = displacement * (std::f64::consts::TAU / period).powi(2);
             Ok((displacement, acceleration))
         };
@@ -168,13 +170,8 @@ pub fn governing_over_demand(
     demands: &[Option<Demand>; 3],
     verdict: &Verdict,
 ) -> Result<Plot, CheckError> {
-    let drawn = |state: LimitState| {
-        let (given, demand) = (statement.state(state)?, demands[state as usize].as_ref()?);
-        Some(Drawn { state, demand, damping: given.damping, period: None })
-    };
-    let drawn: Vec<_> = [LimitState::Slv, LimitState::Slc].into_iter().filter_map(drawn).collect();
     let mut sides = verdict.sides.iter();
     let governing = sides.find(|(side, _)| *side == verdict.governs.side);
     let (_, side) = governing.expect("a side governs");
-    over_demand(side, &drawn)
+    over_demand(side, statement, demands)
 }

@@ -102,10 +102,8 @@ impl HeatMap<'_> {
     pub fn svg(&self) -> String {
         let ([width, height], [all, high]) = (self.size, self.extent());
         let (right, bottom) = (all - RIGHT, high - BOTTOM);
-        let mut svg = format!(
-            "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"{}\">",
-            all, high, self.label
-        );
+        let mut svg =
+            format!("<svg viewBox=\"0 0 {all:.0} {high:.0}\" role=\"img\" aria-label=\"{}\">", self.label);
         svg.push_str("<g shape-rendering=\"crispEdges\">");
         for row in 0..self.rows.count {
             let y = bottom - height * (row + 1) as f64;

@@ -10,7 +10,7 @@
 use study::tie::{Outcome, Row};
 
 use crate::palette::{BLUE, Mark, RED};
-use crate::plot::{Axis, Look, Picture, Plot, Scale, Series};
+use crate::plot::{Axis, Look, Picture, Plot, Series};
 
 /// Draws medians (lines) and largest values (marks) of force and displacement over the stiffness.
 pub fn picture(rows: &[Row]) -> Picture {
@@ -25,7 +25,7 @@ pub fn picture(rows: &[Row]) -> Picture {
         let series = vec![Series::line(color, 1.6, points(0)), marks];
         let x = [points(0).first().map_or(0.0, |p| p.0 - 0.1), points(0).last().map_or(1.0, |p| p.0 + 0.1)];
         let axes = [Axis::over("log10 of the stiffness (N/m)", x), Axis::over(label, [-0.02 * top, top])];
-        Plot { scale: Scale::Linear, ..Plot::new([820.0, 320.0], axes, series) }
+        Plot::new([820.0, 320.0], axes, series)
     };
     Picture::stacked(&[
         Plot {

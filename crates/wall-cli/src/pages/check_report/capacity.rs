@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use figures::check::{CAPACITY, DEMAND, Drawn, color, over_demand};
+use figures::check::{CAPACITY, DEMAND, color, over_demand};
 use figures::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 use study::circolare::{Activation, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
@@ -20,18 +20,6 @@ pub(super) fn section(case: &Case<'_>) -> Result<String> {
         }
         text += &numbers(case, side, verdict);
     }
-    let demands: Vec<_> = case
-        .report
-        .statement
-        .states
-        .iter()
-        .flatten()
-        .filter_map(|given| {
-            let demand = case.demands[given.state as usize].as_ref()?;
-            Some(Drawn { state: given.state, demand, damping: given.damping, period: None })
-        })
-        .filter(|drawn| drawn.state != LimitState::Sld)
-        .collect();
     for (name, _, side) in case.sides() {
         if side.slv.is_none() && side.slc.is_none() {
             continue;
@@ -57,7 +45,7 @@ pub(super) fn section(case: &Case<'_>) -> Result<String> {
              right of the triangle of the same colour. <span class=\"key\">{key}</span>",
             figures::escaped(name)
         );
-        text += &figure(&caption, &over_demand(side, &demands)?);
+        text += &figure(&caption, &over_demand(side, case.report.statement, &case.demands)?);
     }
     Ok(text)
 }
