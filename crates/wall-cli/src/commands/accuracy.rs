@@ -82,9 +82,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     output::save(arguments.csv.as_ref(), || csv(&studies))?;
     output::save(arguments.linearisation.as_ref(), || linearisation::csv(&rotations))?;
-    if let Some(path) = &arguments.plot {
-        output::picture(path, || Ok(pages::work_precision::picture(&studies, peers.as_ref())))?;
-    }
+    output::picture(arguments.plot.as_ref(), || {
+        Ok(pages::work_precision::picture(&studies, peers.as_ref()))
+    })?;
     output::save(arguments.html.as_ref(), || {
         let section = pages::linearisation::section(&rotations);
         pages::work_precision::page(&studies, &section, peers.as_ref())

@@ -43,9 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
     // first, because its ending may be refused
-    if let Some(path) = &arguments.plot {
-        output::picture(path, || Ok(capacity.picture()))?;
-    }
+    output::picture(arguments.plot.as_ref(), || Ok(capacity.picture()))?;
     output::save(arguments.csv.as_ref(), || capacity.csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };

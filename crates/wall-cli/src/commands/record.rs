@@ -103,9 +103,7 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
 }
 
 fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
-    if let Some(path) = &arguments.plot {
-        output::picture(path, || picture(rows, spectrum, arguments.damping))?;
-    }
+    output::picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
     output::save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
     if arguments.json {
         let value = json!({

@@ -63,9 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let study = arguments.scene.named(TieStudy::new(scene, records, arguments.both_polarities))?;
     let stiffnesses = study.stiffnesses(&arguments.stiffness)?;
     let rows = study.rows(&stiffnesses, parallel::threads(arguments.threads).get())?;
-    if let Some(path) = &arguments.plot {
-        output::picture(path, || Ok(picture(&rows)))?;
-    }
+    output::picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
     output::save(arguments.csv.as_ref(), || csv(&rows))?;
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&study, &rows))? + "\n"

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         }
     };
     output::to_stdout(&text)?;
-    arguments.plot.as_ref().map_or(Ok(()), |path| output::picture(path, || Ok(picture(&chart))))
+    output::picture(arguments.plot.as_ref(), || Ok(picture(&chart)))
 }
 
 fn about_push(text: &mut String, push: &Push, comparison: &PushComparison) {

@@ -44,8 +44,10 @@ pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
     }
 }
 
-/// Writes a picture, as SVG or PNG by the file's ending; draws it only if the ending is one of them.
-pub(crate) fn picture(path: &Path, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
+/// Writes a picture to the file that an option names, if it is given, as SVG or PNG by the file's ending.
+/// Draws it only if the ending is one of them.
+pub(crate) fn picture(path: Option<&PathBuf>, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
+    let Some(path) = path else { return Ok(()) };
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let bytes = match ending.as_str() {
         "svg" => draw()?.svg().into_bytes(),

@@ -13,9 +13,7 @@ use crate::output;
 pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<()> {
     let Case { scene, statement, records, .. } = case;
     let found = case.located(find(&scene.parameters, scene.floors.as_ref(), statement, records, sought))?;
-    if let Some(path) = &arguments.plot {
-        output::picture(path, || Ok(over_parameter(&found, sought).picture()))?;
-    }
+    output::picture(arguments.plot.as_ref(), || Ok(over_parameter(&found, sought).picture()))?;
     let (name, unit) = (sought.name(), sought.unit());
     if arguments.json {
         let value = serde_json::json!({
