@@ -14,7 +14,7 @@ use study::{counted, parallel};
 use study_folder::Folder;
 
 use crate::output;
-use crate::output::progress::Progress;
+use crate::output::progress::{self, Progress};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -170,21 +170,20 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
     if missing.is_empty() {
         return Ok(String::new());
     }
-    let progress = Progress::new();
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
-    let outcome = study_folder::work(study, folder, missing, threads, |case, curve, time| {
-        let runs = curve.runs().len();
-        if let Ok(mut shares) = shares.lock() {
-            let share = &mut shares[case.model];
-            share.seconds += time.as_secs_f64();
-            share.runs += runs;
-            share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
-        }
-        progress.add(cases, runs);
-    });
-    progress.finish();
-    outcome?;
+    progress::shown(|progress| {
+        study_folder::work(study, folder, missing, threads, |case, curve, time| {
+            let runs = curve.runs().len();
+            if let Ok(mut shares) = shares.lock() {
+                let share = &mut shares[case.model];
+                share.seconds += time.as_secs_f64();
+                share.runs += runs;
+                share.samples += (runs * study.records()[case.record].motion.samples().len()) as f64;
+            }
+            progress.add(cases, runs);
+        })
+    })?;
     let shares = shares.into_inner().unwrap_or_default();
     let runs: usize = shares.iter().map(|share| share.runs).sum();
     let (seconds, runs) = (start.elapsed().as_secs_f64(), counted(runs, "run"));
@@ -200,11 +199,9 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
 
 /// Makes the final results of a folder whose parts are complete.
 fn finish(folder: &Folder, threads: usize) -> Result<()> {
-    let progress = Progress::new();
     let walls = folder.contents().walls.len();
-    let report = study_folder::finish(folder, threads, || progress.add(walls, 0));
-    progress.finish();
-    let report = report?;
+    let finished = |progress: &Progress| study_folder::finish(folder, threads, || progress.add(walls, 0));
+    let report = progress::shown(finished)?;
     if let Some(warning) = &report.warning {
         output::warn(warning);
     }

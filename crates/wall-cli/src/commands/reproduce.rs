@@ -13,8 +13,7 @@ use study::parallel::threads;
 use study::reproduce::collapse::{Collapses, figure_15};
 use study::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
 
-use crate::output;
-use crate::output::progress::Progress;
+use crate::output::{self, progress};
 use figures::template;
 
 #[derive(Debug, Args)]
@@ -35,14 +34,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let records =
         arguments.records.as_deref().map(|folder| records(folder, &arguments.output)).transpose()?;
     let threads = threads(arguments.threads);
-    let progress = Progress::new();
-    let reproduction = reproduce(threads, |all| progress.add(all, 0));
-    progress.finish();
-    let reproduction = reproduction?;
+    let reproduction = progress::shown(|progress| reproduce(threads, |all| progress.add(all, 0)))?;
     output::to_stdout(&summary(&reproduction))?;
-    let progress = Progress::new();
-    let collapses = records.map(|records| figure_15(records, threads, |all| progress.add(all, 0)));
-    progress.finish();
+    let collapses = records
+        .map(|records| progress::shown(|progress| figure_15(records, threads, |all| progress.add(all, 0))));
     let collapses = collapses.transpose()?;
     if let Some(collapses) = &collapses {
         output::to_stdout(&plain(&collapses.table))?;

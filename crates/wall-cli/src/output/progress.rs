@@ -22,13 +22,19 @@ struct State {
     written: Instant,
 }
 
-impl Progress {
-    pub(crate) fn new() -> Self {
-        let now = Instant::now();
-        let state = Mutex::new(State { done: 0, runs: 0, written: now });
-        Self { start: now, state, shown: std::io::stderr().is_terminal() }
+/// Does work that tells its progress, and ends the line.
+pub(crate) fn shown<T>(work: impl FnOnce(&Progress) -> T) -> T {
+    let now = Instant::now();
+    let state = Mutex::new(State { done: 0, runs: 0, written: now });
+    let progress = Progress { start: now, state, shown: std::io::stderr().is_terminal() };
+    let outcome = work(&progress);
+    if progress.shown && progress.state.lock().is_ok_and(|state| state.done > 0) {
+        output::to_stderr("\n");
     }
+    outcome
+}
 
+impl Progress {
     /// Counts one more finished part, with its number of runs.
     pub(crate) fn add(&self, total: usize, runs: usize) {
         let Ok(mut state) = self.state.lock() else { return };
@@ -51,13 +57,6 @@ impl Progress {
                 state.done,
                 words(left)
             ));
-        }
-    }
-
-    /// Ends the line.
-    pub(crate) fn finish(&self) {
-        if self.shown && self.state.lock().is_ok_and(|state| state.done > 0) {
-            output::to_stderr("\n");
         }
     }
 }

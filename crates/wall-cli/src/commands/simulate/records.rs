@@ -11,7 +11,7 @@ use serde_json::json;
 use study::{counted, parallel};
 
 use super::arguments::Arguments;
-use crate::output::progress::Progress;
+use crate::output::progress::{self, Progress};
 use crate::output::{self, demands};
 use study::polarity::Polarities;
 use study_folder::csv::{optional, quoted};
@@ -48,9 +48,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     if let Some(warning) = first.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
         output::warn(&warning);
     }
-    let progress = Progress::new();
     let runs = signs.len() * motions.len();
-    let rows = parallel::map(runs, parallel::threads(None).get(), |index| {
+    let row = |index: usize, progress: &Progress| {
         let (Shaking { name, note, motion }, (sign, factor)) =
             (&motions[index / signs.len()], signs[index % signs.len()]);
         let motion = motion.checked_scaled(factor)?;
@@ -61,9 +60,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
         let response = Response::of(&scene).with_context(|| name.clone())?;
         progress.add(runs, 1);
         anyhow::Ok(Row { name: name.clone(), sign, peak_acceleration, summary: response.summary })
-    });
-    progress.finish();
-    let rows = rows?;
+    };
+    let threads = parallel::threads(None).get();
+    let rows = progress::shown(|progress| parallel::map(runs, threads, |index| row(index, progress)))?;
     output::save(arguments.csv.as_ref(), || csv(&rows))?;
     if arguments.json {
         let rows: Vec<_> = rows.iter().map(Row::json).collect();
