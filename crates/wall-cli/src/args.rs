@@ -117,6 +117,14 @@ impl SceneArguments {
     }
 }
 
+/// Refuses the first option that is given, and says why.
+pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> Result<()> {
+    match options.into_iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => bail!("{option} {why}"),
+        None => Ok(()),
+    }
+}
+
 /// Warns about accelerations of a scene's own motion that no record has.
 pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
     if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {

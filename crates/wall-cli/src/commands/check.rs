@@ -7,12 +7,12 @@ mod walls;
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use rocking_wall::scene::{Place, read_text};
 use study::circolare::{Sought, read_table};
 
-use crate::args::SceneArguments;
+use crate::args::{SceneArguments, refuse};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -86,12 +86,8 @@ impl Arguments {
             ("--csv", self.csv.is_some()),
             ("--report", self.report.is_some()),
         ];
-        match given.into_iter().find(|(_, given)| *given) {
-            Some((option, _)) => {
-                bail!("{name}: {option} needs a table [check] with code = \"circolare-2019\"")
-            }
-            None => Ok(()),
-        }
+        let why = "needs a table [check] with code = \"circolare-2019\"";
+        refuse(given, why).with_context(|| name.to_owned())
     }
 }
 

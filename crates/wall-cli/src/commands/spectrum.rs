@@ -16,7 +16,7 @@ use study::spectrum::{
     Point, PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
-use crate::args::{RecordArguments, SceneArguments};
+use crate::args::{RecordArguments, SceneArguments, refuse};
 use crate::output;
 use crate::pages::spectrum::page;
 use study_folder::csv::optional;
@@ -104,11 +104,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
 fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {
     let Arguments { heights, radii, ratios, angles, .. } = arguments;
     let given = [("--heights", heights), ("--radii", radii), ("--ratios", ratios), ("--angles", angles)];
-    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
-        bail!(
-            "{option} belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too"
-        );
-    }
+    refuse(
+        given.map(|(option, value)| (option, value.is_some())),
+        "belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too",
+    )?;
     // refuses --scale and --pga, which need a record
     arguments.record.load()?;
     let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
@@ -144,11 +143,10 @@ fn walls(
 ) -> Result<Shown> {
     let Arguments { frequency_ratios, amplitude_ratios, .. } = arguments;
     let given = [("--frequency-ratios", frequency_ratios), ("--amplitude-ratios", amplitude_ratios)];
-    if let Some((option, _)) = given.iter().find(|(_, given)| given.is_some()) {
-        bail!(
-            "{option} belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude"
-        );
-    }
+    refuse(
+        given.map(|(option, value)| (option, value.is_some())),
+        "belongs to the dimensionless spectrum of a pulse: leave out --frequency and --amplitude",
+    )?;
     let (size, sizes) = match &arguments.radii {
         Some(radii) => (Size::SemiDiagonal, values("--radii", Some(radii), [0.0; 2], 2)?),
         None => (Size::Height, values("--heights", arguments.heights.as_deref(), [0.5, 8.0], 31)?),

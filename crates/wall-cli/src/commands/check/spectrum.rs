@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
 use study::circolare::Side;
 
-use crate::args::read_record;
+use crate::args::{read_record, refuse};
 use crate::output;
 use crate::output::capacity::significant;
 use figures::template;
@@ -54,12 +54,8 @@ impl SpectrumArguments {
             ("--displacement-fraction", self.displacement_fraction.is_some()),
             ("--secant-fraction", self.secant_fraction.is_some()),
         ];
-        match given.iter().find(|(_, given)| *given) {
-            Some((option, _)) => {
-                bail!("{name}: {option} is for a scene without a table [check]; leave it out")
-            }
-            None => Ok(()),
-        }
+        let why = "is for a scene without a table [check]; leave it out";
+        refuse(given, why).with_context(|| name.to_owned())
     }
 
     fn damping(&self) -> f64 {
