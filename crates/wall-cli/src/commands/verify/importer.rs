@@ -23,8 +23,7 @@ type Instantiate =
     unsafe extern "C" fn(Text, Type, Text, Text, *const CallbackFunctions, Boolean, Boolean) -> Component;
 type Plain = unsafe extern "C" fn(Component) -> Status;
 type Setup = unsafe extern "C" fn(Component, Boolean, Real, Real, Boolean, Real) -> Status;
-type SetReal = unsafe extern "C" fn(Component, *const ValueReference, usize, *const Real) -> Status;
-type SetInteger = unsafe extern "C" fn(Component, *const ValueReference, usize, *const Integer) -> Status;
+type Set<T> = unsafe extern "C" fn(Component, *const ValueReference, usize, *const T) -> Status;
 type SetDerivatives =
     unsafe extern "C" fn(Component, *const ValueReference, usize, *const Integer, *const Real) -> Status;
 type DoStep = unsafe extern "C" fn(Component, Real, Real, Boolean) -> Status;
@@ -148,45 +147,41 @@ impl<'a> Instance<'a> {
     }
 
     /// The references of variables.
-    fn references(&self, names: impl Iterator<Item = &'static str>) -> Result<Vec<ValueReference>> {
-        let path = self.fmu.path.display();
-        names
-            .map(|name| self.fmu.reference(name).with_context(|| format!("{path}: has no variable {name}")))
-            .collect()
+    fn references(&self, names: &[&str]) -> Result<Vec<ValueReference>> {
+        let missing = |name: &str| format!("{}: has no variable {name}", self.fmu.path.display());
+        let reference = |name: &&str| self.fmu.reference(name).with_context(|| missing(name));
+        names.iter().map(reference).collect()
     }
 
     fn set_parameters(&self, scene: &Scene) -> Result<()> {
         let parameters = &scene.parameters;
         let real = |id: &RealVariable| Some((id.variable().name, parameters.real(*id)?));
-        let (names, values): (Vec<_>, Vec<_>) = RealVariable::ALL.iter().filter_map(real).unzip();
-        self.set_real(names.into_iter(), &values)?;
+        let (names, values): (Vec<_>, Vec<Real>) = RealVariable::ALL.iter().filter_map(real).unzip();
+        self.set(c"fmi2SetReal", &names, &values)?;
         let integer = |id: &IntegerVariable| Some((id.variable().name, parameters.integer(*id)?));
-        let (names, values): (Vec<_>, Vec<_>) = IntegerVariable::ALL.iter().filter_map(integer).unzip();
-        let references = self.references(names.into_iter())?;
-        let set: SetInteger = self.fmu.function(c"fmi2SetInteger")?;
-        // SAFETY: the instance lives; both lists have the length stated.
-        let status = unsafe { set(self.component, references.as_ptr(), references.len(), values.as_ptr()) };
-        self.expect(status, "fmi2SetInteger")
+        let (names, values): (Vec<_>, Vec<Integer>) = IntegerVariable::ALL.iter().filter_map(integer).unzip();
+        self.set(c"fmi2SetInteger", &names, &values)
     }
 
-    fn set_real(&self, names: impl Iterator<Item = &'static str>, values: &[Real]) -> Result<()> {
+    /// Sets variables by a function of the standard for values of their type.
+    fn set<T>(&self, name: &CStr, names: &[&str], values: &[T]) -> Result<()> {
         let references = self.references(names)?;
         assert_eq!(references.len(), values.len(), "a value for each variable");
-        let set: SetReal = self.fmu.function(c"fmi2SetReal")?;
+        let set: Set<T> = self.fmu.function(name)?;
         // SAFETY: the instance lives; both lists have the length stated.
         let status = unsafe { set(self.component, references.as_ptr(), values.len(), values.as_ptr()) };
-        self.expect(status, "fmi2SetReal")
+        self.expect(status, &name.to_string_lossy())
     }
 
     fn set_inputs(&self, support: Support) -> Result<()> {
-        self.set_real(INPUTS.into_iter(), &inputs(support))
+        self.set(c"fmi2SetReal", &INPUTS, &inputs(support))
     }
 
     /// Sets the rates of the inputs over a step.
     fn set_rates(&self, from: Support, to: Support, duration: f64) -> Result<()> {
         let (from, mut rates) = (inputs(from), inputs(to));
         rates.iter_mut().zip(from).for_each(|(rate, from)| *rate = (*rate - from) / duration);
-        let references = self.references(INPUTS.into_iter())?;
+        let references = self.references(&INPUTS)?;
         let set: SetDerivatives = self.fmu.function(c"fmi2SetRealInputDerivatives")?;
         let orders = [1; INPUTS.len()];
         // SAFETY: the instance lives; the three lists have the length stated.
