@@ -89,8 +89,8 @@ fn summary(reproduction: &Reproduction) -> String {
             let _ = write!(text, "; largest deviation {:.1} %, {place}", 100.0 * deviation);
         }
         text.push('\n');
-        for note in &table.notes {
-            text.push_str(&indented(note));
+        for line in table.notes.iter().flat_map(|note| output::wrapped(note, 96)) {
+            let _ = writeln!(text, "    {line}");
         }
     }
     let numbers: Vec<String> = reproduction.figures.iter().map(|figure| figure.number.to_string()).collect();
@@ -111,22 +111,6 @@ fn worst(table: &Table) -> Option<(f64, String)> {
     let Value { computed, printed, decimals } = *value;
     let (name, finer) = (row.first().map_or_else(String::new, words), decimals + 1);
     Some((deviation, format!("{name}, {column}: printed {printed:.decimals$}, computed {computed:.finer$}")))
-}
-
-/// A note as indented lines.
-fn indented(note: &str) -> String {
-    const WIDTH: usize = 100;
-    let (mut text, mut column) = (String::new(), WIDTH);
-    for word in note.split_whitespace() {
-        let length = word.chars().count() + 1;
-        if column + length > WIDTH {
-            text.push_str(if text.is_empty() { "   " } else { "\n   " });
-            column = 3;
-        }
-        let _ = write!(text, " {word}");
-        column += length;
-    }
-    text + "\n"
 }
 
 /// Formats a table that has no printed numbers.

@@ -154,6 +154,9 @@ fn json(subject: &str, formulas: &[Formula], counts: &Counts) -> Value {
     })
 }
 
+/// Most characters of a line of Markdown.
+const WIDTH: usize = 110;
+
 /// Formulas, references and bounds, which do not depend on what is verified.
 fn markdown(formulas: &[Formula]) -> String {
     let mut text = String::new();
@@ -163,7 +166,7 @@ fn markdown(formulas: &[Formula]) -> String {
             format!("{statement}."),
             format!("[Model](model.md#{section}). Reference: {reference}. Bound: {why}."),
         ];
-        let paragraphs = paragraphs.map(|paragraph| wrapped(&paragraph));
+        let paragraphs = paragraphs.map(|paragraph| output::wrapped(&paragraph, WIDTH).join("\n"));
         let _ = writeln!(text, "### {}. {title}\n\n{}\n", index + 1, paragraphs.join("\n\n"));
         text.push_str("| case | quantity | unit | reference | bound |\n|---|---|---|---|---|\n");
         for Check { case, quantity, unit, reference, bound, .. } in checks {
@@ -171,25 +174,6 @@ fn markdown(formulas: &[Formula]) -> String {
             let _ = writeln!(text, "| {case} | {quantity} | {unit} | {reference} | {bound:.0e} |");
         }
         text.push('\n');
-    }
-    text
-}
-
-/// Breaks a paragraph into lines.
-fn wrapped(paragraph: &str) -> String {
-    const WIDTH: usize = 110;
-    let (mut text, mut column) = (String::new(), 0);
-    for word in paragraph.split_whitespace() {
-        let length = word.chars().count();
-        if column > 0 && column + 1 + length > WIDTH {
-            text.push('\n');
-            column = 0;
-        } else if column > 0 {
-            text.push(' ');
-            column += 1;
-        }
-        text.push_str(word);
-        column += length;
     }
     text
 }
