@@ -216,14 +216,19 @@ impl Drawing<'_> {
         }
     }
 
+    /// The line of a dimension, with a stroke across each end.
+    fn dimension(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let look = "stroke=\"#777\"";
+        self.line(from, to, look);
+        for [x, y] in [from, to] {
+            self.line([x - 5.0, y + 5.0], [x + 5.0, y - 5.0], look);
+        }
+    }
+
     /// A vertical dimension from the base to a height.
     fn height(&mut self, x: f64, height: f64, name: &str) {
         let y = self.y(height);
-        let look = "stroke=\"#777\"";
-        self.line([x, FOOT], [x, y], look);
-        for end in [FOOT, y] {
-            self.line([x - 5.0, end + 5.0], [x + 5.0, end - 5.0], look);
-        }
+        self.dimension([x, FOOT], [x, y]);
         let text = format!("{name} = {} m", number(height));
         self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
     }
@@ -237,11 +242,8 @@ impl Drawing<'_> {
         if self.case.wall.tie().is_some() {
             self.height(INNER, self.case.report.scene.parameters.tie_height, "y");
         }
-        let (half, y, look) = (self.half(), FOOT + 24.0, "stroke=\"#777\"");
-        self.line([AXIS - half, y], [AXIS + half, y], look);
-        for end in [AXIS - half, AXIS + half] {
-            self.line([end - 5.0, y + 5.0], [end + 5.0, y - 5.0], look);
-        }
+        let (half, y) = (self.half(), FOOT + 24.0);
+        self.dimension([AXIS - half, y], [AXIS + half, y]);
         let text = format!("b = {} m", number(self.case.report.scene.parameters.thickness));
         self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
         let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);

@@ -5,7 +5,7 @@ use study::circolare::{
 };
 
 use super::Case;
-use super::markup::{Calculation, formula, number as n, section, side_head};
+use super::markup::{Calculation, formula, number as n, result, section, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;
@@ -52,10 +52,6 @@ fn one(case: &Case<'_>, title: &str, state: LimitState, check: &Check<'_>) -> St
     if text.is_empty() { text } else { section(title, &text) }
 }
 
-fn passes(zeta: f64) -> &'static str {
-    if zeta >= 1.0 { "passed" } else { "<span class=\"fails\">not passed</span>" }
-}
-
 /// A check of accelerations, with a factor q and whether the wall is held.
 fn activation(
     case: &Case<'_>,
@@ -97,7 +93,7 @@ fn end(lines: &mut Calculation, given: &StateStatement, [capacity, demand]: [Str
     let put = format!("{capacity}/{demand}");
     lines.line(["Safety index", "NTC 8.3"], ["ζ_E", &put], (zeta, ""));
     acceleration(lines, given, zeta, ag);
-    lines.say("Result", passes(zeta));
+    lines.say("Result", result(zeta >= 1.0));
 }
 
 fn acceleration(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
@@ -151,7 +147,7 @@ fn displacement(
         lines.line(["Safety index", "NTC 8.3"], [&format!("ζ_E = {d}/S_d"), ""], (check.zeta, ""));
     }
     acceleration(&mut lines, given, check.zeta, check.ag);
-    lines.say("Result", passes(check.zeta));
+    lines.say("Result", result(check.zeta >= 1.0));
     lines.table()
 }
 

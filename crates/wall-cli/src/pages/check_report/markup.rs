@@ -14,6 +14,11 @@ pub(super) fn side_head(name: &str) -> String {
     format!("<h3>Side {}</h3>\n", escaped(name))
 }
 
+/// The result of a check.
+pub(super) fn result(is_passed: bool) -> &'static str {
+    if is_passed { "passed" } else { "<span class=\"fails\">not passed</span>" }
+}
+
 /// A number as people write it, with six digits.
 pub(super) fn number(value: f64) -> String {
     figures::number(value, 6)

@@ -4,7 +4,7 @@ use figures::escaped;
 use study::circolare::{DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
 
 use super::Case;
-use super::markup::{Calculation, formula, number, section as part, table};
+use super::markup::{Calculation, formula, number, result, section as part, table};
 
 /// The section of the dynamic check; empty without one.
 pub(super) fn section(case: &Case<'_>) -> String {
@@ -63,8 +63,7 @@ fn one(case: &Case<'_>, name: LimitState, state: &DynamicState) -> String {
         &format!("<b>{}</b> of {}", state.beyond_d0, state.runs.len()),
     );
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
-    let result = if state.passed { "passed" } else { "<span class=\"fails\">not passed</span>" };
-    lines.say("Result", result);
+    lines.say("Result", result(state.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
     let factor = if case.report.statement.record_scale == study::circolare::RecordScale::Ag {
         format!("factor to {}", formula("a_g S"))

@@ -4,7 +4,7 @@ use figures::escaped;
 use study::circolare::{ActivationCheck, DisplacementCheck, LimitState, Method, UseClass};
 
 use super::Case;
-use super::markup::{formula, number};
+use super::markup::{formula, number, result};
 
 /// The verdict in one line as markup.
 pub(super) fn headline(text: &str) -> String {
@@ -65,10 +65,9 @@ pub(super) fn section(case: &Case<'_>) -> String {
         heads.join("</th><th>")
     );
     for Row { cells, passes, decides } in rows {
-        let result = if passes { "passed" } else { "<span class=\"fails\">not passed</span>" };
         let class = if decides { " class=\"decides\"" } else { "" };
         let (first, rest) = cells.split_at(3);
-        let cells = [first, &[result.to_owned()], rest].concat();
+        let cells = [first, &[result(passes).to_owned()], rest].concat();
         text.push_str(&["<tr", class, "><td>", &cells.join("</td><td>"), "</td></tr>\n"].concat());
     }
     let method = match statement.method {
