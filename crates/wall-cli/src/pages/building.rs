@@ -221,9 +221,9 @@ type Line = (String, Vec<(f64, f64)>, &'static str);
 
 /// Histories: floor accelerations, u/`u_ins` of each wall, the forces that support them.
 fn figures(building: &Building, run: &Coupled, end: f64) -> String {
-    let points = |values: &[f64], scale: f64, until: Option<f64>| -> Vec<(f64, f64)> {
+    let points = |values: &[f64], scale: f64| -> Vec<(f64, f64)> {
         let pairs = run.times.iter().copied().zip(values.iter().map(|value| scale * value));
-        pairs.take_while(|(time, _)| *time <= until.unwrap_or(end).min(end)).collect()
+        pairs.take_while(|(time, _)| *time <= end).collect()
     };
     let color = |index: usize| SERIES[index % SERIES.len()].0;
     let marks: Vec<_> = overturned(building, run)
@@ -244,9 +244,9 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
         let drawn: Vec<_> = lines.iter().map(|(_, points, color)| (&points[..], *color)).collect();
         (keys.concat(), histories(&drawn, [0.0, end], label, shown))
     };
-    let mut floors = vec![("ground".to_owned(), points(&run.ground.values, 1.0, None), DARK_GREY)];
+    let mut floors = vec![("ground".to_owned(), points(&run.ground.values, 1.0), DARK_GREY)];
     for (index, floor) in building.floors.iter().enumerate() {
-        let history = points(&run.floors[index].acceleration.values, 1.0, None);
+        let history = points(&run.floors[index].acceleration.values, 1.0);
         floors.push((floor.name.clone(), history, color(index)));
     }
     let (keys, figure) = drawn(floors, "acceleration (m/s²)", &[]);
@@ -256,20 +256,15 @@ fn figures(building: &Building, run: &Coupled, end: f64) -> String {
     }
     let walls = building.walls.iter().zip(&run.walls).enumerate();
     let ratio = walls.clone().map(|(index, (wall, history))| {
-        (wall.name.clone(), cut(points(&history.ratio.values, 1.0, None)), color(index))
+        (wall.name.clone(), cut(points(&history.ratio.values, 1.0)), color(index))
     });
     let (keys, figure) = drawn(ratio.collect(), "u / u_ins", &[-1.0, 1.0]);
     let figure = Plot { limits: vec![(-1.0, RED), (1.0, RED)], ..figure };
     text += &plot("ratios", &format!("Walls; dashed: static instability:{keys}"), &figure, &marks, true);
     let forces = walls.map(|(index, (wall, history))| {
-        (wall.name.clone(), points(&history.reaction_bottom.values, 1e-3, None), color(index))
+        (wall.name.clone(), points(&history.reaction_bottom.values, 1e-3), color(index))
     });
     let (keys, figure) = drawn(forces.collect(), "force (kN)", &[]);
-    text + &plot(
-        "forces",
-        &format!("Forces of the floors on the feet of the walls:{keys}"),
-        &figure,
-        &[],
-        true,
-    )
+    let caption = format!("Forces of the floors on the feet of the walls:{keys}");
+    text + &plot("forces", &caption, &figure, &[], true)
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use figures::plot::Plot;
 use figures::{escaped, template};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Frames the slider moves through.
 pub(crate) const MOST_FRAMES: usize = 1500;
@@ -115,15 +115,7 @@ fn one(class: &str, figure: &Plot, marks: &[(f64, &str)], is_history: bool) -> S
         let _ =
             write!(over, "<div class=\"mark{late}\" style=\"left:{x:.4}%;{span}\"><span>{name}</span></div>");
     }
-    format!(
-        "<div class=\"{class}\" data-area=\"{}\" data-ranges=\"{}\">{}{over}</div>",
-        json(&figure.area()),
-        json(&figure.ranges()),
-        figure.svg()
-    )
-}
-
-fn json(numbers: &[f64; 4]) -> String {
-    let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
-    format!("[{}]", numbers.join(","))
+    let [area, ranges] = [figure.area(), figure.ranges()].map(|numbers| json!(numbers));
+    let svg = figure.svg();
+    format!("<div class=\"{class}\" data-area=\"{area}\" data-ranges=\"{ranges}\">{svg}{over}</div>")
 }
