@@ -115,20 +115,8 @@ fn table(study: &WorkPrecision) -> String {
         study.amplification,
         study.rounding()
     );
-    let _ = writeln!(
-        text,
-        "  {:<10}{:<18}{:>11}{:>11}{:>11}{:>11}{:>11}{:>10}{:>9}{:>9}",
-        "solver",
-        "setting",
-        "max error",
-        "rms error",
-        "peak",
-        "t overt. s",
-        "time ms",
-        "pieces",
-        "corners",
-        "impacts"
-    );
+    text += "  solver    setting             max error  rms error       peak t overt. s    time ms    \
+             pieces  corners  impacts\n";
     for row in &study.measurements {
         let optional = |error: Option<f64>| error.map_or_else(|| "-".into(), |error| format!("{error:.1e}"));
         let (peak, overturning) = (optional(row.error_peak), optional(row.error_overturning));

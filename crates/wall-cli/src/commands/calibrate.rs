@@ -83,13 +83,8 @@ fn help_of_models() -> String {
 fn table(found: &Calibration) -> String {
     let Label { name: short, symbol, .. } = label(found.model);
     let mut text = format!(
-        "{} ({short}): {symbol} = -x ln e\n  {:>9}{:>10}{:>10}{:>12}{:>12}\n",
-        found.model.name(),
-        "a1",
-        "u0/u_ins",
-        "x",
-        "paper",
-        "deviation"
+        "{} ({short}): {symbol} = -x ln e\n         a1  u0/u_ins         x       paper   deviation\n",
+        found.model.name()
     );
     for Coefficient { a1, start, x } in &found.coefficients {
         let _ = write!(text, "  {a1:>9}{start:>10}{x:>10.4}");
