@@ -13,7 +13,7 @@ use study::circolare::{
     Verdict, check, demands, read_table,
 };
 
-use crate::request::{Faults, Fields, field_of};
+use crate::request::{Fields, fault_of, field_of};
 
 /// Where a message goes that is about no field.
 const NO_FIELD: &str = "check";
@@ -53,7 +53,7 @@ pub(crate) fn checked(fields: &Fields, wall: &Wall, parameters: &Parameters, wid
         Ok(outcome) => outcome,
         Err(error) => {
             let (field, message) = fault(fields, error);
-            json!({ "faults": Faults::from([(field, message)]) })
+            json!({ "faults": fault_of(field, message) })
         }
     }
 }

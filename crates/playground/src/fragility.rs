@@ -112,8 +112,7 @@ impl Fragility {
             series.push(Series { look, ..Series::line(GREY, 1.2, vec![(peak, 0.0), (peak, 1.0)]) });
         }
         let size = [self.width.clamp(280.0, 700.0), 280.0];
-        let axes = [Axis::over("peak ground acceleration (g)", [0.0, right])];
-        let [x] = axes;
+        let x = Axis::over("peak ground acceleration (g)", [0.0, right]);
         Plot::new(size, [x, Axis::over("probability", [0.0, 1.02])], series)
     }
 }

@@ -46,6 +46,11 @@ pub(crate) struct Inputs {
     pub(crate) width: f64,
 }
 
+/// Says what is wrong with one field.
+pub(crate) fn fault_of(field: impl Into<String>, message: impl Into<String>) -> Faults {
+    Faults::from([(field.into(), message.into())])
+}
+
 /// Finds the field that a message names first; `otherwise` where it names none of them.
 pub(crate) fn field_of<'a>(
     message: &str,

@@ -9,7 +9,7 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
 
 use crate::check;
-use crate::request::{Faults, Fields, Inputs, field_of};
+use crate::request::{Faults, Fields, Inputs, fault_of, field_of};
 use crate::upload::Upload;
 
 /// Most points of a history: more than a screen shows.
@@ -37,8 +37,7 @@ pub(crate) fn prepare(inputs: &Inputs, upload: &mut Upload) -> Result<Prepared, 
     }
     let wall = Wall::new(&scene.parameters).map_err(|error| {
         let message = error.to_string();
-        let field = field_of(&message, inputs.parameters.keys().map(String::as_str), "wall");
-        Faults::from([(field, message)])
+        fault_of(field_of(&message, inputs.parameters.keys().map(String::as_str), "wall"), message)
     })?;
     // a multiple of the step of the motion
     scene.output_step *= (scene.stop_time / (MOST_POINTS * scene.output_step)).ceil().max(1.0);
@@ -72,8 +71,7 @@ fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fault
             SceneError::Motion { source, .. } => source.to_string(),
             other => other.to_string(),
         };
-        let field = field_of(&message, motion.keys().map(String::as_str), "motion");
-        Faults::from([(field, message)])
+        fault_of(field_of(&message, motion.keys().map(String::as_str), "motion"), message)
     })?;
     Ok((scene, text))
 }
@@ -82,8 +80,7 @@ fn shaken(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Fault
 fn recorded(motion: &Fields, upload: &mut Upload) -> Result<(Scene, String), Faults> {
     let scale = number(motion, "scale")?;
     let record = upload.record(motion)?;
-    let scaled = record.motion.checked_scaled(scale);
-    let scaled = scaled.map_err(|error| Faults::from([("scale".to_owned(), error.to_string())]))?;
+    let scaled = record.motion.checked_scaled(scale).map_err(|error| fault_of("scale", error.to_string()))?;
     let mut notes = vec![format!("record {} ({})", motion["record"], record.format.description())];
     notes.extend(record.check().warnings.iter().map(ToString::to_string));
     let mut scene = Scene::default();
@@ -110,17 +107,14 @@ fn table(kind: &str, motion: &Fields) -> Result<String, Faults> {
             let seed = motion.get("seed").map_or("", |seed| seed.trim());
             if seed.parse::<u32>().is_err() {
                 let message = format!("seed = {seed:?} is not a whole number from 0 to {}", u32::MAX);
-                return Err(Faults::from([("seed".to_owned(), message)]));
+                return Err(fault_of("seed", message));
             }
             return Ok(format!("synthetic = {{ seed = {seed} }}\npga = {:?}\n", value("pga")?));
         }
         "ricker" => format!(", centre = {:?}", value("centre")?),
         "harmonic" => format!(", duration = {:?}", value("duration")?),
         "sine_cycle" | "half_sine" => String::new(),
-        other => {
-            let message = format!("there is no motion {other:?}");
-            return Err(Faults::from([("motion".to_owned(), message)]));
-        }
+        other => return Err(fault_of("motion", format!("there is no motion {other:?}"))),
     };
     let (amplitude, frequency) = (value("amplitude")?, value("frequency")?);
     Ok(format!("{kind} = {{ amplitude = {amplitude:?}, frequency = {frequency:?}{made} }}\n"))
@@ -131,6 +125,6 @@ fn number(motion: &Fields, key: &str) -> Result<f64, Faults> {
     let text = motion.get(key).map_or("", |text| text.trim());
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(Faults::from([(key.to_owned(), format!("{key} = {text:?} is not a number"))])),
+        _ => Err(fault_of(key, format!("{key} = {text:?} is not a number"))),
     }
 }

@@ -9,7 +9,7 @@ use crate::charts::{Charts, Frames};
 use crate::check;
 use crate::fragility::Fragility;
 use crate::parameters;
-use crate::request::{Faults, Inputs, Request};
+use crate::request::{Faults, Inputs, Request, fault_of};
 use crate::scene::{Prepared, prepare};
 use crate::upload::Upload;
 use crate::verdict::{facts, verdict};
@@ -47,7 +47,7 @@ impl Session {
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
                 Charts::new(&prepared.wall, response, figures::response::WIDTH).file().into()
             }),
-            Err(error) => Err(Faults::from([("request".to_owned(), error.to_string())])),
+            Err(error) => Err(fault_of("request", error.to_string())),
         };
         match answer {
             Ok(answer) => json!({ "answer": answer }).to_string(),
@@ -62,15 +62,12 @@ impl Session {
     }
 
     fn last(&self) -> Result<&(Prepared, Response), Faults> {
-        self.last
-            .as_ref()
-            .ok_or_else(|| Faults::from([("wall".to_owned(), "nothing has run yet".to_owned())]))
+        self.last.as_ref().ok_or_else(|| fault_of("wall", "nothing has run yet"))
     }
 
     fn run(&mut self, inputs: &Inputs) -> Result<Value, Faults> {
         let prepared = prepare(inputs, &mut self.upload)?;
-        let response = Response::of(&prepared.scene)
-            .map_err(|error| Faults::from([("wall".to_owned(), error.to_string())]))?;
+        let response = Response::of(&prepared.scene).map_err(|error| fault_of("wall", error.to_string()))?;
         let (scene, wall) = (&prepared.scene, &prepared.wall);
         let (body, summary) = (wall.body(), &response.summary);
         let mut warnings: Vec<String> = wall.warnings().iter().map(ToString::to_string).collect();
@@ -111,19 +108,15 @@ impl Session {
     fn start_fragility(&mut self, inputs: &Inputs) -> Result<Value, Faults> {
         let Prepared { scene, .. } = prepare(inputs, &mut self.upload)?;
         let peak = scene.excitation.as_ref().map(|excitation| excitation.bottom().peak());
-        let fragility = Fragility::new(scene.parameters, inputs.width, peak).map_err(fragility_fault)?;
-        self.fragility = Some(fragility);
+        let fragility = Fragility::new(scene.parameters, inputs.width, peak);
+        self.fragility = Some(fragility.map_err(|message| fault_of("fragility", message))?);
         Ok(Value::Null)
     }
 
     fn next_motion(&mut self) -> Result<Value, Faults> {
         let Some(fragility) = &mut self.fragility else {
-            return Err(fragility_fault("no fragility has been started".to_owned()));
+            return Err(fault_of("fragility", "no fragility has been started"));
         };
-        fragility.next().map_err(fragility_fault)
+        fragility.next().map_err(|message| fault_of("fragility", message))
     }
-}
-
-fn fragility_fault(message: String) -> Faults {
-    Faults::from([("fragility".to_owned(), message)])
 }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use ground_motion::{Format, Record, RecordOptions, Unit, parse};
 use rocking_wall::scene::fingerprint;
 
-use crate::request::{Faults, Fields};
+use crate::request::{Faults, Fields, fault_of};
 
 /// A record file, and how it was last read.
 #[derive(Debug, Default)]
@@ -33,7 +33,7 @@ impl Upload {
                 "" => "drop a record file here, or choose one".to_owned(),
                 _ => format!("{name}: a link does not contain records; drop the file here, or choose it"),
             };
-            return Err(Faults::from([("record".to_owned(), message)]));
+            return Err(fault_of("record", message));
         }
         let options = options(motion)?;
         let current = self.read.take().filter(|(of, with, _)| (of, with) == (&name, &options));
@@ -41,7 +41,7 @@ impl Upload {
             Some(read) => read,
             None => match parse(&name, self.bytes.clone(), &options) {
                 Ok(record) => (name, options, record),
-                Err(error) => return Err(Faults::from([("record".to_owned(), error.to_string())])),
+                Err(error) => return Err(fault_of("record", error.to_string())),
             },
         };
         Ok(&self.read.insert(read).2)
@@ -65,6 +65,5 @@ where
     T::Err: std::fmt::Display,
 {
     let Some(text) = text else { return Ok(None) };
-    let fault = |error| Faults::from([(field.to_owned(), format!("{field} = {text:?}: {error}"))]);
-    text.parse().map(Some).map_err(fault)
+    text.parse().map(Some).map_err(|error| fault_of(field, format!("{field} = {text:?}: {error}")))
 }

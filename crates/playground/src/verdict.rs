@@ -23,15 +23,13 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
             ("stands", format!("The wall stands: it reaches {percent} % of u_ins"))
         }
     };
-    let moved = format!(
-        "largest displacement {} mm at {:.2} s; it overturns beyond {} mm",
-        millimetres(peak.value.abs()),
-        peak.time,
-        millimetres(u_ins)
-    );
+    let [largest, u_ins] = [peak.value.abs(), u_ins].map(|metres| number(1000.0 * metres, 3));
     let detail = match summary.fate {
-        Fate::Falls { .. } => format!("It overturns beyond {} mm.", millimetres(u_ins)),
-        _ => format!("{}{}.", moved[..1].to_uppercase(), &moved[1..]),
+        Fate::Falls { .. } => format!("It overturns beyond {u_ins} mm."),
+        _ => format!(
+            "Largest displacement {largest} mm at {:.2} s; it overturns beyond {u_ins} mm.",
+            peak.time
+        ),
     };
     let onset = wall.rocking_onset();
     let shaken = scene.excitation.as_ref().map(|excitation| {
@@ -44,10 +42,6 @@ pub(crate) fn verdict(scene: &Scene, wall: &Wall, response: &Response) -> Value 
         )
     });
     json!({ "state": state, "headline": headline, "detail": detail + shaken.as_deref().unwrap_or_default() })
-}
-
-fn millimetres(metres: f64) -> String {
-    number(1000.0 * metres, 3)
 }
 
 /// Lists what follows from the parameters, as names, values and units for people.
