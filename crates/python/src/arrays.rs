@@ -1,7 +1,7 @@
 //! Samples from Python, and arrays to Python.
 
 use ground_motion::GroundMotion;
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -12,6 +12,16 @@ pub(crate) type Given<'py> = (f64, Bound<'py, PyAny>);
 
 /// An array of numbers for Python.
 pub(crate) type Numbers<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Makes an array of a value of each point, row by row.
+pub(crate) fn grid<'py, P, T: Element>(
+    py: Python<'py>,
+    rows: &[impl AsRef<[P]>],
+    value: fn(&P) -> T,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let rows: Vec<Vec<T>> = rows.iter().map(|row| row.as_ref().iter().map(value).collect()).collect();
+    Ok(PyArray2::from_vec2(py, &rows)?)
+}
 
 /// Copies the numbers of anything that numpy makes a one-dimensional array of: a list, a slice with strides,
 /// an array that is misaligned, in another byte order or of another type of real numbers.

@@ -1,6 +1,6 @@
 //! The class `Building`: storeys and walls as one system.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use building::coupled::{Coupled, History, Peak, Settings};
 use building::document::Floor;
@@ -9,12 +9,11 @@ use figures::palette::{DARK_GREY, SERIES};
 use figures::plot::Picture;
 use figures::response::{cut, histories};
 use numpy::PyArray1;
-use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Given, motion};
-use crate::errors::{failed, refused};
+use crate::errors::{failed, of_file, refused};
 use crate::watch::watched;
 
 /// A building ready to run.
@@ -34,7 +33,7 @@ impl Building {
             let parts = Parts::read(&building)?;
             Ok(Self { building, parts })
         })
-        .map_err(|error| of_building(error, &path))
+        .map_err(|error: BuildingError| of_file(error, &path))
     }
 
     #[getter]
@@ -128,14 +127,7 @@ fn set(values: &Bound<'_, PyDict>, name: &str, history: &History) -> PyResult<()
 }
 
 fn peak(py: Python<'_>, Peak { value, time }: Peak) -> PyResult<Bound<'_, PyDict>> {
-    let peak = PyDict::new(py);
-    peak.set_item("value", value)?;
-    peak.set_item("time", time)?;
-    Ok(peak)
-}
-
-fn of_building(error: BuildingError, path: &Path) -> PyErr {
-    if path.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
+    [("value", value), ("time", time)].into_py_dict(py)
 }
 
 /// Draws the accelerations of ground and floors above u/`u_ins` of the walls, as SVG.

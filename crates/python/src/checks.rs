@@ -3,7 +3,7 @@
 use figures::capacity::over_demand;
 use figures::check::governing_over_demand;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 use rocking_wall::scene::{Place, SceneError};
 use study::check::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
 use study::circolare::{self, CheckError, Records, demands, in_table, read_table};
@@ -87,8 +87,7 @@ pub(crate) fn check_wall_by_code(
 
 /// Returns the numbers of a side by their names in `wall check --json`.
 fn values<'py>(py: Python<'py>, side: &SideCheck) -> PyResult<Bound<'py, PyDict>> {
-    let values = PyDict::new(py);
-    for (name, value) in [
+    let values = [
         ("sign", side.sign),
         ("onset_acceleration", side.onset_acceleration),
         ("zero_displacement", side.zero_displacement),
@@ -100,9 +99,8 @@ fn values<'py>(py: Python<'py>, side: &SideCheck) -> PyResult<Bound<'py, PyDict>
         ("displacement_demand", side.displacement_demand),
         ("acceleration_ratio", side.acceleration_ratio),
         ("displacement_ratio", side.displacement_ratio),
-    ] {
-        values.set_item(name, value)?;
-    }
+    ]
+    .into_py_dict(py)?;
     values.set_item("limited_by_tie", side.limited_by_tie)?;
     Ok(values)
 }

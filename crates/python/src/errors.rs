@@ -19,6 +19,11 @@ pub(crate) fn failed(error: impl Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }
 
+/// Makes the exception of a file: `FileNotFoundError` where there is none.
+pub(crate) fn of_file(error: impl Display, path: &Path) -> PyErr {
+    if path.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
+}
+
 /// Makes the exception of a record: `OSError` where its file cannot be read.
 pub(crate) fn of_motion(error: GroundMotionError) -> PyErr {
     match &error {
@@ -35,9 +40,7 @@ pub(crate) fn of_motion(error: GroundMotionError) -> PyErr {
 /// Makes the exception of a scene or a study: `FileNotFoundError` where there is no such file.
 pub(crate) fn of_scene(error: SceneError) -> PyErr {
     match &error {
-        SceneError::File { file, .. } if !Path::new(file).exists() => {
-            PyFileNotFoundError::new_err(error.to_string())
-        }
+        SceneError::File { file, .. } => of_file(&error, Path::new(file)),
         SceneError::Run(_) => failed(error),
         _ => refused(error),
     }

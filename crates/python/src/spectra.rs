@@ -14,7 +14,7 @@ use study::spectrum::{
     over_pulses, over_walls,
 };
 
-use crate::arrays::{Given, Numbers, motion, samples};
+use crate::arrays::{Given, Numbers, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::walls::Wall;
 
@@ -129,20 +129,12 @@ fn of_spectrum(error: SpectrumError) -> PyErr {
 }
 
 fn values(py: Python<'_>, spectrum: RockingSpectrum) -> PyResult<Values<'_>> {
-    fn array<'py, T: numpy::Element>(
-        py: Python<'py>,
-        points: &[Vec<Point>],
-        value: fn(&Point) -> T,
-    ) -> PyResult<Bound<'py, PyArray2<T>>> {
-        let rows: Vec<Vec<T>> = points.iter().map(|row| row.iter().map(value).collect()).collect();
-        Ok(PyArray2::from_vec2(py, &rows)?)
-    }
     let RockingSpectrum { columns, rows, points } = spectrum;
     Ok((
         PyArray1::from_vec(py, columns),
         PyArray1::from_vec(py, rows),
-        array(py, &points, |point| point.ratio)?,
-        array(py, &points, |point| point.rocked)?,
-        array(py, &points, |point| point.overturning.unwrap_or(f64::NAN))?,
+        grid(py, &points, |point| point.ratio)?,
+        grid(py, &points, |point| point.rocked)?,
+        grid(py, &points, |point| point.overturning.unwrap_or(f64::NAN))?,
     ))
 }

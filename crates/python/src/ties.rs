@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use figures::tie::picture;
-use numpy::{Element, PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Fate;
@@ -11,7 +11,7 @@ use study::parallel;
 use study::polarity::Polarities;
 use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
 
-use crate::arrays::{Given, motion, samples};
+use crate::arrays::{Given, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables::Column::{Counts, Numbers};
 use crate::tables::table;
@@ -54,23 +54,16 @@ fn of_tie(error: TieError) -> PyErr {
 }
 
 fn outcomes<'py>(py: Python<'py>, rows: &[Row]) -> PyResult<Bound<'py, PyDict>> {
-    fn array<'py, T: Element>(
-        py: Python<'py>,
-        rows: &[Row],
-        value: fn(&Outcome) -> T,
-    ) -> PyResult<Bound<'py, PyArray2<T>>> {
-        let values: Vec<Vec<T>> = rows.iter().map(|row| row.outcomes.iter().map(value).collect()).collect();
-        Ok(PyArray2::from_vec2(py, &values)?)
-    }
+    let of: Vec<&[Outcome]> = rows.iter().map(|row| &row.outcomes[..]).collect();
     let values = PyDict::new(py);
     values.set_item("stiffness", PyArray1::from_iter(py, rows.iter().map(|row| row.stiffness)))?;
-    values.set_item("force", array(py, rows, |outcome| outcome.force)?)?;
-    values.set_item("u_ratio_max", array(py, rows, |outcome| outcome.u_ratio)?)?;
-    values.set_item("falls", array(py, rows, |outcome| outcome.fate.falls())?)?;
-    values.set_item("falls_away_from_tie", array(py, rows, |outcome| outcome.away)?)?;
+    values.set_item("force", grid(py, &of, |outcome| outcome.force)?)?;
+    values.set_item("u_ratio_max", grid(py, &of, |outcome| outcome.u_ratio)?)?;
+    values.set_item("falls", grid(py, &of, |outcome| outcome.fate.falls())?)?;
+    values.set_item("falls_away_from_tie", grid(py, &of, |outcome| outcome.away)?)?;
     let comes_back = |outcome: &Outcome| matches!(outcome.fate, Fate::ComesBack { .. });
-    values.set_item("beyond_u_ins_and_back", array(py, rows, comes_back)?)?;
-    values.set_item("strength_reached", array(py, rows, |outcome| outcome.reached)?)?;
+    values.set_item("beyond_u_ins_and_back", grid(py, &of, comes_back)?)?;
+    values.set_item("strength_reached", grid(py, &of, |outcome| outcome.reached)?)?;
     Ok(values)
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use figures::capacity::{Curve, plot};
 use ground_motion::GroundMotion;
 use numpy::PyArray1;
-use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError};
+use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use record::{Outcome, RecordSolver};
@@ -21,7 +21,7 @@ use scene_fmu::General;
 use study::ida::Shaking;
 
 use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
-use crate::errors::{failed, of_motion, of_scene, refused};
+use crate::errors::{failed, of_file, of_motion, of_scene, refused};
 use crate::responses;
 
 /// Runs of a batch between two looks at Ctrl-C; they take a fraction of a second.
@@ -148,9 +148,9 @@ impl Wall {
 
     /// Returns a number that follows from the parameters, by its name in the model description.
     fn calculated(&self, name: &str) -> PyResult<f64> {
-        let facts = self.equation.facts().into_iter();
-        let found = facts.filter(|fact| fact.name == name).map(|fact| fact.value).next();
+        let found = self.equation.facts().into_iter().find(|fact| fact.name == name);
         found
+            .map(|fact| fact.value)
             .ok_or_else(|| PyAttributeError::new_err(format!("{name:?} does not follow from the parameters")))
     }
 
@@ -283,9 +283,7 @@ impl Wall {
     fn package(&self, py: Python<'_>, path: PathBuf, base: PathBuf) -> PyResult<usize> {
         py.detach(|| {
             let unit = General::open(&base).and_then(|general| scene_fmu::of_scene(&self.scene, general));
-            let unit = unit.map_err(|error| {
-                if base.exists() { refused(error) } else { PyFileNotFoundError::new_err(error.to_string()) }
-            })?;
+            let unit = unit.map_err(|error| of_file(error, &base))?;
             study_folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
                 .map_err(refused)?;
             Ok(unit.variables)
