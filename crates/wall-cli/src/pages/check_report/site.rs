@@ -5,7 +5,7 @@ use figures::check::{DEMAND, Drawn, color, spectra};
 use figures::palette::sign;
 use figures::plot::Plot;
 use study::circolare::{
-    Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Source, StateStatement,
+    Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source, StateStatement,
 };
 
 use super::Case;
@@ -29,6 +29,14 @@ fn ground(demand: &Demand) -> Option<&GroundSpectrum> {
         Demand::Ground(ground) => Some(ground),
         Demand::Floor(floor) => Some(floor.ground()),
         Demand::Points(..) | Demand::Records(_) => None,
+    }
+}
+
+/// The spectrum of a floor of the building, if the demand is one.
+fn floor(demand: &Demand) -> Option<&FloorSpectrum> {
+    match demand {
+        Demand::Floor(floor) => Some(floor),
+        _ => None,
     }
 }
 
@@ -70,30 +78,16 @@ pub(super) fn values(case: &Case<'_>) -> String {
         some(ground(demand).map(|ground| ground.acceleration(0.0, 0.05)))
     });
     row("ξ", "C8.7.1.2.1.5, .8", "", &|(given, _)| number(given.damping));
-    let floor = |demand: &Demand| match demand {
-        Demand::Floor(floor) => Some(floor.clone()),
-        _ => None,
+    let modes = |demand: &Demand, value: fn(&FloorSpectrum, &Mode) -> f64| {
+        let Some(floor) = floor(demand) else { return "–".to_owned() };
+        let values = floor.modes().iter().map(|mode| number(value(floor, mode)));
+        values.collect::<Vec<_>>().join("; ")
     };
-    let modes = |demand: &Demand, value: &dyn Fn(&FloorSpectrum, usize) -> f64| {
-        floor(demand).map_or_else(
-            || "–".to_owned(),
-            |floor| {
-                let values = (0..floor.modes().len()).map(|mode| number(value(&floor, mode)));
-                values.collect::<Vec<_>>().join("; ")
-            },
-        )
-    };
-    row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, &|floor, mode| floor.modes()[mode].period));
-    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| {
-        modes(demand, &|floor, mode| floor.modes()[mode].participation)
-    });
-    row("ξ_k", "C8.7.1.2.1.4", "", &|(_, demand)| some(floor(demand).map(|floor| floor.damping())));
-    row("a_Z,k", "[C7.2.7]", "m/s²", &|(_, demand)| {
-        modes(demand, &|floor, mode| floor.mode_acceleration(&floor.modes()[mode]))
-    });
-    row("a_Z", "[C7.2.8]", "m/s²", &|(_, demand)| {
-        some(floor(demand).map(|floor| floor.peak_acceleration()))
-    });
+    row("T_k", "C7.2.3", "s", &|(_, demand)| modes(demand, |_, mode| mode.period));
+    row("γ_k ψ_k", "C7.2.3", "", &|(_, demand)| modes(demand, |_, mode| mode.participation));
+    row("ξ_k", "C8.7.1.2.1.4", "", &|(_, demand)| some(floor(demand).map(FloorSpectrum::damping)));
+    row("a_Z,k", "[C7.2.7]", "m/s²", &|(_, demand)| modes(demand, FloorSpectrum::mode_acceleration));
+    row("a_Z", "[C7.2.8]", "m/s²", &|(_, demand)| some(floor(demand).map(FloorSpectrum::peak_acceleration)));
     row("A_k", "[C7.2.9]", "", &|(given, demand)| {
         some(floor(demand).map(|floor| floor.amplification(given.damping)))
     });
