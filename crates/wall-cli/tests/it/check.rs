@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use ground_motion::{Spectrum, SyntheticMotion};
 use rocking_wall::scene::Scene;
 
-use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, succeed, text, wall};
+use crate::command_line::{
+    assert_has, content, fails, folder, json, printed, refused, setting, succeed, text, wall,
+};
 
 /// The hand calculations of docs/model.md, to the last printed digit.
 #[test]
@@ -13,8 +15,8 @@ fn a_check_is_that_by_hand() {
     let folder = folder("check_by_hand");
     std::fs::write(folder.join("spectrum.csv"), "T,Sa\n0,2\n0.1,5\n0.5,5\n1,2.5\n2,1.25\n4,0.3\n").unwrap();
     let spectrum = ["--spectrum", "spectrum.csv", "--unit", "m/s2"];
-    let strip = ["mechanism=vertical_spanning", "height=3", "thickness=0.25", "overburden=10000"];
-    let tied = ["tie_height=3", "tie_stiffness=2e5", "tie_slack=0.03", "tie_strength=5000"];
+    let strip = "mechanism=vertical_spanning height=3 thickness=0.25 overburden=10000";
+    let tied = "tie_height=3 tie_stiffness=2e5 tie_slack=0.03 tie_strength=5000";
     let document = std::fs::read_to_string(crate::root().join("docs/model.md")).unwrap();
     let rows: Vec<Vec<&str>> = document
         .lines()
@@ -24,10 +26,8 @@ fn a_check_is_that_by_hand() {
         .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
         .collect();
     assert_eq!(rows.len(), 10);
-    for (column, set) in [&[][..], &strip, &tied].iter().enumerate() {
-        let set = set.iter().flat_map(|set| ["--set", set]);
-        let arguments: Vec<_> = ["check"].into_iter().chain(spectrum).chain(set).collect();
-        let text = printed(&folder, &arguments);
+    for (column, set) in ["", strip, tied].into_iter().enumerate() {
+        let text = printed(&folder, &[&setting("check", set)[..], &spectrum].concat());
         for row in &rows {
             let line = text.lines().find(|line| line.starts_with(row[0])).unwrap();
             let value = line[row[0].len()..].split_whitespace().nth(1).unwrap();

@@ -17,13 +17,26 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// The program with its arguments, in a folder.
+pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
+    command.current_dir(folder).args(arguments);
+    command
+}
+
 pub(crate) fn wall(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_wall")).current_dir(folder).args(arguments).output().unwrap()
+    program(folder, arguments).output().unwrap()
 }
 
 /// Splits the arguments of a command.
 pub(crate) fn args(line: &str) -> Vec<&str> {
     line.split(' ').collect()
+}
+
+/// Splits the arguments of a command, and sets parameters such as `xi=0.1 a1=0.02`.
+pub(crate) fn setting<'a>(line: &'a str, parameters: &'a str) -> Vec<&'a str> {
+    let set = parameters.split_whitespace().flat_map(|parameter| ["--set", parameter]);
+    args(line).into_iter().chain(set).collect()
 }
 
 pub(crate) fn text(bytes: &[u8]) -> String {
@@ -98,14 +111,10 @@ pub(crate) fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
 fn parameters_that_make_runs_long_are_named_before_the_run() {
     let folder = folder("long");
     for (settings, warning) in [
-        (["--set", "a1=1e-9", "--set", "solver=exact"], "warning: omega1 = "),
-        (
-            ["--set", "solver=newmark", "--set", "newmark_step=1e-8"],
-            "warning: newmark_step = 1e-8 s: 1000000",
-        ),
+        ("a1=1e-9 solver=exact", "warning: omega1 = "),
+        ("solver=newmark newmark_step=1e-8", "warning: newmark_step = 1e-8 s: 1000000"),
     ] {
-        let mut arguments = vec!["simulate", "--stop-time", "1e-4", "--set", "damping_model=none"];
-        arguments.extend(settings);
+        let arguments = setting("simulate --stop-time 1e-4 --set damping_model=none", settings);
         assert_has(&text(&succeed(&folder, &arguments).stderr), &[warning]);
     }
 }
@@ -124,8 +133,7 @@ fn pipes_in_place_of_files_are_refused() {
         &["building", "building.toml", "-o", "building.ssp"],
         &["merge", "results", "-o", "merged"],
     ] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
-        let mut program = command.current_dir(&folder).args(arguments).stderr(Stdio::null()).spawn().unwrap();
+        let mut program = program(&folder, arguments).stderr(Stdio::null()).spawn().unwrap();
         let ended = (0..200).find_map(|_| {
             std::thread::sleep(Duration::from_millis(50));
             program.try_wait().unwrap()

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text, wall};
+use crate::command_line::{
+    assert_has, content, fails, folder, printed, program, refused, setting, succeed, text, wall,
+};
 
 const SCENE: &str = "title = \"A wall\"\nstop_time = 1\n[geometry]\nheight = 3\n";
 
@@ -103,13 +105,12 @@ fn a_lost_stderr_does_not_end_the_program() {
     let folder = scene("lost_stderr");
     let full = || Stdio::from(fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
     let status = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
-        command.current_dir(&folder).args(arguments).stdout(Stdio::null()).stderr(full()).status().unwrap()
+        program(&folder, arguments).stdout(Stdio::null()).stderr(full()).status().unwrap()
     };
     assert_eq!(status(&["simulate", "none.toml"]).code(), Some(2));
     // a wall that never comes to rest brings a warning
-    let arguments = ["simulate", "s.toml", "--set", "impact=restitution", "--set", "restitution=1"];
-    let arguments = [&arguments[..], &["--set", "damping_model=none", "--csv", "x.csv"]].concat();
+    let settings = "impact=restitution restitution=1 damping_model=none";
+    let arguments = setting("simulate s.toml --csv x.csv", settings);
     assert!(text(&succeed(&folder, &arguments).stderr).contains("warning"));
     fs::remove_file(folder.join("x.csv")).unwrap();
     assert_eq!(status(&arguments).code(), Some(0));

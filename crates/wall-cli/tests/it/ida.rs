@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
-use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text};
+use crate::command_line::{assert_has, content, fails, folder, printed, program, refused, succeed, text};
 
 /// Two walls, three synthetic records and one from a file, three models.
 const STUDY: &str = r#"
@@ -205,9 +205,7 @@ fn a_killed_study_goes_on() {
         if attempt >= 12 && complete > 0 {
             break;
         }
-        let mut child = Command::new(env!("CARGO_BIN_EXE_wall"))
-            .current_dir(&folder)
-            .args(["ida", "study.toml", "-o", "broken", "--threads", "2"])
+        let mut child = program(&folder, &["ida", "study.toml", "-o", "broken", "--threads", "2"])
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()

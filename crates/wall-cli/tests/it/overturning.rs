@@ -10,7 +10,9 @@ use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
 use serde_json::Value;
 
-use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, rows, succeed};
+use crate::command_line::{
+    assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed,
+};
 
 /// Returns the fate of the default parapet under `scale` times the synthetic motion, with a tie of a
 /// stiffness [N/m] against both sides.
@@ -61,9 +63,8 @@ fn both_polarities_of_one_record_and_of_a_tie() {
     let both = ["simulate", "--record", "r.csv", "--both-polarities"];
     let alike = run(&both);
     assert_has(&alike, &["both sides of the wall are alike", "   ±  "]);
-    let leaning = ["--set", "overburden=5000", "--set", "overburden_eccentricity=0.05", "--csv", "t.csv"];
-    let leaning = [&leaning[..], &["--set", "eccentricity_mode=fixed_to_wall"]].concat();
-    let told = run(&[&both[..], &leaning].concat());
+    let leaning = "overburden=5000 overburden_eccentricity=0.05 eccentricity_mode=fixed_to_wall";
+    let told = run(&setting("simulate --record r.csv --both-polarities --csv t.csv", leaning));
     assert!(!told.contains("alike"), "{told}");
     let [first, second] = rows(&folder, "t.csv").try_into().unwrap();
     assert_eq!([&*first[1], &*second[1]], ["+1", "-1"]);
@@ -97,9 +98,8 @@ fn a_tie_that_holds_a_wall_beyond_u_ins() {
     for (scale, name) in scales.iter().zip(names) {
         succeed(&folder, &["motion", "--synthetic", "--scale", &scale.to_string(), "--csv", name]);
     }
-    let arguments = ["tie", "--set", "tie_height=3", "--set", "tie_side=both", "--stiffness", "0,1e4,1e7"];
-    let arguments = [&arguments[..], &["--csv", "t.csv", "--records"], &names].concat();
-    let told = printed(&folder, &arguments);
+    let tie = setting("tie --stiffness 0,1e4,1e7 --csv t.csv", "tie_height=3 tie_side=both");
+    let told = printed(&folder, &[&tie[..], &["--records"], &names].concat());
     assert_has(&told, &["tie at 3 m against both sides, 4 motions", "[kN]"]);
     let csv = content(&folder, "t.csv");
     let header: Vec<_> = csv.lines().next().unwrap().split(',').collect();

@@ -6,7 +6,9 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::choices::Mechanism;
 use rocking_wall::scene::{Floors, StoreyTable, SupportsTable};
 
-use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, rows, succeed, text};
+use crate::command_line::{
+    assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed, text,
+};
 
 #[test]
 fn the_program_reports_demands() {
@@ -38,11 +40,9 @@ fn the_program_reports_demands() {
 fn pictures_show_the_transverse_walls() {
     let folder = folder("one_sided_pictures");
     let drawn = |rocking: &str| {
-        let sets = [&format!("rocking={rocking}"), "impact=restitution"];
-        let more = ["restitution=0.4", "damping_model=none", "u_start=0", "height=3"];
-        let sets = sets.into_iter().chain(more).flat_map(|set| ["--set", set]);
-        let arguments = ["simulate", "--synthetic", "--html", "w.html", "--svg", "w.svg"];
-        succeed(&folder, &arguments.into_iter().chain(sets).collect::<Vec<_>>());
+        let impacts = "impact=restitution restitution=0.4 damping_model=none u_start=0 height=3";
+        let settings = format!("rocking={rocking} {impacts}");
+        succeed(&folder, &setting("simulate --synthetic --html w.html --svg w.svg", &settings));
         ["w.html", "w.svg"].map(|name| content(&folder, name))
     };
     for (rocking, page, svg) in [
@@ -112,8 +112,8 @@ fn many_records_make_a_table() {
         fs::write(folder.join(format!("records/{seed}.csv")), format!("time,a_g\n{}", rows.concat()))
             .unwrap();
     }
-    let wall = ["simulate", "--set", "thickness=0.25", "--set", "overburden=2000", "--unit", "m/s2"];
-    let wall = [&wall[..], &["--set", "overburden_eccentricity=0.05"]].concat();
+    let settings = "thickness=0.25 overburden=2000 overburden_eccentricity=0.05";
+    let wall = setting("simulate --unit m/s2", settings);
     let files = ["records/0.csv", "records/1.csv", "records/2.csv", "records/3.csv"];
     let arguments = [&["--records"], &files[..]].concat();
     let both = [&wall[..], &arguments, &["--both-polarities", "--csv", "table.csv"]].concat();
@@ -137,11 +137,12 @@ fn many_records_make_a_table() {
 #[test]
 fn the_animated_picture_of_a_wall_is_one_small_file() {
     let folder = folder("animated");
-    let strip = ["--set", "mechanism=vertical_spanning", "--set", "thickness=0.2"];
-    let cases = [(&[][..], "falls at 12.6 s"), (&["--pga", "2.5"], "stands: 33 %"), (&strip, "falls")];
-    for (settings, said) in cases {
-        let svg = [&["simulate", "--synthetic", "--svg", "wall.svg"], settings].concat();
-        succeed(&folder, &svg);
+    for (motion, settings, said) in [
+        ("--synthetic", "", "falls at 12.6 s"),
+        ("--synthetic --pga 2.5", "", "stands: 33 %"),
+        ("--synthetic", "mechanism=vertical_spanning thickness=0.2", "falls"),
+    ] {
+        succeed(&folder, &setting(&format!("simulate --svg wall.svg {motion}"), settings));
         let svg = content(&folder, "wall.svg");
         assert!(svg.contains(said) && svg.contains("<animateTransform"), "{said}");
         assert!(svg.len() < 40_000 && !svg.contains("<script") && !svg.contains("NaN"), "{}", svg.len());

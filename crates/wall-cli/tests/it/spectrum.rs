@@ -4,7 +4,7 @@ use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
 use study::spectrum::{Size, Slenderness, over_walls};
 
-use crate::command_line::{args, assert_has, content, folder, printed, refused, rows, succeed};
+use crate::command_line::{args, assert_has, content, folder, printed, refused, rows, setting, succeed};
 
 #[test]
 fn the_program_writes_a_table_and_a_page() {
@@ -47,9 +47,9 @@ fn the_program_writes_a_table_and_a_page() {
     let page = content(&folder, "w.html");
     assert!(page.contains(">your wall</text>") && page.contains(own) && !page.contains("outside the map"));
 
-    let rigid = args("--set force_law=rigid_linear --set damping_model=none --set impact=restitution");
-    let pulse = args("spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2");
-    succeed(&folder, &[&pulse[..], &rigid, &["--csv", "p.csv"]].concat());
+    let rigid = "force_law=rigid_linear damping_model=none impact=restitution";
+    let pulse = "spectrum --pulse half_sine --frequency-ratios 2:3:2 --amplitude-ratios 0.5:9:2 --csv p.csv";
+    succeed(&folder, &setting(pulse, rigid));
     let outcomes: Vec<_> =
         rows(&folder, "p.csv").iter().map(|row| [row[3].clone(), row[4].clone()]).collect();
     assert_eq!(outcomes, [["false", "false"], ["false", "false"], ["true", "true"], ["true", "true"]]);

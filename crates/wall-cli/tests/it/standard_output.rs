@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::command_line::{assert_has, content, fails, folder, printed, refused, succeed, text};
+use crate::command_line::{assert_has, content, folder, printed, refused, setting, succeed, text};
 
 /// `--csv -` writes the file that `--csv FILE` writes, and the summary goes to stderr; it names no file.
 #[test]
@@ -78,10 +78,10 @@ fn columns_state_their_units() {
     const UNITS: [&str; 7] = ["_s", "_m", "_m_s", "_m_s2", "_n", "_n_m", "_rad"];
     let folder = folder("units");
     succeed(&folder, &["motion", "--synthetic", "--csv", "r.csv"]);
-    let tied = ["--set", "tie_height=3", "--set", "tie_stiffness=1e5"];
+    let tied = setting("simulate --synthetic", "tie_height=3 tie_stiffness=1e5");
     let commands: [&[&str]; 5] = [
         &["simulate", "--synthetic"],
-        &[&["simulate", "--synthetic"], &tied[..]].concat(),
+        &tied,
         &["simulate", "--records", "r.csv"],
         &["describe", "--thresholds", "0.4"],
         &["spectrum", "--synthetic", "--heights", "2:3:2", "--ratios", "8:9:2"],
@@ -130,6 +130,7 @@ fn an_interrupted_study_says_that_it_resumes() {
     use std::process::{Command, Stdio};
     use std::time::Instant;
 
+    use crate::command_line::{fails, program};
     use crate::ida::{bytes, study};
 
     let folder = study("ida_interrupted");
@@ -140,9 +141,7 @@ fn an_interrupted_study_says_that_it_resumes() {
     let interrupted = (0..36_u32).any(|attempt| {
         // what an attempt has run to its end cannot be interrupted again
         let _ = fs::remove_dir_all(folder.join("broken"));
-        let child = Command::new(env!("CARGO_BIN_EXE_wall"))
-            .current_dir(&folder)
-            .args(["ida", "study.toml", "-o", "broken", "--threads", "1"])
+        let child = program(&folder, &["ida", "study.toml", "-o", "broken", "--threads", "1"])
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()

@@ -6,7 +6,7 @@ use rocking_wall::scene::GROUPS;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Wall, usage};
 
-use crate::command_line::{assert_has, content, fails, folder, json, printed, succeed, text};
+use crate::command_line::{assert_has, content, fails, folder, json, printed, setting, succeed, text};
 
 /// Runs `arguments` and returns what the program warns of.
 fn warned(arguments: &[&str]) -> String {
@@ -16,27 +16,23 @@ fn warned(arguments: &[&str]) -> String {
 
 #[test]
 fn improbable_walls_are_warned_of() {
-    let heavy = "overburden=3000";
     for (changes, words) in [
-        (vec!["density=1.8"], ["density = 1.8 kg/m3", "400 to 3000 kg/m3"]),
-        (vec!["overburden=10"], ["overburden = 10 N", "100 to 1000000 N"]),
+        ("density=1.8", ["density = 1.8 kg/m3", "400 to 3000 kg/m3"]),
+        ("overburden=10", ["overburden = 10 N", "100 to 1000000 N"]),
         (
-            vec![heavy, "overburden_eccentricity=0.25", "u_start=0"],
+            "overburden=3000 overburden_eccentricity=0.25 u_start=0",
             ["overburden_eccentricity = 0.25 m", "-0.2 to 0.2 m"],
         ),
         // 100 N/m times 0.07 m is 7.000000000000001 N
-        (vec!["width=0.07", "overburden=1"], ["overburden = 1 N is", "7 to 70000 N"]),
-        (vec!["width=0.07", "overburden=1e11"], ["overburden = 1e11 N is", "7 to 70000 N"]),
-        (vec!["height=300"], ["height = 300 m", "0.2 to 30 m"]),
-        (vec!["thickness=5"], ["height/thickness = 0.8 is", "1 to 100 is"]),
+        ("width=0.07 overburden=1", ["overburden = 1 N is", "7 to 70000 N"]),
+        ("width=0.07 overburden=1e11", ["overburden = 1e11 N is", "7 to 70000 N"]),
+        ("height=300", ["height = 300 m", "0.2 to 30 m"]),
+        ("thickness=5", ["height/thickness = 0.8 is", "1 to 100 is"]),
         // meant in per cent
-        (vec!["xi=5"], ["xi = 5 is unusual", "0 to 0.5 is usual"]),
-        (vec!["gravity=1.62"], ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
+        ("xi=5", ["xi = 5 is unusual", "0 to 0.5 is usual"]),
+        ("gravity=1.62", ["gravity = 1.62 m/s2", "9.7 to 9.9 m/s2"]),
     ] {
-        let mut arguments = vec!["simulate", "--stop-time", "0.1", "--set", "u_start=0"];
-        for change in changes {
-            arguments.extend(["--set", change]);
-        }
+        let arguments = setting("simulate --stop-time 0.1 --set u_start=0", changes);
         assert_has(&warned(&arguments), &words);
     }
     // usual walls are silent
@@ -109,54 +105,49 @@ fn a_parameter_without_effect_is_warned_of() {
     let block = "c_bar = -1 and damping_model = free_standing_block";
     let mut named = BTreeSet::new();
     for (changes, name, condition) in [
-        (vec!["damping_model=none", "xi=0.2"], "xi", ratio),
-        (vec!["c_bar=0.2"], "c_bar", "damping_model = free_standing_block"),
+        ("damping_model=none xi=0.2", "xi", ratio),
+        ("c_bar=0.2", "c_bar", "damping_model = free_standing_block"),
         (
-            vec!["xi=0.05", "restitution=0.9"],
+            "xi=0.05 restitution=0.9",
             "restitution",
             &format!("impact = restitution, or xi = -1 and {ratio}, or {block}"),
         ),
         (
             // restitution is -1 here: what else it takes is told too
-            vec!["xi=0.05", "restitution_source=analytic"],
+            "xi=0.05 restitution_source=analytic",
             "restitution_source",
             &format!(
                 "restitution = -1 and impact = restitution, or restitution = -1 and xi = -1 and {ratio}, or \
                  restitution = -1 and {block}"
             ),
         ),
-        (vec!["hinge_ratio=0.6"], "hinge_ratio", "mechanism = vertical_spanning"),
-        (vec!["overburden_eccentricity=0.1"], "overburden_eccentricity", "overburden is not 0"),
+        ("hinge_ratio=0.6", "hinge_ratio", "mechanism = vertical_spanning"),
+        ("overburden_eccentricity=0.1", "overburden_eccentricity", "overburden is not 0"),
         (
-            vec!["overburden=3000", "eccentricity_mode=follows_pivot"],
+            "overburden=3000 eccentricity_mode=follows_pivot",
             "eccentricity_mode",
             "overburden_eccentricity is not 0 and overburden is not 0",
         ),
+        ("force_law=rigid_linear damping_model=none a1=0.05", "a1", "force_law = bilinear or trilinear"),
+        ("d1=0.7", "d1", "force_law = trilinear"),
+        ("softening=chord", "softening", "a3 is not 1"),
+        ("tie_height=3", "tie_height", "tie_stiffness is not 0"),
+        ("tie_slack=0.01", "tie_slack", "tie_stiffness is not 0"),
+        ("tie_strength=1000", "tie_strength", "tie_stiffness is not 0"),
+        ("tie_side=both", "tie_side", "tie_stiffness is not 0"),
         (
-            vec!["force_law=rigid_linear", "damping_model=none", "a1=0.05"],
-            "a1",
-            "force_law = bilinear or trilinear",
-        ),
-        (vec!["d1=0.7"], "d1", "force_law = trilinear"),
-        (vec!["softening=chord"], "softening", "a3 is not 1"),
-        (vec!["tie_height=3"], "tie_height", "tie_stiffness is not 0"),
-        (vec!["tie_slack=0.01"], "tie_slack", "tie_stiffness is not 0"),
-        (vec!["tie_strength=1000"], "tie_strength", "tie_stiffness is not 0"),
-        (vec!["tie_side=both"], "tie_side", "tie_stiffness is not 0"),
-        (
-            vec!["damping_model=constant_coefficient", "tolerance=1e-10"],
+            "damping_model=constant_coefficient tolerance=1e-10",
             "tolerance",
             &format!(
                 "solver = adaptive, or solver = automatic and damping_model = {}",
                 one_of(with_xi.clone().filter(is_curved))
             ),
         ),
-        (vec!["newmark_step=1e-4"], "newmark_step", "solver = newmark"),
+        ("newmark_step=1e-4", "newmark_step", "solver = newmark"),
     ] {
-        let mut arguments = vec!["simulate", "--stop-time", "0.1"];
-        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
+        let told = warned(&setting("simulate --stop-time 0.1", changes));
         let expected = format!("{name} is set and has no effect: it counts where {condition}\n");
-        assert!(warned(&arguments).ends_with(&expected), "{}\n{expected}", warned(&arguments));
+        assert!(told.ends_with(&expected), "{told}\n{expected}");
         named.insert(name);
     }
     // the list is complete: a new condition needs a line here
@@ -170,21 +161,19 @@ fn a_parameter_without_effect_is_warned_of() {
 /// A number that is set is the one in use, whatever the start values are.
 #[test]
 fn a_number_that_is_given_counts() {
-    let used = |changes: &[&str]| {
-        let mut arguments = vec!["describe", "--json"];
-        arguments.extend(changes.iter().flat_map(|change| ["--set", change]));
-        let facts = json(&folder("given"), &arguments);
+    let used = |changes: &str| {
+        let facts = json(&folder("given"), &setting("describe --json", changes));
         ["xi_used", "restitution_used"].map(|name| facts[name].as_f64().unwrap())
     };
-    assert_eq!(used(&["xi=0.2"])[0], 0.2);
-    assert_eq!(used(&["xi=0"])[0], 0.0);
+    assert_eq!(used("xi=0.2")[0], 0.2);
+    assert_eq!(used("xi=0")[0], 0.0);
     // Eq. (21) with a1 = 0.03 and the calibrated e
-    let [xi, e] = used(&[]);
+    let [xi, e] = used("");
     assert!((xi + 0.350 * 0.03_f64.powf(0.074) * e.ln()).abs() < 1e-15, "{xi} {e}");
-    assert_eq!(used(&["xi=-1"]), [xi, e]);
-    assert_eq!(used(&["damping_model=none", "impact=restitution", "restitution=0.8"])[1], 0.8);
+    assert_eq!(used("xi=-1"), [xi, e]);
+    assert_eq!(used("damping_model=none impact=restitution restitution=0.8")[1], 0.8);
     // a given e is behind the computed damping, too
-    assert!((used(&["restitution=0.8"])[0] + 0.350 * 0.03_f64.powf(0.074) * 0.8_f64.ln()).abs() < 1e-15);
+    assert!((used("restitution=0.8")[0] + 0.350 * 0.03_f64.powf(0.074) * 0.8_f64.ln()).abs() < 1e-15);
 }
 
 /// The default start of 0.18 m is beyond u_ins of a wall 0.25 m thick, 0.125 m.
