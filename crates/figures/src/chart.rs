@@ -43,7 +43,7 @@ pub fn figure(chart: &Chart) -> String {
     format!(
         "<figure><figcaption>{}</figcaption>{}<p class=\"key\">{key}</p></figure>\n",
         escaped(&chart.title),
-        svg(chart)
+        plot(chart, SIZE, false).svg()
     )
 }
 
@@ -56,10 +56,6 @@ pub fn picture(chart: &Chart) -> Picture {
 fn is_marked(chart: &Chart, line: &Series) -> bool {
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
     !marks && chart.series.iter().any(|series| series.color != line.color)
-}
-
-fn svg(chart: &Chart) -> String {
-    plot(chart, SIZE, false).svg()
 }
 
 fn plot(chart: &Chart, size: [f64; 2], is_named: bool) -> Plot {

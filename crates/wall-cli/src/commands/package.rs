@@ -1,6 +1,6 @@
 //! `wall package`: an FMU of one scene.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
@@ -34,7 +34,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(&arguments.scene, &scene);
     wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
-    let unit = of_scene(&scene, general(&base, "--base")?).with_context(named)?;
+    let general = General::open(&base)
+        .context("expected a general FMU; make it with `cargo xtask fmu`, or name it with --base")?;
+    let unit = of_scene(&scene, general).with_context(named)?;
     output::to_file(&arguments.output, &unit.archive.to_bytes()?)?;
     output::to_stdout(&format!(
         "{}: {}, {} of {} variables\n",
@@ -43,11 +45,4 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         unit.variables,
         unit.general_variables
     ))
-}
-
-/// Opens the general FMU at `path`, which the user names with `option`.
-pub(crate) fn general(path: &Path, option: &str) -> Result<General> {
-    General::open(path).with_context(|| {
-        format!("expected a general FMU; make it with `cargo xtask fmu`, or name it with {option}")
-    })
 }
