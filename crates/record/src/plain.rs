@@ -1,5 +1,5 @@
-//! Steps on branches with constant damping: plain steps, four at once, and the single steps of lanes that
-//! wait (docs/record-path.md, §2 and §3).
+//! Steps on branches with constant damping: plain steps, four or two at once, and the single steps of lanes
+//! that wait (docs/record-path.md, §2 and §3).
 
 use crate::corners::Part;
 use crate::forcing::AT_ONCE;
