@@ -265,4 +265,23 @@ proptest! {
         prop_assert!(given.iter().all(|output| output.is_finite()), "{given:?}");
         prop_assert_eq!(given, mirrored.map(|output| -output));
     }
+
+    /// Damping takes energy wherever the wall may be, and its slope is its derivative, on every branch.
+    #[test]
+    fn damping_is_not_negative_and_has_the_slope_stated(parameters in walls(), share in 0.2_f64..0.8) {
+        let wall = Wall::new(&parameters).expect("a valid wall");
+        for branch in wall.branches() {
+            let width = branch.upper - branch.lower;
+            let u = branch.lower + share * width;
+            let damping = branch.damping_at(u);
+            prop_assert!(damping >= 0.0, "{damping} at {u} on {branch:?}");
+            // u = 0 and u₃, where C is no power series, are at least 0.2 widths away. The quotient over 1e-4
+            // of the width errs by the square of their ratio, 2.5e-7, times a few for the third derivative.
+            let step = 1e-4 * width;
+            let quotient = (branch.damping_at(u + step) - branch.damping_at(u - step)) / (2.0 * step);
+            let slope = branch.damping_slope(u);
+            let allowed = 1e-5 * (slope.abs() + damping / width);
+            prop_assert!((slope - quotient).abs() <= allowed, "{slope}, {quotient} at {u} on {branch:?}");
+        }
+    }
 }

@@ -39,9 +39,9 @@ fn unit(interface: Interface, reals: &[(V, f64)], choices: &[(I, i32)]) -> Unit 
 /// Walls with all that outputs depend on, and a displacement on each of their branches \[m\].
 fn walls() -> impl Iterator<Item = (Unit, Vec<f64>)> {
     let tied = [(V::TieStiffness, 3e5), (V::TieSlack, 2e-3), (V::TieHeight, 2.0)];
-    let models = [DampingModel::ConstantCoefficient, DampingModel::ConstantRatio];
-    let damping = models.into_iter().chain([DampingModel::StiffnessProportional]);
-    damping.flat_map(move |model| {
+    // a free-standing block is no strip, and has no overburden
+    let models = DampingModel::ALL.iter().filter(|model| **model != DampingModel::FreeStandingBlock);
+    models.flat_map(move |model| {
         [Mechanism::Parapet, Mechanism::VerticalSpanning].map(|mechanism| {
             let choices = [
                 (I::Mechanism, mechanism.value()),

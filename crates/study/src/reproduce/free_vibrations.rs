@@ -60,22 +60,16 @@ fn u_axis() -> Axis {
 pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
-    for (model, xi) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
+    // a constant coefficient, a constant ratio, and one proportional to stiffness
+    for ((model, xi), power) in MODELS.into_iter().zip(FIGURE_5_RATIOS).zip([-1, 0, 1]) {
         let parameters = with_damping(&strip, model, xi);
         let wall = Wall::new(&parameters)?;
         let (name, strength) = (label(model).name, wall.body().strength.positive);
         let color = color(name);
         coefficients.push(Series::line(name, color, damping_coefficients(&wall)));
         let omega1 = wall.omega1();
-        let ratio = |omega: f64| {
-            let ratio = match model {
-                // C = 2 m_eff ω₁ ξ = 2 m_eff ω ξ(ω)
-                DampingModel::ConstantCoefficient => xi * omega1 / omega,
-                DampingModel::StiffnessProportional => xi * omega / omega1,
-                DampingModel::None | DampingModel::ConstantRatio | DampingModel::FreeStandingBlock => xi,
-            };
-            (omega, 100.0 * ratio)
-        };
+        // C = 2 m_eff ω₁ ξ = 2 m_eff ω ξ(ω)
+        let ratio = |omega: f64| (omega, 100.0 * xi * (omega / omega1).powi(power));
         ratios.push(Series::line(name, color, spaced([0.5, omega1], 200).map(ratio).collect()));
         let force = |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / strength);
         let samples = history(&parameters, None, [0.002, 5.0])?;
