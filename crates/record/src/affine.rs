@@ -2,14 +2,14 @@
 
 use oscillator::Oscillator;
 
-use crate::forcing::AT_ONCE;
+use crate::forcing::MOST_AT_ONCE;
 
 /// An affine map over some steps, by the forcing less the branch's force at u = 0, q = p − f(0): the
 /// change of u and of u̇ for each of u₀, u̇₀ and the q at the samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Affine {
     pub(crate) of_state: [[f64; 2]; 2],
-    pub(crate) of_forcing: [[f64; 2]; AT_ONCE + 1],
+    pub(crate) of_forcing: [[f64; 2]; MOST_AT_ONCE + 1],
 }
 
 impl Affine {
@@ -17,7 +17,7 @@ impl Affine {
         let (c, k) = (oscillator.damping(), oscillator.stiffness());
         let green = oscillator.green(step);
         let (g, h, j) = (green.g, green.h, green.j / step);
-        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
+        let mut of_forcing = [[0.0; 2]; MOST_AT_ONCE + 1];
         [of_forcing[0], of_forcing[1]] = [[h - j, g - h / step], [j, h / step]];
         Self { of_state: [[-k * h, -k * g], [g, -(k * h + c * g)]], of_forcing }
     }
@@ -27,7 +27,7 @@ impl Affine {
     pub(crate) fn steps(one: &Self, count: usize, oscillator: &Oscillator, step: f64) -> Self {
         let of_state = Self::one_step(oscillator, count as f64 * step).of_state;
         let [by_u, by_v] = one.of_state;
-        let mut of_forcing = [[0.0; 2]; AT_ONCE + 1];
+        let mut of_forcing = [[0.0; 2]; MOST_AT_ONCE + 1];
         for n in 0..count {
             // what came before, moved on by one step
             for [u, v] in &mut of_forcing[..=n] {
@@ -67,7 +67,7 @@ mod tests {
                 let [by_u, by_v] = map.of_state;
                 [0, 1].map(|part| by_u[part] * u + by_v[part] * v + by_forcing[part])
             };
-            for count in [2, AT_ONCE] {
+            for count in [2, MOST_AT_ONCE] {
                 let start = [0.03, -0.2];
                 let mut now = start;
                 for q in q[..=count].windows(2) {

@@ -1,4 +1,4 @@
-//! Corners passed in a step, as long as u̇ keeps its sign (docs/record-path.md, §4).
+//! Corners passed in a step, as long as u̇ keeps its sign up to each (docs/record-path.md, §4).
 
 use crate::lanes::{Lanes, Waiting};
 use crate::line::{Bounds, Course, Line};
@@ -196,8 +196,10 @@ impl<O: Observer> Lanes<'_, O> {
         };
         let (corner, exit) = (side(&table.ends), side(&table.exits));
         let (found, time, velocity) = part.find(corner, table.terms);
+        // kinds of exits rise: closed, ordinary, curved, impact
         let beyond = |kind: f64| (zero + kind).below(exit);
-        let (impact, ordinary) = (beyond(exit::CURVED), beyond(exit::CLOSED) & !beyond(exit::CURVED));
+        let impact = beyond(exit::CURVED);
+        let ordinary = beyond(exit::CLOSED) & !impact;
         let velocity = N::select(impact, velocity * self.solver.passage_factor, velocity);
         let rest_speed = zero + self.solver.motion.rest_speed();
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
@@ -227,6 +229,11 @@ impl<O: Observer> Lanes<'_, O> {
         };
         put(&mut rows.u, end[0]);
         put(&mut rows.v, end[1]);
+        // u may have turned past its corner: the margin of the block counts from this end
+        let highest = N::load(token, &rows.highest, first).max(end[0]);
+        put(&mut rows.highest, highest);
+        let lowest = N::load(token, &rows.lowest, first).min(end[0]);
+        put(&mut rows.lowest, lowest);
         put(&mut rows.branch, branch);
         put(&mut rows.share, N::select(whole, zero, share));
         let index = N::load(token, &rows.index, first);
@@ -251,11 +258,11 @@ impl<O: Observer> Lanes<'_, O> {
         let forcing = p0 + (p1 - p0) * share;
         let from = [now[0], now[1], line.acceleration(now, forcing)];
         let to = line.after(table.terms, length, from, rate);
-        let (lanes, impacts) = (N::mask(token, 1), N::splat(token, 0.0));
-        let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts };
+        let (lanes, zero) = (N::mask(token, 1), N::splat(token, 0.0));
+        let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts: zero };
         let Course { stays, leaves } = part.course(&Bounds::look_up(token, table, rows, first, branch));
         let mut arrival = self.pass_corners(token, first, Part { lanes: leaves, ..part });
-        arrival.take(stays, &part, to, 0, impacts);
+        arrival.take(stays, &part, to, 0, zero);
         self.arrive(token, first, &arrival);
         let stuck = 1 & !N::bits(arrival.lanes);
         if O::SEES && self.rows.share[first] == 0.0 && stuck == 0 {

@@ -4,9 +4,8 @@ use std::ops::Range;
 
 /// Samples of a block.
 pub(crate) const BLOCK: usize = 256;
-/// Plain steps that lanes of a batch take at once. The last ones of a block may end beyond it, by one step
-/// less than this.
-pub(crate) const AT_ONCE: usize = 4;
+/// Most plain steps taken at once. The last ones of a block may end beyond it, by one step less than this.
+pub(crate) const MOST_AT_ONCE: usize = 4;
 
 /// Forcing of a wall at the samples of a record, linear in between.
 ///
@@ -73,7 +72,7 @@ pub(crate) struct Blocks<'a> {
 impl<'a> Blocks<'a> {
     pub(crate) fn new(forcing: Forcing<'a>) -> Self {
         let last = forcing.count().saturating_sub(1);
-        let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + AT_ONCE - 1).min(last) + 1;
+        let over = |block: usize| block * BLOCK..((block + 1) * BLOCK + MOST_AT_ONCE - 1).min(last) + 1;
         let largest = (0..last.div_ceil(BLOCK)).map(|block| forcing.largest(over(block))).collect();
         Self { forcing, largest }
     }
@@ -98,7 +97,7 @@ mod tests {
             let samples: Vec<f64> = (0..count).map(sample).collect();
             let blocks = Blocks::new(Forcing::Samples(&samples));
             for first in (0..count - 1).step_by(BLOCK) {
-                let reached = &samples[first..(first + BLOCK + AT_ONCE).min(count)];
+                let reached = &samples[first..(first + BLOCK + MOST_AT_ONCE).min(count)];
                 let wanted = reached.iter().map(|p| p.abs()).fold(0.0, f64::max);
                 assert_eq!(blocks.largest(first), wanted, "{first} of {count}");
                 assert_eq!(blocks.largest((first + BLOCK).min(count - 1) - 1), wanted, "{first} of {count}");

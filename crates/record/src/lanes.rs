@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::{Memo, Peaks, Phase, SolverError, State, Work};
 
-use crate::forcing::{AT_ONCE, BLOCK, Blocks};
+use crate::forcing::{BLOCK, Blocks, MOST_AT_ONCE};
 use crate::number::{Row, WIDTH, index};
 use crate::solver::{Observer, Outcome, RecordSolver, RunStart};
 use crate::table::Way;
@@ -80,7 +80,8 @@ pub(crate) struct Rows {
     /// P and D = P + f̂ \[m/s²\].
     pub(crate) forcing: Row,
     pub(crate) driving: Row,
-    /// The |u| beyond which f̂ is taken anew, and where u is known to stay \[m\].
+    /// The |u| beyond which f̂ is taken anew, and the limits that u must not leave: where f̂ bounds the forces,
+    /// or the peaks \[m\].
     pub(crate) half_reach: Row,
     pub(crate) limits: [Row; 2],
     /// Corners passed here, and of these the passages of u = 0.
@@ -200,7 +201,7 @@ impl<O: Observer> Lanes<'_, O> {
         let forcing = self.record.largest(first) * rows.factor[lane].abs();
         run.block = Block { state, first, share: rows.share[lane], end, forcing, ..run.block };
         // the last plain steps may go beyond the block, but not beyond the record
-        rows.limit[lane] = end.min((run.last + 1).saturating_sub(AT_ONCE)) as f64;
+        rows.limit[lane] = end.min((run.last + 1).saturating_sub(MOST_AT_ONCE)) as f64;
         rows.forcing[lane] = forcing;
         (rows.highest[lane], rows.lowest[lane]) = (f64::NEG_INFINITY, f64::INFINITY);
         (rows.fastest[lane], rows.stride[lane]) = (0.0, f64::INFINITY);
@@ -219,7 +220,7 @@ impl<O: Observer> Lanes<'_, O> {
         self.runs[lane].peaks.largest() + self.rows.forcing[lane] * self.solver.step * self.solver.step
     }
 
-    /// Computes anew the bound f̂ on the forces, and the limits within which u is known to stay.
+    /// Computes anew the bound f̂ on the forces, and the limits that u must not leave.
     pub(crate) fn bound_force(&mut self, lane: usize) {
         self.include_ends(lane);
         let seeks = self.pass == Pass::Extremes;

@@ -72,7 +72,8 @@ impl<N: Number> Line<N> {
         Course { stays, leaves: keeps & !inside }
     }
 
-    /// Returns A, the bound on |ü| between two instants, by the largest |p| and by |u̇| and |f| there.
+    /// Returns A, the bound on |ü| between two instants up to a step apart, by the largest |p| and by |u̇| and
+    /// |f| there.
     #[inline(always)]
     pub(crate) fn most(&self, forcing: N, from: [N; 2], to: [N; 2]) -> N {
         let force = self.force(from[0]).abs().max(self.force(to[0]).abs());
@@ -107,7 +108,7 @@ impl<N: Number> Line<N> {
 pub(crate) struct Bounds<N> {
     /// The ends of the branch \[m\].
     pub(crate) ends: [N; 2],
-    /// The part of the branch in which u is known to stay \[m\].
+    /// The part of the branch that u must not leave \[m\]: where f̂ bounds the forces, or up to the peaks.
     pub(crate) within: [N; 2],
     /// V, the largest |u̇| \[m/s\].
     pub(crate) speed: N,

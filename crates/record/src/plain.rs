@@ -2,7 +2,7 @@
 //! that wait (docs/record-path.md, §2 and §3).
 
 use crate::corners::Part;
-use crate::forcing::AT_ONCE;
+use crate::forcing::MOST_AT_ONCE;
 use crate::lanes::{Lanes, Rows, Waiting};
 use crate::line::{Bounds, Line};
 use crate::number::{BranchRow, Number, WIDTH, index};
@@ -180,9 +180,9 @@ impl<O: Observer> Lanes<'_, O> {
         let (map, at_once) = (self.solver.table.maps[branch], self.solver.table.at_once);
         let sample = index(rows.index[first]);
         let count = (index(rows.limit[first]) - sample).div_ceil(at_once);
-        let p = record.forcing.from(sample, (count - 1) * at_once + AT_ONCE + 1);
+        let p = record.forcing.from(sample, (count - 1) * at_once + MOST_AT_ONCE + 1);
         self.plain_steps(token, first, range, (ready, 0), count, |row| {
-            let response = map.respond(&p[row * at_once..][..=AT_ONCE]);
+            let response = map.respond(&p[row * at_once..][..=MOST_AT_ONCE]);
             N::unzip(token, |_| response)
         })
     }
@@ -303,7 +303,8 @@ impl<O: Observer> Lanes<'_, O> {
         let length = N::splat(token, self.solver.step);
         let furthest = self.record.forcing.count() - 1;
         // lanes that do not wait may be near the end of the record
-        let most = if N::LANES == 1 { AT_ONCE.min(furthest - index(rows.index[first])) } else { AT_ONCE };
+        let most =
+            if N::LANES == 1 { MOST_AT_ONCE.min(furthest - index(rows.index[first])) } else { MOST_AT_ONCE };
         let mut ahead: [&[f64]; WIDTH] = [&[]; WIDTH];
         for (lane, ahead) in ahead[..N::LANES].iter_mut().enumerate() {
             let sample = index(rows.index[(first + lane) % WIDTH]);

@@ -7,12 +7,13 @@
 use rocking_wall::solver::Motion;
 
 use crate::affine::Affine;
-use crate::forcing::{AT_ONCE, BLOCK, Forcing};
+use crate::forcing::{BLOCK, Forcing, MOST_AT_ONCE};
 use crate::number::WIDTH;
 use crate::table::{LONGEST, Table, Way};
 
-/// Rows that a lane may read from where it is: those of a block, and one more.
-pub(crate) const ROWS_AHEAD: usize = BLOCK / AT_ONCE + 1;
+/// Rows that a lane may read from where it is: those of a block by four steps at once, and one more. By two
+/// it is half a block, and lanes go on in the next round.
+pub(crate) const ROWS_AHEAD: usize = BLOCK / MOST_AT_ONCE + 1;
 /// Samples of a record up to which tables are made: 1 MB for each oscillator.
 const MOST_SAMPLES: usize = 1 << 16;
 
@@ -34,7 +35,7 @@ impl Responses {
     /// few or very many samples, many branches, steps without a map, or long beside the wall's period.
     pub(crate) fn new(motion: &Motion, table: &Table, forcing: Forcing<'_>) -> Option<Self> {
         let count = forcing.count();
-        if !(4 * AT_ONCE..=MOST_SAMPLES).contains(&count)
+        if !(4 * MOST_AT_ONCE..=MOST_SAMPLES).contains(&count)
             || table.ways.len() > WIDTH
             || table.longest > LONGEST
             || table.ways.iter().any(|way| *way != Way::Affine)
@@ -61,8 +62,8 @@ impl Responses {
         self.rows.reserve(at_once * length);
         for offset in 0..at_once {
             // all samples that count are within the record
-            let count = (forcing.count() - offset).saturating_sub(AT_ONCE).div_ceil(at_once);
-            let respond = |n| map.respond(forcing.from(offset + n * at_once, AT_ONCE + 1));
+            let count = (forcing.count() - offset).saturating_sub(MOST_AT_ONCE).div_ceil(at_once);
+            let respond = |n| map.respond(forcing.from(offset + n * at_once, MOST_AT_ONCE + 1));
             self.rows.extend((0..count).map(respond).chain((count..length).map(|_| [0.0; 2])));
         }
     }

@@ -6,7 +6,7 @@ use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::Corner;
 
 use crate::affine::Affine;
-use crate::forcing::AT_ONCE;
+use crate::forcing::MOST_AT_ONCE;
 use crate::number::{BranchRow, MOST_BRANCHES, WIDTH};
 
 /// c V over P + f̂, which fixes the largest speed V of a plain step: walls stay far below it, as they do
@@ -41,7 +41,7 @@ pub(crate) enum Law {
     Stiffness,
 }
 
-/// How a branch is left at a corner: the numbers of `Table::exits`.
+/// How a branch is left at a corner: the numbers of `Table::exits`, in the order that `cross` compares.
 pub(crate) mod exit {
     /// By the general search for events.
     pub(crate) const CLOSED: f64 = 0.0;
@@ -70,9 +70,9 @@ fn reach(oscillator: &Oscillator, step: f64) -> f64 {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct Table {
-    /// The number of plain steps taken at once, four or two; the change over them, of u by u, u̇ and the
-    /// branch's force at u = 0, and of u̇.
+    /// The number of plain steps taken at once, four or two.
     pub(crate) at_once: usize,
+    /// The change over them, of u by u, u̇ and the branch's force at u = 0, and of u̇.
     pub(crate) plain_steps: [[BranchRow; 3]; 2],
     /// Change over one step, of u by u, u̇, p₀ − f(0) and p₁ − f(0), and of u̇.
     pub(crate) one_step: [[BranchRow; 4]; 2],
@@ -120,7 +120,7 @@ impl Table {
             factor: ZERO,
         };
         let mut table = Self {
-            at_once: AT_ONCE,
+            at_once: MOST_AT_ONCE,
             plain_steps: [[ZERO; 3]; 2],
             one_step: [[ZERO; 4]; 2],
             damping: ZERO,
@@ -147,7 +147,7 @@ impl Table {
             // nothing is prepared: no step needs it, and rows have no place for more than `MOST_BRANCHES`
             return table;
         }
-        table.at_once = table.at_once(motion, step);
+        table.at_once = table.count_at_once(motion, step);
         for branch in 0..table.ways.len() {
             let oscillator = &motion.oscillators()[branch];
             let one = Affine::one_step(oscillator, step);
@@ -165,8 +165,8 @@ impl Table {
 
     /// Returns how many plain steps are taken at once: four, or two where the margin of four is much of a
     /// branch.
-    fn at_once(&self, motion: &Motion, step: f64) -> usize {
-        let four = AT_ONCE as f64 * step;
+    fn count_at_once(&self, motion: &Motion, step: f64) -> usize {
+        let four = MOST_AT_ONCE as f64 * step;
         let is_wide = |branch: usize| {
             let (line, oscillator) = (&motion.wall().branches()[branch], &motion.oscillators()[branch]);
             // a forcing as large as the forces of the branch
@@ -175,7 +175,7 @@ impl Table {
             margin <= MOST_MARGIN * (line.upper - line.lower)
         };
         let affine = |branch: &usize| self.ways[*branch] == Way::Affine;
-        if (0..self.ways.len()).filter(affine).all(is_wide) { AT_ONCE } else { 2 }
+        if (0..self.ways.len()).filter(affine).all(is_wide) { MOST_AT_ONCE } else { 2 }
     }
 
     fn enter_line(&mut self, branch: usize, motion: &Motion, damping: f64) {

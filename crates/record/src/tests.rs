@@ -2,7 +2,7 @@
 //! vector of the processor.
 
 use fearless_simd::{Level, Simd};
-use rocking_wall::choices::{DampingModel, Impact};
+use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
@@ -143,6 +143,46 @@ fn extremes_before_a_corner_are_found() {
             }
         }
     }
+}
+
+/// Walls that pass u = 0 in the last step of a record, and turn before it ends. The turning point is found as
+/// by the general search, although no later step starts from there.
+#[test]
+fn extremes_after_a_corner_in_the_last_step_are_found() {
+    let wall = Parameters {
+        height: 1.0,
+        thickness: 0.2,
+        force_law: ForceLaw::RigidLinear,
+        damping_model: DampingModel::None,
+        impact: Impact::Restitution,
+        restitution: 0.9,
+        ..Parameters::default()
+    };
+    let (motion, step) = (Motion::of(&wall, 1e-8).expect("a valid wall"), 0.02);
+    let (solver, still) = (RecordSolver::new(&motion, step), [0.0; 2]);
+    let pull = motion.rest_band()[1];
+    let mut turning = 0;
+    for (side, speed) in
+        (1..20).flat_map(|i| [1.0, -1.0].map(|side| (side, 0.05 * f64::from(i) * pull * step)))
+    {
+        for share in (1..10).map(|i| 0.1 * f64::from(i)) {
+            // u = 0 after about that share of the step
+            let mut state = motion.start(-side * speed * share * step, side * speed, Support::default());
+            state.peaks.include(-0.02 * side);
+            let start = RunStart { state, factor: 1.0 };
+            let found = solver.run(start, Forcing::Samples(&still), false).expect("a bounded motion").state;
+            let wanted = searched(&motion, start, &still, step).0;
+            turning += u32::from(side * wanted.velocity < 0.0);
+            for (found, wanted) in
+                [(found.peaks.positive, wanted.peaks.positive), (found.peaks.negative, wanted.peaks.negative)]
+            {
+                // some roundings of the way in the step
+                let missed = (found - wanted).abs();
+                assert!(missed <= 16.0 * f64::EPSILON * speed * step, "{side} {speed} {share}: {missed:e} m");
+            }
+        }
+    }
+    assert!(turning > 100, "{turning}");
 }
 
 /// A block is searched for extremes where one may lie A h²/8 beyond the ends of its steps. A is that of plain

@@ -90,7 +90,7 @@ fn margins_are_kept_from_the_ends_ahead_and_from_those_that_may_be_reached_again
         assert!(stays([0.0, 5.0], [0.5, 4.0]) && !stays([0.0, 5.1], [0.5, 4.0]));
         assert!(!stays([0.0, 4.0], [0.5, 5.1]));
     }
-    // the limits within which u is known to stay are part of the branch, and its ends are not
+    // u may come to its limits, not to the ends of the branch
     let narrow = Bounds { within: [-0.5, 0.5], ..bounds([-1.0, 1.0]) };
     assert!(
         course([-0.5, 2.0], [0.5, 1.5], narrow).stays && !course([-0.5, 2.0], [0.501, 1.5], narrow).stays
