@@ -80,8 +80,8 @@ pub(crate) struct Rows {
     /// P and D = P + f̂ \[m/s²\].
     pub(crate) forcing: Row,
     pub(crate) driving: Row,
-    /// The |u| beyond which f̂ is taken anew, and the limits that u must not leave: where f̂ bounds the forces,
-    /// or the peaks \[m\].
+    /// The |u| beyond which f̂ is taken anew, and the limits that u must not leave: where f̂ bounds the
+    /// forces, or the peaks \[m\].
     pub(crate) half_reach: Row,
     pub(crate) limits: [Row; 2],
     /// Corners passed here, and of these the passages of u = 0.

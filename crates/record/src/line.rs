@@ -72,8 +72,8 @@ impl<N: Number> Line<N> {
         Course { stays, leaves: keeps & !inside }
     }
 
-    /// Returns A, the bound on |ü| between two instants up to a step apart, by the largest |p| and by |u̇| and
-    /// |f| there.
+    /// Returns A, the bound on |ü| between two instants up to a step apart, by the largest |p| and by |u̇|
+    /// and |f| there.
     #[inline(always)]
     pub(crate) fn most(&self, forcing: N, from: [N; 2], to: [N; 2]) -> N {
         let force = self.force(from[0]).abs().max(self.force(to[0]).abs());
@@ -136,3 +136,6 @@ pub(crate) struct Course<M> {
     pub(crate) stays: M,
     pub(crate) leaves: M,
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -67,10 +67,15 @@ fn bounds_grow_with_the_length() {
 #[test]
 fn margins_of_blocks_are_those_of_their_longest_steps() {
     let step = 5e-3;
-    for model in [DampingModel::None, DampingModel::ConstantCoefficient] {
-        let wall = Parameters { height: 6.0, thickness: 0.6, damping_model: model, ..Parameters::default() };
-        let motion = Motion::of(&Parameters { a1: 0.018, ..wall }, 1e-8).expect("a valid wall");
+    let walls = [([6.0, 0.6, 0.018], 4), ([1.5, 0.3, 0.0012], 2)];
+    let models = [DampingModel::None, DampingModel::ConstantCoefficient];
+    for (model, ([height, thickness, a1], at_once)) in
+        models.into_iter().flat_map(|model| walls.map(|wall| (model, wall)))
+    {
+        let wall = Parameters { height, thickness, a1, damping_model: model, ..Parameters::default() };
+        let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
         let table = Table::new(&motion, step);
+        assert_eq!(table.at_once, at_once);
         let mut largest = 0.0_f64;
         for (branch, oscillator) in motion.oscillators().iter().enumerate() {
             let c = oscillator.damping();
