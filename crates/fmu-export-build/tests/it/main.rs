@@ -23,7 +23,8 @@ fn quoted(text: &str) -> String {
     text.replace('\'', "\"")
 }
 
-/// The right description with `from`, which must occur once, replaced; both with single quotes for double ones.
+/// Returns the right description with `from`, which must occur once, replaced; both have single quotes for
+/// double ones.
 fn block_with(from: &str, to: &str) -> String {
     let [from, to] = [from, to].map(quoted);
     assert_eq!(BLOCK.matches(&from).count(), 1, "{from:?} must occur once");

@@ -154,8 +154,8 @@ fn bad_input_gives_one_message_exit_code_2_and_no_file() {
     refused(&["--platform", "linux64", "--fmi", "1"], "--fmi 1: there are 2 and 3");
     for name in ["linux", "aarch64-linux"] {
         let message = format!(
-            "the platform {name:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, darwin32; \
-             aarch64-linux and wasm32-wasip2 are for FMI 3.0"
+            "the platform {name:?} is not one of FMI 2.0's: linux64, win64, darwin64, linux32, win32, \
+             darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0"
         );
         refused(&["--platform", name], &message);
     }
