@@ -1,6 +1,7 @@
 //! `cargo xtask test`: every test, and a summary that names what did not run.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use crate::command::{Result, cargo, find, output, program, root, succeed, target};
@@ -115,11 +116,26 @@ fn prepare() {
     }
 }
 
-fn rust() -> Result<()> {
-    run_tests(cargo().args(["test", "--locked"]))
+/// Prepares a build. It keeps nothing for the next one: to write that takes a tenth of the time.
+fn build() -> Command {
+    let mut build = cargo();
+    build.env("CARGO_INCREMENTAL", "0");
+    build
 }
 
-fn run_tests(command: &mut std::process::Command) -> Result<()> {
+/// Prepares the Python tests in a folder, in two processes that share them as `sharing` says.
+fn pytest(python: &Environment, folder: &str, sharing: &str) -> Command {
+    let mut pytest = python.program("python");
+    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "-n", "2", "--dist", sharing]);
+    pytest.arg(folder);
+    pytest
+}
+
+fn rust() -> Result<()> {
+    run_tests(build().args(["test", "--locked"]))
+}
+
+fn run_tests(command: &mut Command) -> Result<()> {
     succeed(command, "see the failures above")
 }
 
@@ -143,7 +159,7 @@ fn packed(unit: fmu::Unit) -> Result<PathBuf> {
 
 /// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
 fn example() -> Result<PathBuf> {
-    succeed(cargo().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
+    succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
     let [beginning, ending] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
     let library = programs().join(format!("{beginning}bouncing_ball{ending}"));
     fmu::pack(fmu::BALL, &[(fmu::host(), library)], &programs())
@@ -152,10 +168,8 @@ fn example() -> Result<PathBuf> {
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of(TESTS.0, TESTS.1)?;
-    let mut pytest = python.program("python");
-    // two processes, each with whole files: what a file builds or unpacks is made once
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "-n", "2", "--dist", "loadfile"]);
-    pytest.arg("tests/python");
+    // whole files: what a file builds or unpacks is made once
+    let mut pytest = pytest(&python, "tests/python", "loadfile");
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     pytest.env("ROCKING_WALL_BALL", example()?);
@@ -174,8 +188,7 @@ fn python_package() -> Result<()> {
     for environment in [&python, &bare, &fmpy] {
         wheel::install(&package, environment)?;
     }
-    let mut pytest = python.program("python");
-    pytest.args(["-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "tests/wheel"]);
+    let mut pytest = pytest(&python, "tests/wheel", "worksteal");
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", programs().join("wall"));
     pytest.env("ROCKING_WALL_BARE_PYTHON", bare.programs().join("python"));
     pytest.env("ROCKING_WALL_FMPY_PYTHON", fmpy.programs().join("python"));
@@ -199,7 +212,7 @@ fn conformance() -> Result<()> {
     let clang = Environment::of(CLANG.0, CLANG.1)?;
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
-    let mut test = cargo();
+    let mut test = build();
     test.args(["test", "--locked", "--package", "conformance"]);
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
