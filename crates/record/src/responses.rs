@@ -44,8 +44,9 @@ impl Responses {
         }
         let at_once = table.at_once;
         let length = count / at_once + 1 + ROWS_AHEAD;
-        let mut responses = Self { starts: [0; WIDTH], rows: Vec::new(), at_once, length };
         let oscillators = motion.oscillators();
+        let rows = Vec::with_capacity(oscillators.len() * at_once * length);
+        let mut responses = Self { starts: [0; WIDTH], rows, at_once, length };
         for (branch, oscillator) in oscillators.iter().enumerate() {
             let known = oscillators[..branch].iter().position(|known| known == oscillator);
             responses.starts[branch] = known.map_or(responses.rows.len(), |known| responses.starts[known]);
@@ -59,7 +60,6 @@ impl Responses {
     /// Adds the response of an oscillator.
     fn respond(&mut self, map: &Affine, forcing: Forcing<'_>) {
         let Self { at_once, length, .. } = *self;
-        self.rows.reserve(at_once * length);
         for offset in 0..at_once {
             // all samples that count are within the record
             let count = (forcing.count() - offset).saturating_sub(MOST_AT_ONCE).div_ceil(at_once);
