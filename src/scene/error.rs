@@ -93,17 +93,7 @@ impl<'a> Place<'a> {
 }
 
 /// Checks a duration \[s\], which must be above 0.
-///
-/// # Errors
-/// [`SceneError::Value`].
-///
-/// ```
-/// use rocking_wall::scene::{LONGEST_RUN, check_duration};
-///
-/// let error = check_duration("stop_time", 0.0, LONGEST_RUN).unwrap_err();
-/// assert_eq!(error.to_string(), "stop_time = 0 s must be above 0 and at most 1e7 s");
-/// ```
-pub fn check_duration(name: &str, value: f64, limit: f64) -> Result<(), SceneError> {
+pub(super) fn check_duration(name: &str, value: f64, limit: f64) -> Result<(), SceneError> {
     if value > 0.0 && value <= limit {
         return Ok(());
     }

@@ -31,7 +31,8 @@ pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
 pub use document::{parse_toml, read_text};
-pub use error::{Place, SceneError, check_duration};
+use error::check_duration;
+pub use error::{Place, SceneError};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;
@@ -108,7 +109,7 @@ const DEFAULT_OUTPUT_STEP: f64 = 0.01;
 /// Longest run \[s\]; a longer one is a typing error, like a longer step or more points of output.
 pub const LONGEST_RUN: f64 = 1e7;
 /// Longest step of the output \[s\].
-pub const LONGEST_OUTPUT_STEP: f64 = 1e3;
+const LONGEST_OUTPUT_STEP: f64 = 1e3;
 const MOST_POINTS: f64 = 2e7;
 
 impl Scene {
@@ -201,6 +202,29 @@ impl Scene {
     /// [`SceneError::Value`] naming the variable, the value and the limit.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), SceneError> {
         parameter::set_from_text(&mut self.parameters, name, text)
+    }
+
+    /// Sets how long the scene runs and the step of its output \[s\], those that are given; the names are
+    /// those of an error.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] naming the value and its limit.
+    ///
+    /// ```
+    /// # use rocking_wall::scene::Scene;
+    /// let times = [("stop_time", Some(0.0)), ("output_step", None)];
+    /// let error = Scene::default().set_times(times).unwrap_err();
+    /// assert_eq!(error.to_string(), "stop_time = 0 s must be above 0 and at most 1e7 s");
+    /// ```
+    pub fn set_times(&mut self, given: [(&str, Option<f64>); 2]) -> Result<(), SceneError> {
+        let times = [(&mut self.stop_time, LONGEST_RUN), (&mut self.output_step, LONGEST_OUTPUT_STEP)];
+        for ((name, given), (time, limit)) in given.into_iter().zip(times) {
+            if let Some(given) = given {
+                check_duration(name, given, limit)?;
+                *time = given;
+            }
+        }
+        Ok(())
     }
 
     /// Replaces the motion; the run lasts as long as the motion and `tail` seconds more, and starts upright.

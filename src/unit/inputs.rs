@@ -1,5 +1,7 @@
 //! The inputs of the unit.
 
+use fmu_export::Input;
+
 use crate::wall::Support;
 
 /// The present inputs, and their rates for the next step.
@@ -10,27 +12,6 @@ pub(super) struct Inputs {
     pub(super) bottom: Input,
     pub(super) top: Input,
     pub(super) drift: Input,
-}
-
-/// A continuous input.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Input {
-    pub(super) value: f64,
-    /// Rate for the next step; zero after it.
-    pub(super) rate: f64,
-    /// Rate over the last step, for output derivatives.
-    pub(super) last_rate: f64,
-}
-
-impl Input {
-    pub(super) fn set(&mut self, value: f64) {
-        *self = Self { value, ..Self::default() };
-    }
-
-    /// Extrapolates the input to the end of a step of `duration` \[s\].
-    pub(super) fn extrapolate(&mut self, duration: f64) {
-        *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
-    }
 }
 
 impl Inputs {

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use fmu_export::{Experiment, Failure, Kind, Log, Step as CommunicationStep, VariableId};
+use fmu_export::{Experiment, Failure, Input, Kind, Log, Step as CommunicationStep, VariableId};
 
 use crate::choices::Mechanism;
 use crate::simulation::{Excitation, Outputs, Progress, Simulation, Step, segment_of};
@@ -12,7 +12,7 @@ use crate::variables::{RealVariable, real_calculated, real_output, real_paramete
 use crate::wall::{Ends, Parameters, Support, Wall};
 
 use super::exchange::Exchange;
-use super::inputs::{Input, Inputs};
+use super::inputs::Inputs;
 
 /// A wall between the FMI calls.
 #[derive(Clone, Debug)]

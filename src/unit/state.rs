@@ -7,7 +7,7 @@ use crate::solver::{Peaks, Phase, State, Work};
 use crate::wall::{Ends, Support};
 
 use super::exchange::{Exchange, OwnMotion};
-use super::inputs::{Input, Inputs};
+use super::inputs::Inputs;
 use super::instance::Unit;
 
 impl Unit {
@@ -20,8 +20,8 @@ impl Unit {
         self.parameters.transfer(codec)?;
         let Inputs { ground, bottom, top, drift } = &mut self.inputs;
         codec.f64(ground)?;
-        for Input { value, rate, last_rate } in [bottom, top, drift] {
-            codec.f64s([value, rate, last_rate])?;
+        for input in [bottom, top, drift] {
+            input.transfer(codec)?;
         }
         let Experiment { tolerance, start, stop } = &mut self.experiment;
         codec.f64(start)?;

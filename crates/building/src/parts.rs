@@ -45,6 +45,10 @@ impl Parts {
             scenes.push(scene);
             walls.push(wall);
         }
+        let moves = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
+        for floor in building.floors.iter().filter(moves) {
+            warnings.push(format!("floor {:?} does not start at rest, as its file says", floor.name));
+        }
         let system = system(building, &scenes)?;
         let payloads = building.floors.iter().map(payload);
         let payloads = payloads.chain(scenes.iter().map(|scene| to_toml(scene, ""))).collect();

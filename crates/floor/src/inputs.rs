@@ -1,5 +1,7 @@
 //! What pushes the floor: the base's motion and the walls.
 
+use fmu_export::Input;
+
 use crate::choices::Coupling;
 use crate::floor::Floor;
 use crate::motion::Load;
@@ -42,27 +44,6 @@ impl Source {
             real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
         };
         Some(Self::Wall(coupling, wall))
-    }
-}
-
-/// A continuous input.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Input {
-    pub(crate) value: f64,
-    /// Rate for the next step; zero after it.
-    pub(crate) rate: f64,
-    /// Rate over the last step, for output derivatives.
-    pub(crate) last_rate: f64,
-}
-
-impl Input {
-    pub(crate) fn set(&mut self, value: f64) {
-        *self = Self { value, ..Self::default() };
-    }
-
-    /// Extrapolates the input to the end of a step of `duration` \[s\].
-    fn extrapolate(&mut self, duration: f64) {
-        *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
     }
 }
 

@@ -1,10 +1,10 @@
 //! The floor as an FMI model.
 
-use fmu_export::{Environment, Failure, Interface, Log, Model, StateCodec, Step, VariableId};
+use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec, Step, VariableId};
 
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
-use crate::inputs::{Base, Input, Inputs, Source};
+use crate::inputs::{Base, Inputs, Source};
 use crate::motion::{Load, State};
 use crate::values;
 use crate::variables::{
@@ -344,8 +344,8 @@ impl Model for Unit {
     fn transfer_state(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
         self.parameters.transfer(codec)?;
         let Inputs { ground, reactions, impulses, last_duration } = &mut self.inputs;
-        for Input { value, rate, last_rate } in reactions.iter_mut().chain([ground]) {
-            codec.f64s([value, rate, last_rate])?;
+        for input in reactions.iter_mut().chain([ground]) {
+            input.transfer(codec)?;
         }
         codec.f64s(impulses)?;
         codec.f64(last_duration)?;

@@ -102,6 +102,7 @@ mod failure;
 pub mod ffi;
 mod guid;
 mod hash;
+mod input;
 mod instance;
 mod limits;
 mod log;
@@ -112,6 +113,7 @@ mod variable;
 
 pub use failure::Failure;
 pub use hash::fnv1a_128;
+pub use input::Input;
 pub use log::{Category, Filter, Log, Sink, Status};
 pub use model::{Environment, Experiment, Interface, Model, ModelExchange, Step, Update};
 pub use state::StateCodec;

@@ -103,17 +103,7 @@ impl<'a> Log<'a> {
 
     /// Returns whether warnings are wanted.
     pub fn wants_warnings(&self) -> bool {
-        self.wants(Category::Warning)
-    }
-
-    /// Returns whether events are wanted.
-    pub fn wants_events(&self) -> bool {
-        self.wants(Category::Events)
-    }
-
-    /// Returns whether information is wanted.
-    pub fn wants_info(&self) -> bool {
-        self.wants(Category::All)
+        self.sink.is_some() && self.filter.wants(Category::Warning)
     }
 
     /// Logs an error. A call that fails returns a [`Failure`](crate::Failure) instead, which the layer logs.
@@ -140,10 +130,6 @@ impl<'a> Log<'a> {
         if let (true, Some(sink)) = (self.filter.wants(category), self.sink.as_mut()) {
             sink(status, category, &message.to_string());
         }
-    }
-
-    fn wants(&self, category: Category) -> bool {
-        self.sink.is_some() && self.filter.wants(category)
     }
 }
 

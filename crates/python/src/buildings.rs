@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use building::coupled::{Coupled, History, Peak, Settings};
-use building::document::Floor;
 use building::{BuildingError, Parts};
 use figures::palette::{DARK_GREY, SERIES};
 use figures::plot::Picture;
@@ -51,14 +50,9 @@ impl Building {
         self.building.walls.iter().map(|wall| wall.name.as_str()).collect()
     }
 
-    /// Returns what the walls warn of, and the floors that do not start at rest.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        let moving = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
-        let moving = self.building.floors.iter().filter(moving);
-        let moving =
-            moving.map(|floor| format!("floor {:?} does not start at rest, as its file says", floor.name));
-        self.parts.warnings.iter().cloned().chain(moving).collect()
+        self.parts.warnings.clone()
     }
 
     /// Runs the building under a motion of the ground.

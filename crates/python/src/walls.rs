@@ -11,8 +11,8 @@ use pyo3::types::PyDict;
 use record::{Outcome, RecordSolver};
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Floors, GROUPS, KINEMATICS, LONGEST_OUTPUT_STEP, LONGEST_RUN, POINTS, Scene, StoreyTable, SupportsTable,
-    check_duration, check_tail, check_thresholds, parameter_text, to_toml,
+    Floors, GROUPS, KINEMATICS, POINTS, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
+    parameter_text, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Method, Motion};
@@ -212,15 +212,7 @@ impl Wall {
         if hold {
             scene.excitation = scene.excitation.map(Excitation::held);
         }
-        for (name, given, value, limit) in [
-            ("stop_time", stop_time, &mut scene.stop_time, LONGEST_RUN),
-            ("output_step", output_step, &mut scene.output_step, LONGEST_OUTPUT_STEP),
-        ] {
-            if let Some(given) = given {
-                check_duration(name, given, limit).map_err(of_scene)?;
-                *value = given;
-            }
-        }
+        scene.set_times([("stop_time", stop_time), ("output_step", output_step)]).map_err(of_scene)?;
         if let Some(thresholds) = thresholds {
             check_thresholds(&thresholds).map_err(of_scene)?;
             scene.thresholds = thresholds;

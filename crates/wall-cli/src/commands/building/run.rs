@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use building::coupled::{Coupled, History, Peak, Settings};
-use building::document::Floor;
 use building::{Building, Parts};
 use clap::Args;
 use ground_motion::GroundMotion;
@@ -55,10 +54,6 @@ pub(super) fn run(
     let &Options { tail, tolerance, .. } = options;
     let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
     output::expect_svg(options.svg.as_ref())?;
-    let moving = |floor: &&Floor| floor.parameters.iter().any(|given| given.name.ends_with("_start"));
-    for floor in building.floors.iter().filter(moving) {
-        output::warn(&format!("floor {:?} does not start at rest, as its file says", floor.name));
-    }
     let run = Coupled::run(building, parts, ground, settings)?;
     output::save(options.csv.as_ref(), || csv(building, &run))?;
     output::save(options.html.as_ref(), || render(building, parts, &run, note))?;

@@ -6,8 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use ground_motion::GroundMotion;
 use rocking_wall::scene::{
-    DEFAULT_TAIL, Floors, LONGEST_OUTPUT_STEP, LONGEST_RUN, Scene, StoreyTable, SupportsTable,
-    check_duration, check_tail, check_thresholds,
+    DEFAULT_TAIL, Floors, Scene, StoreyTable, SupportsTable, check_tail, check_thresholds,
 };
 use rocking_wall::simulation::Excitation;
 
@@ -100,15 +99,7 @@ impl Arguments {
             scene.excitation = Some(excitation.held());
             scene.motion_notes.push("each sample held until the next".into());
         }
-        for (name, given, value, limit) in [
-            ("--stop-time", self.stop_time, &mut scene.stop_time, LONGEST_RUN),
-            ("--output-step", self.output_step, &mut scene.output_step, LONGEST_OUTPUT_STEP),
-        ] {
-            if let Some(given) = given {
-                check_duration(name, given, limit)?;
-                *value = given;
-            }
-        }
+        scene.set_times([("--stop-time", self.stop_time), ("--output-step", self.output_step)])?;
         if let Some(thresholds) = &self.thresholds {
             check_thresholds(thresholds)?;
             scene.thresholds.clone_from(thresholds);
