@@ -236,9 +236,10 @@ impl<P: Piece> Search<'_, P> {
         if left.motion.displacement == bound {
             return Some(Exit { time: left.time, velocity: left.motion.velocity, upwards });
         }
-        let length = right.time - left.time;
-        let guess = left.time + length * crossing([left.motion, right.motion], length, bound, 2);
-        let jerk = self.piece.bounds(left.motion, length).1;
+        let KinematicState { displacement, velocity, acceleration } = left.motion;
+        // by constant ü; from a turning point, where the sign of u̇ is rounding, the root is ahead
+        let guess = left.time + parabola([displacement - bound, velocity, acceleration]).abs();
+        let jerk = self.piece.bounds(left.motion, right.time - left.time).1;
         let exit = root([left.time, right.time], guess, upwards, |time| {
             let motion = self.piece.at(time);
             let KinematicState { displacement, velocity, acceleration } = motion;
@@ -276,25 +277,6 @@ fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     } else {
         -value / slope
     }
-}
-
-/// Returns the fraction of an interval at which the quintic through the motion at both ends passes `bound`: a
-/// parabola's root, improved by a number of Newton steps.
-pub(super) fn crossing([from, to]: [KinematicState; 2], length: f64, bound: f64, improvements: u32) -> f64 {
-    let (v0, v1) = (from.velocity * length, to.velocity * length);
-    let (a0, a1) = (0.5 * from.acceleration * length * length, 0.5 * to.acceleration * length * length);
-    let start = from.displacement - bound;
-    // error of the left end's parabola at the right end: u, u̇ and half of ü
-    let (du, dv, da) = (to.displacement - from.displacement - v0 - a0, v1 - v0 - 2.0 * a0, a1 - a0);
-    let (c3, c4, c5) =
-        (10.0 * du - 4.0 * dv + da, -15.0 * du + 7.0 * dv - 2.0 * da, 6.0 * du - 3.0 * dv + da);
-    let mut x = parabola([start, v0, 2.0 * a0]).abs().min(1.0);
-    for _ in 0..improvements {
-        let value = start + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))));
-        let slope = v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
-        x = (x - value / slope).clamp(0.0, 1.0);
-    }
-    x
 }
 
 /// Finds a root in a bracket from a first `guess`, by the steps of `trial` safeguarded with bisection.

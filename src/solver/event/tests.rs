@@ -83,7 +83,7 @@ fn exits_have_their_closed_form() {
             exits += 1;
         }
     }
-    assert_eq!((exits, evaluations), (177, 1112));
+    assert_eq!((exits, evaluations), (177, 1223));
 }
 
 /// The motion turns at cos(ωt) = −v/(Aω).
