@@ -14,8 +14,6 @@ const SMALL_SHIFT: f64 = 1e-4;
 const SMALL_BEND: f64 = 1e-4;
 /// Most evaluations of the motion to find a corner.
 const MOST_GUESSES: u32 = 4;
-/// Ratios of the mean velocity of a passage to those at its ends between which a quintic is close to t(u).
-const EVEN: [f64; 2] = [0.3, 3.0];
 
 /// A part of a step, along the branch that each lane is on.
 #[derive(Clone, Copy)]
@@ -24,9 +22,9 @@ pub(crate) struct Part<N: Number> {
     pub(crate) lanes: N::Mask,
     branch: N,
     line: Line<N>,
-    /// u, u̇ and ü at its start, and at its end if the branch goes on.
+    /// u, u̇ and ü at its start, and u and u̇ at its end if the branch goes on.
     from: [N; 3],
-    to: [N; 3],
+    to: [N; 2],
     /// Its length \[s\].
     length: N,
     /// p at its start \[m/s²\], and the rate of p \[m/s³\].
@@ -51,7 +49,7 @@ pub(crate) struct Arrival<N: Number> {
 
 impl<N: Number> Arrival<N> {
     #[inline(always)]
-    fn take(&mut self, lanes: N::Mask, part: &Part<N>, [u, v, _]: [N; 3], corners: u32, left: N) {
+    fn take(&mut self, lanes: N::Mask, part: &Part<N>, [u, v]: [N; 2], corners: u32, left: N) {
         self.lanes = self.lanes | lanes;
         self.end = [N::select(lanes, u, self.end[0]), N::select(lanes, v, self.end[1])];
         self.branch = N::select(lanes, part.branch, self.branch);
@@ -72,8 +70,7 @@ impl<N: Number> Part<N> {
         [p0, p1]: [N; 2],
         step: f64,
     ) -> Self {
-        let (a0, a1) = (line.acceleration(from, p0), line.acceleration(to, p1));
-        let (from, to) = ([from[0], from[1], a0], [to[0], to[1], a1]);
+        let from = [from[0], from[1], line.acceleration(from, p0)];
         let (length, rate) = (p0.like(step), (p1 - p0) * (1.0 / step));
         Self { lanes, branch, line, from, to, length, forcing: p0, rate, impacts: p0.like(0.0) }
     }
@@ -83,7 +80,7 @@ impl<N: Number> Part<N> {
     fn course(&self, bounds: &Bounds<N>) -> Course<N::Mask> {
         let Self { line, from, to, length, forcing, rate, .. } = *self;
         let forcing = forcing.abs().max((forcing + rate * length).abs());
-        line.course([from[0], from[1]], [to[0], to[1]], forcing, length, bounds)
+        line.course([from[0], from[1]], to, forcing, length, bounds)
     }
 
     /// Finds when lanes reach a corner, and u̇ there: a guess is corrected by the derivatives at its time,
@@ -91,10 +88,16 @@ impl<N: Number> Part<N> {
     #[inline(always)]
     fn find(&self, corner: N, terms: usize) -> (N::Mask, N, N) {
         let Self { lanes, line, from, length, rate, .. } = *self;
-        let share = self.share(corner);
         let zero = corner.like(0.0);
-        let mut sought = lanes & zero.below(share) & share.below(zero + 1.0);
-        let mut time = length * share;
+        // by constant ü, then with the jerk
+        let [u, v, a] = from;
+        let ahead = corner - u;
+        let speed = (v * v + (a + a) * ahead).max(zero).sqrt();
+        let first = (ahead + ahead).abs() / (v.abs() + speed);
+        let jerk = rate - line.c * a - line.k * v;
+        let later = jerk * (first * first * first) * (1.0 / 6.0) / (v + a * first);
+        let mut time = (first - later).max(zero).min(length);
+        let mut sought = lanes & zero.below(first);
         let (mut found, mut found_time, mut found_velocity) = (sought & !sought, zero, zero);
         for guess in 0..MOST_GUESSES {
             let [u, v, a] = line.after(terms, time, from, rate);
@@ -121,29 +124,6 @@ impl<N: Number> Part<N> {
             time = N::select(sought, next, time);
         }
         (found, found_time, found_velocity)
-    }
-
-    /// Returns the fraction of the length after which u passes a corner: by the quintic t(u) through the
-    /// ends, where the velocity does not change much.
-    #[inline(always)]
-    fn share(&self, corner: N) -> N {
-        let Self { from: [u, v, a0], to: [to_u, to_v, a1], length, .. } = *self;
-        let rise = to_u - u;
-        let inverse = rise.like(1.0) / rise;
-        let (w0, w1) = (rise / (v * length), rise / (to_v * length));
-        // dt/du and d²t/du² = −ü/u̇³, for t over the length and u over the rise
-        let bend = length * length * inverse * -0.5;
-        let (b0, b1) = (bend * a0 * (w0 * w0 * w0), bend * a1 * (w1 * w1 * w1));
-        let (d, dv, db) = (-w0 + 1.0 - b0, w1 - w0 - (b0 + b0), b1 - b0);
-        let c3 = d * 10.0 - dv * 4.0 + db;
-        let c4 = dv * 7.0 - d * 15.0 - (db + db);
-        let c5 = d * 6.0 - dv * 3.0 + db;
-        let s = (corner - u) * inverse;
-        let square = s * s;
-        let quintic = s * ((w0 + s * b0) + square * ((c3 + s * c4) + square * c5));
-        let [low, high] = [u.like(EVEN[0]), u.like(EVEN[1])];
-        let even = low.at_most(w0) & w0.below(high) & low.at_most(w1) & w1.below(high);
-        N::select(even, quintic, s)
     }
 }
 
@@ -174,7 +154,7 @@ impl<O: Observer> Lanes<'_, O> {
             let curved;
             (part, curved) = self.cross(token, &part);
             if N::bits(curved) != 0 {
-                arrival.take(curved, &part, part.from, corners, part.length);
+                arrival.take(curved, &part, [part.from[0], part.from[1]], corners, part.length);
             }
             let Course { stays, leaves } =
                 part.course(&Bounds::look_up(token, table, rows, first, part.branch));
@@ -209,11 +189,11 @@ impl<O: Observer> Lanes<'_, O> {
         let forcing = part.forcing + part.rate * time;
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
-        let to = line.after(table.terms, length, from, part.rate);
+        let [u, v, _] = line.after(table.terms, length, from, part.rate);
         let impacts = part.impacts + N::select(lanes & impact, zero + 1.0, zero);
         let curved = lanes & ordinary & beyond(exit::ORDINARY);
         let lanes = lanes & !curved;
-        (Part { lanes, branch, line, from, to, length, forcing, impacts, ..*part }, curved)
+        (Part { lanes, branch, line, from, to: [u, v], length, forcing, impacts, ..*part }, curved)
     }
 
     /// Stores in the rows where lanes have come to.
@@ -257,7 +237,8 @@ impl<O: Observer> Lanes<'_, O> {
         let now = [load(&rows.u), load(&rows.v)];
         let forcing = p0 + (p1 - p0) * share;
         let from = [now[0], now[1], line.acceleration(now, forcing)];
-        let to = line.after(table.terms, length, from, rate);
+        let [u, v, _] = line.after(table.terms, length, from, rate);
+        let to = [u, v];
         let (lanes, zero) = (N::mask(token, 1), N::splat(token, 0.0));
         let part = Part { lanes, branch, line, from, to, length, forcing, rate, impacts: zero };
         let Course { stays, leaves } = part.course(&Bounds::look_up(token, table, rows, first, branch));
