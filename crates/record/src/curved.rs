@@ -97,8 +97,7 @@ impl OneLane for ByStiffness {
         series.extend_to_12::<Self>();
         series.extend_to_16::<Self>();
         let x = &series.x;
-        let guess = rise / x[1];
-        let mut time = guess - guess * guess * x[2] / x[1];
+        let mut time = rise / x[1];
         for _ in 0..MOST_GUESSES {
             let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
             for n in (1..=ORDER).rev() {

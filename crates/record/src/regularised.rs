@@ -321,6 +321,27 @@ mod tests {
         assert_ne!(series.extend(sigma, 3.5e-14), Some(8));
     }
 
+    /// What a series leaves out is 2N m₁ q/(1 − q), with m₀ and m₁ the larger terms of its last two pairs and
+    /// q = m₁/m₀, for which m₁ counts as m₀/100 at least.
+    #[test]
+    fn the_last_two_pairs_say_what_a_series_leaves_out() {
+        let mut series = Regularised::new(start([1.0, 0.05], [0.4, 0.6], 0.7));
+        let sigma = 0.8_f64;
+        for (terms, [before, last]) in [
+            ([3e-3, 1e-3, 4e-4, 2e-4], [3e-3, 4e-4]),
+            ([-1e-3, -3e-3, 2e-4, -4e-4], [3e-3, 4e-4]),
+            ([1e-3, 3e-3, 2e-6, 1e-6], [3e-3, 2e-6]),
+        ] {
+            for (n, term) in (5..).zip(terms) {
+                series.y[n] = term / sigma.powi(n.try_into().expect("a small order"));
+            }
+            let ratio = f64::max(last, 0.01 * before) / before;
+            let most = 16.0 * last * ratio / (1.0 - last / before) / CAUTION;
+            let reaches = |share: f64| series.reaches::<8>(sigma, share * most);
+            assert!(reaches(1.0 + 1e-12) && !reaches(1.0 - 1e-12), "{terms:?}");
+        }
+    }
+
     /// A step that ends when u passes a value ends with that value.
     #[test]
     fn passages_are_ends_of_shorter_steps() {
