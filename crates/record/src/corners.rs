@@ -89,15 +89,8 @@ impl<N: Number> Part<N> {
     fn find(&self, corner: N, terms: usize) -> (N::Mask, N, N) {
         let Self { lanes, line, from, length, rate, .. } = *self;
         let zero = corner.like(0.0);
-        // by constant ü, then with the jerk
-        let [u, v, a] = from;
-        let ahead = corner - u;
-        let speed = (v * v + (a + a) * ahead).max(zero).sqrt();
-        let first = (ahead + ahead).abs() / (v.abs() + speed);
-        let jerk = rate - line.c * a - line.k * v;
-        let later = jerk * (first * first * first) * (1.0 / 6.0) / (v + a * first);
-        let mut time = (first - later).max(zero).min(length);
-        let mut sought = lanes & zero.below(first);
+        let mut time = self.guess(corner);
+        let mut sought = lanes & (from[0].below(corner) | corner.below(from[0]));
         let (mut found, mut found_time, mut found_velocity) = (sought & !sought, zero, zero);
         for guess in 0..MOST_GUESSES {
             let [u, v, a] = line.after(terms, time, from, rate);
@@ -124,6 +117,18 @@ impl<N: Number> Part<N> {
             time = N::select(sought, next, time);
         }
         (found, found_time, found_velocity)
+    }
+
+    /// Returns about when u reaches a corner: by constant ü, and then by the jerk at the start.
+    #[inline(always)]
+    fn guess(&self, corner: N) -> N {
+        let Self { line, from: [u, v, a], length, rate, .. } = *self;
+        let (zero, ahead) = (corner.like(0.0), corner - u);
+        let speed = (v * v + (a + a) * ahead).max(zero).sqrt();
+        let time = (ahead + ahead).abs() / (v.abs() + speed);
+        let jerk = rate - line.c * a - line.k * v;
+        let late = jerk * (time * time * time) * (1.0 / 6.0) / (v + a * time);
+        (time - late).max(zero).min(length)
     }
 }
 

@@ -5,6 +5,29 @@ use super::*;
 use crate::line::tests::line;
 use crate::table::terms;
 
+/// A first guess is so close that the correction about it is the last, where ü and the jerk change u̇ as they
+/// do in the steps of a record.
+#[test]
+fn the_guess_of_a_corner_is_close() {
+    let length = 0.01;
+    for [c, k] in [[0.0, 0.0], [1.0, 0.0], [0.0, 20.0], [0.0, -20.0]] {
+        let line = line(c, k);
+        let terms = terms((c + f64::sqrt(f64::abs(k))) * length);
+        for speed in [1.0, -0.3] {
+            for (bend, twist) in [(0.5, 0.0), (0.5, 0.005), (-0.5, -0.005), (-0.5, 0.005), (0.0, 0.0)] {
+                let from = [0.2, speed, bend * speed / length];
+                let rate = twist * speed / (length * length);
+                let part = Part { from, length, rate, ..part(line) };
+                for share in [0.3, 0.7, 0.98] {
+                    let time = share * length;
+                    let miss = part.guess(line.after(terms, time, from, rate)[0]) - time;
+                    assert!(miss.abs() < SMALL_SHIFT * length, "{c}, {k}, {bend}, {twist}: {miss:e}");
+                }
+            }
+        }
+    }
+}
+
 /// The time of a corner, and u̇ there, are those of the motion, also where the first guess is far off.
 #[test]
 fn corners_are_found_where_the_motion_passes_them() {
