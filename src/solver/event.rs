@@ -246,11 +246,9 @@ impl<P: Piece> Search<'_, P> {
             let value = displacement - bound;
             let step = parabola([value, velocity, acceleration]);
             // A step δ of the parabola leaves an error of jerk δ³/6 in u, hence of jerk δ³/(6u̇) in time, and
-            // of jerk δ²/2 in u̇. The step is the last where those in time and in u̇ are at most ε/4 of their
-            // values.
-            let speed = velocity.abs();
-            let left = 0.5 * jerk * step * step / speed;
-            let settled = left <= 0.25 * f64::EPSILON && left * step.abs() <= 0.75 * f64::EPSILON * time;
+            // of jerk δ²/2 in u̇. The step is the last where that in u̇ is at most ε/4 of u̇; that in time is
+            // then at most ε δ/12, below the rounding of the bracket's times.
+            let settled = 0.5 * jerk * step * step <= 0.25 * f64::EPSILON * velocity.abs();
             Trial { value, step, settled, node: Node { time, motion } }
         });
         Some(Exit { time: exit.time, velocity: exit.motion.velocity, upwards })

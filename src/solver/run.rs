@@ -348,3 +348,25 @@ impl<'a> Run<'a> {
         SolverError::TooManyPieces { reached, duration, limit, displacement, velocity }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choices::DampingModel;
+    use crate::wall::{Parameters, Support};
+
+    /// A step without events needs no run; a long one does, and one of a wall that stands.
+    #[test]
+    fn ordinary_steps_are_quiet() {
+        let damping_model = DampingModel::ConstantCoefficient;
+        let motion = Motion::of(&Parameters { damping_model, ..Parameters::default() }, 1e-8).unwrap();
+        let u_ins = motion.wall().body().instability.positive;
+        let mut state = motion.start(0.3 * u_ins, 0.0, Support::default());
+        state.peaks.include(0.4 * u_ins);
+        let quiet = |state: &State, duration: f64| {
+            motion.quiet_end(state, duration, [0.0; 2], &mut Memo::default()).is_some()
+        };
+        assert!(quiet(&state, 0.01) && !quiet(&state, 100.0));
+        assert!(!quiet(&State { phase: Phase::Resting, ..state }, 0.01));
+    }
+}

@@ -118,17 +118,53 @@ fn half_cycles_are_excursions() {
     assert_eq!(2 * demands.half_cycles, corners + 1, "{corners} corners");
 }
 
+/// A motion about the end of the elastic branch that never comes to u = 0 is one half cycle, on either side.
+#[test]
+fn a_swing_on_one_side_is_one_half_cycle() {
+    for side in [1.0, -1.0] {
+        let upright = Parameters { u_start: 0.0, ..undamped(ForceLaw::Bilinear) };
+        let wall = Wall::new(&upright).unwrap();
+        let elastic = wall.branches().iter().find(|branch| branch.lower < 0.0 && branch.upper > 0.0).unwrap();
+        // in equilibrium at 0.8 of the elastic end
+        let support = Support::rigid(-0.8 * side * onset(&wall));
+        let parameters = Parameters { u_start: 1.05 * side * elastic.upper, ..upright };
+        let mut simulation = Simulation::new(&parameters, None, 0.0, support).unwrap();
+        let mut demands = simulation.demands(support, &[]);
+        for _ in 0..500 {
+            let segment = Segment { duration: 0.01, from: support, to: support };
+            simulation.advance_watched(&segment, &mut demands).unwrap();
+        }
+        let corners = simulation.progress().work.corners;
+        assert!(corners > 4, "{corners} corners");
+        let Extremes { highest, lowest } = demands.displacement;
+        assert!(side * lowest.value > 0.0 && side * highest.value > 0.0);
+        assert_eq!(demands.half_cycles, 1);
+    }
+}
+
 /// The impulses of a step are the integrals of the reactions, here by Simpson's rule on 200 parts of one
 /// branch. A wall that leaves its supports within the step has those up to there, as in parts.
 #[test]
 fn impulses_are_integrals_of_the_reactions() {
-    let supports =
-        [[0.4, -0.3, 1e-3], [-0.2, 0.5, -2e-3]].map(|[bottom, top, drift]| Support { bottom, top, drift });
-    let at = |part: u32| supports[0].towards(supports[1], f64::from(part) / 200.0);
-    for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
+    let with = |drift: f64| {
+        [[0.4, -0.3, drift], [-0.2, 0.5, -2.0 * drift]].map(|[bottom, top, drift]| Support {
+            bottom,
+            top,
+            drift,
+        })
+    };
+    for (mechanism, damping_model, drift) in [
+        (Mechanism::Parapet, DampingModel::ConstantRatio, 1e-3),
+        (Mechanism::VerticalSpanning, DampingModel::ConstantRatio, 1e-3),
+        (Mechanism::VerticalSpanning, DampingModel::ConstantCoefficient, 1e-3),
+        (Mechanism::VerticalSpanning, DampingModel::ConstantCoefficient, 0.0),
+    ] {
+        let supports = with(drift);
+        let at = |part: u32| supports[0].towards(supports[1], f64::from(part) / 200.0);
         for (start, duration, departs) in [(0.5, 0.1, false), (0.97, 1.5, true)] {
-            let wall =
-                Parameters { mechanism, xi: 0.05, overburden: 2e3, u_start: 0.0, ..Parameters::default() };
+            let (xi, overburden, u_start) = (0.05, 2e3, 0.0);
+            let parameters = Parameters::default();
+            let wall = Parameters { mechanism, damping_model, xi, overburden, u_start, ..parameters };
             let upright = Simulation::new(&wall, None, 0.0, supports[0]).unwrap();
             let u_ins = upright.wall().body().instability.positive;
             // pushed outwards where it is to leave its supports
@@ -154,6 +190,7 @@ fn impulses_are_integrals_of_the_reactions() {
             let [from, to] = supports;
             let done = whole.advance(&Segment { duration, from, to }).unwrap();
             assert_eq!(done.departed, departs, "{mechanism:?}");
+            assert_eq!(whole.progress().drift, drift != 0.0);
             let size = upright.wall().body().weight * duration;
             let apart = |other: Ends| {
                 (done.impulses.bottom - other.bottom).abs().max((done.impulses.top - other.top).abs()) / size

