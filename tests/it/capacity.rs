@@ -148,10 +148,18 @@ fn a_tie_adds_its_force_times_its_lever() {
     }
 }
 
+#[test]
+fn an_error_names_its_point() {
+    let points = vec![[0.05, 0.8], [0.2, 1.0], [0.2, 0.9], [1.0, 0.0]];
+    let error = Wall::new(&Parameters { multilinear: Some(points.into()), ..Parameters::default() });
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("point 3") && error.contains("must rise"), "{error}");
+}
+
 /// A law of points goes through each of them, also where a falling line ends above zero.
 #[test]
 fn a_law_of_points_goes_through_them() {
-    let points = vec![[0.05, 0.8], [0.2, 1.0], [0.5, 0.9], [0.7, 0.3], [1.0, 0.0]];
+    let points = vec![[0.05, 0.8], [0.2, 1.0], [0.3, 1.0], [0.5, 0.9], [0.7, 0.3], [1.0, 0.0]];
     let wall = made(&Parameters {
         multilinear: Some(points.clone().into()),
         damping_model: DampingModel::None,

@@ -60,6 +60,25 @@ fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State>
     states
 }
 
+/// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) by δ² at
+/// most.
+#[test]
+fn accelerations_keep_the_energy() {
+    for mechanism in MECHANISMS {
+        let motion = motion(&loaded(mechanism, EccentricityMode::FixedToWall), 1e-13);
+        let (wall, rotations) = (motion.wall(), motion.wall().rotations().unwrap());
+        let u_ins = wall.body().instability.positive;
+        for (u, v) in [(0.2 * u_ins, 0.5), (0.5 * u_ins, -1.0), (0.4 * u_ins, 0.1)] {
+            let a = rotations.acceleration(u, v, 0.0, 1.0);
+            let after = |time: f64| rotations.energy(u + time * v, v + time * a);
+            // a central difference: what is left is of third order, and rounding of 1e-16/1e-5
+            let rate = (after(1e-5) - after(-1e-5)) / 2e-5;
+            let size = (v * a).abs() + (v * rotations.restoring(u, 1.0)).abs();
+            assert!(rate.abs() < 1e-8 * size, "{mechanism:?}: {rate:e} of {size:e}");
+        }
+    }
+}
+
 #[test]
 fn free_motion_keeps_its_energy_between_impacts() {
     for mechanism in MECHANISMS {

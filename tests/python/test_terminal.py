@@ -10,7 +10,7 @@ import pytest
 STUDY = """
 models = ["CR", "CDC"]
 levels = { method = "grid", step = 0.01, top = 3 }
-records = { synthetic = { count = 10 } }
+records = { synthetic = { count = 40 } }
 walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 """
 
