@@ -18,8 +18,8 @@
 //! ```
 //!
 //! # Modules
-//! This crate is what is inside `wall.fmu`. Only [`response`], and what describes a wall without moving it,
-//! are for other programs. Data flows from left to right; nothing flows back.
+//! This crate is what is inside `wall.fmu`, together with [`response`] and what describes a wall without
+//! moving it, which other programs use. Data flows from left to right; nothing flows back.
 //!
 //! ```text
 //! scene.toml ─► Scene ─► Parameters ─► Wall ─┐

@@ -237,7 +237,7 @@ impl<P: Piece> Search<'_, P> {
             return Some(Exit { time: left.time, velocity: left.motion.velocity, upwards });
         }
         let KinematicState { displacement, velocity, acceleration } = left.motion;
-        // by constant ü; from a turning point, where the sign of u̇ is rounding, the root is ahead
+        // by constant ü; at a turning point rounding may give u̇ the wrong sign, but the root is ahead
         let guess = left.time + parabola([displacement - bound, velocity, acceleration]).abs();
         let jerk = self.piece.bounds(left.motion, right.time - left.time).1;
         let exit = root([left.time, right.time], guess, upwards, |time| {

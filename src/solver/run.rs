@@ -355,7 +355,7 @@ mod tests {
     use crate::choices::DampingModel;
     use crate::wall::{Parameters, Support};
 
-    /// A step without events needs no run; a long one does, and one of a wall that stands.
+    /// A short step without events is quiet; a long step is not, nor is a step of a wall at rest.
     #[test]
     fn ordinary_steps_are_quiet() {
         let damping_model = DampingModel::ConstantCoefficient;

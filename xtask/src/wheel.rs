@@ -74,7 +74,7 @@ fn maturin(job: &str, unit: &Path) -> Result<Command> {
     }
     let mut maturin = Environment::of("maturin", "xtask/locks/maturin.lock")?.program("maturin");
     maturin.args([job, "--manifest-path", "crates/python/Cargo.toml"]);
-    // as the tests are built: the crates would be built again otherwise
+    // as for the tests; otherwise the crates would be built again
     maturin.env("CARGO_INCREMENTAL", "0");
     Ok(maturin)
 }

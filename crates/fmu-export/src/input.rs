@@ -25,7 +25,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Sets the value. Its rate is zero until it is set, too.
+    /// Sets the value, and both rates to zero.
     pub fn set(&mut self, value: f64) {
         *self = Self { value, ..Self::default() };
     }
@@ -38,7 +38,7 @@ impl Input {
     /// Writes or reads the input as part of a state.
     ///
     /// # Errors
-    /// If the bytes end before.
+    /// If the bytes end too early.
     pub fn transfer(&mut self, codec: &mut StateCodec<'_>) -> Result<(), Failure> {
         codec.f64s([&mut self.value, &mut self.rate, &mut self.last_rate])
     }

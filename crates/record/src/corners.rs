@@ -8,7 +8,7 @@ use crate::table::exit;
 
 /// Most corners passed in one step.
 const MOST_CORNERS: u32 = 4;
-/// Largest correction δ of a first guess, over the length of the part.
+/// Largest correction δ of the last guess, over the length of the part.
 const SMALL_SHIFT: f64 = 1e-4;
 /// Largest ü δ/(2 u̇) of the last correction. It is larger only where u all but turns at the corner.
 const SMALL_BEND: f64 = 1e-4;
