@@ -5,7 +5,7 @@ use oscillator::KinematicState;
 use super::state::Peaks;
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 /// A smooth motion u(t) on one branch, for 0 ≤ t ≤ `horizon`.
 pub(super) trait Piece {

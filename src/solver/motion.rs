@@ -98,11 +98,7 @@ impl Motion {
     pub(super) fn takes_closed_form(&self, branch: usize) -> bool {
         match self.method {
             Method::Exact => true,
-            Method::Adaptive { .. } => {
-                let linear = self.wall.rotations().is_none();
-                let branch = &self.wall.branches()[branch];
-                linear && branch.damping.constant().is_some() && branch.stiffness > 0.0
-            }
+            Method::Adaptive { .. } => self.wall.branches()[branch].is_elastic(),
             Method::Newmark { .. } => false,
         }
     }

@@ -12,6 +12,9 @@ use super::demand::{Demands, Extremes, Instant, TieDemands};
 use super::event::{self, Ending, Piece, SearchExhausted};
 use super::state::{Peaks, Segment};
 
+#[cfg(test)]
+mod tests;
+
 /// Error of an extreme, relative to the terms it is the sum of. Its time is then accurate to about 1e-6 of
 /// the time scale of the motion around it.
 pub const ACCURACY: f64 = 1e-12;
@@ -177,10 +180,8 @@ impl Watch<'_> {
     fn count<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let branch = &self.wall.branches()[followed.branch];
         let start = followed.piece.start();
-        // only the elastic line goes through the origin
-        let elastic = branch.own.anchor == 0.0;
         let demands = &mut *self.demands;
-        if !elastic {
+        if !branch.is_elastic() {
             if self.wall.is_rigid() && start.displacement == 0.0 {
                 demands.excursion = None;
             }

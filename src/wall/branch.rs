@@ -28,6 +28,11 @@ impl Branch {
         self.force + self.stiffness * (displacement - self.anchor)
     }
 
+    /// Returns whether the wall is elastic there: of its lines only the elastic one goes through the origin.
+    pub(crate) fn is_elastic(&self) -> bool {
+        self.own.anchor == 0.0
+    }
+
     /// 1 for u > 0, −1 for u < 0.
     pub fn side(&self) -> f64 {
         if self.upper > 0.0 { 1.0 } else { -1.0 }

@@ -133,17 +133,18 @@ impl FullRotations {
 
     /// ü under the forcing p, on the side of `sign` \[m/s²\].
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64, sign: f64) -> f64 {
-        let s = self.place(displacement);
-        let t = self.tangents(s);
+        let t = self.tangents(self.place(displacement));
+        // on the positive side
+        let [speed, push] = [sign * velocity, sign * forcing];
         // ṫ = (1 + t²) ṡ/c, and c = D/√(1 + t²)
         let rate = |body: usize| {
             let e = 1.0 + t[body] * t[body];
-            e * (e / self.diagonals[body]).sqrt() * self.lever * sign * velocity
+            e * (e / self.diagonals[body]).sqrt() * self.lever * speed
         };
         let [m1, m2] = self.masses;
         let (t1, t2, r1, r2) = (t[0], t[1], rate(0), rate(1));
         let half_mass_rate = m1 * t1 * r1 + m2 * (3.0 * (t1 + 0.5 * t2) * (r1 + 0.5 * r2) + 0.25 * t2 * r2);
-        sign * (sign * forcing - self.force(t, sign) - half_mass_rate * sign * velocity) / self.mass(t)
+        sign * (push - self.force(t, sign) - half_mass_rate * speed) / self.mass(t)
     }
 
     /// Energy over `m_eff`, ½ μ u̇² + ∫f du from 0 \[m²/s²\]; for a strip twice the physical one, as Eq. (12)

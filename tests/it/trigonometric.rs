@@ -60,8 +60,8 @@ fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State>
     states
 }
 
-/// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) by δ² at
-/// most.
+/// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) only by
+/// terms of order δ².
 #[test]
 fn accelerations_keep_the_energy() {
     for mechanism in MECHANISMS {

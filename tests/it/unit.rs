@@ -1,6 +1,8 @@
 //! Tests the derivatives that the unit states, against differences of what it computes.
 
-use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _, Step, VariableId as _};
+use fmu_export::{
+    Experiment, Interface, Log, Model as _, ModelExchange as _, StateCodec, Step, VariableId as _,
+};
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, IntegerVariable as I, Mechanism, RealVariable as V, TieSide,
@@ -212,6 +214,61 @@ fn a_completed_step_asks_for_the_event_it_passed() {
         if event {
             assert_eq!(unit.update(&mut Log::silent()).unwrap().states_changed, jumps, "{displacement} u1");
             assert!(!unit.complete_step(&mut Log::silent()).unwrap());
+        }
+    }
+}
+
+/// A unit that reads what another one wrote goes on as it does, bit for bit.
+#[test]
+fn a_unit_goes_on_from_a_saved_state() {
+    let text = "[force_law]\nforce_law = \"rigid_linear\"\n\
+                [damping]\ndamping_model = \"none\"\n\
+                [impact]\nimpact = \"restitution\"\nrestitution = 0.9\n\
+                [motion]\nharmonic = { amplitude = 3.0, frequency = 2.0, duration = 1.0 }\n";
+    let log = &mut Log::silent();
+    for interface in [Interface::CoSimulation, Interface::ModelExchange] {
+        let mut written = instantiated(interface, Some(text), log);
+        written.setup_experiment(Experiment { start: 2.0, tolerance: Some(1e-9), stop: Some(9.0) });
+        for (parameter, value) in [(V::Height, 3.0), (V::UStart, 0.01), (V::UDotStart, -0.2)] {
+            written.set_real(parameter, value);
+        }
+        written.initialize(log).unwrap();
+        let step = |unit: &mut Unit, step: u32| {
+            let from = 2.0 + 0.003 * f64::from(step);
+            for (input, value) in INPUTS.into_iter().zip([0.03, -0.02, 0.01, 1e-4]) {
+                unit.set_real(input, value * f64::from(step));
+            }
+            if interface == Interface::CoSimulation {
+                unit.set_input_derivative(V::ABottom, 2.0);
+                let step = Step { from, duration: 0.003, may_end_early: false };
+                unit.do_step(step, &mut Log::silent()).unwrap();
+            } else {
+                // through u = 0 at step 20, between two samples of the scene's own motion
+                unit.set_time(from + 1e-4);
+                unit.set_states(&[0.1 - 0.005 * f64::from(step), -1.0]);
+                if unit.complete_step(&mut Log::silent()).unwrap() {
+                    unit.update(&mut Log::silent()).unwrap();
+                }
+            }
+        };
+        let saved = |unit: &mut Unit| {
+            let mut bytes = Vec::new();
+            unit.transfer_state(&mut StateCodec::writing(&mut bytes)).unwrap();
+            bytes
+        };
+        (0..30).for_each(|n| step(&mut written, n));
+        let (mut read, bytes) = (instantiated(interface, Some(text), log), saved(&mut written));
+        let mut codec = StateCodec::reading(&bytes);
+        read.transfer_state(&mut codec).unwrap();
+        codec.finish().unwrap();
+        for n in 30..60 {
+            assert_eq!(saved(&mut read), saved(&mut written), "{interface:?} before step {n}");
+            for &variable in V::ALL {
+                let [read, written] = [&read, &written].map(|unit| unit.real(variable));
+                assert_eq!(read, written, "{interface:?}: {} before step {n}", variable.variable().name);
+            }
+            step(&mut read, n);
+            step(&mut written, n);
         }
     }
 }

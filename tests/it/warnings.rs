@@ -87,6 +87,21 @@ fn model_exchange_warns_of_a_solver_that_is_set() {
     assert_eq!(told(Interface::CoSimulation, Solver::Adaptive), "");
 }
 
+/// Of the warnings of a wall, those about work say that its runs take long.
+#[test]
+fn warnings_about_work_are_marked() {
+    let fast = Parameters { a1: 1e-9, ..Parameters::default() };
+    let small = Parameters { solver: Solver::Newmark, newmark_step: 1e-9, ..Parameters::default() };
+    let improbable = Parameters { density: 10.0, ..Parameters::default() };
+    for (parameters, about_work) in [(fast, 1), (small, 1), (improbable, 0)] {
+        let wall = Wall::new(&parameters).unwrap();
+        let warnings = wall.warnings();
+        assert!(!warnings.is_empty());
+        let marked = warnings.iter().filter(|warning| warning.is_about_work()).count();
+        assert_eq!(marked, about_work, "{warnings:?}");
+    }
+}
+
 /// The tolerance counts where motion has no closed form: with secant damping, and in full rotations.
 #[test]
 fn the_tolerance_counts_where_there_is_no_closed_form() {

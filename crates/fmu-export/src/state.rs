@@ -40,7 +40,31 @@ enum Bytes<'a> {
 /// # Errors
 /// When the bytes to read end before, or are not a value of the type that the state can have.
 #[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
-impl StateCodec<'_> {
+impl<'a> StateCodec<'a> {
+    /// Returns a codec that appends each value to `bytes`. The layer makes those of an instance; this and
+    /// [`reading`](Self::reading) are for the tests of a model.
+    ///
+    /// ```
+    /// use fmu_export::StateCodec;
+    ///
+    /// let mut bytes = Vec::new();
+    /// StateCodec::writing(&mut bytes).f64(&mut 2.5)?;
+    /// let (mut codec, mut value) = (StateCodec::reading(&bytes), 0.0);
+    /// codec.f64(&mut value)?;
+    /// codec.finish()?;
+    /// assert_eq!(value, 2.5);
+    /// # Ok::<(), fmu_export::Failure>(())
+    /// ```
+    pub fn writing(bytes: &'a mut Vec<u8>) -> Self {
+        Self { bytes: Bytes::Write(bytes) }
+    }
+
+    /// Returns a codec that reads the values which one that was [`writing`](Self::writing) wrote, in their
+    /// order.
+    pub fn reading(bytes: &'a [u8]) -> Self {
+        Self { bytes: Bytes::Read(bytes) }
+    }
+
     /// Returns whether values are being read. The values that depend on them must then be computed.
     pub fn is_reading(&self) -> bool {
         matches!(self.bytes, Bytes::Read(_))
@@ -160,7 +184,7 @@ impl StateCodec<'_> {
     ///
     /// # Errors
     /// When something was left over.
-    pub(crate) fn finish(self) -> Result<(), Failure> {
+    pub fn finish(self) -> Result<(), Failure> {
         match self.bytes {
             Bytes::Read(rest) if !rest.is_empty() => {
                 Err(Failure(format!("the state has {} bytes more than this model reads", rest.len())))
@@ -201,8 +225,7 @@ pub(crate) fn seal(
     write: impl FnOnce(&mut StateCodec<'_>) -> Result<(), Failure>,
 ) -> Result<Vec<u8>, Failure> {
     let mut payload = Vec::new();
-    let mut codec = StateCodec { bytes: Bytes::Write(&mut payload) };
-    write(&mut codec)?;
+    write(&mut StateCodec::writing(&mut payload))?;
     let mut bytes = MAGIC.to_vec();
     bytes.extend(VERSION.to_le_bytes());
     add_counted(&mut bytes, guid.as_bytes());
@@ -231,11 +254,11 @@ pub(crate) fn open<'a>(guid: &str, version: u64, bytes: &'a [u8]) -> Result<Stat
     let payload = take_counted(&mut rest)?;
     let checked = &bytes[..bytes.len() - rest.len()];
     let checksum = u64::from_le_bytes(take_array(&mut rest)?);
-    StateCodec { bytes: Bytes::Read(rest) }.finish()?;
+    StateCodec::reading(rest).finish()?;
     if checksum != fnv1a_64(checked) {
         return Err("the state is damaged: its checksum does not agree with its bytes".into());
     }
-    Ok(StateCodec { bytes: Bytes::Read(payload) })
+    Ok(StateCodec::reading(payload))
 }
 
 fn check_version(of: &str, found: u64, expected: u64) -> Result<(), Failure> {

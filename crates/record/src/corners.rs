@@ -102,7 +102,7 @@ impl<N: Number> Part<N> {
             let shift = first * (-(bend * (-(bend + bend) + 1.0)) + 1.0 - third);
             let next = time + shift;
             let inside = zero.at_most(next) & next.below(length);
-            let small = shift.abs().at_most(length * SMALL_SHIFT) & bend.abs().at_most(zero + SMALL_BEND);
+            let small = shift.abs().at_most(length * SMALL_SHIFT) & bend.abs().at_most(zero.like(SMALL_BEND));
             let now = sought & inside & small;
             // d⁴u/dt⁴ = −c d³u/dt³ − k ü
             let snap = -(line.c * jerk) - line.k * a;
@@ -182,11 +182,11 @@ impl<O: Observer> Lanes<'_, O> {
         let (corner, exit) = (side(&table.ends), side(&table.exits));
         let (found, time, velocity) = part.find(corner, table.terms);
         // kinds of exits rise: closed, ordinary, curved, impact
-        let beyond = |kind: f64| (zero + kind).below(exit);
+        let beyond = |kind: f64| N::splat(token, kind).below(exit);
         let impact = beyond(exit::CURVED);
         let ordinary = beyond(exit::CLOSED) & !impact;
         let velocity = N::select(impact, velocity * self.solver.passage_factor, velocity);
-        let rest_speed = zero + self.solver.motion.rest_speed();
+        let rest_speed = N::splat(token, self.solver.motion.rest_speed());
         let lanes = found & (ordinary | (impact & rest_speed.at_most(velocity.abs())));
         let other = N::select(upwards, part.branch + 1.0, (part.branch + -1.0).max(zero));
         let branch = N::select(lanes, other, part.branch);
@@ -195,7 +195,7 @@ impl<O: Observer> Lanes<'_, O> {
         let from = [corner, velocity, line.acceleration([corner, velocity], forcing)];
         let length = part.length - time;
         let [u, v, _] = line.after(table.terms, length, from, part.rate);
-        let impacts = part.impacts + N::select(lanes & impact, zero + 1.0, zero);
+        let impacts = part.impacts + N::select(lanes & impact, N::splat(token, 1.0), zero);
         let curved = lanes & ordinary & beyond(exit::ORDINARY);
         let lanes = lanes & !curved;
         (Part { lanes, branch, line, from, to: [u, v], length, forcing, impacts, ..*part }, curved)
@@ -208,7 +208,7 @@ impl<O: Observer> Lanes<'_, O> {
         let (rows, zero) = (&mut self.rows, N::splat(token, 0.0));
         let share = -(left * (1.0 / self.solver.step)) + 1.0;
         // a remainder below the rounding of the share counts as none
-        let whole = left.at_most(zero) | (zero + 1.0).at_most(share);
+        let whole = left.at_most(zero) | N::splat(token, 1.0).at_most(share);
         let put = |row: &mut Row, value: N| {
             N::select(lanes, value, N::load(token, row, first)).store(row, first);
         };

@@ -109,7 +109,7 @@ impl OneLane for ByStiffness {
             (bend, slope, value) = (2.0 * (bend * time + slope), slope * time + value, value * time - rise);
             let first = -value / slope;
             let turn = 0.5 * bend * first / slope;
-            let shift = first * (1.0 - turn * (1.0 - 2.0 * turn));
+            let shift = first * (1.0 - turn);
             if !(time + shift > 0.0 && time + shift < MOST_TIME) {
                 return None;
             }
@@ -258,7 +258,7 @@ impl<O: Observer> Lanes<'_, O> {
         } else {
             (STRIDE, LONGER[0], SHORTER[0])
         };
-        let farthest = zero + farthest;
+        let farthest = N::splat(token, farthest);
         reached.stride = reached.stride.min(farthest);
         // p at both ends of the step
         let mut ends = [[0.0; WIDTH]; 2];
@@ -272,7 +272,7 @@ impl<O: Observer> Lanes<'_, O> {
             let (rest, speed) = (-share + 1.0, v.abs());
             // the share of u by which it changes in all of the step
             let whole = speed * h / u.abs();
-            let most = rest.min(stride / whole.max(zero + f64::MIN_POSITIVE));
+            let most = rest.min(stride / whole.max(N::splat(token, f64::MIN_POSITIVE)));
             let length = most * h;
             let fits = bounds.hold([u, v], length);
             let [p0, p1] = [N::load(token, &ends[0], 0), N::load(token, &ends[1], 0)];
@@ -294,7 +294,7 @@ impl<O: Observer> Lanes<'_, O> {
                 // a lane that waits is as it was
                 stride: N::select(goes, next_stride, stride),
             };
-            goes = goes & fits & (zero + SHORTEST).below(reached.stride);
+            goes = goes & fits & N::splat(token, SHORTEST).below(reached.stride);
             for lane in each(N::bits(finished)) {
                 self.rows.index[first + lane] += 1.0;
                 if O::SEES {

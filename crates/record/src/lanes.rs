@@ -9,8 +9,6 @@ use crate::table::Way;
 
 /// The |u| up to which f̂ bounds the forces, over the largest |u| so far.
 const ROOM: f64 = 4.0;
-/// The largest such ratio at which f̂ is kept for another block.
-const MOST_ROOM: f64 = 16.0;
 
 /// A block that a run has entered, and the extremes at the ends of its steps.
 #[derive(Clone, Copy)]
@@ -48,9 +46,8 @@ pub(crate) struct Run {
     pub(crate) overturned: bool,
     pub(crate) departed: bool,
     pub(crate) peaks: Peaks,
-    /// f̂ \[m/s²\], for |u| up to `reach` \[m\].
+    /// f̂ \[m/s²\].
     pub(crate) force: f64,
-    pub(crate) reach: f64,
     pub(crate) overturning: Option<f64>,
     /// Work of the general search, and the steps left to it.
     pub(crate) searched: Work,
@@ -205,14 +202,7 @@ impl<O: Observer> Lanes<'_, O> {
         rows.forcing[lane] = forcing;
         (rows.highest[lane], rows.lowest[lane]) = (f64::NEG_INFINITY, f64::INFINITY);
         (rows.fastest[lane], rows.stride[lane]) = (0.0, f64::INFINITY);
-        let largest = self.largest(lane);
-        let run = &self.runs[lane];
-        // f̂ is kept while u is far below `reach`, but not too far
-        if 2.0 * largest < run.reach && run.reach < MOST_ROOM * largest {
-            self.rows.driving[lane] = forcing + run.force;
-        } else {
-            self.bound_force(lane);
-        }
+        self.bound_force(lane);
     }
 
     /// Estimates the largest |u| in the next steps \[m\].
@@ -226,7 +216,7 @@ impl<O: Observer> Lanes<'_, O> {
         let seeks = self.pass == Pass::Extremes;
         let reach = if seeks { self.runs[lane].peaks.largest() } else { ROOM * self.largest(lane) };
         let (rows, run) = (&mut self.rows, &mut self.runs[lane]);
-        (run.reach, run.force) = (reach, self.solver.table.largest_force(reach));
+        run.force = self.solver.table.largest_force(reach);
         rows.driving[lane] = rows.forcing[lane] + run.force;
         let Peaks { positive, negative } = run.peaks;
         let (limits, half_reach) =

@@ -166,9 +166,9 @@ impl Regularised {
         // 2/(1 + √(1 + 2a)) by Padé's approximation
         let x = (1.0 + 0.5 * a) / (1.0 + a);
         let beyond = x * (1.0 + x * (a / 2.0 + x * (b * (1.0 / 3.0) + x * (c / 4.0 + x * d * 0.2)))) - 1.0;
-        let value = 1.0 + x * (a + x * (b + x * (c + x * d)));
-        let slope = a + x * (2.0 * b + x * (3.0 * c + x * 4.0 * d));
-        x - beyond * value / (value * value - 0.5 * beyond * slope)
+        let value = 1.0 + x * (a + x * (b + x * c));
+        // in the small second-order term a alone is the slope of the value
+        x - beyond * value / (value * value - 0.5 * beyond * a)
     }
 
     /// Returns u/u₀ − 1 and h u̇/u₀ at the end of the step; `None` where the series leaves out more than
@@ -188,7 +188,7 @@ impl Regularised {
             let shift = first * (1.0 - turn);
             if first.abs() < SMALL_MISS {
                 let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
-                let growth = growth + shift * (slope + shift * (bend / 2.0 + shift * third / 6.0));
+                let growth = growth + shift * (slope + shift * bend / 2.0);
                 let slope = slope + shift * (bend + shift * third / 2.0);
                 return Some([growth * (2.0 + growth), 2.0 * slope]);
             }

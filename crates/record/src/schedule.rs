@@ -110,7 +110,6 @@ impl<O: Observer> Lanes<'_, O> {
             departed,
             peaks,
             force: 0.0,
-            reach: 0.0,
             overturning: self.outcomes[number].overturning,
             searched: Work::default(),
             steps: 0,
@@ -250,9 +249,7 @@ impl<O: Observer> Lanes<'_, O> {
         (rows.index[lane], rows.share[lane]) = ((sample + 1) as f64, 0.0);
         rows.branch[lane] = state.branch as f64;
         self.see_now(lane);
-        if self.pass == Pass::Extremes || state.displacement.abs() > self.rows.half_reach[lane] {
-            self.bound_force(lane);
-        }
+        self.bound_force(lane);
         Ok(())
     }
 }

@@ -6,20 +6,31 @@ use std::cell::{Cell, RefCell};
 use super::*;
 
 /// u = A sin(ωt + φ) + v t, which counts how often it is evaluated.
-struct Sway {
-    amplitude: f64,
-    rate: f64,
-    phase: f64,
-    drift: f64,
-    horizon: f64,
-    evaluations: Cell<u32>,
+pub(in crate::solver) struct Sway {
+    pub(in crate::solver) amplitude: f64,
+    pub(in crate::solver) rate: f64,
+    pub(in crate::solver) phase: f64,
+    pub(in crate::solver) drift: f64,
+    pub(in crate::solver) horizon: f64,
+    pub(in crate::solver) evaluations: Cell<u32>,
+}
+
+impl Sway {
+    /// Returns the motion `time` seconds after the start.
+    pub(in crate::solver) fn motion(&self, time: f64) -> KinematicState {
+        let Self { amplitude, rate, phase, drift, .. } = self;
+        let (sine, cosine) = (libm::sin(rate * time + phase), libm::cos(rate * time + phase));
+        KinematicState {
+            displacement: amplitude * sine + drift * time,
+            velocity: amplitude * rate * cosine + drift,
+            acceleration: -amplitude * rate * rate * sine,
+        }
+    }
 }
 
 impl Piece for Sway {
     fn start(&self) -> KinematicState {
-        let start = self.at(0.0);
-        self.evaluations.set(0);
-        start
+        self.motion(0.0)
     }
 
     fn horizon(&self) -> f64 {
@@ -28,13 +39,7 @@ impl Piece for Sway {
 
     fn at(&self, time: f64) -> KinematicState {
         self.evaluations.set(self.evaluations.get() + 1);
-        let Self { amplitude, rate, phase, drift, .. } = self;
-        let (sine, cosine) = (libm::sin(rate * time + phase), libm::cos(rate * time + phase));
-        KinematicState {
-            displacement: amplitude * sine + drift * time,
-            velocity: amplitude * rate * cosine + drift,
-            acceleration: -amplitude * rate * rate * sine,
-        }
+        self.motion(time)
     }
 
     fn bounds(&self, _from: KinematicState, _length: f64) -> (f64, f64) {
@@ -69,7 +74,7 @@ fn exits_have_their_closed_form() {
             (0.5 * std::f64::consts::PI, down, 0.5 * std::f64::consts::PI - angle),
         ] {
             let piece = sway(phase, 0.0, 3.0);
-            let mut peaks = Peaks::at(piece.at(0.0).displacement);
+            let mut peaks = Peaks::at(piece.start().displacement);
             let Ok(Ending::Exit(exit)) = find_ending(&piece, bounds, &mut peaks) else {
                 panic!("no exit through {bound}")
             };

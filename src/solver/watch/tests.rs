@@ -1,0 +1,119 @@
+//! Tests the search for extremes on a motion whose extremes are known. Pins its number of evaluations, too:
+//! only this number shows an accuracy beyond the stated one.
+
+use std::cell::Cell;
+
+use super::super::event::tests::Sway;
+use super::*;
+use crate::variables::{Mechanism, TieSide};
+use crate::wall::Parameters;
+
+/// ω of the motion \[1/s\].
+const RATE: f64 = 20.0;
+/// Start of the segment, and of the piece in it \[s\].
+const START: [f64; 2] = [3.0, 0.05];
+
+/// u = A sin ω(t + τ) over a length.
+fn sway(amplitude: f64, earlier: f64, horizon: f64) -> Sway {
+    let phase = RATE * earlier;
+    Sway { amplitude, rate: RATE, phase, drift: 0.0, horizon, evaluations: Cell::new(0) }
+}
+
+/// Returns the demands of a motion between supports whose motion does not change, and the number of
+/// evaluations.
+fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
+    let KinematicState { displacement, velocity, acceleration } = piece.start();
+    let reactions = wall.body().reactions(support, acceleration, displacement, true);
+    let from = START[0] + START[1];
+    let mut demands = Demands::new(wall, from, [displacement, velocity, acceleration], reactions, &[]);
+    let segment = Segment { duration: START[1] + piece.horizon, from: support, to: support };
+    let branch = wall.branch_of(displacement, 1.0);
+    let displacement = piece.motion(piece.horizon).displacement;
+    let followed = Followed { piece, branch, from: START[1], length: piece.horizon, displacement };
+    let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time: START[0], drift: true };
+    watch.piece(&followed).unwrap();
+    watch.tie(&followed).unwrap();
+    (demands, piece.evaluations.get())
+}
+
+/// Reactions are linear in u here, so that their extremes are those at ±A. They are accurate relative to their
+/// terms, also where these cancel.
+#[test]
+fn reactions_are_accurate_relative_to_their_terms() {
+    let mut evaluations = vec![];
+    for mechanism in [Mechanism::Parapet, Mechanism::VerticalSpanning] {
+        let overburden = if mechanism == Mechanism::Parapet { 0.0 } else { 1e4 };
+        let wall = Wall::new(&Parameters { mechanism, overburden, u_start: 0.0, ..Parameters::default() });
+        let wall = wall.unwrap();
+        let body = wall.body();
+        for (amplitude, bottom, top) in
+            [(1e-2, 2.0, 1.0), (1e-2, 4.0, -30.0), (1e-2, 2e-3, 1e-3), (10.0, 4e3, 2e3), (1e-6, 0.0, 0.0)]
+        {
+            let support = Support { bottom, top, drift: 1e-3 };
+            let (found, count) = watched(&wall, &sway(amplitude, 0.01, 0.4), support);
+            evaluations.push(count);
+            let largest = amplitude * RATE * RATE + bottom.abs() + top.abs();
+            let size =
+                body.mass * largest + (body.weight + body.overburden) * (amplitude + 1e-3) / body.height;
+            let at = |u: f64| body.reactions(support, -RATE * RATE * u, u, true);
+            let [low, high] = [at(-amplitude), at(amplitude)];
+            for (extremes, values) in [
+                (found.reaction_bottom, [low.bottom, high.bottom]),
+                (found.reaction_top, [low.top, high.top]),
+            ] {
+                let expected = [values[0].min(values[1]), values[0].max(values[1])];
+                for (found, expected) in [extremes.lowest, extremes.highest].into_iter().zip(expected) {
+                    let missed = (found.value - expected).abs();
+                    // rounding beside the stated accuracy
+                    let allowed = 1.01 * ACCURACY * size;
+                    assert!(missed <= allowed, "{mechanism:?} {amplitude}: {missed:e} of {size:e}");
+                }
+            }
+        }
+    }
+    assert_eq!(evaluations, [816, 789, 817, 804, 817, 1023, 969, 1026, 999, 965]);
+}
+
+/// The tension of a tie is linear in u. It is largest with u, at A, and reaches its strength where u does.
+#[test]
+fn the_tension_of_a_tie_is_accurate_relative_to_its_terms() {
+    let mut evaluations = vec![];
+    for (side, turned) in [(TieSide::Positive, 0.0), (TieSide::Negative, std::f64::consts::PI / RATE)] {
+        let tied = Parameters {
+            u_start: 0.0,
+            tie_side: side,
+            tie_height: 2.0,
+            tie_stiffness: 3e5,
+            tie_slack: 2e-3,
+            tie_strength: 1e3,
+            ..Parameters::default()
+        };
+        let wall = Wall::new(&tied).unwrap();
+        let tie = wall.tie().unwrap();
+        let reach = tie.strength_displacement().unwrap();
+        let start = START[0] + START[1];
+        for (share, earlier) in [(0.9, 0.05), (1.1, 0.05), (5.0, 0.05), (1.1, 0.08)] {
+            let amplitude = share * reach;
+            let piece = sway(amplitude, turned + earlier, 0.04);
+            let (found, count) = watched(&wall, &piece, Support::default());
+            evaluations.push(count);
+            let TieDemands { force, strength } = found.tie.unwrap();
+            let turn = f64::max(0.5 * std::f64::consts::PI / RATE - earlier, 0.0);
+            let largest = amplitude * libm::sin(RATE * (turn + earlier));
+            let size = tie.stiffness * tie.lever * largest;
+            let expected = size - tie.stiffness * tie.slack;
+            assert!((force.value - expected).abs() <= 1.01 * ACCURACY * size, "{share}: {force:?}");
+            assert!((force.time - start - turn).abs() <= 2e-6 / RATE, "{share}: {force:?}");
+            // the first time, which may be the start of the piece
+            let passage = f64::max(libm::asin(1.0 / share) / RATE - earlier, 0.0);
+            match strength {
+                None => assert!(share < 1.0),
+                Some(Instant { value, time }) => {
+                    assert_eq!(value, 1e3);
+                    assert!((time - start - passage).abs() <= 1e-14, "{share}: {time} for {passage}");
+                }
+            }
+        }
+    }
+    assert_eq!(evaluations, [389, 394, 389, 161, 389, 394, 389, 161]);
+}
