@@ -90,3 +90,37 @@ fn margins_of_blocks_are_those_of_their_longest_steps() {
         assert_eq!(table.most_damping, if model == DampingModel::None { 0.0 } else { 0.25 });
     }
 }
+
+/// Steps of secant damping are by series up to c h = 1, from where their bounds would be infinite.
+#[test]
+fn secant_damping_is_curved_up_to_a_decay_of_one_in_a_step() {
+    let wall = Parameters { damping_model: DampingModel::StiffnessProportional, ..Parameters::default() };
+    let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
+    let curved = motion.secants().iter().rposition(Option::is_some).expect("a branch with secant damping");
+    let of = &motion.wall().branches()[curved];
+    let largest = of.damping_at(of.lower).max(of.damping_at(of.upper));
+    for (share, expected) in [(0.99, Way::Curved), (1.01, Way::General)] {
+        assert_eq!(way(&motion, curved, share / largest), expected, "{largest}");
+    }
+}
+
+/// A corner is passed only between branches on both of which steps are short.
+#[test]
+fn corners_of_a_branch_with_long_steps_are_closed() {
+    for (a1, expected) in [(0.05, exit::ORDINARY), (1e-6, exit::CLOSED)] {
+        let wall =
+            Parameters { a1, damping_model: DampingModel::ConstantCoefficient, ..Parameters::default() };
+        let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
+        let elastic = motion.wall().branch_of(0.0, 1.0);
+        let step = 5e-3;
+        let short = motion.oscillators().iter().map(|oscillator| reach(oscillator, step) <= LONGEST);
+        let long: Vec<usize> =
+            short.enumerate().filter(|(_, short)| !short).map(|(branch, _)| branch).collect();
+        assert_eq!(long, if expected == exit::CLOSED { vec![elastic] } else { vec![] });
+        let exits = Table::new(&motion, step).exits;
+        // out of the elastic branch on both sides, and into it
+        for (side, branch) in [(0, elastic), (1, elastic), (1, elastic - 1), (0, elastic + 1)] {
+            assert_eq!(get(&exits[side], branch), expected, "{a1}: branch {branch}");
+        }
+    }
+}
