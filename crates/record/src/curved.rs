@@ -370,9 +370,6 @@ impl<O: Observer> Lanes<'_, O> {
         let tolerance = self.solver.motion.tolerances().over(inverse, rest);
         let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
         let share = share + part * (rest / step);
-        if part <= 0.0 {
-            return None;
-        }
         let (end, finished) = if part < 1.0 && share < 1.0 {
             ([corner, u / rest * velocity], false)
         } else {

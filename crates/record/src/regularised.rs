@@ -320,7 +320,7 @@ mod tests {
     }
 
     /// What a series leaves out is 2N m₁ q/(1 − q), with m₀ and m₁ the larger terms of its last two pairs and
-    /// q = m₁/m₀, for which m₁ counts as m₀/100 at least.
+    /// q = m₁/m₀. The q of the numerator is 1/100 at least.
     #[test]
     fn the_last_two_pairs_say_what_a_series_leaves_out() {
         let mut series = Regularised::new(start([1.0, 0.05], [0.4, 0.6], 0.7));
