@@ -186,7 +186,7 @@ impl Model for Unit {
         self.prepare()?;
         self.running = true;
         if self.exchange.is_some() {
-            self.begin_own_motion();
+            self.begin_own_motion(self.elapsed());
         }
         for warning in self.wall().warnings() {
             log.warning(format_args!("{warning}"));

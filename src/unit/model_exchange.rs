@@ -12,13 +12,13 @@ use super::instance::Unit;
 const _: () = assert!(EVENT_INDICATORS == crate::solver::INDICATORS);
 
 impl Unit {
-    fn elapsed(&self) -> f64 {
+    /// Seconds from the start of the simulation to now.
+    pub(super) fn elapsed(&self) -> f64 {
         self.simulation.progress().time - self.experiment.start
     }
 
-    /// Stores the scene's own motion from now to the next sample.
-    pub(super) fn begin_own_motion(&mut self) {
-        let elapsed = self.elapsed();
+    /// Stores the scene's own motion from `elapsed` seconds after the start to the next sample.
+    pub(super) fn begin_own_motion(&mut self, elapsed: f64) {
         let own_motion = self.excitation.as_ref().map(|motion| OwnMotion::new(motion, elapsed));
         self.exchange.get_or_insert_default().own_motion = own_motion.unwrap_or_default();
     }
@@ -81,10 +81,11 @@ impl ModelExchange for Unit {
     fn update(&mut self, log: &mut Log<'_>) -> Result<Update, Failure> {
         self.warn_of_inputs(log);
         let time = self.simulation.progress().time;
-        let ended = |end: f64| self.elapsed() >= end - TIME_ROUNDING * time.abs().max(1.0);
-        let next_sample = self.exchange.is_some_and(|exchange| exchange.own_motion.end.is_some_and(ended));
-        if next_sample {
-            self.begin_own_motion();
+        let (elapsed, early) = (self.elapsed(), TIME_ROUNDING * time.abs().max(1.0));
+        let sample = self.exchange.and_then(|exchange| exchange.own_motion.end);
+        let reached = sample.filter(|sample| elapsed >= sample - early);
+        if let Some(sample) = reached {
+            self.begin_own_motion(sample.max(elapsed));
         }
         let support = self.support();
         let mut exchange = self.exchange.unwrap_or_default();
@@ -109,7 +110,7 @@ impl ModelExchange for Unit {
         }
         Ok(Update {
             // some solvers restart only where states are reported as changed
-            states_changed: handled.changed || next_sample || ground_changed,
+            states_changed: handled.changed || reached.is_some() || ground_changed,
             next_event: exchange.own_motion.end.map(|end| self.experiment.start + end),
             ..Update::default()
         })
