@@ -29,7 +29,7 @@ impl Branch {
     }
 
     /// Returns whether the wall is elastic there: of its lines only the elastic one goes through the origin.
-    pub(crate) fn is_elastic(&self) -> bool {
+    pub fn is_elastic(&self) -> bool {
         self.own.anchor == 0.0
     }
 

@@ -318,7 +318,7 @@ fn way(motion: &Motion, branch: usize, step: f64) -> Way {
     } else if wall.branches()[branch].damping.constant().is_none() {
         // a law of damping without a fast series
         Way::General
-    } else if adaptive && wall.has_constant_damping() && wall.branches()[branch].stiffness <= 0.0 {
+    } else if adaptive && wall.has_constant_damping() && !wall.branches()[branch].is_elastic() {
         // the motion has a closed form, but the method asks for series on all but the elastic branch
         Way::General
     } else if motion.oscillators()[branch].is_spread(step) {
