@@ -30,7 +30,8 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     let branch = wall.branch_of(displacement, 1.0);
     let displacement = piece.motion(piece.horizon).displacement;
     let followed = Followed { piece, branch, from: START[1], length: piece.horizon, displacement };
-    let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time: START[0], drift: true };
+    let time = START[0];
+    let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time, drift: true };
     watch.piece(&followed).unwrap();
     watch.tie(&followed).unwrap();
     (demands, piece.evaluations.get())
