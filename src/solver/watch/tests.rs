@@ -30,15 +30,14 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     let branch = wall.branch_of(displacement, 1.0);
     let displacement = piece.motion(piece.horizon).displacement;
     let followed = Followed { piece, branch, from: START[1], length: piece.horizon, displacement };
-    let time = START[0];
-    let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time, drift: true };
+    let mut watch = Watch { demands: &mut demands, wall, segment: &segment, time: START[0], drift: true };
     watch.piece(&followed).unwrap();
     watch.tie(&followed).unwrap();
     (demands, piece.evaluations.get())
 }
 
-/// Reactions are linear in u here, so that their extremes are those at ±A. They are accurate relative to their
-/// terms, also where these cancel.
+/// Reactions are linear in u here, so that their extremes are those at ±A. They are accurate relative to
+/// their terms, also where these cancel.
 #[test]
 fn reactions_are_accurate_relative_to_their_terms() {
     let mut evaluations = vec![];
