@@ -185,3 +185,63 @@ pub(super) fn leave_rest(motion: &Motion, state: &mut State, upwards: bool) {
     state.phase = Phase::Moving;
     state.branch = motion.wall.branch_of(0.0, if upwards { 1.0 } else { -1.0 });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choices::{DampingModel, ForceLaw, Impact, Rocking};
+    use crate::wall::Parameters;
+
+    fn rigid(rocking: Rocking) -> Motion {
+        let parameters = Parameters {
+            rocking,
+            force_law: ForceLaw::RigidLinear,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            restitution: 0.8,
+            ..Parameters::default()
+        };
+        Motion::of(&parameters, 1e-8).unwrap()
+    }
+
+    /// A wall moves only where the forcing leaves the band of rest.
+    #[test]
+    fn rest_lasts_within_the_band() {
+        let motion = rigid(Rocking::TwoSided);
+        let [lowest, highest] = motion.rest_band;
+        for (forcing, rate, moves) in [
+            (0.0, 1.0, None),
+            (0.99 * highest, 1.0, None),
+            (highest, 0.0, None),
+            (highest, -1.0, None),
+            (highest, 1.0, Some(1.0)),
+            (1.01 * highest, 0.0, Some(1.0)),
+            (0.99 * lowest, -1.0, None),
+            (lowest, 0.0, None),
+            (lowest, 1.0, None),
+            (lowest, -1.0, Some(-1.0)),
+            (1.01 * lowest, 0.0, Some(-1.0)),
+        ] {
+            let mut state = motion.start_under(1e-3, 0.1, 0.0);
+            settle(&motion, &mut state, [forcing, rate]);
+            let phase = if moves.is_some() { Phase::Moving } else { Phase::Resting };
+            assert_eq!((state.displacement, state.velocity, state.phase), (0.0, 0.0, phase), "{forcing}");
+            if let Some(side) = moves {
+                assert_eq!(state.branch, motion.wall.branch_of(0.0, side), "{forcing}");
+            }
+        }
+    }
+
+    /// A wall that starts at transverse walls and moves towards them starts with an impact.
+    #[test]
+    fn a_start_against_transverse_walls_is_an_impact() {
+        for (rocking, side) in [(Rocking::OneSidedPositive, 1.0), (Rocking::OneSidedNegative, -1.0)] {
+            let motion = rigid(rocking);
+            let velocity =
+                |place: f64, speed: f64| motion.start_under(place * side, speed * side, 0.0).velocity;
+            assert_eq!(velocity(0.0, -0.1), motion.wall.passage_factor() * -0.1 * side);
+            assert_eq!(velocity(0.0, 0.1), 0.1 * side);
+            assert_eq!(velocity(0.01, -0.1), -0.1 * side);
+        }
+    }
+}

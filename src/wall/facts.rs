@@ -50,3 +50,28 @@ impl Wall {
         .into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::choices::{DampingModel, ForceLaw, Impact};
+    use crate::wall::Parameters;
+
+    /// A rigid wall does not vibrate: its ω₁ and T₁ are 0.
+    #[test]
+    fn the_elastic_period_is_that_of_omega1() {
+        let rigid = Parameters {
+            force_law: ForceLaw::RigidLinear,
+            damping_model: DampingModel::None,
+            impact: Impact::Restitution,
+            ..Parameters::default()
+        };
+        for (parameters, vibrates) in [(Parameters::default(), true), (rigid, false)] {
+            let facts = Wall::new(&parameters).unwrap().facts();
+            let value = |name| facts.iter().find(|fact| fact.name == name).unwrap().value;
+            let (omega1, period) = (value("omega1"), value("elastic_period"));
+            assert_eq!((omega1 > 0.0, period > 0.0), (vibrates, vibrates), "{omega1} rad/s, {period} s");
+            assert!(!vibrates || (omega1 * period - TAU).abs() < 1e-15 * TAU);
+        }
+    }
+}

@@ -199,3 +199,31 @@ fn check_points(points: &[[f64; 2]]) -> Result<(), ParameterError> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wall::Wall;
+
+    /// A plateau needs u₁ < u₂: d₁ stays below the value at which the two meet on the rising branch.
+    #[test]
+    fn the_plateau_ends_beyond_the_elastic_branch() {
+        let (a1, a3) = (0.1, 0.8);
+        for softening in Softening::ALL.iter().copied() {
+            let width = |d1: f64| {
+                let force_law = ForceLaw::Trilinear;
+                let wall =
+                    Wall::new(&Parameters { force_law, a1, a3, d1, softening, ..Parameters::default() })?;
+                let [from, to] = wall.force.positive.corners[..] else { panic!("not two corners") };
+                Ok((to - from) / wall.body().instability.positive)
+            };
+            let Err(ParameterError::PlateauTooHigh { limit, .. }) = width(0.99) else {
+                panic!("no plateau is that high")
+            };
+            assert!(width(limit).is_err());
+            // softening lines fall by F₀ over u_ins, or faster
+            let width = width(limit - 1e-6).unwrap();
+            assert!(width > 0.0 && width < 1e-6 + 1e-15, "{softening:?}: {width}");
+        }
+    }
+}

@@ -5,7 +5,7 @@ use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Handled, Simulation};
 use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
-use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Softening};
+use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, RealVariable, Rocking, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
 
 use crate::{instantiated, start};
@@ -69,6 +69,10 @@ fn an_impact_reports_its_jump_and_impulse() {
     assert_eq!(simulation.progress().state.velocity, -speed + jump);
     // nothing more happens there
     assert_eq!(event_at(&mut simulation, -late, -speed), Handled::default());
+    // where the force does not jump, the velocity is that at u = 0 to the second order of δ
+    let mut bilinear = start(&Parameters { force_law: ForceLaw::Bilinear, ..rigid() });
+    event_at(&mut bilinear, -late, -speed);
+    assert_eq!(bilinear.progress().state.velocity, -0.9 * speed);
 }
 
 /// One update passes every corner on the way, and each mark is reported once.
@@ -131,6 +135,10 @@ fn indicators_are_distances_to_the_next_event() {
     let onset = body.strength.positive / body.effective_mass;
     let pushed = Support::rigid(0.25 * onset / body.forcing(Support::rigid(1.0)));
     near(simulation.indicators(false, pushed), [0.625, 0.375, 0.0]);
+    // at transverse walls the band has one end
+    let rocking = Rocking::OneSidedPositive;
+    let simulation = start(&Parameters { u_start: 0.0, rocking, ..rigid() });
+    near(simulation.indicators(false, pushed), [1.0, 0.75, 0.0]);
     let end = simulation.wall().corners().last().unwrap().displacement;
     let mut simulation = start(&rigid());
     event_at(&mut simulation, end + 0.01, 1.0);

@@ -110,6 +110,25 @@ fn directional_derivatives_are_those_of_the_outputs() {
     assert!(compared > 700, "{compared} derivatives are told from 0");
 }
 
+/// A wall that has left its supports has neither reactions nor derivatives of them.
+#[test]
+fn a_wall_that_has_left_its_supports_does_not_react() {
+    for (mut unit, _) in walls() {
+        unit.set_real(V::AG, 0.2);
+        unit.set_real(V::UDot, 0.1);
+        // a parapet leaves its support at h/4 and lands at h/2, a strip at h₁/2 and h₁
+        unit.set_states(&[0.4 * unit.real(V::Height), 0.1]);
+        unit.update(&mut Log::silent()).unwrap();
+        assert_eq!(unit.real(V::UDot), 0.1, "it has not landed");
+        for output in [V::ReactionBottom, V::ReactionTop, V::TieForce] {
+            assert_eq!(unit.real(output), 0.0);
+            for known in [V::U, V::UDot].into_iter().chain(INPUTS) {
+                assert_eq!(unit.directional_derivative(output, known), Some(0.0));
+            }
+        }
+    }
+}
+
 /// After a step along which the inputs rise linearly, the derivatives of the outputs go on along it.
 #[test]
 fn output_derivatives_go_on_along_the_last_step() {

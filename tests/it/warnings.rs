@@ -21,6 +21,37 @@ fn a_law_of_points_replaces_the_named_one() {
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
 }
 
+/// Numbers that walls rarely have are warned of, with those that are usual.
+#[test]
+fn improbable_numbers_are_warned_of() {
+    type Change = fn(&mut Parameters);
+    let cases: [(Change, &str); 10] = [
+        (|wall| wall.density = 1.8, "density = 1.8 kg/m3 is unusual: 400 to 3000 kg/m3"),
+        (|wall| wall.overburden = 10.0, "overburden = 10 N is unusual: 100 to 1000000 N"),
+        (
+            |wall| (wall.overburden, wall.overburden_eccentricity) = (3e3, 0.25),
+            "overburden_eccentricity = 0.25 m is unusual: -0.2 to 0.2 m",
+        ),
+        // 100 N/m times 0.07 m is 7.000000000000001 N
+        (|wall| (wall.width, wall.overburden) = (0.07, 1.0), "overburden = 1 N is unusual: 7 to 70000 N"),
+        (|wall| (wall.width, wall.overburden) = (0.07, 1e11), "overburden = 1e11 N is unusual: 7 to 70000 N"),
+        (|wall| wall.height = 300.0, "height = 300 m is unusual: 0.2 to 30 m"),
+        (|wall| wall.density = 1e-5, "density = 1e-5 kg/m3 is unusual: 400 to 3000 kg/m3"),
+        (|wall| wall.thickness = 5.0, "height/thickness = 0.8 is unusual: 1 to 100"),
+        // meant in per cent
+        (|wall| wall.xi = 5.0, "xi = 5 is unusual: 0 to 0.5"),
+        (|wall| wall.gravity = 1.62, "gravity = 1.62 m/s2 is unusual: 9.7 to 9.9 m/s2"),
+    ];
+    for (change, words) in cases {
+        let mut parameters = Parameters::default();
+        change(&mut parameters);
+        let warnings: Vec<_> =
+            Wall::new(&parameters).unwrap().warnings().iter().map(ToString::to_string).collect();
+        assert!(warnings.iter().any(|warning| warning.starts_with(words)), "{words}: {warnings:?}");
+    }
+    assert_eq!(Wall::new(&Parameters::default()).unwrap().warnings(), []);
+}
+
 /// What a unit logs with these parameters and inputs, in co-simulation, and whether it could start.
 fn logged(parameters: &[(RealVariable, f64)], inputs: &[(RealVariable, f64)]) -> (bool, String) {
     let change =

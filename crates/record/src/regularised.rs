@@ -187,14 +187,19 @@ impl Regularised {
             let turn = 0.5 * slope * first * pace;
             let shift = first * (1.0 - turn);
             if first.abs() < SMALL_MISS {
-                let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
-                let growth = growth + shift * (slope + shift * bend / 2.0);
-                let slope = slope + shift * (bend + shift * third / 2.0);
+                let [growth, slope] = self.beyond(x, [growth, slope, bend], shift);
                 return Some([growth * (2.0 + growth), 2.0 * slope]);
             }
             x += shift;
         }
         None
+    }
+
+    /// Returns y − 1 and y′ at x + `shift` from y − 1, y′ and y″ at x, to the second order of a small shift.
+    #[inline(always)]
+    fn beyond(&self, x: f64, [growth, slope, bend]: [f64; 3], shift: f64) -> [f64; 2] {
+        let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
+        [growth + shift * (slope + shift * bend / 2.0), slope + shift * (bend + shift * third / 2.0)]
     }
 
     /// Returns whether y′ keeps its sign up to σ: its first term outweighs all others.
@@ -210,12 +215,8 @@ impl Regularised {
         self.extend_to_8();
         let goal = rise / (1.0 + (1.0 + rise).sqrt());
         let mut x = goal / self.y[1];
-        for _ in 0..2 {
-            let Values { growth, slope, .. } = self.at(8, x);
-            x += (goal - growth) / slope;
-        }
-        let order = self.extend(x, most)?;
         for _ in 0..MOST_GUESSES {
+            let order = self.extend(x, most)?;
             let Values { theta, growth, slope, bend } = self.at(order, x);
             let shift = (goal - growth) / slope;
             if shift.abs() < SMALL_STEP * x {
@@ -298,6 +299,30 @@ mod tests {
             let sigma = series.guess();
             let miss = series.at(8, sigma).theta - 1.0;
             assert!(miss.abs() < SMALL_MISS, "{speed} on {line:?}: {miss:e}");
+        }
+    }
+
+    /// The motion a small shift on is that of the series, up to the third order of the shift.
+    #[test]
+    fn a_small_shift_needs_no_new_sum() {
+        for ([speed, length], line, forcing) in starts() {
+            let mut series = Regularised::new(start([speed, length], line, forcing));
+            series.extend_to_8();
+            // the terms beyond y₅ do not count in the third derivative at the start
+            (6..=8).for_each(|n| series.y[n] = 0.0);
+            let (x, shift) = (0.8, 1e-3);
+            let [now, then] = [x, x + shift].map(|x| series.at(8, x));
+            let moved = series.beyond(x, [now.growth, now.slope, now.bend], shift);
+            // y‴/6 and y⁗/6
+            let terms = |order: i32| {
+                let share = |n: i32| (0..order).map(|k| f64::from(n - k)).product::<f64>() / 6.0;
+                (order..=5).map(|n| share(n) * series.y[n as usize].abs()).sum::<f64>()
+            };
+            for (found, expected, bound) in
+                [(moved[0], then.growth, terms(3)), (moved[1], then.slope, terms(4))]
+            {
+                assert!((found - expected).abs() <= bound * shift.powi(3) + 1e-15, "{found} for {expected}");
+            }
         }
     }
 

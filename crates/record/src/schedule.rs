@@ -241,7 +241,8 @@ impl<O: Observer> Lanes<'_, O> {
         if let (Some(offset), None) = (report.overturning, run.overturning) {
             run.overturning = Some((sample as f64 + share) * step + offset);
             if self.pass == (Pass::Motion { until_overturning: true }) {
-                (run.last, run.block.end) = (sample + 1, sample + 1);
+                run.last = sample + 1;
+                run.block.end = run.last;
             }
         }
         let rows = &mut self.rows;
