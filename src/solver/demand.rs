@@ -117,10 +117,10 @@ impl Demands {
         reactions: Ends,
         fractions: &[f64],
     ) -> Self {
-        let reach = displacement.abs() / wall.body().instability.of(displacement);
+        let u_ins = wall.body().instability.of(displacement);
         let crossing = |&fraction: &f64| Crossing {
             fraction,
-            first: (reach >= fraction).then_some(Instant { value: displacement, time }),
+            first: (displacement.abs() >= fraction * u_ins).then_some(Instant { value: displacement, time }),
         };
         Self {
             displacement: Extremes::at(displacement, time),

@@ -194,7 +194,7 @@ impl<P: Piece> Search<'_, P> {
         let length = right.time - left.time;
         let bounds = self.piece.bounds(left.motion, length);
         match settle([left.motion, right.motion], length, bounds, self.bounds, peaks) {
-            // a turn in it changes u by less than its rounding
+            // a turn within 2⁻⁴⁸ of a piece changes u by less than its rounding
             Verdict::Split if deepest => Verdict::Monotone,
             verdict => verdict,
         }

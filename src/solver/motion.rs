@@ -160,3 +160,23 @@ impl Motion {
         &self.method
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The adaptive method follows the elastic branch alone in closed form, though others rise too.
+    #[test]
+    fn the_elastic_branch_has_a_closed_form() {
+        let multilinear = Some([[0.05, 0.5], [0.1, 0.9], [1.0, 0.0]].into());
+        let wall = Wall::new(&Parameters { multilinear, ..Parameters::default() }).unwrap();
+        let exact = Motion::new(wall.clone(), Method::Exact);
+        let adaptive = Motion::new(wall, Method::Adaptive { tolerance: 1e-8 });
+        let elastic = exact.wall().branch_of(0.0, 1.0);
+        for (index, branch) in exact.wall().branches().iter().enumerate() {
+            assert!(exact.takes_closed_form(index));
+            assert_eq!(adaptive.takes_closed_form(index), index == elastic, "{branch:?}");
+        }
+        assert!(exact.wall().branches()[elastic + 1].stiffness > 0.0);
+    }
+}

@@ -204,9 +204,9 @@ mod tests {
         Motion::of(&parameters, 1e-8).unwrap()
     }
 
-    /// A wall moves only where the forcing leaves the band of rest.
+    /// A wall that is stopped goes on only where the forcing leaves the band of rest.
     #[test]
-    fn rest_lasts_within_the_band() {
+    fn a_stopped_wall_rests_within_the_band() {
         let motion = rigid(Rocking::TwoSided);
         let [lowest, highest] = motion.rest_band;
         for (forcing, rate, moves) in [

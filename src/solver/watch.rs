@@ -185,7 +185,7 @@ impl Watch<'_> {
             if self.wall.is_rigid() && start.displacement == 0.0 {
                 demands.excursion = None;
             }
-            let sign = if branch.lower + branch.upper < 0.0 { -1.0 } else { 1.0 };
+            let sign = branch.side();
             if demands.excursion != Some(sign) {
                 demands.excursion = Some(sign);
                 demands.half_cycles += 1;

@@ -85,6 +85,7 @@ impl ModelExchange for Unit {
         let sample = self.exchange.and_then(|exchange| exchange.own_motion.end);
         let reached = sample.filter(|sample| elapsed >= sample - early);
         if let Some(sample) = reached {
+            // from the sample itself: from a rounding before it the same sample would come again
             self.begin_own_motion(sample.max(elapsed));
         }
         let support = self.support();

@@ -28,9 +28,9 @@ impl Branch {
         self.force + self.stiffness * (displacement - self.anchor)
     }
 
-    /// Returns whether the wall is elastic there: of its lines only the elastic one goes through the origin.
+    /// Returns whether the wall is elastic there.
     pub fn is_elastic(&self) -> bool {
-        self.own.anchor == 0.0
+        self.own.is_elastic()
     }
 
     /// 1 for u > 0, −1 for u < 0.

@@ -25,6 +25,11 @@ impl Line {
         self.force + self.slope * (displacement - self.anchor)
     }
 
+    /// Returns whether the line is an elastic one: of a law's lines it alone has its anchor at the origin.
+    pub fn is_elastic(&self) -> bool {
+        self.anchor == 0.0
+    }
+
     /// Returns the same line seen from the other side, F(u) → −F(−u).
     fn mirrored(self) -> Self {
         Self { anchor: -self.anchor, force: -self.force, slope: self.slope }
@@ -205,7 +210,7 @@ mod tests {
     use super::*;
     use crate::wall::Wall;
 
-    /// A plateau needs u₁ < u₂: d₁ stays below the value at which the two meet on the rising branch.
+    /// A plateau needs u₁ < u₂: d₁ stays below the value at which u₂ = u₁.
     #[test]
     fn the_plateau_ends_beyond_the_elastic_branch() {
         let (a1, a3) = (0.1, 0.8);

@@ -67,8 +67,7 @@ pub(super) fn branches(
         let reach = middle.abs();
         let index = side.corners.partition_point(|&corner| corner <= reach);
         let line = side.lines[index];
-        let is_elastic = index == 0 && force.elastic_stiffness.is_some();
-        let damping = damping.on_branch(is_elastic, reach > side.end * damping.rocking.end());
+        let damping = damping.on_branch(line.is_elastic(), reach > side.end * damping.rocking.end());
         let own = Line { anchor: line.anchor, force: line.force / m, slope: line.slope / m };
         let tie = tie.filter(|tie| tie.pulls(lower, upper));
         let Line { anchor, force, slope: stiffness } = tie.map_or(own, |tie| tie.added_to(own, middle, m));

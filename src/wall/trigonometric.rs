@@ -134,7 +134,7 @@ impl FullRotations {
     /// ü under the forcing p, on the side of `sign` \[m/s²\].
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64, sign: f64) -> f64 {
         let t = self.tangents(self.place(displacement));
-        // on the positive side
+        // u̇ and p as seen on the positive side
         let [speed, push] = [sign * velocity, sign * forcing];
         // ṫ = (1 + t²) ṡ/c, and c = D/√(1 + t²)
         let rate = |body: usize| {

@@ -69,7 +69,7 @@ fn an_impact_reports_its_jump_and_impulse() {
     assert_eq!(simulation.progress().state.velocity, -speed + jump);
     // nothing more happens there
     assert_eq!(event_at(&mut simulation, -late, -speed), Handled::default());
-    // where the force does not jump, the velocity is that at u = 0 to the second order of δ
+    // without a jump of the force, and without forcing, a correction would be of order δ²
     let mut bilinear = start(&Parameters { force_law: ForceLaw::Bilinear, ..rigid() });
     event_at(&mut bilinear, -late, -speed);
     assert_eq!(bilinear.progress().state.velocity, -0.9 * speed);
@@ -280,7 +280,7 @@ fn the_scenes_own_motion_goes_on_from_sample_to_sample() {
             let expected = mass * motion.segment(time - START, 0.0).from.bottom;
             assert!((reaction - expected).abs() <= 1e-9 * mass, "{time} s: {reaction} N for {expected} N");
         }
-        // an importer whose time is 1e-9 of it early has come to the sample
+        // an importer that is early by 1e-9 of its time has come to the sample
         let margin = 1e-9 * next;
         unit.set_time(next - 1.1 * margin);
         let early = unit.update(&mut Log::silent()).unwrap();

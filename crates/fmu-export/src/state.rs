@@ -41,8 +41,8 @@ enum Bytes<'a> {
 /// When the bytes to read end before, or are not a value of the type that the state can have.
 #[allow(clippy::missing_errors_doc, reason = "the errors of all are above")]
 impl<'a> StateCodec<'a> {
-    /// Returns a codec that appends each value to `bytes`. The layer makes those of an instance; this and
-    /// [`reading`](Self::reading) are for the tests of a model.
+    /// Returns a codec that appends each value to `bytes`. The layer makes the codecs of an instance; this
+    /// and [`reading`](Self::reading) are for the tests of a model.
     ///
     /// ```
     /// use fmu_export::StateCodec;
@@ -59,8 +59,7 @@ impl<'a> StateCodec<'a> {
         Self { bytes: Bytes::Write(bytes) }
     }
 
-    /// Returns a codec that reads the values which one that was [`writing`](Self::writing) wrote, in their
-    /// order.
+    /// Returns a codec that reads values in the order in which a [`writing`](Self::writing) one wrote them.
     pub fn reading(bytes: &'a [u8]) -> Self {
         Self { bytes: Bytes::Read(bytes) }
     }

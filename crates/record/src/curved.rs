@@ -28,7 +28,7 @@ const FAST: f64 = 0.1;
 const MOST_TIME: f64 = 2.0;
 /// Guesses of the time of a corner.
 const MOST_GUESSES: u32 = 8;
-/// Largest Newton step, over the time, after which the next one would be below rounding.
+/// Largest step of a guess, over the time, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.
@@ -369,8 +369,8 @@ impl<O: Observer> Lanes<'_, O> {
         let (start, inverse) = law.start::<L>([u, v], [forcing, rate * rest], rest);
         let tolerance = self.solver.motion.tolerances().over(inverse, rest);
         let [part, velocity] = L::passage(start, (corner - u) * inverse, tolerance)?;
-        let share = share + part * (rest / step);
-        let (end, finished) = if part < 1.0 && share < 1.0 {
+        let share = share + part * (1.0 - share);
+        let (end, finished) = if share < 1.0 {
             ([corner, u / rest * velocity], false)
         } else {
             let [rise, velocity] = L::end(start, tolerance)?;

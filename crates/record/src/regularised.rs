@@ -17,7 +17,7 @@ const HIGHEST: usize = 12;
 const MOST_GUESSES: u32 = 6;
 /// Largest |θ − 1| of a guess from which the expansion about it leads to θ = 1.
 const SMALL_MISS: f64 = 1e-6;
-/// Largest Newton step, over σ, after which the next one would be below rounding.
+/// Largest step of a guess, over σ, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 type Terms = [f64; ORDER + 1];
@@ -120,9 +120,9 @@ impl Regularised {
         self.reaches::<HIGHEST>(sigma, most).then_some(HIGHEST)
     }
 
-    /// Returns whether a series to the even order N leaves out little enough at `sigma`: as `within` does,
-    /// but a pair of terms does not count as less than a hundredth of the pair before. Here one can be small
-    /// by chance (docs/record-path.md, §7).
+    /// Returns whether a series to the even order N leaves out little enough at `sigma`: as
+    /// [`excess`](rocking_wall::solver::secant::excess) says, but the q of the numerator is a hundredth at
+    /// least. Here the last pair of terms can be small by chance (docs/record-path.md, §7).
     #[inline(always)]
     fn reaches<const N: usize>(&self, sigma: f64, most: f64) -> bool {
         let mut power = sigma;
@@ -159,7 +159,8 @@ impl Regularised {
         }
     }
 
-    /// Returns about where the step ends: Halley's rule by the terms up to y₄, from the end for constant u̇.
+    /// Returns about where the step ends: Halley's rule for θ by the terms up to y₄, from the end for
+    /// constant u̇.
     #[inline(always)]
     fn guess(&self) -> f64 {
         let [_, a, b, c, d, ..] = self.y;
@@ -167,7 +168,7 @@ impl Regularised {
         let x = (1.0 + 0.5 * a) / (1.0 + a);
         let beyond = x * (1.0 + x * (a / 2.0 + x * (b * (1.0 / 3.0) + x * (c / 4.0 + x * d * 0.2)))) - 1.0;
         let value = 1.0 + x * (a + x * (b + x * c));
-        // in the small second-order term a alone is the slope of the value
+        // the second-order term is small: a stands for the slope there
         x - beyond * value / (value * value - 0.5 * beyond * a)
     }
 
@@ -187,7 +188,7 @@ impl Regularised {
             let turn = 0.5 * slope * first * pace;
             let shift = first * (1.0 - turn);
             if first.abs() < SMALL_MISS {
-                let [growth, slope] = self.beyond(x, [growth, slope, bend], shift);
+                let [growth, slope] = self.shifted(x, [growth, slope, bend], shift);
                 return Some([growth * (2.0 + growth), 2.0 * slope]);
             }
             x += shift;
@@ -196,8 +197,9 @@ impl Regularised {
     }
 
     /// Returns y − 1 and y′ at x + `shift` from y − 1, y′ and y″ at x, to the second order of a small shift.
+    /// y‴ is summed up to y₅.
     #[inline(always)]
-    fn beyond(&self, x: f64, [growth, slope, bend]: [f64; 3], shift: f64) -> [f64; 2] {
+    fn shifted(&self, x: f64, [growth, slope, bend]: [f64; 3], shift: f64) -> [f64; 2] {
         let third = 6.0 * self.y[3] + x * (24.0 * self.y[4] + x * 60.0 * self.y[5]);
         [growth + shift * (slope + shift * bend / 2.0), slope + shift * (bend + shift * third / 2.0)]
     }
@@ -308,11 +310,11 @@ mod tests {
         for ([speed, length], line, forcing) in starts() {
             let mut series = Regularised::new(start([speed, length], line, forcing));
             series.extend_to_8();
-            // the terms beyond y₅ do not count in the third derivative at the start
+            // as `shifted` leaves out the terms after y₅
             (6..=8).for_each(|n| series.y[n] = 0.0);
             let (x, shift) = (0.8, 1e-3);
             let [now, then] = [x, x + shift].map(|x| series.at(8, x));
-            let moved = series.beyond(x, [now.growth, now.slope, now.bend], shift);
+            let moved = series.shifted(x, [now.growth, now.slope, now.bend], shift);
             // y‴/6 and y⁗/6
             let terms = |order: i32| {
                 let share = |n: i32| (0..order).map(|k| f64::from(n - k)).product::<f64>() / 6.0;

@@ -257,7 +257,7 @@ impl<O: Observer> Lanes<'_, O> {
 
 #[cfg(test)]
 mod tests {
-    use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
+    use rocking_wall::choices::{DampingModel, ForceLaw, Impact, Rocking};
     use rocking_wall::solver::Motion;
     use rocking_wall::wall::{Parameters, Support};
 
@@ -285,6 +285,48 @@ mod tests {
             // the last step within the band ends at sample 39
             assert!(lanes.rest_on(0) && lanes.sample(0) == 39 && lanes.runs[0].steps == 39);
             assert!(!lanes.rest_on(0));
+        }
+    }
+
+    /// Of runs that fail the first is reported, in whatever order they fail.
+    #[test]
+    fn the_first_run_that_fails_is_kept() {
+        let motion = Motion::of(&Parameters { u_start: 0.0, ..Parameters::default() }, 1e-8);
+        let motion = motion.expect("a valid wall");
+        let samples: Vec<f64> = (0..100).map(f64::from).collect();
+        let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Samples(&samples)));
+        let overflows = RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1e305 };
+        let starts = [overflows; 3];
+        let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+        assert!((0..3).all(|lane| lanes.start_next(lane)));
+        for (lane, first) in [(1, 1), (0, 0), (2, 0)] {
+            assert!(!lanes.alone(lane));
+            assert_eq!(lanes.failure.as_ref().map(|(number, _)| *number), Some(first));
+        }
+    }
+
+    /// A wall that nothing moves stays at u = 0. Only at transverse walls, where it leaves its rest for any
+    /// p > 0, its steps are searched.
+    #[test]
+    fn a_wall_that_nothing_moves_stays() {
+        for (rocking, impact, searched) in
+            [(Rocking::TwoSided, Impact::None, 0), (Rocking::OneSidedPositive, Impact::Restitution, 99)]
+        {
+            let undamped = Parameters {
+                rocking,
+                impact,
+                restitution: 0.5,
+                damping_model: DampingModel::None,
+                u_start: 0.0,
+                ..Parameters::default()
+            };
+            let motion = Motion::of(&undamped, 1e-8).expect("a valid wall");
+            let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Still(100)));
+            let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1.0 }];
+            let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
+            assert!(lanes.start_next(0) && !lanes.alone(0));
+            assert_eq!((lanes.rows.u[0], lanes.rows.v[0], lanes.sample(0)), (0.0, 0.0, 99));
+            assert_eq!(lanes.runs[0].steps, searched, "{rocking:?}");
         }
     }
 }

@@ -211,7 +211,8 @@ impl Table {
         set(&mut self.growth, branch, single);
         set(&mut self.plain_growth, branch, if usable { plain } else { f64::INFINITY });
         let damping_share = if c > 0.0 { DAMPING_SHARE } else { 0.0 };
-        set(&mut self.speed_share, branch, DAMPING_SHARE * (1.0 / c));
+        // finite, as it is multiplied by 0 for a wall that no forcing moves
+        set(&mut self.speed_share, branch, (DAMPING_SHARE * (1.0 / c)).min(f64::MAX));
         set(&mut self.damping_share, branch, damping_share);
         // no step is plain where its bound is infinite
         let bounds = [(single, single.is_finite()), (plain * at_once * at_once, usable)];
@@ -319,7 +320,8 @@ fn way(motion: &Motion, branch: usize, step: f64) -> Way {
         // a law of damping without a fast series
         Way::General
     } else if adaptive && wall.has_constant_damping() && !wall.branches()[branch].is_elastic() {
-        // the motion has a closed form, but the method asks for series on all but the elastic branch
+        // the motion has a closed form, but the method asks for series on all but the elastic branch; with
+        // secant damping the branches without one are followed in closed form here
         Way::General
     } else if motion.oscillators()[branch].is_spread(step) {
         Way::General

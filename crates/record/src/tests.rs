@@ -89,8 +89,8 @@ fn steps_with_several_corners_are_those_of_single_runs() {
     }
 }
 
-/// Where |u| outgrows the bound on the forces in the last step of a block, a lane and a run by itself take
-/// the same bound in the next block, and go on with the same bits.
+/// Where |u| outgrows the bound on the forces in the last step of a block, a lane and a run by itself go on
+/// with the same bits.
 #[test]
 fn motions_that_grow_at_the_end_of_a_block_are_those_of_single_runs() {
     let (motion, step) = (motion(3.5e-3), 5e-3);

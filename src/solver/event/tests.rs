@@ -7,15 +7,25 @@ use super::*;
 
 /// u = A sin(ωt + φ) + v t, which counts how often it is evaluated.
 pub(in crate::solver) struct Sway {
-    pub(in crate::solver) amplitude: f64,
-    pub(in crate::solver) rate: f64,
-    pub(in crate::solver) phase: f64,
-    pub(in crate::solver) drift: f64,
-    pub(in crate::solver) horizon: f64,
-    pub(in crate::solver) evaluations: Cell<u32>,
+    amplitude: f64,
+    rate: f64,
+    phase: f64,
+    drift: f64,
+    horizon: f64,
+    evaluations: Cell<u32>,
 }
 
 impl Sway {
+    /// Makes the motion with \[A, ω, φ, v\] over a length.
+    pub(in crate::solver) fn new([amplitude, rate, phase, drift]: [f64; 4], horizon: f64) -> Self {
+        Self { amplitude, rate, phase, drift, horizon, evaluations: Cell::new(0) }
+    }
+
+    /// Returns how often the motion has been evaluated.
+    pub(in crate::solver) fn evaluations(&self) -> u32 {
+        self.evaluations.get()
+    }
+
     /// Returns the motion `time` seconds after the start.
     pub(in crate::solver) fn motion(&self, time: f64) -> KinematicState {
         let Self { amplitude, rate, phase, drift, .. } = self;
@@ -57,7 +67,7 @@ impl Piece for Sway {
 }
 
 fn sway(phase: f64, drift: f64, horizon: f64) -> Sway {
-    Sway { amplitude: 0.3, rate: 2.0, phase, drift, horizon, evaluations: Cell::new(0) }
+    Sway::new([0.3, 2.0, phase, drift], horizon)
 }
 
 /// Without drift the exit through b is at asin(b/A), and at π − asin(b/A) for a motion that comes down.
