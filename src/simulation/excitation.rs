@@ -194,4 +194,18 @@ mod tests {
             }
         }
     }
+
+    /// The stronger of two motions is warned of.
+    #[test]
+    fn the_stronger_support_is_warned_of() {
+        let motion = |peak: f64| GroundMotion::new(0.01, vec![0.0, peak, -0.5 * peak]).unwrap();
+        let warned =
+            |bottom: f64, top: Option<f64>| Excitation::new(motion(bottom), top.map(motion)).warning();
+        assert_eq!(warned(3.0, None), None);
+        assert_eq!(warned(3.0, Some(2.0)), None);
+        for (bottom, top) in [(3e3, None), (3e3, Some(2e3)), (2e3, Some(3e3)), (3.0, Some(3e3))] {
+            assert_eq!(warned(bottom, top), Warning::of_peak(3e3), "{bottom}, {top:?}");
+        }
+        assert!(Warning::of_peak(3e3).is_some());
+    }
 }

@@ -243,6 +243,7 @@ mod tests {
             }
             // to rounding, peaks that the motion itself has reached count as seen
             assert!(stays(wide(1e-9), wide(-1e-15 * amplitude)));
+            assert!(!stays(wide(1e-9), wide(-2e-14 * amplitude)));
         }
     }
 }

@@ -101,26 +101,32 @@ fn exits_have_their_closed_form() {
     assert_eq!((exits, evaluations), (177, 1223));
 }
 
-/// The motion turns at cos(ωt) = −v/(Aω).
+/// The motion turns at cos(ωt) = −v/(Aω). Over several periods the search goes by halves.
 #[test]
 fn turning_points_have_their_closed_form() {
-    let mut evaluations = 0;
-    for part in 0..50 {
-        let drift = 0.011 * f64::from(part);
-        let piece = sway(0.0, drift, 1.5);
-        let mut peaks = Peaks::at(0.0);
-        assert!(matches!(find_ending(&piece, [-9.0, 9.0], &mut peaks), Ok(Ending::Horizon(_))));
-        let turn = 0.5 * libm::acos(-drift / 0.6);
-        let highest = 0.3 * libm::sin(2.0 * turn) + drift * turn;
-        // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as jerk² δ⁴/(8 ü) is
-        // no more than ε u/4
-        let (jerk, acceleration) = (2.4, 1.2 * libm::sin(2.0 * turn));
-        let last = (2.0 * f64::EPSILON * highest * acceleration).sqrt().sqrt() / f64::sqrt(jerk);
-        let (error, allowed) = ((peaks.positive - highest).abs(), jerk * last.powi(3) / 6.0);
-        assert!(error <= allowed, "{drift}: {error:e} of {allowed:e}");
-        evaluations += piece.evaluations.get();
+    let periods = std::f64::consts::PI;
+    for (horizon, count, expected) in [(1.5, 0.0, 280), (20.5, 6.0, 3093)] {
+        let mut evaluations = 0;
+        for part in 0..50 {
+            let drift = 0.011 * f64::from(part);
+            let piece = sway(0.0, drift, horizon);
+            let u = |time: f64| piece.motion(time).displacement;
+            let mut peaks = Peaks::at(0.0);
+            assert!(matches!(find_ending(&piece, [-99.0, 99.0], &mut peaks), Ok(Ending::Horizon(_))));
+            let turn = 0.5 * libm::acos(-drift / 0.6);
+            let highest = u(turn + count * periods).max(u(horizon));
+            let lowest = if count > 0.0 { u(periods - turn).min(0.0) } else { 0.0 };
+            // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as jerk² δ⁴/(8 ü)
+            // is no more than ε u/4
+            let (jerk, acceleration) = (2.4, 1.2 * libm::sin(2.0 * turn));
+            let last = (2.0 * f64::EPSILON * highest * acceleration).sqrt().sqrt() / f64::sqrt(jerk);
+            let error = (peaks.positive - highest).abs().max((peaks.negative + lowest).abs());
+            let allowed = jerk * last.powi(3) / 6.0;
+            assert!(error <= allowed, "{drift}: {error:e} of {allowed:e}");
+            evaluations += piece.evaluations();
+        }
+        assert_eq!(evaluations, expected, "{horizon} s");
     }
-    assert_eq!(evaluations, 280);
 }
 
 /// Searches for √`square` in a bracket from a guess. `step` turns a Newton step into the one that is
