@@ -116,8 +116,8 @@ fn turning_points_have_their_closed_form() {
             let turn = 0.5 * libm::acos(-drift / 0.6);
             let highest = u(turn + count * periods).max(u(horizon));
             let lowest = if count > 0.0 { u(periods - turn).min(0.0) } else { 0.0 };
-            // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as jerk² δ⁴/(8 ü)
-            // is no more than ε u/4
+            // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as
+            // jerk² δ⁴/(8 ü) is no more than ε u/4
             let (jerk, acceleration) = (2.4, 1.2 * libm::sin(2.0 * turn));
             let last = (2.0 * f64::EPSILON * highest * acceleration).sqrt().sqrt() / f64::sqrt(jerk);
             let error = (peaks.positive - highest).abs().max((peaks.negative + lowest).abs());
