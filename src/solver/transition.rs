@@ -204,6 +204,29 @@ mod tests {
         Motion::of(&parameters, 1e-8).unwrap()
     }
 
+    /// A start beyond the instability has overturned, and one beyond the departure has left the supports.
+    #[test]
+    fn a_start_has_the_marks_of_its_place() {
+        let motion = rigid(Rocking::TwoSided);
+        let body = motion.wall.body();
+        for side in [1.0, -1.0] {
+            let marks = |place: f64| {
+                let State { overturned, departed, .. } = motion.start_under(side * place, 0.0, 0.0);
+                (overturned, departed)
+            };
+            let (u_ins, departure) = (body.instability.of(side), body.departure.of(side));
+            for (place, expected) in [
+                (0.0, (false, false)),
+                (u_ins, (false, false)),
+                (1.01 * u_ins, (true, false)),
+                (departure, (true, false)),
+                (1.01 * departure, (true, true)),
+            ] {
+                assert_eq!(marks(place), expected, "{place} m");
+            }
+        }
+    }
+
     /// A wall that is stopped goes on only where the forcing leaves the band of rest.
     #[test]
     fn a_stopped_wall_rests_within_the_band() {

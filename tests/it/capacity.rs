@@ -94,6 +94,7 @@ fn corners_are_those_of_the_law() {
                 assert_near(corners[count - 2].displacement_ratio, 0.9);
                 assert_eq!(corners[count - 2].force, 0.0);
                 assert!(corners[count - 1].force < 0.0 && corners[count - 1].displacement_ratio == 1.0);
+                assert_eq!(corners[1].displacement, wall.elastic_end(sign));
                 let m = wall.body().effective_mass;
                 for corner in &corners[1..count - 1] {
                     let u = sign * corner.displacement;

@@ -7,6 +7,7 @@ use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, ForceLaw, IntegerVariable as I, Mechanism, RealVariable as V, TieSide,
 };
+use rocking_wall::wall::{Parameters, Wall};
 
 use crate::instantiated;
 
@@ -109,6 +110,30 @@ fn directional_derivatives_are_those_of_the_outputs() {
         }
     }
     assert!(compared > 700, "{compared} derivatives are told from 0");
+}
+
+/// Choices are read as they are set, and calculated parameters are the facts of the wall.
+#[test]
+fn parameters_are_read_as_they_are_set() {
+    let mut chosen = instantiated(Interface::CoSimulation, None, &mut Log::silent());
+    for &choice in I::ALL {
+        for value in [2, 1] {
+            chosen.set_integer(choice, value);
+            assert_eq!(chosen.integer(choice), value, "{}", choice.variable().name);
+        }
+    }
+    let unit = unit(Interface::CoSimulation, &[(V::Xi, 0.05)], &[]);
+    let facts = Wall::new(&Parameters { xi: 0.05, ..Parameters::default() }).unwrap().facts();
+    let known = V::ALL.iter().filter_map(|&variable| {
+        let name = variable.variable().name;
+        Some((name, unit.real(variable), facts.iter().find(|fact| fact.name == name)?.value))
+    });
+    let mut compared = 0;
+    for (name, value, fact) in known {
+        assert_eq!(value, fact, "{name}");
+        compared += 1;
+    }
+    assert_eq!((compared, unit.real(V::XiUsed)), (10, 0.05));
 }
 
 /// A wall that has left its supports has neither reactions nor derivatives of them.

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use fmu_export::{Category, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::{DampingModel, IntegerVariable, RealVariable, Solver};
+use rocking_wall::variables::{DampingModel, IntegerVariable, Mechanism, RealVariable, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Wall, usage};
 
 use crate::instantiated;
@@ -20,6 +20,20 @@ fn a_law_of_points_replaces_the_named_one() {
     let warnings: Vec<_> =
         Wall::new(&scene.parameters).unwrap().warnings().iter().map(ToString::to_string).collect();
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
+}
+
+/// A parapet warns once of a motion of the top support, which it does not have; a strip has one.
+#[test]
+fn a_parapet_warns_once_of_a_top_support() {
+    for (mechanism, times) in [(Mechanism::Parapet, 1), (Mechanism::VerticalSpanning, 0)] {
+        let change = |unit: &mut Unit| {
+            unit.set_integer(IntegerVariable::Mechanism, mechanism.value());
+            unit.set_real(RealVariable::UStart, 0.0);
+        };
+        let (started, text) = logged_by(Interface::CoSimulation, change, &[(RealVariable::ATop, 0.1)]);
+        assert!(started);
+        assert_eq!(text.matches("a_top is ignored: a parapet has no top support").count(), times, "{text}");
+    }
 }
 
 /// Numbers that walls rarely have are warned of, with their usual range and what to do.

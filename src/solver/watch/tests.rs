@@ -33,6 +33,22 @@ fn watched(wall: &Wall, piece: &Sway, support: Support) -> (Demands, u32) {
     (demands, piece.evaluations())
 }
 
+/// At rest the reactions are extreme at an end of the rest.
+#[test]
+fn a_rest_has_its_extremes_at_its_ends() {
+    let wall = Wall::new(&Parameters { u_start: 0.0, ..Parameters::default() }).unwrap();
+    let (from, to) = (Support::rigid(-1.0), Support::rigid(3.0));
+    let at = |ground: f64| wall.body().reactions(Support::rigid(ground), 0.0, 0.0, false);
+    let mut demands = Demands::new(&wall, START[0], [0.0; 3], at(1.0), &[]);
+    let segment = Segment { duration: 0.4, from, to };
+    Watch { demands: &mut demands, wall: &wall, segment: &segment, time: START[0], drift: false }
+        .rest(0.1, 0.4);
+    let ends = [(at(0.0).bottom, START[0] + 0.1), (at(3.0).bottom, START[0] + 0.4)];
+    let Extremes { lowest, highest } = demands.reaction_bottom;
+    let found = [(lowest.value, lowest.time), (highest.value, highest.time)];
+    assert_eq!(found, ends);
+}
+
 /// Reactions are linear in u here, so that their extremes are those at ±A. They are accurate relative to
 /// their terms, also where these cancel.
 #[test]
