@@ -151,10 +151,30 @@ fn a_tie_adds_its_force_times_its_lever() {
 
 #[test]
 fn an_error_names_its_point() {
-    let points = vec![[0.05, 0.8], [0.2, 1.0], [0.2, 0.9], [1.0, 0.0]];
-    let error = Wall::new(&Parameters { multilinear: Some(points.into()), ..Parameters::default() });
-    let error = error.unwrap_err().to_string();
-    assert!(error.contains("point 3") && error.contains("must rise"), "{error}");
+    let cases: [(&[[f64; 2]], usize, &str); 8] = [
+        (&[], 1, "at least two points"),
+        (&[[0.05, 0.8]], 1, "at least two points"),
+        (&[[0.05, 0.8], [0.2, f64::NAN], [1.0, 0.0]], 2, "must be finite"),
+        (&[[0.0, 0.8], [1.0, 0.0]], 1, "must rise"),
+        (&[[0.05, 0.8], [0.2, 1.0], [0.2, 0.9], [1.0, 0.0]], 3, "must rise"),
+        (&[[0.05, 0.8], [0.2, 0.0], [1.0, 0.0]], 2, "must be positive"),
+        (&[[0.05, 0.8], [1.0, -0.1]], 2, "must be positive"),
+        (&[[0.05, 0.8], [0.2, 0.9], [1.0, 0.9]], 3, "the last line must fall"),
+    ];
+    for (points, number, reason) in cases {
+        let error = Wall::new(&Parameters { multilinear: Some(points.into()), ..Parameters::default() });
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(&format!("point {number} ")) && error.contains(reason), "{points:?}: {error}");
+    }
+}
+
+/// The elastic branch ends before the force does.
+#[test]
+fn an_elastic_branch_beyond_the_force_is_an_error() {
+    for (a1, fits) in [(0.79, true), (0.8, false), (0.81, false)] {
+        let wall = Wall::new(&Parameters { a1, a3: 0.8, ..Parameters::default() });
+        assert_eq!(wall.is_ok(), fits, "{a1}");
+    }
 }
 
 /// A law of points goes through each of them, also where a falling line ends above zero.
