@@ -5,7 +5,7 @@ use std::path::Path;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::solver::{Memo, Method, Motion, Segment, State};
-use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism};
+use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
 
 const MECHANISMS: [Mechanism; 2] = [Mechanism::Parapet, Mechanism::VerticalSpanning];
@@ -62,6 +62,27 @@ fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State>
 
 /// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) only by
 /// terms of order δ².
+#[test]
+fn full_rotations_refuse_what_goes_with_small_ones() {
+    type Change = fn(&mut Parameters);
+    let cases: [(Change, &str); 7] = [
+        (|wall| wall.multilinear = Some([[0.1, 0.9], [1.0, 0.0]].into()), "force_law = multilinear"),
+        (|wall| wall.force_law = ForceLaw::Bilinear, "force_law = bilinear"),
+        (|wall| wall.a3 = 0.9, "a3 = 0.9"),
+        (|wall| wall.damping_model = DampingModel::FreeStandingBlock, "damping_model = free_standing_block"),
+        (|wall| wall.solver = Solver::Exact, "solver = exact"),
+        (|wall| wall.solver = Solver::Newmark, "solver = newmark"),
+        (|wall| wall.tie_stiffness = 1e5, "tie_stiffness = 100000"),
+    ];
+    for (change, named) in cases {
+        let mut parameters = full(Mechanism::Parapet);
+        Wall::new(&parameters).unwrap();
+        change(&mut parameters);
+        let error = Wall::new(&parameters).unwrap_err().to_string();
+        assert!(error.contains(&format!("trigonometric does not go with {named}; set")), "{error}");
+    }
+}
+
 #[test]
 fn accelerations_keep_the_energy() {
     for mechanism in MECHANISMS {
