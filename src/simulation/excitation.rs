@@ -195,6 +195,24 @@ mod tests {
         }
     }
 
+    /// A reversed motion has all signs reversed, and lasts as long.
+    #[test]
+    fn a_reversed_motion_has_other_signs() {
+        let record = |peak: f64| GroundMotion::new(0.02, vec![0.3, peak, -0.5 * peak, 0.0]).unwrap();
+        let motion = Excitation::new(record(0.7), Some(record(-0.4))).with_drift(record(1e-3));
+        let negative =
+            |Support { bottom, top, drift }: Support| Support { bottom: -bottom, top: -top, drift: -drift };
+        for motion in [motion.clone(), motion.held()] {
+            let reversed = motion.reversed().unwrap();
+            assert_eq!((reversed.duration(), reversed.is_held()), (motion.duration(), motion.is_held()));
+            for elapsed in [0.0, 0.011, 0.02, 0.05] {
+                let Segment { duration, from, to } = motion.segment(elapsed, 1.0);
+                let expected = Segment { duration, from: negative(from), to: negative(to) };
+                assert_eq!(reversed.segment(elapsed, 1.0), expected);
+            }
+        }
+    }
+
     /// The stronger of two motions is warned of.
     #[test]
     fn the_stronger_support_is_warned_of() {

@@ -27,6 +27,7 @@ mod overturning;
 mod page;
 mod properties;
 mod record_path;
+mod refusals;
 mod ties;
 mod trigonometric;
 mod unit;
