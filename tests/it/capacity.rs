@@ -95,6 +95,10 @@ fn corners_are_those_of_the_law() {
                 assert_eq!(corners[count - 2].force, 0.0);
                 assert!(corners[count - 1].force < 0.0 && corners[count - 1].displacement_ratio == 1.0);
                 assert_eq!(corners[1].displacement, wall.elastic_end(sign));
+                // its line goes through the last corner before the end of the force, and through that end
+                let softening = |place: usize| wall.softening_force(sign, corners[place].displacement);
+                assert_near(softening(count - 3) / corners[count - 3].force, 1.0);
+                assert_eq!(softening(count - 2), 0.0);
                 let m = wall.body().effective_mass;
                 for corner in &corners[1..count - 1] {
                     let u = sign * corner.displacement;

@@ -138,6 +138,31 @@ fn tied_parapet() -> Parameters {
     }
 }
 
+/// A tie adds a corner where it begins to pull, on the sides that it holds.
+#[test]
+fn a_tie_adds_a_corner_on_its_side() {
+    // g₀ h/(2y) of 0.02 m at 3 m of 4 m; one beyond the departure at h/4 never pulls
+    let onset = 0.02 * 4.0 / 6.0;
+    for (tie_side, tie_slack, expected) in [
+        (TieSide::Positive, 0.02, vec![onset]),
+        (TieSide::Negative, 0.02, vec![-onset]),
+        (TieSide::Both, 0.02, vec![-onset, onset]),
+        (TieSide::Both, 100.0, vec![]),
+    ] {
+        let places = |parameters: &Parameters| {
+            let wall = Wall::new(parameters).unwrap();
+            wall.corners().iter().map(|corner| corner.displacement).collect::<Vec<_>>()
+        };
+        let own = places(&Parameters { tie_stiffness: 0.0, ..tied_parapet() });
+        let mut added = places(&Parameters { tie_side, tie_slack, ..tied_parapet() });
+        added.retain(|place| !own.contains(place));
+        assert_eq!(added.len(), expected.len(), "{added:?}");
+        for (found, expected) in added.iter().zip(&expected) {
+            assert!((found - expected).abs() <= f64::EPSILON * onset, "{found} for {expected}");
+        }
+    }
+}
+
 /// Peak and first reaching of the strength are those of a fine history, and the peak that of u.
 #[test]
 fn tie_force_is_a_demand() {

@@ -22,6 +22,17 @@ fn a_law_of_points_replaces_the_named_one() {
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
 }
 
+/// How a unit starts is information.
+#[test]
+fn a_start_is_logged() {
+    for (u_start, is_logged) in [(0.05, true), (-0.01, true), (0.0, false)] {
+        let change = |unit: &mut Unit| unit.set_real(RealVariable::UStart, u_start);
+        let (started, text) = logged_by(Interface::CoSimulation, Category::All, change, &[]);
+        assert!(started && text.contains("solver: adaptive"), "{text}");
+        assert_eq!(text.contains(&format!("released from u_start = {u_start} m")), is_logged, "{text}");
+    }
+}
+
 /// A parapet warns once of a motion of the top support, which it does not have; a strip has one.
 #[test]
 fn a_parapet_warns_once_of_a_top_support() {
@@ -30,7 +41,8 @@ fn a_parapet_warns_once_of_a_top_support() {
             unit.set_integer(IntegerVariable::Mechanism, mechanism.value());
             unit.set_real(RealVariable::UStart, 0.0);
         };
-        let (started, text) = logged_by(Interface::CoSimulation, change, &[(RealVariable::ATop, 0.1)]);
+        let (started, text) =
+            logged_by(Interface::CoSimulation, Category::Warning, change, &[(RealVariable::ATop, 0.1)]);
         assert!(started);
         assert_eq!(text.matches("a_top is ignored: a parapet has no top support").count(), times, "{text}");
     }
@@ -72,18 +84,19 @@ fn improbable_numbers_are_warned_of() {
 fn logged(parameters: &[(RealVariable, f64)], inputs: &[(RealVariable, f64)]) -> (bool, String) {
     let change =
         |unit: &mut Unit| parameters.iter().for_each(|&(variable, value)| unit.set_real(variable, value));
-    logged_by(Interface::CoSimulation, change, inputs)
+    logged_by(Interface::CoSimulation, Category::Warning, change, inputs)
 }
 
 fn logged_by(
     interface: Interface,
+    category: Category,
     change: impl Fn(&mut Unit),
     inputs: &[(RealVariable, f64)],
 ) -> (bool, String) {
     let texts = Arc::new(Mutex::new(Vec::new()));
     let sink = texts.clone();
     let mut push = move |_: Status, _: Category, text: &str| sink.lock().unwrap().push(text.to_owned());
-    let mut log = Log::new(&mut push, Filter::ERRORS.with(Category::Warning));
+    let mut log = Log::new(&mut push, Filter::ERRORS.with(category));
     let mut unit = instantiated(interface, None, &mut log);
     change(&mut unit);
     let started = unit.initialize(&mut log);
@@ -128,7 +141,7 @@ fn model_exchange_warns_of_a_solver_that_is_set() {
     let warning = |name: &str| {
         format!("{name} is set and has no effect: in Model Exchange the importer's solver integrates")
     };
-    let told = |interface, solver| logged_by(interface, change(solver), &[]).1;
+    let told = |interface, solver| logged_by(interface, Category::Warning, change(solver), &[]).1;
     assert_eq!(told(Interface::ModelExchange, Solver::Automatic), warning("tolerance"));
     assert_eq!(told(Interface::ModelExchange, Solver::Adaptive), warning("solver") + &warning("tolerance"));
     assert_eq!(told(Interface::CoSimulation, Solver::Adaptive), "");
