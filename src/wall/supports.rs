@@ -103,3 +103,52 @@ impl Body {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wall::{Parameters, Wall};
+
+    const MOVED: Support = Support { bottom: 2.0, top: -1.0, drift: 0.01 };
+
+    fn near(found: f64, expected: f64) {
+        assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} for {expected}");
+    }
+
+    /// A parapet stands on one support.
+    #[test]
+    fn a_parapet_moves_with_its_base() {
+        let wall = Wall::new(&Parameters::default()).unwrap();
+        let body = wall.body();
+        near(body.forcing(MOVED), -0.75 * 2.0);
+        for drift in [false, true] {
+            let Ends { bottom, top } = body.reactions(MOVED, 0.3, 0.02, drift);
+            near(bottom, body.mass * 2.3);
+            assert_eq!(top, 0.0);
+        }
+        near(body.impulses([2.0, -1.0], 0.3, 9.0).bottom, body.mass * 2.3);
+    }
+
+    /// A strip of 3 m with its hinge at 1.8 m has `w_b` = 7/15, `w_t` = 8/15, λ = 3/2 and `m_eff` = 2m/3. With a
+    /// drift G = −(W u/2 + (W/2 + O) d)/h acts.
+    #[test]
+    fn a_strip_moves_with_both_supports() {
+        let mechanism = Mechanism::VerticalSpanning;
+        let (height, hinge_ratio, overburden, u_start) = (3.0, 0.6, 5e3, 0.0);
+        let parameters = Parameters::default();
+        let strip = Parameters { mechanism, height, hinge_ratio, overburden, u_start, ..parameters };
+        let wall = Wall::new(&strip).unwrap();
+        let (body, gravity) = (wall.body(), strip.gravity);
+        let (m, weight) = (body.mass, body.mass * gravity);
+        near(body.forcing(MOVED), -1.5 * (14.0 - 8.0) / 15.0 + 1.5 * gravity * 0.01 / 3.0);
+        for drift in [false, true] {
+            let couple = if drift { -(weight * 0.01 + (weight / 2.0 + 5e3) * 0.01) / 3.0 } else { 0.0 };
+            let Ends { bottom, top } = body.reactions(MOVED, 0.3, 0.02, drift);
+            near(bottom, m * (0.5 + 0.07) - couple);
+            near(top, m * 0.08 + couple);
+        }
+        let Ends { bottom, top } = body.impulses([2.0, -1.0], 0.3, 9.0);
+        near(bottom, m * 0.57 - 9.0);
+        near(top, m * 0.08 + 9.0);
+    }
+}
