@@ -210,15 +210,26 @@ impl Regularised {
         others < self.y[1].abs()
     }
 
+    /// Returns about where y − 1 comes to `goal`: two Newton steps by the terms up to y₈.
+    #[inline(always)]
+    fn guess_of_passage(&self, goal: f64) -> f64 {
+        let mut x = goal / self.y[1];
+        for _ in 0..2 {
+            let Values { growth, slope, .. } = self.at(8, x);
+            x += (goal - growth) / slope;
+        }
+        x
+    }
+
     /// Returns the θ at which u/u₀ − 1 comes to `rise`, and h u̇/u₀ then; `None` where that is not found at
     /// once, the series leaves out more than `most`, or u̇ may change its sign before.
     #[inline(always)]
     pub(crate) fn passage(mut self, rise: f64, most: f64) -> Option<[f64; 2]> {
         self.extend_to_8();
         let goal = rise / (1.0 + (1.0 + rise).sqrt());
-        let mut x = goal / self.y[1];
+        let mut x = self.guess_of_passage(goal);
+        let order = self.extend(x, most)?;
         for _ in 0..MOST_GUESSES {
-            let order = self.extend(x, most)?;
             let Values { theta, growth, slope, bend } = self.at(order, x);
             let shift = (goal - growth) / slope;
             if shift.abs() < SMALL_STEP * x {
@@ -301,6 +312,20 @@ mod tests {
             let sigma = series.guess();
             let miss = series.at(8, sigma).theta - 1.0;
             assert!(miss.abs() < SMALL_MISS, "{speed} on {line:?}: {miss:e}");
+        }
+    }
+
+    /// The first guess of a passage is so close that no other is needed.
+    #[test]
+    fn first_guesses_of_a_passage_are_close() {
+        for ([speed, length], line, forcing) in starts().filter(|([speed, _], ..)| speed.abs() > 1.0) {
+            let mut series = Regularised::new(start([speed, length], line, forcing));
+            series.extend_to_8();
+            let goal = 0.015 * speed;
+            let x = series.guess_of_passage(goal);
+            let Values { growth, slope, .. } = series.at(8, x);
+            let shift = (goal - growth) / slope;
+            assert!(shift.abs() < SMALL_STEP * x, "{speed} on {line:?}: {shift:e} of {x}");
         }
     }
 
