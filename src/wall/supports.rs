@@ -129,8 +129,8 @@ mod tests {
         near(body.impulses([2.0, -1.0], 0.3, 9.0).bottom, body.mass * 2.3);
     }
 
-    /// A strip of 3 m with its hinge at 1.8 m has `w_b` = 7/15, `w_t` = 8/15, λ = 3/2 and `m_eff` = 2m/3. With a
-    /// drift G = −(W u/2 + (W/2 + O) d)/h acts.
+    /// A strip of 3 m with its hinge at 1.8 m has `w_b` = 7/15, `w_t` = 8/15, λ = 3/2 and `m_eff` = 2m/3.
+    /// With a drift G = −(W u/2 + (W/2 + O) d)/h acts.
     #[test]
     fn a_strip_moves_with_both_supports() {
         let mechanism = Mechanism::VerticalSpanning;
