@@ -267,7 +267,7 @@ struct Trial {
 /// step.
 fn parabola([value, slope, curvature]: [f64; 3]) -> f64 {
     let discriminant = slope * slope - 2.0 * curvature * value;
-    if discriminant > 0.0 {
+    if discriminant >= 0.0 {
         // of the two forms of the root, take the one without cancellation
         -2.0 * value / (slope + slope.signum() * discriminant.sqrt())
     } else {

@@ -92,7 +92,7 @@ impl<N: Number> Part<N> {
         let mut time = self.guess(corner);
         let mut sought = lanes & (from[0].below(corner) | corner.below(from[0]));
         let (mut found, mut found_time, mut found_velocity) = (sought & !sought, zero, zero);
-        for guess in 0..MOST_GUESSES {
+        for _ in 0..MOST_GUESSES {
             let [u, v, a] = line.after(terms, time, from, rate);
             let jerk = rate - line.c * a - line.k * v;
             let pace = zero.like(1.0) / v;
@@ -111,7 +111,7 @@ impl<N: Number> Part<N> {
             found_time = N::select(now, next, found_time);
             found_velocity = N::select(now, velocity, found_velocity);
             sought = sought & inside & !small;
-            if N::bits(sought) == 0 || guess + 1 == MOST_GUESSES {
+            if N::bits(sought) == 0 {
                 break;
             }
             time = N::select(sought, next, time);

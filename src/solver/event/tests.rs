@@ -129,6 +129,19 @@ fn turning_points_have_their_closed_form() {
     }
 }
 
+/// A parabola is followed to its zero in the direction of Newton's step, also to a double one. Without a zero
+/// the step is Newton's.
+#[test]
+fn a_parabola_is_followed_to_its_zero() {
+    // (t − 1)(t − 3), (t − 1)², a line, and t² + 2t + 5
+    for (terms, step) in
+        [([3.0, -4.0, 2.0], 1.0), ([1.0, -2.0, 2.0], 1.0), ([3.0, -2.0, 0.0], 1.5), ([5.0, 2.0, 2.0], -2.5)]
+    {
+        assert_eq!(parabola(terms), step, "{terms:?}");
+        assert_eq!(parabola(terms.map(|term: f64| -term)), step, "{terms:?}");
+    }
+}
+
 /// Searches for √`square` in a bracket from a guess. `step` turns a Newton step into the one that is
 /// proposed, `sign` is the sign of the slope, and with `settled` every step may be the last. Returns the node
 /// found and the times of the evaluations.

@@ -1,7 +1,7 @@
 //! Tests what the steps of a run need of its branches: maps, bounds, and the length of series.
 
 use oscillator::KinematicState;
-use rocking_wall::choices::DampingModel;
+use rocking_wall::choices::{DampingModel, Impact};
 use rocking_wall::wall::Parameters;
 
 use super::*;
@@ -123,4 +123,23 @@ fn corners_of_a_branch_with_long_steps_are_closed() {
             assert_eq!(get(&exits[side], branch), expected, "{a1}: branch {branch}");
         }
     }
+}
+
+/// A wall with as many branches as a row holds takes plain steps on them, one with more takes none.
+#[test]
+fn a_row_holds_sixteen_branches() {
+    let mut counts = vec![];
+    for corners in 2..10_u32 {
+        let points = (1..=corners).map(|n| 0.02 * f64::from(n)).map(|u| [u, (4.0 * u).sqrt()]);
+        let multilinear = Some(points.chain([[1.0, 0.0]]).collect());
+        let (damping_model, impact) = (DampingModel::None, Impact::Restitution);
+        let wall = Parameters { multilinear, damping_model, impact, u_start: 0.0, ..Parameters::default() };
+        let motion = Motion::of(&wall, 1e-8).expect("a valid wall");
+        let count = motion.wall().branches().len();
+        let elastic = motion.wall().branch_of(0.0, 1.0);
+        let expected = if count <= MOST_BRANCHES { Way::Affine } else { Way::General };
+        assert_eq!(way(&motion, elastic, 5e-3), expected, "{count}");
+        counts.push(count);
+    }
+    assert!(counts.contains(&MOST_BRANCHES), "{counts:?}");
 }
