@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use fmu_export::{Category, Filter, Interface, Log, Model, Status, Step};
+use fmu_export::{Category, Experiment, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{DampingModel, IntegerVariable, Mechanism, RealVariable, Solver};
@@ -30,6 +30,18 @@ fn a_start_is_logged() {
         let (started, text) = logged_by(Interface::CoSimulation, Category::All, change, &[]);
         assert!(started && text.contains("solver: adaptive"), "{text}");
         assert_eq!(text.contains(&format!("released from u_start = {u_start} m")), is_logged, "{text}");
+    }
+}
+
+/// A tolerance of the importer below the least one, that of rounding, counts as the least.
+#[test]
+fn a_tolerance_has_a_least_value() {
+    for (given, used) in [(1e-9, "1e-9"), (1e-13, "1e-13"), (1e-30, "1e-15")] {
+        let change = |unit: &mut Unit| {
+            unit.setup_experiment(Experiment { tolerance: Some(given), ..Experiment::default() });
+        };
+        let (_, text) = logged_by(Interface::CoSimulation, Category::All, change, &[]);
+        assert!(text.contains(&format!("solver: adaptive, tolerance {used}")), "{text}");
     }
 }
 
