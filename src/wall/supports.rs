@@ -120,6 +120,7 @@ mod tests {
     fn a_parapet_moves_with_its_base() {
         let wall = Wall::new(&Parameters::default()).unwrap();
         let body = wall.body();
+        assert_eq!(body.hinge(), None);
         near(body.forcing(MOVED), -0.75 * 2.0);
         for drift in [false, true] {
             let Ends { bottom, top } = body.reactions(MOVED, 0.3, 0.02, drift);
@@ -140,6 +141,7 @@ mod tests {
         let wall = Wall::new(&strip).unwrap();
         let (body, gravity) = (wall.body(), strip.gravity);
         let (m, weight) = (body.mass, body.mass * gravity);
+        near(body.hinge().unwrap(), 1.8);
         near(body.forcing(MOVED), -1.5 * (14.0 - 8.0) / 15.0 + 1.5 * gravity * 0.01 / 3.0);
         for drift in [false, true] {
             let couple = if drift { -(weight * 0.01 + (weight / 2.0 + 5e3) * 0.01) / 3.0 } else { 0.0 };

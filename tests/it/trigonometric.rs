@@ -96,6 +96,11 @@ fn accelerations_keep_the_energy() {
             let rate = (after(1e-5) - after(-1e-5)) / 2e-5;
             let size = (v * a).abs() + (v * rotations.restoring(u, 1.0)).abs();
             assert!(rate.abs() < 1e-8 * size, "{mechanism:?}: {rate:e} of {size:e}");
+            // the energy at rest is that of the restoring force, from 0 on
+            let slope = (rotations.energy(u + 1e-5, 0.0) - rotations.energy(u - 1e-5, 0.0)) / 2e-5;
+            let force = rotations.restoring(u, 1.0);
+            assert!((slope - force).abs() < 1e-8 * force, "{mechanism:?}: {slope} for {force}");
+            assert_eq!(rotations.energy(0.0, 0.0), 0.0);
         }
     }
 }
