@@ -48,7 +48,7 @@ fn walls_that_cannot_be_are_refused() {
     }
     let within: [Change; 7] = [
         |wall| {
-            (wall.force_law, wall.damping_model) = (ForceLaw::RigidLinear, DampingModel::FreeStandingBlock)
+            (wall.force_law, wall.damping_model) = (ForceLaw::RigidLinear, DampingModel::FreeStandingBlock);
         },
         |wall| (wall.xi, wall.restitution) = (COMPUTED, 0.01),
         |wall| wall.xi = 0.0,

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use fmu_export::{Category, Experiment, Filter, Interface, Log, Model, Status, Step};
 use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
-use rocking_wall::variables::{DampingModel, IntegerVariable, Mechanism, RealVariable, Solver};
+use rocking_wall::variables::{DampingModel, Impact, IntegerVariable, Mechanism, RealVariable, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Wall, usage};
 
 use crate::instantiated;
@@ -20,6 +20,34 @@ fn a_law_of_points_replaces_the_named_one() {
     let warnings: Vec<_> =
         Wall::new(&scene.parameters).unwrap().warnings().iter().map(ToString::to_string).collect();
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
+}
+
+/// Damping and restitution are warned of where they go beyond what they stand for, and not just within.
+#[test]
+fn damping_beyond_its_meaning_is_warned_of() {
+    type Change = fn(&mut Parameters);
+    let block: Change = |wall| wall.damping_model = DampingModel::FreeStandingBlock;
+    let cases: [(Change, Change, &str); 4] = [
+        (block, |wall| wall.overburden = 1e4, "computed c_bar (Eq. 23) is valid only for a parapet"),
+        (|_| {}, |wall| wall.impact = Impact::Restitution, "computed damping already represents the impacts"),
+        (|_| {}, |wall| wall.a1 = 0.11, "a1 = 0.11 is outside the range 0.005 to 0.1"),
+        (
+            |wall| (wall.damping_model, wall.impact) = (DampingModel::None, Impact::Restitution),
+            |wall| wall.restitution = 1.0,
+            "restitution = 1 without damping",
+        ),
+    ];
+    for (within, beyond, words) in cases {
+        let mut parameters = Parameters::default();
+        within(&mut parameters);
+        let has = |parameters: &Parameters| {
+            let wall = Wall::new(parameters).unwrap();
+            wall.warnings().iter().any(|warning| warning.to_string().starts_with(words))
+        };
+        assert!(!has(&parameters), "{words}");
+        beyond(&mut parameters);
+        assert!(has(&parameters), "{words}");
+    }
 }
 
 /// How a unit starts is information.
