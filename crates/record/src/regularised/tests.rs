@@ -94,10 +94,10 @@ fn a_small_shift_needs_no_new_sum() {
         let (x, shift) = (0.8, 1e-3);
         let [now, then] = [x, x + shift].map(|x| series.at(8, x));
         let moved = series.shifted(x, [now.growth, now.slope, now.bend], shift);
-        // y‴/6 and y⁗/6
-        let terms = |order: i32| {
-            let share = |n: i32| (0..order).map(|k| f64::from(n - k)).product::<f64>() / 6.0;
-            (order..=5).map(|n| share(n) * series.y[n as usize].abs()).sum::<f64>()
+        // bounds on y‴/6 and y⁗/6
+        let terms = |order: usize| {
+            let share = |n: usize| (0..order).map(|k| (n - k) as f64).product::<f64>() / 6.0;
+            (order..=5).map(|n| share(n) * series.y[n].abs()).sum::<f64>()
         };
         for (found, expected, bound) in [(moved[0], then.growth, terms(3)), (moved[1], then.slope, terms(4))]
         {
