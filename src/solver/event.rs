@@ -49,7 +49,8 @@ pub(super) enum Ending {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SearchExhausted;
 
-/// Most halvings of an interval. After them it counts as monotone: 2⁻⁴⁸ of a piece is below rounding.
+/// Most halvings of an interval. After them it counts as monotone: a turn within 2⁻⁴⁸ of a piece changes u by
+/// less than its rounding, as the change goes with the square of the time.
 const DEEPEST: u32 = 48;
 /// Most intervals of one search.
 const MOST_INTERVALS: u32 = 1 << 20;
@@ -194,7 +195,6 @@ impl<P: Piece> Search<'_, P> {
         let length = right.time - left.time;
         let bounds = self.piece.bounds(left.motion, length);
         match settle([left.motion, right.motion], length, bounds, self.bounds, peaks) {
-            // a turn within 2⁻⁴⁸ of a piece changes u by less than its rounding
             Verdict::Split if deepest => Verdict::Monotone,
             verdict => verdict,
         }

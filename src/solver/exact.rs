@@ -243,7 +243,7 @@ mod tests {
             }
             // to rounding, peaks that the motion itself has reached count as seen
             assert!(stays(wide(1e-9), wide(-1e-15 * amplitude)));
-            assert!(!stays(wide(1e-9), wide(-2e-14 * amplitude)));
+            assert!(!stays(wide(1e-9), wide(-2.0 * PEAK_ROUNDING * amplitude)));
         }
     }
 }

@@ -85,14 +85,14 @@ mod tests {
         assert_eq!(giannini_masiani(1.0), 0.0);
     }
 
-    /// Equations (13) and (5) where they have simple values: from θ₀ = α with e²ⁿ = 3/4 the block comes to
-    /// α/2, and acosh 2 = ln(2 + √3).
+    /// Equations (13) and (5) where they have simple values: from θ₀ = α/2 with e²ⁿ = 7/12 the block comes
+    /// to α/4, and acosh 2 = ln(2 + √3). Within a few roundings.
     #[test]
     fn rocking_of_blocks_is_that_of_its_equation() {
         for impacts in [1, 2, 3] {
             let n = f64::from(impacts);
             let expected = std::f64::consts::LN_2 / (n * std::f64::consts::PI);
-            let found = priestley(0.75_f64.powf(0.5 / n), 1.0, impacts);
+            let found = priestley((7.0_f64 / 12.0).powf(0.5 / n), 0.5, impacts);
             assert!((found - expected).abs() <= 1e-15, "{impacts}: {found} for {expected}");
         }
         let expected = 2.0 * (2.0 + 3.0_f64.sqrt()).ln();

@@ -111,6 +111,7 @@ mod tests {
 
     const MOVED: Support = Support { bottom: 2.0, top: -1.0, drift: 0.01 };
 
+    /// Equal within a few dozen roundings.
     fn near(found: f64, expected: f64) {
         assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} for {expected}");
     }

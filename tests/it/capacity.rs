@@ -95,7 +95,7 @@ fn corners_are_those_of_the_law() {
                 assert_eq!(corners[count - 2].force, 0.0);
                 assert!(corners[count - 1].force < 0.0 && corners[count - 1].displacement_ratio == 1.0);
                 assert_eq!(corners[1].displacement, wall.elastic_end(sign));
-                // its line goes through the last corner before the end of the force, and through that end
+                // the softening line goes through the last corner before u₃, and through u₃
                 let softening = |place: usize| wall.softening_force(sign, corners[place].displacement);
                 assert_near(softening(count - 3) / corners[count - 3].force, 1.0);
                 assert_eq!(softening(count - 2), 0.0);
@@ -172,12 +172,14 @@ fn an_error_names_its_point() {
     }
 }
 
-/// The elastic branch ends before the force does.
+/// a₁ must be below a₃.
 #[test]
-fn an_elastic_branch_beyond_the_force_is_an_error() {
+fn the_elastic_branch_ends_before_the_force() {
     for (a1, fits) in [(0.79, true), (0.8, false), (0.81, false)] {
         let wall = Wall::new(&Parameters { a1, a3: 0.8, ..Parameters::default() });
         assert_eq!(wall.is_ok(), fits, "{a1}");
+        let message = wall.map_or_else(|error| error.to_string(), |_| String::new());
+        assert_eq!(message.contains("must be smaller than a3 = 0.8"), !fits, "{message}");
     }
 }
 

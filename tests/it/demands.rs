@@ -62,6 +62,23 @@ fn elastic_vibration_has_its_closed_form() {
     assert_eq!(demands.half_cycles, 0, "it never leaves the elastic branch");
 }
 
+/// A limit state that the start just reaches is reached at the start. Some u/`u_ins` are a rounding below
+/// their fraction here.
+#[test]
+fn a_start_on_a_limit_state_reaches_it() {
+    let mut below = 0;
+    for n in 1..100 {
+        let (thickness, fraction) = (0.37 + 1e-3 * f64::from(n), f64::from(n) / 100.0);
+        let wall = Parameters { thickness, ..undamped(ForceLaw::Bilinear) };
+        let u_ins = Wall::new(&wall).unwrap().body().instability.positive;
+        let u_start = fraction * u_ins;
+        let (_, demands) = free(&Parameters { u_start, ..wall }, 2, &[fraction]);
+        assert_eq!(demands.crossings[0].first, Some(Instant { value: u_start, time: 0.0 }));
+        below += u32::from(u_start / u_ins < fraction);
+    }
+    assert!(below > 0, "no fraction is rounded down");
+}
+
 /// u/u_ins = 1 − cosh pt + (v₀/p) sinh pt from u = 0.
 #[test]
 fn crossings_of_a_rigid_wall_have_their_closed_form() {

@@ -48,7 +48,7 @@ fn a_wall_at_a_corner_goes_where_it_moves() {
         assert_ne!(simulation.progress().state.branch, inner);
         event_at(&mut simulation, side * corner, -0.1 * side);
         assert_eq!(simulation.progress().state.branch, inner);
-        // half a margin beyond, a wall that moves back is still beyond
+        // a wall that moves back counts as beyond only from half a margin past the corner
         let margin = 1e-12 * simulation.wall().displacement_scale();
         for (share, beyond) in [(0.49, false), (0.51, true)] {
             event_at(&mut simulation, 0.0, 0.0);

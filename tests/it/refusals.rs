@@ -1,4 +1,4 @@
-//! Tests which walls are refused, and that their neighbours just within each limit are not.
+//! Tests which parameters and starts are refused, and that others near their limits are not.
 
 use rocking_wall::solver::Motion;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Rocking, Solver};
@@ -12,7 +12,7 @@ fn made(change: impl Fn(&mut Parameters)) -> Result<Wall, String> {
 }
 
 #[test]
-fn walls_that_cannot_be_are_refused() {
+fn invalid_parameters_are_refused() {
     type Change = fn(&mut Parameters);
     let rigid: Change = |wall| wall.force_law = ForceLaw::RigidLinear;
     let cases: [(Change, &str); 10] = [
@@ -83,7 +83,7 @@ fn walls_without_a_closed_form_are_refused_by_the_exact_solver() {
 
 /// A run starts up to the instability, and in front of transverse walls.
 #[test]
-fn starts_beyond_what_a_wall_can_do_are_refused() {
+fn starts_beyond_u_ins_or_behind_walls_are_refused() {
     let both = made(|_| {}).unwrap();
     let u_ins = both.body().instability.positive;
     for side in [1.0, -1.0] {

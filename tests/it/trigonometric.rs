@@ -60,10 +60,8 @@ fn shaken(motion: &Motion, start: f64, samples: &[f64], step: f64) -> Vec<State>
     states
 }
 
-/// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) only by
-/// terms of order δ².
 #[test]
-fn full_rotations_refuse_what_goes_with_small_ones() {
+fn full_rotations_refuse_what_needs_small_ones() {
     type Change = fn(&mut Parameters);
     let cases: [(Change, &str); 7] = [
         (|wall| wall.multilinear = Some([[0.1, 0.9], [1.0, 0.0]].into()), "force_law = multilinear"),
@@ -83,6 +81,8 @@ fn full_rotations_refuse_what_goes_with_small_ones() {
     }
 }
 
+/// ü is that at which the energy of a free motion stays: E(u + u̇ δ, u̇ + ü δ) differs from E(u, u̇) only by
+/// terms of order δ².
 #[test]
 fn accelerations_keep_the_energy() {
     for mechanism in MECHANISMS {
@@ -96,7 +96,7 @@ fn accelerations_keep_the_energy() {
             let rate = (after(1e-5) - after(-1e-5)) / 2e-5;
             let size = (v * a).abs() + (v * rotations.restoring(u, 1.0)).abs();
             assert!(rate.abs() < 1e-8 * size, "{mechanism:?}: {rate:e} of {size:e}");
-            // the energy at rest is that of the restoring force, from 0 on
+            // the energy at rest is the integral of the restoring force from u = 0, with the errors above
             let slope = (rotations.energy(u + 1e-5, 0.0) - rotations.energy(u - 1e-5, 0.0)) / 2e-5;
             let force = rotations.restoring(u, 1.0);
             assert!((slope - force).abs() < 1e-8 * force, "{mechanism:?}: {slope} for {force}");

@@ -72,7 +72,7 @@ fn directional_derivatives_are_those_of_the_outputs() {
             at.set_real(V::U, place);
             at.set_real(V::UDot, 0.07);
             at.update(&mut Log::silent()).unwrap();
-            // a drift that is given now acts, though no event has remembered it
+            // a drift acts at once, before an event or a completed step remembers it
             for (input, value) in INPUTS.into_iter().zip([0.2, -0.3, 0.4, 1e-3]) {
                 at.set_real(input, value);
             }

@@ -22,15 +22,16 @@ fn a_law_of_points_replaces_the_named_one() {
     assert_eq!(warnings, ["a1 is set and has no effect: it counts where force_law is not multilinear"]);
 }
 
-/// Damping and restitution are warned of where they go beyond what they stand for, and not just within.
+/// Damping and restitution are warned of beyond the range they stand for, and not inside it.
 #[test]
 fn damping_beyond_its_meaning_is_warned_of() {
     type Change = fn(&mut Parameters);
     let block: Change = |wall| wall.damping_model = DampingModel::FreeStandingBlock;
-    let cases: [(Change, Change, &str); 4] = [
+    let cases: [(Change, Change, &str); 5] = [
         (block, |wall| wall.overburden = 1e4, "computed c_bar (Eq. 23) is valid only for a parapet"),
         (|_| {}, |wall| wall.impact = Impact::Restitution, "computed damping already represents the impacts"),
-        (|_| {}, |wall| wall.a1 = 0.11, "a1 = 0.11 is outside the range 0.005 to 0.1"),
+        (|wall| wall.a1 = 0.1, |wall| wall.a1 = 0.101, "a1 = 0.101 is outside the range 0.005 to 0.1"),
+        (|wall| wall.a1 = 0.005, |wall| wall.a1 = 0.0049, "a1 = 0.0049 is outside the range"),
         (
             |wall| (wall.damping_model, wall.impact) = (DampingModel::None, Impact::Restitution),
             |wall| wall.restitution = 1.0,
@@ -103,6 +104,7 @@ fn improbable_numbers_are_warned_of() {
         (|wall| (wall.width, wall.overburden) = (0.07, 1.0), "overburden = 1 N is unusual: 7 to 70000 N"),
         (|wall| (wall.width, wall.overburden) = (0.07, 1e11), "overburden = 1e11 N is unusual: 7 to 70000 N"),
         (|wall| wall.height = 300.0, "height = 300 m is unusual: 0.2 to 30 m"),
+        // small numbers are in powers of ten
         (|wall| wall.density = 1e-5, "density = 1e-5 kg/m3 is unusual: 400 to 3000 kg/m3"),
         (|wall| wall.thickness = 5.0, "height/thickness = 0.8 is unusual: 1 to 100"),
         // meant in per cent

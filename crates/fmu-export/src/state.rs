@@ -59,7 +59,8 @@ impl<'a> StateCodec<'a> {
         Self { bytes: Bytes::Write(bytes) }
     }
 
-    /// Returns a codec that reads values in the order in which a [`writing`](Self::writing) one wrote them.
+    /// Returns a codec that reads values back in the order in which a [`writing`](Self::writing) one wrote
+    /// them.
     pub fn reading(bytes: &'a [u8]) -> Self {
         Self { bytes: Bytes::Read(bytes) }
     }

@@ -28,7 +28,7 @@ const FAST: f64 = 0.1;
 const MOST_TIME: f64 = 2.0;
 /// Guesses of the time of a corner.
 const MOST_GUESSES: u32 = 8;
-/// Largest step of a guess, over the time, after which the next one would be below rounding.
+/// Largest step between two guesses, over the time, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 /// The series of one run by itself, of any order.

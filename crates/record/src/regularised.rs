@@ -17,7 +17,7 @@ const HIGHEST: usize = 12;
 const MOST_GUESSES: u32 = 6;
 /// Largest |θ − 1| of a guess from which the expansion about it leads to θ = 1.
 const SMALL_MISS: f64 = 1e-6;
-/// Largest step of a guess, over σ, after which the next one would be below rounding.
+/// Largest Newton step, over σ, after which the next one would be below rounding.
 const SMALL_STEP: f64 = 1e-8;
 
 type Terms = [f64; ORDER + 1];
@@ -168,7 +168,7 @@ impl Regularised {
         let x = (1.0 + 0.5 * a) / (1.0 + a);
         let beyond = x * (1.0 + x * (a / 2.0 + x * (b * (1.0 / 3.0) + x * (c / 4.0 + x * d * 0.2)))) - 1.0;
         let value = 1.0 + x * (a + x * (b + x * c));
-        // the second-order term is small: a stands for the slope there
+        // the second-order term is small: y₁ stands for y′ there
         x - beyond * value / (value * value - 0.5 * beyond * a)
     }
 
@@ -181,7 +181,7 @@ impl Regularised {
         self.end_from(guess, most)
     }
 
-    /// Does the same from a guess of the σ at the end, with terms up to y₈.
+    /// Returns what `end` does, from a guess of the σ at the end and terms up to y₈.
     #[inline(always)]
     fn end_from(&mut self, mut x: f64, most: f64) -> Option<[f64; 2]> {
         for _ in 0..MOST_GUESSES {
@@ -216,7 +216,7 @@ impl Regularised {
         others < self.y[1].abs()
     }
 
-    /// Returns about where y − 1 comes to `goal`: two Newton steps by the terms up to y₈.
+    /// Returns about the σ at which y − 1 comes to `goal`: two Newton steps by the terms up to y₈.
     #[inline(always)]
     fn guess_of_passage(&self, goal: f64) -> f64 {
         let mut x = goal / self.y[1];

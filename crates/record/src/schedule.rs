@@ -324,7 +324,7 @@ mod tests {
             let (solver, record) = (RecordSolver::new(&motion, 0.01), Blocks::new(Forcing::Still(100)));
             let starts = [RunStart { state: motion.start(0.0, 0.0, Support::default()), factor: 1.0 }];
             let mut lanes = Lanes::new(&solver, &record, &starts, false, Unseen);
-            assert!(lanes.start_next(0) && !lanes.alone(0));
+            assert!(lanes.start_next(0) && !lanes.rest_on(0) && !lanes.alone(0));
             assert_eq!((lanes.rows.u[0], lanes.rows.v[0], lanes.sample(0)), (0.0, 0.0, 99));
             assert_eq!(lanes.runs[0].steps, searched, "{rocking:?}");
         }

@@ -211,7 +211,7 @@ impl Table {
         set(&mut self.growth, branch, single);
         set(&mut self.plain_growth, branch, if usable { plain } else { f64::INFINITY });
         let damping_share = if c > 0.0 { DAMPING_SHARE } else { 0.0 };
-        // finite, as it is multiplied by 0 for a wall that no forcing moves
+        // finite: it is multiplied by P + f̂, which is 0 for a wall at rest without forcing
         set(&mut self.speed_share, branch, (DAMPING_SHARE * (1.0 / c)).min(f64::MAX));
         set(&mut self.damping_share, branch, damping_share);
         // no step is plain where its bound is infinite
@@ -320,8 +320,8 @@ fn way(motion: &Motion, branch: usize, step: f64) -> Way {
         // a law of damping without a fast series
         Way::General
     } else if adaptive && wall.has_constant_damping() && !wall.branches()[branch].is_elastic() {
-        // the motion has a closed form, but the method asks for series on all but the elastic branch; with
-        // secant damping the branches without one are followed in closed form here
+        // the motion has a closed form, but the method asks for series on all but the elastic branch.
+        // Where other branches have secant damping, those with constant damping are followed in closed form.
         Way::General
     } else if motion.oscillators()[branch].is_spread(step) {
         Way::General

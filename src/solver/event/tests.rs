@@ -104,8 +104,8 @@ fn exits_have_their_closed_form() {
 /// The motion turns at cos(ωt) = −v/(Aω). Over several periods the search goes by halves.
 #[test]
 fn turning_points_have_their_closed_form() {
-    let periods = std::f64::consts::PI;
-    for (horizon, count, expected) in [(1.5, 0.0, 280), (20.5, 6.0, 3093)] {
+    let period = std::f64::consts::PI;
+    for (horizon, periods, expected) in [(1.5, 0.0, 280), (20.5, 6.0, 3093)] {
         let mut evaluations = 0;
         for part in 0..50 {
             let drift = 0.011 * f64::from(part);
@@ -114,8 +114,8 @@ fn turning_points_have_their_closed_form() {
             let mut peaks = Peaks::at(0.0);
             assert!(matches!(find_ending(&piece, [-99.0, 99.0], &mut peaks), Ok(Ending::Horizon(_))));
             let turn = 0.5 * libm::acos(-drift / 0.6);
-            let highest = u(turn + count * periods).max(u(horizon));
-            let lowest = if count > 0.0 { u(periods - turn).min(0.0) } else { 0.0 };
+            let highest = u(turn + periods * period);
+            let lowest = if periods > 0.0 { u(period - turn).min(0.0) } else { 0.0 };
             // the last step δ is made along constant ü, which leaves jerk δ³/6 of u, as soon as
             // jerk² δ⁴/(8 ü) is no more than ε u/4
             let (jerk, acceleration) = (2.4, 1.2 * libm::sin(2.0 * turn));

@@ -66,7 +66,7 @@ fn reactions_are_accurate_relative_to_their_terms() {
             let (found, count) = watched(&wall, &sway(amplitude, 0.01, 0.4), support);
             evaluations.push(count);
             let largest = amplitude * RATE * RATE + bottom.abs() + top.abs();
-            // the terms of ü and of u
+            // the size to which `forces` is accurate: the terms of ü, as large as all accelerations, and of u
             let [of_a, of_u] = [[largest, 0.0], [0.0, amplitude]]
                 .map(|[a, u]| body.reactions(Support::default(), a, u, true));
             let at = |u: f64| body.reactions(support, -RATE * RATE * u, u, true);

@@ -80,7 +80,8 @@ fn margins_of_blocks_are_those_of_their_longest_steps() {
         for (branch, oscillator) in motion.oscillators().iter().enumerate() {
             let c = oscillator.damping();
             assert_eq!(get(&table.damping_share, branch), if c > 0.0 { 0.25 } else { 0.0 });
-            assert_eq!(get(&table.speed_share, branch), (0.25 * (1.0 / c)).min(f64::MAX));
+            let share = if c > 0.0 { 0.25 * (1.0 / c) } else { f64::MAX };
+            assert_eq!(get(&table.speed_share, branch), share);
             let n = table.at_once as f64;
             assert_eq!(get(&table.growth, branch), growth(oscillator, step));
             assert_eq!(get(&table.plain_growth, branch), growth(oscillator, n * step));
@@ -125,7 +126,7 @@ fn corners_of_a_branch_with_long_steps_are_closed() {
     }
 }
 
-/// A wall with as many branches as a row holds takes plain steps on them, one with more takes none.
+/// A wall with as many branches as a row holds takes its steps by affine maps, one with more does not.
 #[test]
 fn a_row_holds_sixteen_branches() {
     let mut counts = vec![];
@@ -141,5 +142,5 @@ fn a_row_holds_sixteen_branches() {
         assert_eq!(way(&motion, elastic, 5e-3), expected, "{count}");
         counts.push(count);
     }
-    assert!(counts.contains(&MOST_BRANCHES), "{counts:?}");
+    assert!(counts.contains(&MOST_BRANCHES) && counts.contains(&(MOST_BRANCHES + 2)), "{counts:?}");
 }
