@@ -60,6 +60,23 @@ fn documents_name_what_exists() {
     assert!(paths > 80 && links > 70 && rows > 40, "{paths} paths, {links} links, {rows} names in tables");
 }
 
+/// What README says of errors is what docs/accuracy.md measured.
+#[test]
+fn the_readme_states_the_errors_that_were_measured() {
+    let table = read("docs/accuracy.md");
+    let rows = table.lines().filter(|line| line.starts_with("| Table 5, wall "));
+    let errors = |cell: usize| rows.clone().map(move |row| row.split('|').nth(cell).unwrap().trim().parse());
+    let (own, newmark): (Vec<f64>, Vec<f64>) =
+        (errors(4).collect::<Result<_, _>>().unwrap(), errors(5).collect::<Result<_, _>>().unwrap());
+    let walls: std::collections::BTreeSet<_> = rows.clone().map(|row| row.split(',').nth(1)).collect();
+    assert!(own.len() == 6 && walls.len() == 3, "{own:?}, {walls:?}");
+    assert!(own.iter().all(|error| *error <= 1e-11), "{own:?}");
+    let least = newmark.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = newmark.iter().copied().fold(0.0, f64::max);
+    let range = format!("off by {} to {} %", 100.0 * least, 100.0 * most);
+    assert!(read("README.md").contains(&range), "README.md: {range}");
+}
+
 #[test]
 fn every_equation_of_the_paper_has_its_place() {
     let text = read("docs/architecture.md");
