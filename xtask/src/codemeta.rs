@@ -70,10 +70,12 @@ fn publication(article: &str) -> Result<String> {
         Some(format!("{{\"@type\": \"Person\", \"familyName\": {family}, \"givenName\": {given}}}"))
     });
     let people = people.collect::<Vec<_>>().join(",\n      ");
-    let title = quoted(title);
-    Ok(format!(
-        "{{\n    \"@type\": \"ScholarlyArticle\",\n    \"name\": {title},\n    \"author\": [\n      {people}\n    ]\n  }}"
-    ))
+    let fields = [
+        "\"@type\": \"ScholarlyArticle\"".to_owned(),
+        format!("\"name\": {}", quoted(title)),
+        format!("\"author\": [\n      {people}\n    ]"),
+    ];
+    Ok(format!("{{\n    {}\n  }}", fields.join(",\n    ")))
 }
 
 /// Returns what follows a key at the start of a line, without quotes.
