@@ -57,8 +57,9 @@ The jobs of the project.
   cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
   cargo xtask codemeta [--check]   write codemeta.json from Cargo.toml and CITATION.cff
                                    --check: fail if it is stale
-  cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
-                                   functions 10^6 times at random, also under AddressSanitizer (nightly)
+  cargo xtask fuzz                 feed mutated inputs to five readers for a minute each, and call the FMI
+                                   functions 10^6 times at random, and 50,000 times under AddressSanitizer
+                                   (nightly)
   cargo xtask mutants [--count N] [--seed S] [PATH...]
                                    change the code in about N places, one at a time, and count what no
                                    Rust test notices, by cargo-mutants
