@@ -6,14 +6,15 @@ use crate::error::{CUT_SHORT, DAMAGED, Fault};
 pub(crate) type Line<'a> = (usize, &'a str);
 
 /// Returns the lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or
-/// `\r\r\n`.
+/// `\r\r\n`; in a text without `\n`, as old Macs wrote it, `\r`.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
 /// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
 pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
-    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let numbered = text.split(end).enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
 }
 
