@@ -314,6 +314,7 @@ fn filled(separator: Separator, row: &str) -> usize {
 /// Returns whether a line starts as a number does; it may stand in quotes.
 fn starts_a_number(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches('"').trim_start();
-    line.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | ','))
-        || line.parse::<f64>().is_ok()
+    // `,T [s]` is none
+    let digits = line.trim_start_matches(['+', '-']).trim_start_matches(['.', ',']);
+    digits.starts_with(|c: char| c.is_ascii_digit()) || line.parse::<f64>().is_ok()
 }

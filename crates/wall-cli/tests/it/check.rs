@@ -53,7 +53,7 @@ fn a_spectrum_states_its_unit() {
         refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave out --unit"]);
     }
     write("T,Sa (5 %)");
-    refused(&folder, &check, &["states no unit", "--unit"]);
+    refused(&folder, &check, &["s.csv, line 1", "a unit of acceleration", "--unit"]);
     assert!(printed(&folder, &[&check[..], &["--unit", "m/s2"]].concat()).contains("0.200000"));
 }
 
@@ -67,7 +67,7 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("T,Sa\n0.1,1\n2,0.5\n", "no T = 0");
     refuses("0,1\n1,0.5\n0.5,0.3\n", "line 3: expected periods from 0 on that rise");
     refuses("0,1\n1,0.5\n", "has no T = 1.4");
-    refuses("0,1\n1\n", "line 2: expected T in s and Sa");
+    refuses("0,1.0\n1\n", "line 2: expected 2 values");
 }
 
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
