@@ -231,9 +231,22 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// Returns the name of the first column, or else what a comment above the rows calls it. Refuses an empty
+    /// one above rows of numbers: that column is an index.
+    pub(crate) fn checked_first(&self) -> Result<Option<&Name>, Fault> {
+        match self.first() {
+            Some(name) if name.written().is_empty() => {
+                let remedy = "delete the first column, an index without a name (pandas: index=False)";
+                Err(Fault::excerpt(self.heading.0, "a name for the first column", self.heading.1, remedy))
+            }
+            first => Ok(first),
+        }
+    }
+
     /// Finds the only column beside the first.
     fn only_one(&self, first: &str) -> Result<usize, Fault> {
         let (line, text) = self.heading;
+        refuse_twins(&self.names, line)?;
         let (accelerations, others): (Vec<usize>, Vec<usize>) =
             (1..self.names.len()).partition(|&column| self.names[column].is_acceleration());
         match (self.width, &accelerations[..]) {
@@ -275,6 +288,15 @@ impl<'a> Columns<'a> {
                       `time,a_g`";
         Err(Fault::excerpt(line, expected, first, remedy))
     }
+}
+
+/// Refuses two columns of one name.
+fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
+    let mut named = names.iter().enumerate().filter(|(_, name)| !name.written().is_empty());
+    let Some((_, name)) = named.find(|(at, name)| names[..*at].contains(name)) else { return Ok(()) };
+    let found = format!("two columns {}", excerpt(name.written()));
+    let remedy = "delete one of them, or give each its own name";
+    Err(Fault::new(line, "columns with names of their own", found, remedy))
 }
 
 /// Returns the lines that are no comments. `sep=;`, by which Excel knows the separator, counts as one.

@@ -42,7 +42,7 @@ const TIMES: [(&[&str], f64); 5] = [
     (&["ms", "msec", "msecs", "millisecond", "milliseconds"], 1e-3),
     (&["µs", "μs", "us", "microsecond", "microseconds"], 1e-6),
     (&["min", "mins", "minute", "minutes"], 60.0),
-    (&["h", "hr", "hrs", "hour", "hours"], 3600.0),
+    (&["hr", "hrs", "hour", "hours"], 3600.0),
 ];
 
 const FREQUENCIES: [&str; 8] = ["hz", "khz", "1/s", "s-1", "rad/s", "rads-1", "r/s", "cps"];

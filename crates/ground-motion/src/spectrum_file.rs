@@ -122,7 +122,7 @@ fn is_abscissa(name: &Name) -> bool {
 
 /// Refuses a first column that is not the period in seconds.
 fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
-    let Some(name) = columns.first() else { return Ok(()) };
+    let Some(name) = columns.checked_first()? else { return Ok(()) };
     let words = name.words();
     let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
     let unit = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));
@@ -137,6 +137,5 @@ fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
         _ => "make the periods in s the first column, and name it `T [s]`".to_owned(),
     };
     let expected = "periods in s in the first column";
-    let found = if name.written().is_empty() { columns.heading() } else { name.written() };
-    Err(Fault::excerpt(columns.line(), expected, found, remedy))
+    Err(Fault::excerpt(columns.line(), expected, name.written(), remedy))
 }

@@ -13,7 +13,7 @@ pub struct Name {
 
 impl Name {
     /// Splits `a_g [m/s2]` or `a_g (m/s2)` into the name and its unit. Of several brackets the first that
-    /// holds a unit counts, or else one at the end.
+    /// holds a unit of acceleration counts, or else the first with another unit, or else one at the end.
     pub(super) fn of(cell: &str) -> Self {
         let written = unquoted(cell).into_owned();
         let brackets = written.match_indices(['[', '(']).filter_map(|(at, opening)| {
@@ -23,7 +23,9 @@ impl Name {
             let is_last = rest[end + 1..].trim().is_empty();
             Some((at, rest[..end].trim(), is_last))
         });
-        let unit = brackets.clone().find(|(_, text, _)| Quantity::of(text).is_some());
+        let is_acceleration = |text: &str| matches!(Quantity::of(text), Some(Quantity::Acceleration(_)));
+        let unit = brackets.clone().find(|(_, text, _)| is_acceleration(text));
+        let unit = unit.or_else(|| brackets.clone().find(|(_, text, _)| Quantity::of(text).is_some()));
         let unit = unit.or_else(|| brackets.clone().find(|(.., is_last)| *is_last));
         let text = unit.map_or(&*written, |(at, ..)| &written[..at]).trim().to_owned();
         let unit = unit.map(|(_, unit, _)| unit.to_owned());

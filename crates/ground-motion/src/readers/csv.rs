@@ -79,7 +79,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
 
 /// Refuses a first column that is not the time in seconds.
 fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
-    let Some(name) = columns.first() else { return Ok(()) };
+    let Some(name) = columns.checked_first()? else { return Ok(()) };
     let words = name.words();
     let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
     let stated = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));

@@ -121,8 +121,11 @@ fn tables_of_records_are_refused() {
             &["line 2", "a time of the day"],
         ),
         (table("time,a_g\n", ",", "", ".").replace("\n", "\n14:48:"), &["line 2", "a time of the day"]),
-        (comma(",time,acc\n"), &["line 1", "column"]),
-        (comma("time [s],a [m/s2],a [m/s2]\n"), &["line 1", "one column beside `time`", "--column"]),
+        (
+            ",time,acc\n".to_owned() + &table("\n", ",", "", ".").replace("\n", "\n1,"),
+            &["line 1", "delete the first column", "index=False"],
+        ),
+        (comma("time [s],a [m/s2],a [m/s2]\n"), &["line 1", "two columns `a [m/s2]`"]),
         (comma("t [s],a [m/s2]\n").replace("\n1.00,", "\n1.00,nan #"), &["line 102", "a finite number"]),
         (comma(header).replace("\n1.00", "\n1.005"), &["line 102", "step"]),
     ] {
@@ -199,7 +202,7 @@ fn long_time_steps_are_warned_of_and_refused() {
     assert_mentions(&error, &["x.txt", "at most 1 s", "found 10 s", "milliseconds", "--record-step"]);
     assert!(warns(&rows(10.0), &with_step(10.0)).is_some());
     assert!(warns("1\n2\n", &with_step(2.0)).is_some());
-    let smc = crate::specimen::smc(&motion());
+    let smc = crate::specimen::smc(&crate::specimen::SAMPLES);
     let slow = smc.replacen(" 1.0000000E2", "1.0000000E-1", 1);
     assert!(smc != slow);
     assert_mentions(&crate::read("x.smc", &slow, &RecordOptions::default()).unwrap_err(), &["found 10 s"]);
@@ -273,7 +276,7 @@ fn spectra_are_refused() {
     let index = ",T [s],Sa [g]\n0,0,0.25\n1,0.5,0.75\n";
     assert_mentions(
         &spectrum(index, None, None).unwrap_err(),
-        &["line 1", "first column", "`,T [s],Sa [g]`"],
+        &["line 1", "delete the first column", "`,T [s],Sa [g]`"],
     );
     let cp1252 = SpectrumFile::parse("s.csv", b"T [s];Sa [m/s\xb2]\n0;1\n1;1\n".to_vec(), None, None);
     let error = cp1252.unwrap_err().to_string();
