@@ -170,8 +170,9 @@ impl Warning {
 }
 
 impl Record {
-    /// Checks that the time step is that of a record, that the ground comes to rest, that the peak is credible and agrees with the one that the file
-    /// states, and that neither the start nor the end of the shaking is missing.
+    /// Checks that the time step is that of a record, that the ground comes to rest, that the peak is
+    /// credible and agrees with the one that the file states, and that neither the start nor the end of the
+    /// shaking is missing.
     pub fn check(&self) -> Check {
         let motion = &self.motion;
         let [peak_velocity, final_velocity] = velocities(motion);

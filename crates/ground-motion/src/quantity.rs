@@ -103,8 +103,8 @@ impl Quantity {
             }
         };
         let remedy = format!(
-            "{remedy}; m/s2, cm/s2, mm/s2 and g are read, and a unit that you state does not override that of \
-             the file"
+            "{remedy}; m/s2, cm/s2, mm/s2 and g are read, and a unit that you state does not override that \
+             of the file"
         );
         Fault::excerpt(line, "a unit of acceleration", word, remedy)
     }

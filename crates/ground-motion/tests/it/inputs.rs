@@ -30,7 +30,9 @@ fn table(header: &str, between: &str, behind: &str, mark: &str) -> String {
 fn at2(units: &str, count: &str) -> String {
     let mut text = format!("PEER NGA STRONG MOTION\nSomewhere, 1/1/2000, Station, 090\n{units}\n{count}\n");
     for line in motion().chunks(5) {
-        line.iter().for_each(|a| text += &format!("{:15.7E}", a / 9.806_65));
+        for a in line {
+            let _ = write!(text, "{:15.7E}", a / 9.806_65);
+        }
         text.push('\n');
     }
     text
@@ -85,7 +87,7 @@ fn tables_of_records_are_read() {
         (table("% by MATLAB\n% t [s], a [g]\n", ",", "", "."), &si()),
         (table("#Time [sec] \tAcceleration [m/s2]\n", "    ", "", "."), &si()),
         (table("sep=;\ntime;a_g\n", ";", "", ","), &si()),
-        (table("", "  ", "", ".").replace("\n", "D+00\n"), &si()),
+        (table("", "  ", "", ".").replace('\n', "D+00\n"), &si()),
         (table("time [s],a [m/s2],v [m/s],d [m]\n", ",", ",1,2", "."), &none),
     ] {
         let start: String = text.chars().take(60).collect();
@@ -117,12 +119,12 @@ fn tables_of_records_are_refused() {
         (comma("# t [ms], a [m/s2]\n"), &["times in s", "`ms`"]),
         (comma("time,acc\nms,m/s2\n"), &["times in s", "`ms`"]),
         (
-            table("time,a_g\n", ".00,", "", ".").replace("\n", "\n2023/05/18 "),
+            table("time,a_g\n", ".00,", "", ".").replace('\n', "\n2023/05/18 "),
             &["line 2", "a time of the day"],
         ),
-        (table("time,a_g\n", ",", "", ".").replace("\n", "\n14:48:"), &["line 2", "a time of the day"]),
+        (table("time,a_g\n", ",", "", ".").replace('\n', "\n14:48:"), &["line 2", "a time of the day"]),
         (
-            ",time,acc\n".to_owned() + &table("\n", ",", "", ".").replace("\n", "\n1,"),
+            ",time,acc\n".to_owned() + &table("\n", ",", "", ".").replace('\n', "\n1,"),
             &["line 1", "delete the first column", "index=False"],
         ),
         (comma("time [s],a [m/s2],a [m/s2]\n"), &["line 1", "two columns `a [m/s2]`"]),
@@ -185,7 +187,8 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
 
 #[test]
 fn long_time_steps_are_warned_of_and_refused() {
-    let rows = |step: f64| -> String { (0..50).map(|i| format!("{} 0.5\n", f64::from(i) * step)).collect() };
+    let rows =
+        |step: f64| (0..50).fold(String::new(), |rows, i| rows + &format!("{} 0.5\n", f64::from(i) * step));
     let warns = |text: &str, options: &RecordOptions| {
         let record = crate::read("x.txt", text, options).unwrap();
         let warnings = record.check().warnings;
