@@ -32,7 +32,7 @@ const LENGTHS: [(&[&str], f64); 9] = [
 
 /// Parts of g: names, and their sizes in g.
 const PARTS_OF_G: [(&[&str], f64); 3] = [
-    (&["%g", "g%", "percentg", "pctg"], 0.01),
+    (&["%g", "g%", "pctg"], 0.01),
     (&["mg", "milli-g", "millig"], 0.001),
     (&["µg", "μg", "ug", "micro-g", "microg"], 1e-6),
 ];
@@ -112,7 +112,9 @@ impl Quantity {
 
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
 pub(crate) fn plain(text: &str) -> String {
-    let text = text.to_lowercase().replace("sec", "s").replace('²', "2").replace(['−', '⁻'], "-");
+    let text = text.to_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
+    let text = text.replace("second", "s").replace("sec", "s");
+    let text = text.replace('²', "2").replace(['−', '–', '⁻'], "-");
     let text = text.replace('¹', "1").replace('⁄', "/");
     let is_mark = |c: char| c.is_whitespace() || matches!(c, '^' | '*' | '·' | '⋅' | '(' | ')');
     let text: String = text.chars().filter(|c| !is_mark(*c)).collect();

@@ -47,8 +47,8 @@ impl Parsed {
             return Err(Fault::new(last_line, "at least two samples", found, remedy));
         }
         if step > LONGEST_STEP && stated_step.is_none() {
-            let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the step \
-                          is right, state it as `step` (on the command line --record-step, in Python dt)";
+            let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the \
+                          step is right, state it as `step` (on the command line --record-step, in Python dt)";
             let expected = format!("a time step of at most {LONGEST_STEP} s");
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }

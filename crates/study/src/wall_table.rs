@@ -16,8 +16,8 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 /// The column of the walls' names.
 const NAME: &str = "name";
 
-/// Reads the walls of a table. An empty cell leaves its parameter at the default, a row without any content is
-/// skipped.
+/// Reads the walls of a table. An empty cell leaves its parameter at the default, a row without any content
+/// is skipped.
 pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
     let file = path.display().to_string();
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)

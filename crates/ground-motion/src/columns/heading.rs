@@ -27,8 +27,9 @@ impl Name {
         let unit = brackets.clone().find(|(_, text, _)| is_acceleration(text));
         let unit = unit.or_else(|| brackets.clone().find(|(_, text, _)| Quantity::of(text).is_some()));
         let unit = unit.or_else(|| brackets.clone().find(|(.., is_last)| *is_last));
-        let text = unit.map_or(&*written, |(at, ..)| &written[..at]).trim().to_owned();
-        let unit = unit.map(|(_, unit, _)| unit.to_owned());
+        let unit = unit.map(|(at, unit, _)| (at, unit)).or_else(|| behind(&written));
+        let text = unit.map_or(&*written, |(at, _)| &written[..at]).trim().to_owned();
+        let unit = unit.map(|(_, unit)| unit.to_owned());
         Self { written, text, unit }
     }
 
@@ -63,6 +64,14 @@ impl Name {
         let quantity = self.unit.as_deref().and_then(Quantity::of);
         quantity.is_some_and(|of| !matches!(of, Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
     }
+}
+
+/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`. The g of
+/// `a_g` is none: it may mean the ground.
+fn behind(name: &str) -> Option<(usize, &str)> {
+    let at = name.rfind(',').or_else(|| name.rfind(['_', ' ']).filter(|at| name[*at..].contains('/')))?;
+    let unit = name[at + 1..].trim();
+    Quantity::of(unit).map(|_| (at, unit))
 }
 
 /// Finds the bracket that closes one which is open at the start of a text.

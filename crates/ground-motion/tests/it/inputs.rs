@@ -82,7 +82,7 @@ fn tables_of_records_are_read() {
         (table("t [s],a [m\u{b7}s\u{207b}\u{b2}]\n", ",", "", "."), &none),
         (table("t [s],a [m.s-2]\n", ",", "", "."), &none),
         (table("Time (s),Acceleration (m / s ^ 2)\n", ",", "", "."), &none),
-        (table("Time (s);Acceleration, m/s2\n", ";", "", "."), &si()),
+        (table("Time (s);Acceleration, m/s2\n", ";", "", "."), &none),
         (table("time_s,acc\n", ",", "", "."), &si()),
         (table("% by MATLAB\n% t [s], a [g]\n", ",", "", "."), &si()),
         (table("#Time [sec] \tAcceleration [m/s2]\n", "    ", "", "."), &si()),
@@ -181,8 +181,25 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
             }
         }
     }
-    let error = crate::read("x.csv", &table("time,velocity\n", ",", "", "."), &si()).unwrap_err();
-    assert_mentions(&error, &["line 1", "this is a velocity"]);
+    for (name, words) in [
+        ("velocity", "this is a velocity"),
+        ("a_ft/s2", "1 ft/s2 is 0.3048 m/s2"),
+        ("Acceleration, ft/s2", "1 ft/s2 is 0.3048 m/s2"),
+        ("Acceleration, cm/s2", "the stated unit m/s2, found cm/s2"),
+    ] {
+        let error = crate::read("x.csv", &table(&format!("time;{name}\n"), ";", "", "."), &si()).unwrap_err();
+        assert_mentions(&error, &["line 1", words]);
+    }
+    for (unit, words) in [
+        ("% G", "1 % G is 0.01 g"),
+        ("FT / SEC / SEC", "1 FT / SEC / SEC is 0.3048 m/s2"),
+        ("FEET PER SECOND SQUARED", "is 0.3048 m/s2"),
+    ] {
+        let text = at2(&IN_G.replace("OF G", &format!("OF ({unit}), CORRECTED")), COUNT);
+        assert_mentions(&crate::read("x.AT2", &text, &si()).unwrap_err(), &["line 3", words]);
+    }
+    let text = at2(&IN_G.replace("OF G", "OF CM / SEC / SEC"), COUNT);
+    assert_eq!(crate::read("x.AT2", &text, &RecordOptions::default()).unwrap().unit.name(), "cm/s2");
 }
 
 #[test]
