@@ -48,7 +48,8 @@ impl Parsed {
         }
         if step > LONGEST_STEP && stated_step.is_none() {
             let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the \
-                          step is right, state it as `step` (on the command line --record-step, in Python dt)";
+                          step is right, state it, as `step` (on the command line --record-step, in Python \
+                          dt)";
             let expected = format!("a time step of at most {LONGEST_STEP} s");
             return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
