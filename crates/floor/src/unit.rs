@@ -245,15 +245,15 @@ impl Model for Unit {
             V::SpringForce => Some(spring),
             V::DampingForce => Some(damping),
             V::ReactionBottom => Some(-(spring + damping)),
-            // steps, and sums of them
-            V::ImpulseBottom
-            | V::DisplacementPlastic
-            | V::EnergyDamping
-            | V::EnergyHysteretic
-            | real_local!()
-            | real_input!()
-            | real_parameter!()
-            | real_calculated!() => None,
+            V::DisplacementPlastic => Some(self.state.plastic_rate()),
+            V::EnergyDamping => Some(self.damping_force() * self.state.velocity),
+            V::EnergyHysteretic => {
+                let force = self.floor.yielding.map_or(0.0, |yielding| yielding.force);
+                Some(force * self.state.plastic_rate().abs())
+            }
+            // it changes at communication points alone
+            V::ImpulseBottom => Some(0.0),
+            real_local!() | real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
 
