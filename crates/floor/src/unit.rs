@@ -5,7 +5,7 @@ use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec,
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
 use crate::inputs::{Base, Inputs, Source};
-use crate::motion::{Load, State};
+use crate::motion::{Load, State, Work};
 use crate::values;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
@@ -104,7 +104,7 @@ impl Unit {
         let coupling = self.parameters.coupling;
         let load = self.inputs.ahead(&self.floor, coupling, duration);
         let velocity = self.state.velocity;
-        let corners = self
+        let Work { corners, .. } = self
             .state
             .advance(&self.floor, load, duration)
             .map_err(|error| format!("in the step from t = {from} s: {error}"))?;
