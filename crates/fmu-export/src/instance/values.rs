@@ -100,6 +100,9 @@ impl<M: Model> Instance<M> {
             return self.set_at_end(references, values);
         }
         for (&reference, &value) in references.iter().zip(values) {
+            if self.has_number(reference, value) {
+                continue;
+            }
             let id: M::Real = self.find(Access::Set, reference)?;
             let variable = id.variable();
             if phase.is_before_the_start() || !self.purpose.states.contains(&id) {
@@ -107,7 +110,23 @@ impl<M: Model> Instance<M> {
             }
             limits::check_real(variable, value)?;
         }
-        self.set(references, values, |model, variable, &value| model.set_real(variable, value))
+        self.set(references, values, |model, variable, &value| model.set_real(variable, value));
+        Ok(())
+    }
+
+    /// Returns whether a parameter or input of another type than Real has the value `number`: some importers
+    /// set all of them as Reals, and none to another value.
+    fn has_number(&self, reference: u32, number: f64) -> bool {
+        let model = &self.now.model;
+        let integer =
+            M::Integer::from_reference(reference).map(|id| (id.variable(), model.integer(id).into()));
+        let boolean = || {
+            let id = M::Boolean::from_reference(reference)?;
+            Some((id.variable(), f64::from(model.boolean(id))))
+        };
+        integer.or_else(boolean).is_some_and(|(variable, value): (_, f64)| {
+            matches!(variable.causality, Causality::Input | Causality::Parameter) && value == number
+        })
     }
 
     /// Sets those Integer and Enumeration variables that the function `serves`.
@@ -126,7 +145,8 @@ impl<M: Model> Instance<M> {
             if let Ok(value) = i32::try_from(value.into()) {
                 model.set_integer(variable, value);
             }
-        })
+        });
+        Ok(())
     }
 
     /// 0 is false, anything else true.
@@ -139,7 +159,8 @@ impl<M: Model> Instance<M> {
             let id: M::Boolean = self.find(Access::Set, reference)?;
             self.check_settable(id.variable(), |model| model.boolean(id) == (*value != false.into()))?;
         }
-        self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()))
+        self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()));
+        Ok(())
     }
 
     pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
@@ -147,7 +168,8 @@ impl<M: Model> Instance<M> {
             let id: M::Text = self.find(Access::Set, reference)?;
             self.check_settable(id.variable(), |model| model.text(id) == *value)?;
         }
-        self.set(references, values, |model, variable, value| model.set_text(variable, value))
+        self.set(references, values, |model, variable, value| model.set_text(variable, value));
+        Ok(())
     }
 
     /// Returns the variable of one type with this value reference.
@@ -196,21 +218,16 @@ impl<M: Model> Instance<M> {
 
     /// Sets values after all of them have been checked. If one is refused, none is set. A variable that may
     /// not change now keeps the value that it has.
-    fn set<V: VariableId, T>(
-        &mut self,
-        references: &[u32],
-        values: &[T],
-        set: impl Fn(&mut M, V, &T),
-    ) -> Result<(), Failure> {
+    fn set<V: VariableId, T>(&mut self, references: &[u32], values: &[T], set: impl Fn(&mut M, V, &T)) {
         for (&reference, value) in references.iter().zip(values) {
-            let id: V = self.find(Access::Set, reference)?;
-            if !self.keeps_its_value(id.variable()) {
+            // none for a variable of another type, which has this value
+            let id = V::from_reference(reference).filter(|id| !self.keeps_its_value(id.variable()));
+            if let Some(id) = id {
                 set(&mut self.now.model, id, value);
             }
         }
         // After initialisation `calculate` is not called: a model applies a tunable parameter in `set_*`.
         self.now.stale |= self.now.phase.is_before_the_start();
-        Ok(())
     }
 }
 

@@ -107,6 +107,32 @@ fn a_parameter_is_set_to_the_value_that_it_has_at_any_time() {
     }
 }
 
+/// GEMSEO-FMU sets every parameter as a Real before each step, enumerations too.
+#[test]
+fn an_enumeration_is_set_as_a_real_to_the_value_that_it_has() {
+    let [law, force, substeps, held] = [
+        Integer::Law.reference(),
+        Real::Force.reference(),
+        Integer::Substeps.reference(),
+        Boolean::Held.reference(),
+    ];
+    for importer in [Importer::new(), Importer::swinging(), Exchange::in_event_mode()] {
+        let references = [law, force, substeps, held];
+        let set = |values: [f64; 4]| unsafe {
+            fmi2SetReal(importer.component, references.as_ptr(), 4, values.as_ptr())
+        };
+        assert_eq!(set([1.0, 2.0, 8.0, 0.0]), OK, "{:?}", importer.journal.take());
+        assert_eq!(set([1.0, 3.0, 8.5, 0.0]), ERROR);
+        importer.expect_error(&["fmi2SetReal: substeps is an Integer: use fmi2SetInteger"]);
+    }
+    let importer = Importer::swinging();
+    let status = unsafe { fmi2SetReal(importer.component, [law, force].as_ptr(), 2, [1.0, 2.0].as_ptr()) };
+    assert_eq!((status, importer.get(Real::Force), importer.get_integer(Integer::Law)), (OK, 2.0, 1));
+    // an output is not set, whatever its value
+    let count = Integer::Count.reference();
+    assert_eq!(unsafe { fmi2SetReal(importer.component, &count, 1, &0.0) }, ERROR);
+}
+
 #[test]
 fn a_boolean_is_read_as_a_real_with_one_warning() {
     let references = [Boolean::Moving.reference(), Real::X.reference(), Boolean::Clamped.reference()];
@@ -188,7 +214,7 @@ fn a_function_of_another_type_says_which_one_it_is() {
          "fault is an Int32: use fmi3SetInt32"),
         (|c| unsafe { fmi3GetFloat64(c, &Integer::Count.reference(), 1, &mut 0.0, 1) },
          "count is an Int32: use fmi3GetInt32"),
-        (|c| unsafe { fmi3SetFloat64(c, &Boolean::Held.reference(), 1, &0.0, 1) },
+        (|c| unsafe { fmi3SetFloat64(c, &Boolean::Held.reference(), 1, &1.0, 1) },
          "held is a Boolean: use fmi3SetBoolean"),
         (|c| unsafe { fmi3GetBinary(c, &Text::Label.reference(), 1, &mut 0, &mut null(), 1) },
          "label is a String: use fmi3GetString"),
@@ -196,7 +222,7 @@ fn a_function_of_another_type_says_which_one_it_is() {
          "time is a Float64: use fmi3GetFloat64"),
         (|c| unsafe { fmi3GetOutputDerivatives(c, &Integer::Count.reference(), 1, &1, &mut 0.0, 1) },
          "count is an Int32 and has no derivatives"),
-        (|c| unsafe { fmi2SetReal(c, &Integer::Law.reference(), 1, &1.0) },
+        (|c| unsafe { fmi2SetReal(c, &Integer::Law.reference(), 1, &2.0) },
          // the instance is of FMI 3.0, whoever calls
          "law is an Enumeration: use fmi3SetInt64"),
     ];
