@@ -73,8 +73,8 @@ pub struct Work {
 
 /// Most spans that are followed in one step.
 ///
-/// A floor with a natural frequency of 1000 rad/s turns as often in 160 s. A span takes up to 5 µs, so that no
-/// step takes half a second.
+/// A floor with a natural frequency of 1000 rad/s turns as often in 160 s. A span takes up to 5 µs, so that
+/// no step takes half a second.
 pub const MOST_SPANS: usize = 50_000;
 
 /// By how much a spring may be beyond its limit before it yields, relative to the displacements.
