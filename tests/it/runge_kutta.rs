@@ -1,5 +1,5 @@
-//! Peaks of a wall by the classical Runge-Kutta method. It shares with the solvers only the equation: ü on each
-//! branch, and what its corners are.
+//! Peaks of a wall by the classical Runge-Kutta method. It shares only the equation with the solvers: ü on
+//! each branch, and what its corners are.
 
 use rocking_wall::wall::{Branch, Support, Wall};
 
@@ -7,9 +7,9 @@ use rocking_wall::wall::{Branch, Support, Wall};
 pub(crate) type Ranges = [[f64; 2]; 6];
 
 /// Longest step: in radians of the branch, and where C varies in parts of the way from the nearest corner.
-const STEP: [f64; 2] = [0.02, 0.04];
+const STEP: [f64; 2] = [0.015, 0.02];
 /// Most steps of one run: stiff elastic branches take more.
-const MOST_STEPS: u32 = 20_000;
+const MOST_STEPS: u32 = 40_000;
 
 /// A wall on its way through one segment.
 struct Way<'a> {
