@@ -220,8 +220,6 @@ struct ExtremeSearch<'a, P> {
 struct Node {
     offset: f64,
     value: f64,
-    /// Bound on the second derivative since the node before.
-    curvature: f64,
 }
 
 impl<'a, P: Piece> ExtremeSearch<'a, P> {
@@ -266,24 +264,28 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         quantity: &Quantity<F>,
     ) -> Result<Option<Instant>, SearchExhausted> {
         let [number, share] = quantity.curvature;
-        let curvature = number + share * self.snap;
+        let above = |width: f64, snap: f64| 0.125 * width * width * (number + share * snap);
         let node = |offset: f64, motion: &KinematicState| Node {
             offset,
             value: sign * (quantity.value)(offset, motion),
-            curvature,
         };
-        let mut found = Node { offset: f64::NAN, value: best, curvature };
-        let mut left = node(0.0, &self.seen[0].1);
-        // from right to left, because the last interval added is searched first
-        let mut pending = [left; DEEPEST];
-        for (place, (offset, motion)) in pending.iter_mut().zip(self.seen[1..].iter().rev()) {
-            *place = node(*offset, motion);
+        let first = self.seen.map(|(offset, motion)| node(offset, &motion));
+        let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
+        let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
+        if highest + above(longest, self.snap) <= best {
+            return Ok(None);
         }
-        let mut count = FIRST - 1;
-        for node in [left].iter().chain(&pending[..count]) {
+        let mut found = Node { offset: f64::NAN, value: best };
+        for node in first {
             if node.value > found.value {
-                found = *node;
+                found = node;
             }
+        }
+        // from right to left, because the last interval added is searched first
+        let (mut left, mut count) = (first[0], FIRST - 1);
+        let mut pending = [left; DEEPEST];
+        for (place, node) in pending.iter_mut().zip(first[1..].iter().rev()) {
+            *place = *node;
         }
         for visited in 0..MOST_INTERVALS {
             let Some(index) = usize::checked_sub(count, 1) else {
@@ -292,21 +294,19 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             };
             let right = pending[index];
             let width = right.offset - left.offset;
-            let most = left.value.max(right.value) + 0.125 * width * width * right.curvature;
+            let higher = left.value.max(right.value);
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
-            if most <= found.value + tolerance || count == DEEPEST {
+            let within = |snap: f64| higher + above(width, snap) <= found.value + tolerance;
+            // the bound between two instants is smaller than that over the whole piece, which is known
+            let between = || self.piece.snap([left.offset, right.offset], self.bounds);
+            if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
                 (left, count) = (right, index);
                 continue;
             }
             let offset = 0.5 * (left.offset + right.offset);
-            let mut middle = node(offset, &self.piece.balanced(offset));
-            if share > 0.0 {
-                let curvature = |between| number + share * self.piece.snap(between, self.bounds);
-                middle.curvature = curvature([left.offset, offset]);
-                pending[index].curvature = curvature([offset, right.offset]);
-            }
+            let middle = node(offset, &self.piece.balanced(offset));
             if middle.value > found.value {
                 found = middle;
             }
