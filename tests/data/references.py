@@ -1,6 +1,6 @@
 """Computes the references of `wall verify` from the mechanics, in decimal arithmetic of 40 digits.
 
-    python tests/data/references.py          # writes crates/study/src/verification/references.csv
+    python tests/data/references.py          # writes crates/evidence/src/verification/references.csv
 
 Scenes are those of formulas.toml beside that file. Forces follow from the potential energy of the bodies and
 masses from integrals over the height, so that this shares nothing with the library but the equations.
@@ -15,7 +15,7 @@ from pathlib import Path
 
 getcontext().prec = 40
 ROOT = Path(__file__).parents[2]
-FOLDER = ROOT / "crates/study/src/verification"
+FOLDER = ROOT / "crates/evidence/src/verification"
 CASES = ROOT / "tests/data/cases"
 # 45 units of rounding in double precision, 2.2e-16
 ROUNDING = Decimal("1e-14")

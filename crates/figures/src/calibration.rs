@@ -9,10 +9,9 @@
 //! assert_eq!(charts(&[found]).len(), 2);
 //! ```
 
-use study::calibration::{Calibration, Coefficient, DampingModel, Fit};
+use study::calibration::{Calibration, Coefficient, DampingModel, FREE_STANDING, Fit, REGRESSIONS};
 use study::chart::{Axis, Chart, Series};
 use study::model::{Label, label};
-use study::reproduce::printed::{FREE_STANDING, REGRESSIONS};
 
 /// Series that a chart holds without repeating a colour.
 const MOST_SERIES: usize = 6;

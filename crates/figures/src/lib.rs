@@ -7,12 +7,11 @@
 //!
 //! | module | draws |
 //! |---|---|
-//! | [`mod@plot`] | lines and marks over two axes, by kuva: what the next five are made of |
+//! | [`mod@plot`] | lines and marks over two axes, by kuva: what the next four are made of |
 //! | [`chart`] | the charts of a study, with title and legend |
 //! | [`response`] | histories, the force path on its backbone, small beside full rotations |
 //! | [`capacity`] | capacity curves with their secants |
 //! | [`records`] | accelerograms above their response spectra |
-//! | [`work_precision`] | error against run time |
 //! | [`heat_map`] | cells in colours, and the scale of these colours |
 //! | [`many_lines`] | thousands of lines in few bytes, with their style |
 //! | [`rocking_spectrum`] | rocking spectra as heat maps |
@@ -39,7 +38,6 @@ pub mod rocking_spectrum;
 pub mod sheet;
 pub mod template;
 pub mod tie;
-pub mod work_precision;
 
 pub use axes::{number, ticks};
 

@@ -1,8 +1,8 @@
 //! Every formula against a reference of its own.
 
+use evidence::verification::{Check, library, verify};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use study::verification::{Check, library, verify};
 
 use crate::errors::failed;
 use crate::tables::Column::{Flags, Names, Numbers};

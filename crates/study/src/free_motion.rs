@@ -8,7 +8,10 @@ use rocking_wall::wall::{COMPUTED, Damping, Parameters, Support, Wall};
 const ENERGY_ROUNDING: f64 = 1e-13;
 
 /// Advances a wall without excitation by `duration` \[s\].
-pub(crate) fn advance(
+///
+/// # Errors
+/// [`SolverError`] if the motion cannot be followed; the state is as it was.
+pub fn advance(
     motion: &Motion,
     state: &mut State,
     duration: f64,
@@ -33,14 +36,14 @@ pub(crate) fn peak_is_final(wall: &Wall, state: &State) -> bool {
 }
 
 /// Returns a wall with restitution and no damping.
-pub(crate) fn with_restitution(parameters: &Parameters, restitution: f64) -> Parameters {
+pub fn with_restitution(parameters: &Parameters, restitution: f64) -> Parameters {
     let mut rocking = Parameters { impact: Impact::Restitution, restitution, ..parameters.clone() };
     rocking.set_damping(Damping::NONE);
     rocking
 }
 
 /// Returns a wall with a damping ratio, ξ or c̄, and no impacts.
-pub(crate) fn with_damping(parameters: &Parameters, model: DampingModel, ratio: f64) -> Parameters {
+pub fn with_damping(parameters: &Parameters, model: DampingModel, ratio: f64) -> Parameters {
     let mut damped = Parameters { impact: Impact::None, restitution: COMPUTED, ..parameters.clone() };
     damped.set_damping(Damping::given(model, ratio));
     damped

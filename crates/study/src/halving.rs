@@ -2,7 +2,16 @@
 
 /// Halves an interval a number of times, and keeps the half in which something begins. It has not begun at
 /// the first end and has at the second; returns the second end of what is left.
-pub(crate) fn begins_at<E>(
+///
+/// ```
+/// let root = study::halving::begins_at([1.0, 2.0], 52, |x| Ok::<_, ()>(x * x >= 2.0))?;
+/// assert!((root - 2.0_f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), ()>(())
+/// ```
+///
+/// # Errors
+/// The error of `has_begun`, if it fails.
+pub fn begins_at<E>(
     [mut before, mut after]: [f64; 2],
     halvings: u32,
     mut has_begun: impl FnMut(f64) -> Result<bool, E>,

@@ -1,16 +1,16 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints. Only [`loaded`], `wall_table` and [`validation`] open files. Each module uses only
-//! modules above it in this table:
+//! Nothing here prints. Only [`loaded`] and `wall_table` open files. Each module uses only modules above
+//! it in this table:
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`parallel`] | work shared by threads |
 //! | [`chart`] | charts as plain data |
 //! | `random` | random numbers that are the same on every machine |
-//! | `halving` | where something begins, found by halving |
-//! | `free_motion` | free motion of a wall, with impacts or with viscous damping |
+//! | [`halving`] | where something begins, found by halving |
+//! | [`free_motion`] | free motion of a wall, with impacts or with viscous damping |
 //! | [`model`] | damping models: names, meanings and colours; walls that have them |
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
 //! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
@@ -25,13 +25,7 @@
 //! | [`tie`] | force and displacement over the stiffness of a tie |
 //! | [`check`] | static capacity against a response spectrum |
 //! | [`circolare`] | the check of a wall by the Italian code, Circolare 7/2019 |
-//! | [`accuracy`] | error against run time of every solver; error of small rotations |
-//! | [`stability`] | stability maps and extremes |
-//! | [`reproduce`] | the tables and figures of the paper |
-//! | [`validation`] | the model beside published tests |
-//! | [`verification`] | every formula against a reference of its own |
 
-pub mod accuracy;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod calibration;
 pub mod chart;
@@ -39,24 +33,18 @@ pub mod check;
 pub mod circolare;
 pub mod document;
 pub mod fragility;
-mod free_motion;
-mod halving;
+pub mod free_motion;
+pub mod halving;
 pub mod ida;
 pub mod loaded;
 pub mod model;
 pub mod parallel;
 pub mod polarity;
 mod random;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod reproduce;
 pub mod results;
 pub mod spectrum;
-pub mod stability;
 pub mod tables;
 pub mod tie;
-pub mod validation;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod verification;
 mod wall_table;
 
 /// Fingerprint of the sources that runs depend on: the solver, ground motions, levels and the versions of

@@ -132,7 +132,11 @@ fn every_equation_of_the_paper_has_its_place() {
 #[test]
 fn modules_are_listed_as_in_the_source() {
     let text = read("docs/architecture.md");
-    for (title, source) in [("rocking-wall", "src/lib.rs"), ("study", "crates/study/src/lib.rs")] {
+    for (title, source) in [
+        ("rocking-wall", "src/lib.rs"),
+        ("study", "crates/study/src/lib.rs"),
+        ("evidence", "crates/evidence/src/lib.rs"),
+    ] {
         let source = read(source);
         let modules = |lines: &str, start: &str| -> Vec<String> {
             let rows = lines.lines().filter_map(|line| line.strip_prefix(start)?.split('|').next());
@@ -141,7 +145,7 @@ fn modules_are_listed_as_in_the_source() {
         let start = format!("Modules of `{title}`");
         let section = text.split("\n### ").find(|section| section.starts_with(&start)).unwrap();
         let listed = modules(&source, "//! | ");
-        assert!(listed.len() > 7, "{listed:?}");
+        assert!(listed.len() >= 5, "{listed:?}");
         let table = section.split("\n\n").find(|part| part.starts_with("| module")).unwrap();
         assert_eq!(modules(table, "| "), listed, "{title}");
     }

@@ -119,7 +119,7 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &str); 15] = [
+const KNOWN: [(&str, &str); 16] = [
     ("fmu-export", ""),
     ("fmu-export-build", "fmu-export"),
     ("rocking-oscillator", ""),
@@ -129,6 +129,10 @@ const KNOWN: [(&str, &str); 15] = [
     ("rocking-record", "rocking-oscillator rocking-wall"),
     ("rocking-study", "fmu-export ground-motion rocking-record rocking-wall"),
     ("rocking-figures", "rocking-study"),
+    (
+        "rocking-evidence",
+        "fmu-export ground-motion rocking-figures rocking-record rocking-study rocking-wall",
+    ),
     ("rocking-study-folder", "ground-motion rocking-figures rocking-study rocking-wall"),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
@@ -138,13 +142,13 @@ const KNOWN: [(&str, &str); 15] = [
     ("rocking-playground", "fmu-export ground-motion rocking-figures rocking-study rocking-wall"),
     (
         "rocking-wall-python",
-        "fmu-export ground-motion rocking-building rocking-figures rocking-record rocking-scene-fmu \
-         rocking-study rocking-study-folder rocking-wall",
+        "fmu-export ground-motion rocking-building rocking-evidence rocking-figures rocking-record \
+         rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
     ),
     (
         "rocking-wall-cli",
-        "fmu-export fmu-export-build ground-motion rocking-building rocking-figures rocking-floor \
-         rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
+        "fmu-export fmu-export-build ground-motion rocking-building rocking-evidence rocking-figures \
+         rocking-floor rocking-scene-fmu rocking-study rocking-study-folder rocking-wall",
     ),
 ];
 

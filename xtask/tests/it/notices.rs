@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
-const ABOVE_THE_UNIT: [&str; 10] = [
+const ABOVE_THE_UNIT: [&str; 11] = [
     "argmin",
     "clap",
     "fearless_simd",
@@ -13,6 +13,7 @@ const ABOVE_THE_UNIT: [&str; 10] = [
     "parquet",
     "pyo3",
     "rocking-building",
+    "rocking-evidence",
     "rocking-record",
     "rocking-study",
     "serde_json",

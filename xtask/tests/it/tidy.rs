@@ -109,15 +109,21 @@ fn fuzzers_have_one_list_of_seeds() {
     }
 }
 
-/// Modules of `rocking-study` that open files, as its head lists them.
+/// Modules of `rocking-study` and `rocking-evidence` that open files, as their heads list them.
 #[test]
 fn studies_open_files_where_their_head_says() {
     const OPENS: [&str; 3] = ["read_text(", "Scene::read(", "std::fs::"];
-    let src = "crates/study/src/";
     let opens = |text: &str| OPENS.iter().any(|word| text.contains(word));
     let modules = files().into_iter().filter(|(name, text)| is_rust(name) && opens(text));
-    let modules: Vec<_> = modules.filter_map(|(name, _)| Some(name.strip_prefix(src)?.to_owned())).collect();
-    assert_eq!(modules, ["loaded.rs", "validation/case.rs", "wall_table.rs"]);
-    let head = read("crates/study/src/lib.rs");
-    assert!(head.contains("Only [`loaded`], `wall_table` and [`validation`] open files"));
+    let modules: Vec<String> = modules.map(|(name, _)| name).collect();
+    let lists: [(&str, &[&str], &str); 2] = [
+        ("study", &["loaded.rs", "wall_table.rs"], "Only [`loaded`] and `wall_table` open files"),
+        ("evidence", &["validation/case.rs"], "Only [`validation`] opens files"),
+    ];
+    for (name, expected, words) in lists {
+        let src = format!("crates/{name}/src/");
+        let found: Vec<_> = modules.iter().filter_map(|module| module.strip_prefix(&src)).collect();
+        assert_eq!(found, expected, "{name}");
+        assert!(read(&format!("{src}lib.rs")).contains(words), "{name}");
+    }
 }

@@ -45,6 +45,15 @@ use minimum::minimum;
 /// Default time between the samples that Eq. (18) compares \[s\].
 pub const STEP: f64 = 0.01;
 
+/// What the paper prints for x = q a₁^r in Eqs. (20)–(22): damping model, number of the equation, q and r.
+pub const REGRESSIONS: [(DampingModel, u8, [f64; 2]); 3] = [
+    (DampingModel::ConstantCoefficient, 20, [0.667, 0.450]),
+    (DampingModel::ConstantRatio, 21, [0.350, 0.074]),
+    (DampingModel::StiffnessProportional, 22, [0.218, -0.195]),
+];
+/// What the paper prints for x of a free-standing block, Eq. (23): c̄ = −1.55 ln e.
+pub const FREE_STANDING: f64 = 1.55;
+
 /// Values over which a wall is calibrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {

@@ -1,11 +1,8 @@
-//! The tests of studies, checks and comparisons.
+//! The tests of studies and checks.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
-use std::path::Path;
-
-mod accuracy;
 mod calibration;
 mod circolare;
 mod circolare_cases;
@@ -14,20 +11,7 @@ mod circolare_properties;
 mod circolare_refusals;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
-mod extremes;
-mod figure_15;
 mod fragility;
 mod ida;
-mod linearisation;
-#[path = "../../../ground-motion/tests/it/records.rs"]
-mod records;
-mod reproduce;
 mod rocking_spectrum;
 mod storeys;
-mod validation;
-mod verification;
-
-/// Returns the root of the workspace.
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}

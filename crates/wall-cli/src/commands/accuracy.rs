@@ -7,14 +7,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use evidence::accuracy::linearisation::both_rotations;
+use evidence::accuracy::page::{Peers, page, picture, read_peers};
+use evidence::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure};
 use rocking_wall::scene::Scene;
-use study::accuracy::linearisation::both_rotations;
-use study::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure};
 
 use crate::args::RecordArguments;
 use crate::output;
-use crate::pages;
-use crate::pages::work_precision::{Peers, read_peers};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -82,13 +81,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     output::save(arguments.csv.as_ref(), || csv(&studies))?;
     output::save(arguments.linearisation.as_ref(), || linearisation::csv(&rotations))?;
-    output::picture(arguments.plot.as_ref(), || {
-        Ok(pages::work_precision::picture(&studies, peers.as_ref()))
-    })?;
-    output::save(arguments.html.as_ref(), || {
-        let section = pages::linearisation::section(&rotations);
-        pages::work_precision::page(&studies, &section, peers.as_ref())
-    })
+    output::picture(arguments.plot.as_ref(), || Ok(picture(&studies, peers.as_ref())))?;
+    output::save(arguments.html.as_ref(), || page(&studies, &rotations, peers.as_ref()))
 }
 
 fn peers(path: &Path) -> Result<Peers> {

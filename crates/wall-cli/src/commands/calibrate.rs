@@ -9,11 +9,10 @@ use clap::Args;
 use figures::calibration::{charts, printed};
 use figures::{chart, escaped};
 use study::calibration::{
-    Calibration, Coefficient, Fit, Grid, STEP, calibrate, calibrated_models, model_named,
+    Calibration, Coefficient, Fit, Grid, REGRESSIONS, STEP, calibrate, calibrated_models, model_named,
 };
 use study::model::{Label, damping_models, label};
 use study::parallel::threads;
-use study::reproduce::printed::REGRESSIONS;
 
 use crate::args::SceneArguments;
 use crate::output;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, value_parser};
-use study::stability::{Extreme, Map, RowQuantity, extremes, map, maps};
+use evidence::stability::page::{axis_words, page, scientific};
+use evidence::stability::{Extreme, Map, RowQuantity, extremes, map, maps};
 
 use crate::output;
-use crate::pages::stability::{axis_words, page, scientific};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
+use evidence::validation::{Case, DecayComparison, Push, PushComparison, Test};
 use figures::chart::picture;
 use study::chart::{Axis, Chart, Series};
 use study::model::color;
-use study::validation::{Case, DecayComparison, Push, PushComparison, Test};
 
 use crate::output;
 
@@ -80,7 +80,7 @@ fn columns(texts: impl Iterator<Item = String>) -> String {
 }
 
 fn push_chart(title: &str, push: &Push, comparison: &PushComparison) -> Chart {
-    let line = |(k, law): (usize, &study::validation::PushedLaw)| {
+    let line = |(k, law): (usize, &evidence::validation::PushedLaw)| {
         let name = if k == 0 { law.name.to_owned() } else { format!("{}, a3 = {:.3}", law.name, law.a3) };
         let series = if k == 0 { Series::dashed } else { Series::line };
         series(&name, if k == 0 { color("none") } else { k - 1 }, law.corners.clone())

@@ -8,9 +8,9 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Args;
-use figures::{escaped, template};
+use evidence::verification::page::{number, page, short};
+use evidence::verification::{Check, Counts, Formula, library, verify, verify_scenes};
 use serde_json::{Value, json};
-use study::verification::{Check, Formula, library, verify, verify_scenes};
 
 use crate::output;
 use importer::Fmu;
@@ -57,46 +57,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(if counts.failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(FAILED) })
 }
 
-/// Numbers that pass, fail, or are missing.
-struct Counts {
-    passed: usize,
-    failed: usize,
-    missing: usize,
-    formulas: usize,
-}
-
-impl Counts {
-    fn of(formulas: &[Formula]) -> Self {
-        let checks = || formulas.iter().flat_map(|formula| &formula.checks);
-        let failed = checks().filter(|check| !check.passes()).count();
-        let missing = checks().filter(|check| check.computed.is_none()).count();
-        Self { passed: checks().count() - failed - missing, failed, missing, formulas: formulas.len() }
-    }
-
-    fn words(&self) -> String {
-        let Self { passed, failed, missing, formulas } = self;
-        let absent = if *missing > 0 { format!(", {missing} not in the FMU") } else { String::new() };
-        format!("{passed} PASS, {failed} FAIL{absent}: numbers of {formulas} formulas")
-    }
-}
-
-/// The result of a check in a word.
-fn word(check: &Check) -> &'static str {
-    match check.computed {
-        None => "none",
-        Some(_) if check.passes() => "PASS",
-        Some(_) => "FAIL",
-    }
-}
-
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.9e}"))
-}
-
-fn short(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.0e}"))
-}
-
 fn table(formulas: &[Formula]) -> String {
     let mut text = format!(
         "{:<28} {:<36} {:<10} {:>16} {:>16} {:>6} {:>6}\n",
@@ -113,7 +73,7 @@ fn table(formulas: &[Formula]) -> String {
                 number(*computed),
                 short(check.error()),
                 short(Some(*bound)),
-                word(check)
+                check.word()
             );
         }
         text.push('\n');
@@ -132,7 +92,7 @@ fn json(subject: &str, formulas: &[Formula], counts: &Counts) -> Value {
             "scale": check.scale,
             "error": check.error(),
             "bound": check.bound,
-            "result": word(check),
+            "result": check.word(),
         })
     };
     let formula = |formula: &Formula| {
@@ -176,39 +136,4 @@ fn markdown(formulas: &[Formula]) -> String {
         text.push('\n');
     }
     text
-}
-
-fn page(subject: &str, formulas: &[Formula], counts: &Counts) -> String {
-    let mut sections = String::new();
-    for (index, Formula { title, statement, reference, why, checks, .. }) in formulas.iter().enumerate() {
-        let [title, statement, reference, why] = [title, statement, reference, why].map(|text| escaped(text));
-        let _ = write!(
-            sections,
-            "<section><h2>{}. {title}</h2>\n<p>{statement}.</p>\n\
-             <p>Reference: {reference}. Bound: {why}.</p>\n\
-             <div class=\"scroll\"><table><tr><th>case</th><th>quantity</th><th>unit</th>\
-             <th>reference</th><th>computed</th><th>error</th><th>bound</th><th>result</th></tr>\n",
-            index + 1
-        );
-        for check in checks {
-            let word = word(check);
-            let _ = writeln!(
-                sections,
-                "<tr class=\"{word}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
-                 <td>{}</td><td>{word}</td></tr>",
-                escaped(&check.case),
-                escaped(&check.quantity),
-                check.unit,
-                number(Some(check.reference)),
-                number(check.computed),
-                short(check.error()),
-                short(Some(check.bound))
-            );
-        }
-        sections.push_str("</table></div></section>\n");
-    }
-    let (subject, counts) = (escaped(subject), counts.words());
-    let parts = [("title", "Verification manual"), ("subject", &*subject), ("counts", &counts)];
-    let parts = [&parts[..], &[("sections", &sections)]].concat();
-    template::page(include_str!("../pages/verify.html"), &parts)
 }

@@ -10,7 +10,7 @@ use rocking_wall::variables::Impact;
 use rocking_wall::wall::{Parameters, Wall, usage};
 
 use crate::output::demands;
-use study::accuracy::counterpart::Counterpart;
+use evidence::accuracy::counterpart::Counterpart;
 
 use super::moving::{Moving, factors, frames, page, plot, rounded, verdict};
 

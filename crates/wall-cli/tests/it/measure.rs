@@ -46,7 +46,7 @@ fn stability_maps_every_solver() {
     let folder = folder("stability");
     let table = printed(&folder, &["stability", "--columns", "2", "--csv", "s.csv", "--html", "s.html"]);
     let rows = rows(&folder, "s.csv");
-    let maps = 2 * study::stability::maps().len();
+    let maps = 2 * evidence::stability::maps().len();
     assert_eq!(rows.len(), maps * 9 * 2);
     let of = |solver: &'static str| rows.iter().filter(move |row| row[0] == solver);
     for row in of("automatic") {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use study::accuracy::linearisation::{BothRotations, SLENDERNESS, STARTS};
+use evidence::accuracy::linearisation::{BothRotations, SLENDERNESS, STARTS};
 use study_folder::csv::optional;
 
 pub(super) fn table(both: &[BothRotations]) -> String {

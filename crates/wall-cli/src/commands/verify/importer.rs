@@ -6,6 +6,7 @@ use std::ffi::{CStr, CString};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use evidence::verification::Quantity;
 use fmu_export::VariableId;
 use fmu_export::ffi::types::{
     Boolean, CO_SIMULATION, CallbackFunctions, Component, Integer, OK, Real, Status, Text, Type,
@@ -17,7 +18,6 @@ use rocking_wall::simulation::segment_of;
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::{Kinematics, Support};
 use scene_fmu::General;
-use study::verification::Quantity;
 
 type Instantiate =
     unsafe extern "C" fn(Text, Type, Text, Text, *const CallbackFunctions, Boolean, Boolean) -> Component;

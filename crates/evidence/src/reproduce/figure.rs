@@ -1,0 +1,36 @@
+//! Figures as data, and what several of them need.
+
+use rocking_wall::response::{Response, Sample};
+use rocking_wall::scene::{Scene, SceneError};
+use rocking_wall::simulation::Excitation;
+use rocking_wall::wall::Parameters;
+use study::chart::Chart;
+
+/// A figure of the paper, computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Number.
+    pub number: u8,
+    /// Title.
+    pub title: &'static str,
+    /// Assumptions, and what does not match print.
+    pub notes: Vec<String>,
+    /// Panels.
+    pub charts: Vec<Chart>,
+}
+
+/// Computes the history of a wall, free or excited, at `step` up to `end` \[s\].
+pub(super) fn history(
+    parameters: &Parameters,
+    excitation: Option<Excitation>,
+    [step, end]: [f64; 2],
+) -> Result<Vec<Sample>, SceneError> {
+    let parameters = parameters.clone();
+    let scene = Scene { parameters, excitation, stop_time: end, output_step: step, ..Scene::default() };
+    Ok(Response::of(&scene)?.samples)
+}
+
+/// Returns `count` + 1 equally spaced values.
+pub(super) fn spaced([from, to]: [f64; 2], count: u32) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |index| from + (to - from) * f64::from(index) / f64::from(count))
+}

@@ -1,0 +1,90 @@
+//! The paper's tables and figures, computed now, beside the printed numbers.
+//!
+//! Each module uses only modules above it in this table:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`printed`] | the numbers that the paper prints |
+//! | `table`, `figure`, `error` | tables and figures as data, and the error |
+//! | `formulas` | Tables 1 and 2 |
+//! | [`tables`] | Tables 3, 4 and 5 |
+//! | `rotations` | Figures 2 and 3: full rotations |
+//! | `closed_forms` | Figures 4 and 13: closed forms |
+//! | `free_vibrations` | Figures 5, 6 and 7: free vibrations |
+//! | `section_5` | Figures 8 to 12: calibration |
+//! | `harmonic` | Figure 14: forced vibrations |
+//! | [`collapse`] | Figure 15: incremental dynamic analyses |
+//! | [`page`] | the page |
+//!
+//! ```
+//! let table = evidence::reproduce::tables::table_3();
+//! let agree = table.values().filter(|value| value.agrees()).count();
+//! assert!(agree >= 8);
+//! ```
+
+mod closed_forms;
+pub mod collapse;
+mod error;
+mod figure;
+mod formulas;
+mod free_vibrations;
+mod harmonic;
+pub mod page;
+pub mod printed;
+mod rotations;
+mod section_5;
+mod table;
+pub mod tables;
+
+use std::num::NonZeroUsize;
+
+pub use error::ReproductionError;
+pub use figure::Figure;
+pub use table::{Cell, Table, Value};
+
+/// All tables and figures that need no records, in the order of the paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reproduction {
+    /// Tables; the last one holds numbers from captions and text.
+    pub tables: Vec<Table>,
+    /// Figures.
+    pub figures: Vec<Figure>,
+}
+
+/// Number of parts that [`reproduce`] computes.
+const PARTS: usize = section_5::CALIBRATIONS + 6;
+
+/// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
+/// records, is computed by [`collapse::figure_15`]. Calls `finished` with the number of all
+/// parts after each part.
+///
+/// # Errors
+/// [`ReproductionError`] if a wall, a motion, a run or a calibration fails.
+pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, ReproductionError> {
+    let [table_1, table_2] = formulas::tables_1_and_2()?;
+    let section_5 = section_5::Section5::new(threads, || finished(PARTS))?;
+    let drawn = |figure: Figure| {
+        finished(PARTS);
+        figure
+    };
+    let tables = vec![
+        table_1,
+        table_2,
+        tables::table_3(),
+        tables::table_4(),
+        tables::table_5()?,
+        section_5.equations(),
+        free_vibrations::captions(threads)?,
+    ];
+    let mut figures = vec![
+        drawn(rotations::free_vibrations()?),
+        drawn(rotations::periods()?),
+        drawn(closed_forms::figure_4()?),
+        drawn(free_vibrations::figure_5()?),
+        drawn(free_vibrations::figure_6()?),
+        drawn(free_vibrations::figure_7()?),
+    ];
+    figures.extend(section_5.figures());
+    figures.extend([closed_forms::figure_13(), harmonic::figure_14()?]);
+    Ok(Reproduction { tables, figures })
+}
