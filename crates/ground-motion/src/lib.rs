@@ -5,6 +5,7 @@
 //! | item | gives |
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
+//! | [`is_companion`] | whether a file has the times of a record beside it |
 //! | [`read_file`] | the content of any regular file of a limited size |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
@@ -19,6 +20,7 @@
 //! finite. Units are converted where a file is read and nowhere else.
 
 mod check;
+mod companion;
 mod error;
 mod fields;
 mod file;
@@ -33,8 +35,10 @@ pub mod spectrum;
 mod storeys;
 mod synthetic;
 mod unit;
+mod vertical;
 
 pub use check::{Check, Warning};
+pub use companion::is_companion;
 pub use error::GroundMotionError;
 pub use file::read_file;
 pub use format::Format;

@@ -54,7 +54,8 @@ pub(crate) struct RecordOptionsArguments {
     /// Channel of a record with several, by its number; `wall record` without it shows all
     #[arg(long, requires = "recorded")]
     channel: Option<String>,
-    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
+    /// Format of the record (at2, esm, knet, knet-csv, cosmos, csmip, smc, geonet, afad, cwa, unam, volume1,
+    /// csv, numbers), if its content does not tell
     #[arg(long, requires = "recorded")]
     format: Option<String>,
 }

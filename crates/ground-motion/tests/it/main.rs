@@ -11,6 +11,7 @@ mod configuration;
 mod damaged_records;
 mod motion;
 mod pulse;
+mod record_agencies;
 mod record_at2;
 mod record_csv;
 mod record_file;

@@ -17,7 +17,8 @@ use study_folder::csv::quoted;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV or text
+    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA, UNAM,
+    /// RENADIC/BHRC, CSV or text
     #[arg(group = "recorded", required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]

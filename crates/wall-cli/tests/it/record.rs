@@ -95,7 +95,10 @@ fn bad_requests_are_refused() {
     let cases: [(&[&str], &[&str]); 9] = [
         (&["record", "column.csv", "--record-step", "0.01"], &["column.csv, line 1", "no unit", "cm/s2"]),
         (&["record", "column.csv", "--record-step", "0.01", "--unit", "feet"], &["`feet`", "cm/s2"]),
-        (&["record", "one.AT2", "--format", "sac"], &["`sac`", "at2, esm, knet, cosmos, csmip, smc, csv"]),
+        (
+            &["record", "one.AT2", "--format", "sac"],
+            &["`sac`", "at2, esm, knet, knet-csv, cosmos, csmip, smc, geonet"],
+        ),
         (&["record", "one.AT2", "--format", "smc"], &["one.AT2, line 1", "CORRECTED ACCELEROGRAM"]),
         (&["record", "two.V2", "--channel", "3"], &["`3`", "`1: 90 Deg`, `2: Up`"]),
         (&["record", "one.AT2", "--periods", "0.2,1000"], &["1000", "0.001 to 100 s"]),
