@@ -8,6 +8,7 @@
 //! | [`is_companion`] | whether a file has the times of a record beside it |
 //! | [`read_file`] | the content of any regular file of a limited size |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
+//! | [`is_vertical_channel`] | whether a channel such as `HNZ` is vertical |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
 //! | [`Spectrum`] | Sa at any period and damping, AvgSA |
@@ -51,3 +52,4 @@ pub use spectrum::{Maxima, Spectrum};
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
 pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};
+pub use vertical::is_vertical_channel;

@@ -13,6 +13,18 @@ pub(crate) fn is_vertical(direction: &str) -> bool {
     words.any(|word| VERTICAL.iter().any(|vertical| word.eq_ignore_ascii_case(vertical)))
 }
 
+/// Returns whether the code of a channel is vertical: `HNZ` and any other of three letters that ends in Z, by
+/// the rules of FDSN, or a word such as `UP`.
+///
+/// ```
+/// use ground_motion::is_vertical_channel;
+///
+/// assert!(is_vertical_channel("HNZ") && is_vertical_channel("U-D") && !is_vertical_channel("HNE"));
+/// ```
+pub fn is_vertical_channel(code: &str) -> bool {
+    is_vertical(code) || (code.len() == 3 && code.ends_with(['Z', 'z']))
+}
+
 /// Returns whether a file is vertical by its name or by that of the column that is read, where its format
 /// states no direction: `…-UP.AT2`, `X.ABC..HNZ.csv`, the column `U-D`.
 pub(crate) fn by_name(name: &str, format: Format, options: &RecordOptions) -> bool {
