@@ -147,7 +147,8 @@ def test_samples_in_a_unit(unit, factor):
 
 def trace(channel="HNE", data=SAMPLES, **stats):
     """An object as ObsPy's traces are."""
-    return SimpleNamespace(data=data, id=f"XX.STA..{channel}", stats=SimpleNamespace(channel=channel, **stats))
+    stats = SimpleNamespace(channel=channel, **stats)
+    return SimpleNamespace(data=data, id=f"XX.STA..{channel}", stats=stats)
 
 
 def test_a_trace_becomes_a_record():
@@ -176,7 +177,7 @@ def test_a_trace_becomes_a_record():
 
 def test_a_vertical_file_is_warned_of(tmp_path):
     path = tmp_path / "a-UP.AT2"
-    path.write_text("A\nB, 1/1/2001, C, UP\nUNITS OF G\nNPTS= 3, DT= .01 SEC\n0 0.1 0\n", encoding="utf-8")
+    path.write_text("A\nB, 1/1/2001, C, UP\nUNITS OF G\nNPTS= 3, DT= .01 SEC\n0 1 0\n", encoding="utf-8")
     with pytest.warns(UserWarning, match="a-UP.AT2: vertical"):
         rw.read_record(path)
 

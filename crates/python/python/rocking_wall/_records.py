@@ -99,7 +99,8 @@ class Record:
         Record('HNE', 3 samples of 0.01 s, PGA 0.125 m/s²)
         """
         data, stats = getattr(trace, "data", None), getattr(trace, "stats", None)
-        if data is None or not hasattr(stats, "delta"):
+        delta = getattr(stats, "delta", None)
+        if data is None or delta is None:
             raise TypeError(
                 f"expected a trace with data and stats.delta, found a value of the type "
                 f"{type(trace).__name__}; of a stream take one trace, stream[0]"
@@ -113,7 +114,7 @@ class Record:
         name = name or str(getattr(trace, "id", "") or channel or "trace")
         for warning in warnings:
             warn(f"{name}: {warning}", stacklevel=2)
-        return cls(float(stats.delta), data, unit=unit, name=name, warnings=warnings)
+        return cls(float(delta), data, unit=unit, name=name, warnings=warnings)
 
     def __repr__(self) -> str:
         return f"Record({self.name!r}, {len(self.a)} samples of {self.dt:g} s, PGA {self.pga:.4g} m/s²)"
