@@ -192,15 +192,13 @@ fn known_formats_that_are_not_read_are_named() {
     let csmnc = "051XXX1304\nCOMP. EW\nUNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC\n\
                  NO. OF POINTS:  2  EQUALLY SPACED INTERVALS OF:  0.01  SEC\n 0.1 0.2\n";
     let usc = "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nUNITS ARE SEC AND G/10\n";
-    for (text, name) in [
-        (csmnc, "a record of CSMNC, China"),
-        ("SIMBAD v05, a record\nNPTS= 2, DT= 0.01\n1 2\n", "a record of SIMBAD, Italy"),
-        (usc, "unevenly spaced film data of USC or USGS"),
+    let simbad = "SIMBAD v05, a record\nNPTS= 2, DT= 0.01\n1 2\n";
+    for (text, name, remedy) in [
+        (csmnc, "a record of CSMNC, China", "--record-step"),
+        (simbad, "a record of SIMBAD, Italy", "--record-step"),
+        (usc, "volume 1 of USC or USGS", "unevenly spaced film data"),
     ] {
-        assert_mentions(
-            &plain(text).unwrap_err(),
-            &["line 1", "a format that is read", name, "--record-step"],
-        );
+        assert_mentions(&plain(text).unwrap_err(), &["line 1", "a format that is read", name, remedy]);
     }
 }
 

@@ -125,7 +125,7 @@ fn a_folder_is_listed() {
     let lines: Vec<_> = table.lines().collect();
     for (line, words) in [
         (0, &["file", "format", "channels", "points", "step [s]", "PGA [g]", "findings"][..]),
-        (1, &["one.AT2", "PEER AT2", "  1  ", " 11 ", " 0.01 ", " 0.10529 "]),
+        (1, &["one.AT2", "PEER AT2", "  1  ", " 11 ", " 0.01 ", " 0.10529"]),
         (2, &["two.V2", "CSMIP V2", "  2  ", " 11 ", "vertical (1)", "tail"]),
         (3, &["up.AT2", "vertical"]),
         (4, &["not read  ", "column.csv, line 3: expected a stated step"]),

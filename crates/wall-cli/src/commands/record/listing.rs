@@ -36,9 +36,7 @@ pub(super) fn table(rows: &[Row], unread: &[String]) -> String {
         let points = motions().map(|motion| motion.samples().len()).max().unwrap_or(0);
         let step = motions().map(ground_motion::GroundMotion::step).fold(0.0, f64::max);
         let peak = channels.iter().map(Row::peak).fold(0.0, f64::max);
-        // writing to a String cannot fail
-        let _ = writeln!(
-            text,
+        let row = format!(
             "{:width$}  {:13}  {:>8}  {points:>7}  {:>8}  {peak:>8.5}  {}",
             channels[0].file,
             channels[0].record.format.description(),
@@ -46,6 +44,8 @@ pub(super) fn table(rows: &[Row], unread: &[String]) -> String {
             figures::number(step, 6),
             findings(channels)
         );
+        // writing to a String cannot fail
+        let _ = writeln!(text, "{}", row.trim_end());
     }
     for reason in unread {
         let _ = writeln!(text, "not read  {reason}");
