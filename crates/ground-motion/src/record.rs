@@ -134,7 +134,7 @@ fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format
     check_is_text(&bytes)?;
     let decoded = decode(bytes);
     let text = sound_part(&decoded)?;
-    let format = options.format.map_or_else(|| Format::of(name, text), Ok)?;
+    let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
     let mut parsed = format.parse(text, options)?;
     if vertical::by_name(name, format, options) {
         for channel in &mut parsed {

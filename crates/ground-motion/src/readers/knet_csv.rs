@@ -45,9 +45,18 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let expected = format!("a line that names the columns, `#Time,{TIME},N-S(gal)`");
         return Err(Fault::new(1, expected, "none", "check that this is a K-NET file as CSV"));
     };
-    let (frequency_line, frequency) = below(&header, FREQUENCY)?;
-    let step = 1.0 / frequency;
-    options.check_step(step, frequency_line)?;
+    let mut times = lines(text).skip(header.len()).map(|(_, line)| real(line.split(',').nth(1)?.trim()));
+    let (step_line, step) = match (below(&header, FREQUENCY)?, times.next().flatten(), times.next().flatten())
+    {
+        (Some((line, frequency)), ..) => (line, 1.0 / frequency),
+        // a table without the header of NIED
+        (None, Some(first), Some(second)) if second > first => (names_line, second - first),
+        _ => {
+            let expected = format!("{FREQUENCY}, or two samples at rising {TIME}");
+            return Err(Fault::new(names_line, expected, "none", "complete the file"));
+        }
+    };
+    options.check_step(step, step_line)?;
     let columns: Vec<(&str, &str)> = names.split(',').skip(2).take(MOST + 1).map(name_and_unit).collect();
     let unit = options.unit_of(columns[0].1, names_line)?;
     if let Some((_, other)) = columns.iter().find(|(_, other)| *other != columns[0].1) {
@@ -66,23 +75,30 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         components.push(cells, number)?;
     }
-    let (duration_line, duration) = below(&header, DURATION)?;
-    let stated = floor_index((duration * frequency).round());
-    // some files have a sample at the end of the duration
     let found = components.channels[0].samples.len();
-    let stated = if found == stated + 1 { found } else { stated };
-    let stated_by = format!("{DURATION} above line {duration_line}, {duration} s at {frequency} Hz,");
+    let (stated, stated_by) = match below(&header, DURATION)? {
+        Some((line, duration)) => {
+            let stated = floor_index((duration / step).round());
+            let stated_by = format!("{DURATION} on line {line}, {duration} s at steps of {step} s,");
+            // some files have a sample at the end of the duration
+            (if found == stated + 1 { found } else { stated }, stated_by)
+        }
+        None => (found, String::new()),
+    };
     components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#')))
 }
 
-/// Reads the positive number on the line below a label.
-fn below(header: &[Line<'_>], label: &str) -> Result<(usize, f64), Fault> {
+/// Reads the positive number on the line below a label; `None` without the label.
+fn below(header: &[Line<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
     let place = header.iter().position(|(_, line)| line.trim_start_matches('#').starts_with(label));
+    if place.is_none() {
+        return Ok(None);
+    }
     let found = place.and_then(|place| header.get(place + 1)).copied();
     let number = found.and_then(|(number, line)| {
         Some((number, positive(line.trim_start_matches('#').trim_end_matches(',').trim())?))
     });
-    number.ok_or_else(|| {
+    number.map(Some).ok_or_else(|| {
         let (line, text) = found.or(header.last().copied()).unwrap_or((1, ""));
         Fault::excerpt(line, format!("a positive number below `{label}`"), text, "correct the header")
     })

@@ -38,12 +38,12 @@ type Recognises = fn(&[&str]) -> bool;
 impl Format {
     /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that
     /// is known and not read.
-    pub(crate) fn of(name: &str, text: &str) -> Result<Self, Fault> {
+    pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         unread::refuse(&head)?;
         // CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose first lines may have the same words; AT2,
         // known by two words anywhere in its header, comes after tables, whose title may have them too.
-        let known: [(Self, Recognises); 14] = [
+        let known: [(Self, Recognises); 13] = [
             (Self::Esm, esm::recognises),
             (Self::Geonet, geonet::recognises),
             (Self::Volume1, volume_1::recognises),
@@ -57,11 +57,12 @@ impl Format {
             (Self::Csmip, csmip::recognises),
             (Self::Csv, csv::recognises),
             (Self::At2, at2::recognises),
-            (Self::Numbers, numbers::recognises),
         ];
         let by_content =
             known.into_iter().find(|(_, recognises)| recognises(&head)).map(|(format, _)| format);
-        Ok(by_content.or_else(|| Self::by_ending(name)).unwrap_or(Self::Csv))
+        let has_step = options.step.is_some();
+        let numbers = || numbers::recognises(&head, has_step).then_some(Self::Numbers);
+        Ok(by_content.or_else(numbers).or_else(|| Self::by_ending(name)).unwrap_or(Self::Csv))
     }
 
     /// Reads every channel of a text in this format.

@@ -6,7 +6,8 @@
 //! 0.00110 0.00098
 //! ```
 //!
-//! One or two numbers on every line are a column or a table of times and accelerations instead.
+//! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
+//! table.
 
 use super::at2::Touching;
 use crate::error::Fault;
@@ -16,15 +17,13 @@ use crate::parsed::Parsed;
 
 const COMMENTS: [char; 2] = ['#', '%'];
 
-/// Largest deviation of times from a uniform step, relative to it.
-const TIME_TOLERANCE: f64 = 0.01;
-
-/// Returns whether the first lines are numbers only, more than two on some of them, and not a table that
-/// starts with times.
-pub(super) fn recognises(head: &[&str]) -> bool {
+/// Returns whether the first lines are numbers only, several on some of them, and not a table that starts
+/// with times. Two numbers a line are taken for times and accelerations unless a step is stated.
+pub(super) fn recognises(head: &[&str], has_step: bool) -> bool {
     let rows = head.iter().map(|line| line.trim()).filter(|line| !line.starts_with(COMMENTS));
     let rows: Option<Vec<Vec<f64>>> = rows.map(values).collect();
-    rows.is_some_and(|rows| rows.iter().any(|row| row.len() > 2) && !starts_with_times(&rows))
+    let fewest = if has_step { 2 } else { 3 };
+    rows.is_some_and(|rows| rows.iter().any(|row| row.len() >= fewest) && !starts_with_times(&rows))
 }
 
 /// Reads the numbers of a line; `None` if there is something else, or a comma that may stand before decimals.
@@ -39,20 +38,17 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
     separated.flat_map(|word| Touching { rest: word })
 }
 
-/// Returns whether the first column of a table rises by uniform steps.
+/// Returns whether the first column of a table never falls, as times do not, even if they are rounded.
 fn starts_with_times(rows: &[Vec<f64>]) -> bool {
-    const FEWEST: usize = 4;
-    // what precedes the rows, such as their number, does not count
-    let table: Vec<&Vec<f64>> = rows.iter().skip(1).collect();
-    let columns = table.first().map_or(0, |row| row.len());
-    let steps = table.windows(2).map(|pair| pair[1].first().zip(pair[0].first()).map_or(0.0, |(b, a)| b - a));
-    let steps: Vec<f64> = steps.collect();
-    let first = steps.first().copied().unwrap_or(0.0);
-    table.len() >= FEWEST
-        && columns > 1
-        && table.iter().all(|row| row.len() == columns)
-        && first > 0.0
-        && steps.iter().all(|step| (step - first).abs() <= TIME_TOLERANCE * first)
+    const FEWEST: usize = 3;
+    let is_table = |rows: &[Vec<f64>]| {
+        let columns = rows.first().map_or(0, Vec::len);
+        let rises = rows.windows(2).all(|pair| pair[0].first() <= pair[1].first());
+        let moves = rows.first().and_then(|row| row.first()) < rows.last().and_then(|row| row.first());
+        rows.len() >= FEWEST && columns > 1 && rises && moves && rows.iter().all(|row| row.len() == columns)
+    };
+    // what precedes a table, such as its number of rows, does not count
+    is_table(rows) || rows.get(1..).is_some_and(is_table)
 }
 
 /// Reads the text of such a file.

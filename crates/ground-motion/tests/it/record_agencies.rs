@@ -56,6 +56,10 @@ fn components_stand_side_by_side() {
     assert_components(nied, [("1: N-S", 4.0, false), ("2: E-W", 5.0, false), ("3: U-D", 6.0, true)]);
     let row = "2011/03/11 14:48:19.02,0.02,0,0,0\n";
     assert_eq!(all(&(nied.to_owned() + row))[0].motion.samples().len(), 3);
+    let bare = &nied[nied.find("#Time").unwrap()..];
+    for text in [bare, &bare[1..]] {
+        assert_eq!((all(text).len(), all(text)[2].motion.step()), (3, 0.01));
+    }
     let gap = nied.replace(",0.01,", ",0.02,");
     assert_mentions(&plain(&gap).unwrap_err(), &["line 7", "RelativeTime(s) of 0.010 s", "found `0.02`"]);
     for text in [afad, cwa, nied] {
@@ -228,6 +232,15 @@ fn plain_numbers_are_the_samples_in_their_order() {
         let error = read("x.txt", &text.replacen("0.", "0.x", 1), &stated).unwrap_err();
         assert_mentions(&error, &["x.txt, line"]);
     }
+    // two numbers a line are such only with a stated step, and if the first are no times
+    let pairs: String =
+        long.chunks(2).map(|row| format!("{:.3} {:.3}\n", row[0], row[row.len() - 1])).collect();
+    let record = read("x.txt", &pairs, &stated).unwrap();
+    assert_eq!((record.format, record.motion.samples().len()), (Format::Numbers, 204));
+    let error = read("x.txt", &pairs, &RecordOptions { step: None, ..stated.clone() }).unwrap_err();
+    assert_mentions(&error, &["line 3", "the first step of"]);
+    let rounded = "0.00 0.1\n0.01 0.2\n0.01 0.3\n0.02 0.1\n";
+    assert_mentions(&read("x.txt", rounded, &stated).unwrap_err(), &["line 3", "a time after 0.01 s"]);
     // three components side by side, and a table of times
     let rows = |row: fn(f64) -> String| -> String { (0..60).map(|i| row(f64::from(i))).collect() };
     let side =
