@@ -233,8 +233,8 @@ fn plain_numbers_are_the_samples_in_their_order() {
         assert_mentions(&error, &["x.txt, line"]);
     }
     // two numbers a line are such only with a stated step, and if the first are no times
-    let pairs: String =
-        long.chunks(2).map(|row| format!("{:.3} {:.3}\n", row[0], row[row.len() - 1])).collect();
+    let row = |row: &[f64]| format!("{:.3} {:.3}", row[0], row[row.len() - 1]);
+    let pairs = long.chunks(2).map(row).collect::<Vec<_>>().join("\n");
     let record = read("x.txt", &pairs, &stated).unwrap();
     assert_eq!((record.format, record.motion.samples().len()), (Format::Numbers, 204));
     let error = read("x.txt", &pairs, &RecordOptions { step: None, ..stated.clone() }).unwrap_err();
