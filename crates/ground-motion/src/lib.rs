@@ -7,6 +7,8 @@
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
 //! | [`is_companion`] | whether a file has the times of a record beside it |
 //! | [`read_file`] | the content of any regular file of a limited size |
+//! | [`columns`] | columns of text, whatever separates them: tables of numbers and of words |
+//! | [`SpectrumFile`] | a response spectrum of a file |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`is_vertical_channel`] | whether a channel such as `HNZ` is vertical |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
@@ -21,6 +23,7 @@
 //! finite. Units are converted where a file is read and nowhere else.
 
 mod check;
+pub mod columns;
 mod companion;
 mod error;
 mod fields;
@@ -30,9 +33,11 @@ mod motion;
 mod options;
 mod parsed;
 mod pulse;
+mod quantity;
 mod readers;
 mod record;
 pub mod spectrum;
+mod spectrum_file;
 mod storeys;
 mod synthetic;
 mod unit;
@@ -41,7 +46,7 @@ mod vertical;
 pub use check::{Check, Warning};
 pub use companion::is_companion;
 pub use error::GroundMotionError;
-pub use file::read_file;
+pub use file::{read_file, utf8_text};
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;
@@ -49,6 +54,7 @@ pub use pulse::{Pulse, Shape};
 pub use readers::CSV_HEADER;
 pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_channels};
 pub use spectrum::{Maxima, Spectrum};
+pub use spectrum_file::SpectrumFile;
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
 pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};
