@@ -19,6 +19,7 @@ mod figure_15;
 mod fragility;
 mod ida;
 mod linearisation;
+mod record_files;
 #[path = "../../../ground-motion/tests/it/records.rs"]
 mod records;
 mod reproduce;
