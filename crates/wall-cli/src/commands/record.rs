@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     /// Write the table as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw the histories and the spectra, as SVG or PNG by the file's ending
+    /// Draw the histories and the spectra, as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }

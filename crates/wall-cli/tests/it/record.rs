@@ -65,13 +65,10 @@ fn json_and_csv_hold_the_same_numbers() {
 }
 
 #[test]
-fn plots_are_svg_or_png() {
+fn plots_are_svg() {
     let folder = records("record_plot");
-    for (name, start) in [("plot.svg", &b"<svg"[..]), ("plot.PNG", b"\x89PNG")] {
-        let table = printed(&folder, &["record", "two.V2", "one.AT2", "--plot", name]);
-        assert!(fs::read(folder.join(name)).unwrap().starts_with(start), "{name}");
-        assert!(table.contains(&format!("written  {name}")));
-    }
+    let table = printed(&folder, &["record", "two.V2", "one.AT2", "--plot", "plot.svg"]);
+    assert!(table.contains("written  plot.svg"));
     let svg = content(&folder, "plot.svg");
     assert_has(&svg, &["two.V2 [1: 90 Deg]", "one.AT2", "time (s)", "period T (s)", "Sa (g)"]);
     // With more records than colours, the plot shows the median of those that are not vertical.
@@ -114,7 +111,7 @@ fn bad_requests_are_refused() {
         (&["record", "two.V2", "--channel", "3"], &["`3`", "`1: 90 Deg`, `2: Up`"]),
         (&["record", "one.AT2", "--periods", "0.2,1000"], &["1000", "0.001 to 100 s"]),
         (&["record", "one.AT2", "--damping", "5"], &["damping ratio", "5", "below 1"]),
-        (&["record", "one.AT2", "--plot", "plot.jpg"], &["plot.jpg", ".svg or .png"]),
+        (&["record", "one.AT2", "--plot", "plot.jpg"], &["plot.jpg", "ends in .svg"]),
         (&["motion", "--record", "two.V2", "--csv", "out.csv"], &["expected one channel", "`2: Up`"]),
     ];
     for (arguments, words) in cases {
