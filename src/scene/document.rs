@@ -18,9 +18,6 @@ use super::storeys::{StoreyTable, SupportsTable};
 /// Largest scene file that is read.
 pub(super) const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// Most characters of a faulty line that a message repeats.
-const SHOWN_CHARACTERS: usize = 60;
-
 /// A scene file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -98,41 +95,6 @@ impl Document {
     }
 }
 
-/// Reads a TOML text. Errors name the line.
-///
-/// # Errors
-/// [`SceneError::Line`] where the text is not such a document.
-pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
-    toml::from_str(place.text()).map_err(|error| {
-        let span = error.span().unwrap_or(0..0);
-        let message = in_toml_words(&error.message().replace('\n', " "));
-        // unknown field `x`, expected one of `a`, `b`, ...
-        let mut names = message.split('`').skip(1).step_by(2);
-        let meant = match names.next() {
-            Some(unknown) if message.starts_with("unknown field") => suggestion(unknown, names),
-            _ => String::new(),
-        };
-        let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
-        let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
-        place.error(span, format!("{message}, in `{shown}`{meant}"))
-    })
-}
-
-/// Replaces the Rust type in a message of the TOML reader with TOML's own word.
-fn in_toml_words(message: &str) -> String {
-    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
-    let expected = match expected {
-        "a map" => "a table",
-        "a sequence" => "a list",
-        "path string" => "a path in quotes",
-        "f64" => "a number",
-        "u32" | "u64" | "usize" => "a whole number from 0 on",
-        name if name.starts_with("struct ") => "a table",
-        other => other,
-    };
-    format!("{found}, expected {expected}")
-}
-
 /// Reads a text file of at most `limit` bytes; `what` says in messages what it should be.
 ///
 /// # Errors
@@ -146,6 +108,7 @@ pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneErr
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = before.split(|&byte| byte == b'\n').count();
-        SceneError::Line { file, line, message: format!("not UTF-8 text; give {what}") }
+        let message = format!("not UTF-8 text; give {what}, and save it as UTF-8");
+        SceneError::Line { file, line, message }
     })
 }
