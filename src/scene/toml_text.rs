@@ -95,10 +95,10 @@ impl<'a> Found<'a> {
 
     /// The value with its key.
     fn given(&self) -> String {
-        // a table of several lines is not shown
+        // the name of a table in brackets says no more
         let value = shown(self.value.lines().next().unwrap_or_default());
         match self.keys.last() {
-            Some(key) if value.is_empty() || value.starts_with('[') => key.clone(),
+            Some(key) if value.is_empty() || is_header(&value) => key.clone(),
             Some(key) => format!("{key} = {value}"),
             None => format!("`{value}`"),
         }
@@ -117,6 +117,10 @@ impl<'a> Found<'a> {
             _ => format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", ")),
         }
     }
+}
+
+fn is_header(value: &str) -> bool {
+    value.starts_with('[') && value.trim_start_matches('[').starts_with(|c: char| c.is_alphabetic())
 }
 
 /// Adds the keys that lead to a span, and returns whether there is such a key or value. Of tables that begin

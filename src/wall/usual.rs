@@ -12,19 +12,19 @@ pub struct Usual {
     pub unit: &'static str,
     /// Least and most of the usual range.
     pub range: [f64; 2],
-    /// Other units, each with its size in the number's own unit.
+    /// How it may be given instead, such as "in cm", and the factor to its own unit.
     pub others: &'static [(&'static str, f64)],
 }
 
 /// Lengths in m.
-const LENGTHS: &[(&str, f64)] = &[("cm", 0.01), ("mm", 0.001)];
+const LENGTHS: &[(&str, f64)] = &[("in cm", 0.01), ("in mm", 0.001)];
 /// Forces in N.
-const FORCES: &[(&str, f64)] = &[("kN", 1e3)];
+const FORCES: &[(&str, f64)] = &[("in kN", 1e3)];
 
 impl Usual {
     /// A period in s: 5 s is beyond that of any building with masonry walls, 0.02 s below that of a storey.
     pub const fn period(name: &'static str) -> Self {
-        Self { name, unit: "s", range: [0.02, 5.0], others: &[("ms", 1e-3)] }
+        Self { name, unit: "s", range: [0.02, 5.0], others: &[("in ms", 1e-3)] }
     }
 
     /// Returns the warning of a number outside the range. It names the unit that brings it nearest to the
@@ -62,13 +62,14 @@ pub(super) fn improbable(parameters: &Parameters) -> impl Iterator<Item = Warnin
     ];
     // the ratio of a height or thickness in another unit says nothing more
     let slender = of_shape.iter().all(|(value, usual)| usual.warning(*value).is_none());
-    let density = usual("density", "kg/m3", [400.0, 3000.0], &[("t/m3", 1e3), ("kN/m3", 1e3 / 9.80665)]);
+    let density =
+        usual("density", "kg/m3", [400.0, 3000.0], &[("in t/m3", 1e3), ("in kN/m3", 1e3 / 9.80665)]);
     let of_wall = [
         (true, parameters.density, density),
         (slender, height / thickness, usual("height/thickness", "", [1.0, 100.0], &[])),
-        (true, parameters.gravity, usual("gravity", "m/s2", [9.7, 9.9], &[("cm/s2", 0.01)])),
+        (true, parameters.gravity, usual("gravity", "m/s2", [9.7, 9.9], &[("in cm/s2", 0.01)])),
         // below 0 it is computed
-        (parameters.xi >= 0.0, parameters.xi, usual("xi", "", [0.0, 0.5], &[("per cent", 0.01)])),
+        (parameters.xi >= 0.0, parameters.xi, usual("xi", "", [0.0, 0.5], &[("in per cent", 0.01)])),
         // 0.1 to 1000 kN per metre of width; without a load its eccentricity does not matter
         (overburden > 0.0, overburden, usual("overburden", "N", [100.0, 1e6].map(|o| o * width), FORCES)),
         (
@@ -80,7 +81,7 @@ pub(super) fn improbable(parameters: &Parameters) -> impl Iterator<Item = Warnin
         (
             has_tie,
             parameters.tie_stiffness,
-            usual("tie_stiffness", "N/m", [1e5, 1e9], &[("kN/m", 1e3), ("kN/mm", 1e6)]),
+            usual("tie_stiffness", "N/m", [1e5, 1e9], &[("in kN/m", 1e3), ("in kN/mm", 1e6)]),
         ),
         // an anchor in poor masonry resists some kN, two steel bars of 40 mm 1.3e6 N
         (has_tie && tie_strength > 0.0, tie_strength, usual("tie_strength", "N", [1e3, 2e6], FORCES)),

@@ -44,7 +44,7 @@ pub enum Warning {
         value: f64,
         unit: &'static str,
         usual: [f64; 2],
-        /// The unit in which it was perhaps meant, and the number in its own unit then.
+        /// How it was perhaps meant, such as "in cm", and the number in its own unit then.
         meant: Option<(&'static str, f64)>,
     },
 }
@@ -94,7 +94,7 @@ impl std::fmt::Display for Warning {
                 let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
                 write!(f, "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; ")?;
                 match meant {
-                    Some((other, own)) => write!(f, "if it is in {other}, give {}{unit}", six_digits(*own)),
+                    Some((other, own)) => write!(f, "if it is {other}, give {}{unit}", six_digits(*own)),
                     None => f.write_str("check value and unit"),
                 }
             }

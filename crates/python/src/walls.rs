@@ -142,8 +142,8 @@ impl Wall {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let warnings = self.equation.warnings().iter();
-        let heavy = self.scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
-        warnings.map(ToString::to_string).chain(heavy).collect()
+        let of_floors = self.scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
+        warnings.map(ToString::to_string).chain(of_floors).collect()
     }
 
     /// Returns a number that follows from the parameters, by its name in the model description.
@@ -218,9 +218,9 @@ impl Wall {
             scene.thresholds = thresholds;
         }
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
-        let heavy = scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
+        let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
-        let more = heavy.into_iter().chain(of_motion.map(|warning| warning.to_string()));
+        let more = of_floors.chain(of_motion.map(|warning| warning.to_string()));
         responses::values(py, &response, more)
     }
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text};
+use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
 use crate::document::wall_parameters;
@@ -24,12 +24,16 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
     let fail = |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, message };
     let columns = lines.next().map(|(_, header)| cells(header)).unwrap_or_default();
     let Some(name_column) = columns.iter().position(|column| column == "name") else {
-        return Err(fail(1, "a table of walls needs a column \"name\"".to_owned()));
+        let other = columns.iter().find(|column| !suggestion(column, ["name"]).is_empty());
+        let meant = other.map_or_else(String::new, |other| format!(": did you mean \"name\" by {other:?}?"));
+        return Err(fail(1, format!("a table of walls needs a column \"name\"{meant}")));
     };
     for column in columns.iter().filter(|column| *column != "name" && *column != KINEMATICS) {
         if !wall_parameters().any(|name| name == column) {
             let all: Vec<_> = wall_parameters().chain([KINEMATICS]).collect();
-            let message = format!("{column:?} is not a parameter of a wall of a study: {}", all.join(", "));
+            let meant = suggestion(column, all.iter().copied());
+            let known = all.join(", ");
+            let message = format!("{column:?} is not a parameter of a wall of a study{meant}: {known}");
             return Err(fail(1, message));
         }
     }
@@ -89,6 +93,12 @@ mod tests {
         for (text, words) in [
             ("", "needs a column"),
             ("height\n3", "needs a column"),
+            (
+                "Name,Height\na,3",
+                "line 1: a table of walls needs a column \"name\": did you mean \"name\" by",
+            ),
+            ("name,Height\na,3", "line 1: \"Height\" is not a parameter of a wall of a study (did you mean"),
+            ("name,height\na,\"3,5\"", "line 2: height = 3,5: a number has a decimal point, not a comma"),
             ("name,xi\na,0.1", "line 1: \"xi\" is not a parameter"),
             ("name,height\na,3\nb,-3", "line 3: height"),
             ("name,height\na", "line 2: expected 2 cells, found 1"),

@@ -23,10 +23,8 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     let verdicts = walls.check(parallel::threads(None).get());
     output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
     output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
-    let warned =
-        verdicts.iter().filter(|wall| wall.verdict.as_ref().is_ok_and(|v| !v.warnings.is_empty())).count();
-    if warned > 0 && !arguments.json {
-        output::warn(&format!("{warned} walls have warnings; see --csv or --json"));
+    if !arguments.json {
+        warnings(&verdicts).iter().for_each(|warning| output::warn(warning));
     }
     walls.record_warnings().iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {
@@ -40,6 +38,25 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
         bail!("{refused} of {} walls could not be checked; the first rows say why", verdicts.len());
     }
     Ok(())
+}
+
+/// Most walls whose warnings are printed.
+const MOST_WARNED: usize = 20;
+
+/// The warnings by wall, in the order of the table.
+fn warnings(verdicts: &[WallVerdict]) -> Vec<String> {
+    let of_wall =
+        |wall: &WallVerdict| wall.verdict.as_ref().map_or_else(|_| Vec::new(), |v| v.warnings.clone());
+    let warned: Vec<_> =
+        verdicts.iter().map(|wall| (&wall.name, of_wall(wall))).filter(|(_, own)| !own.is_empty()).collect();
+    let printed = warned.iter().take(MOST_WARNED);
+    let mut lines: Vec<_> = printed
+        .flat_map(|(name, own)| own.iter().map(move |text| format!("wall {name:?}: {text}")))
+        .collect();
+    if let Some(more) = warned.len().checked_sub(MOST_WARNED).filter(|more| *more > 0) {
+        lines.push(format!("{more} more walls have warnings; see --csv or --json"));
+    }
+    lines
 }
 
 /// The smallest `ζ_E` of each limit state: SLD, SLV with q, SLV, SLC.
