@@ -194,8 +194,8 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
         (SLV, ValueError, "before_activation is missing: state \"rigid\""),
         ({**SLV, "before_activation": "beam"}, ValueError, "beam needs young_modulus"),
         ({**SLV, "code": "EC8"}, ValueError, 'code = "EC8" is unknown; the code is "circolare-2019"'),
-        ({**SLV, "sol": "B"}, TypeError, 'unknown field `sol`.*did you mean "soil"'),
-        ({**SLV, "building": {"storey": 3}}, ValueError, 'unknown field `storey`.*did you mean "storeys"'),
+        ({**SLV, "sol": "B"}, TypeError, 'unknown key "sol" in .check. .did you mean "soil"'),
+        ({**SLV, "building": {"storey": 3}}, ValueError, 'unknown key "storey" in .check.building. .did you mean "storeys"'),
         ({**SLV, "damping": 0.05}, ValueError, "damping is for a check without a code"),
         ({**SLV, "method": "dynamic", "before_activation": "law"}, ValueError, "dynamic\" needs records"),
     ],
@@ -396,6 +396,15 @@ def walls_of(kind):
     if kind == "missing":
         pandas = pytest.importorskip("pandas")
         return pandas.DataFrame(ROWS).assign(thickness=0.25).convert_dtypes()
+    if kind == "index":
+        return pytest.importorskip("pandas").DataFrame(ROWS).assign(thickness=0.25).set_index("name")
+    if kind == "pyarrow columns":
+        pandas = pytest.importorskip("pandas")
+        pytest.importorskip("pyarrow")
+        return pandas.DataFrame(ROWS).assign(thickness=0.25).convert_dtypes(dtype_backend="pyarrow")
+    if kind == "pyarrow":
+        pyarrow = pytest.importorskip("pyarrow")
+        return pyarrow.Table.from_pylist([{**row, "thickness": 0.25} for row in ROWS])
     if kind == "table":
         return rw.Table({name: [row[name] for row in ROWS] for name in ROWS[0]} | {"thickness": [0.25] * 2})
     if kind == "list":
@@ -406,7 +415,10 @@ def walls_of(kind):
     return {name: rw.Wall(**row) for name, row in zip(names, parameters)}
 
 
-@pytest.mark.parametrize("kind", ["frame", "missing", "table", "list", "dictionaries", "walls"])
+KINDS = ("frame", "missing", "index", "pyarrow columns", "pyarrow", "table", "list", "dictionaries", "walls")
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_study_without_a_file(study_file, kind):
     folder, told = study_file
     paths = [folder / f"{number}.csv" for number in (1, 2, 3)]

@@ -84,8 +84,8 @@ class Study:
         """Reads a study file, or makes a study of its parts.
 
         :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
-            their names in a column `name`; or walls, or dictionaries of parameters, in a list or by their
-            names. What is missing has its default. Damping and impact are those of the models.
+            their names in a column `name` or an index of that name; or walls, or dictionaries of parameters,
+            in a list or by their names. What is missing has its default. Damping and impact are those of the models.
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
@@ -104,6 +104,9 @@ class Study:
             missing = [name for name, part in parts.items() if part is None]
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
+            if not isinstance(levels, Mapping):
+                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]} or {"method": "step", "step": 0.1, "top": 5}'
+                raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}, in g")
             options = {"models": models, "levels": levels, **options}
             given = {name: option for name, option in options.items() if option is not None}
             text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())
@@ -178,7 +181,13 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
     """Returns names, and walls or dictionaries of their parameters."""
     if isinstance(walls, Wall):
         walls = [walls]
+    elif hasattr(walls, "to_pylist"):
+        # a table of pyarrow
+        walls = walls.to_pylist()
     elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
+        if "name" in getattr(getattr(walls, "index", None), "names", ()) and "name" not in walls.columns:
+            # the names of the walls are the index of the DataFrame
+            walls = walls.reset_index()
         walls = Table({str(name): list(walls[name]) for name in walls.columns}).rows()
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):

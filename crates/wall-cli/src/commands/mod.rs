@@ -27,7 +27,7 @@ use crate::output;
 
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
-#[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
+#[command(name = "wall", version = env!("PROGRAM_VERSION"), arg_required_else_help = true, max_term_width = 100)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,

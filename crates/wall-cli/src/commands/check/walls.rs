@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
     output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
     if !arguments.json {
-        warnings(&verdicts).iter().for_each(|warning| output::warn(warning));
+        output::report_all(warnings(&verdicts));
     }
     walls.record_warnings().iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {
@@ -40,23 +40,12 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     Ok(())
 }
 
-/// Most walls whose warnings are printed.
-const MOST_WARNED: usize = 20;
-
-/// The warnings by wall, in the order of the table.
-fn warnings(verdicts: &[WallVerdict]) -> Vec<String> {
-    let of_wall =
-        |wall: &WallVerdict| wall.verdict.as_ref().map_or_else(|_| Vec::new(), |v| v.warnings.clone());
-    let warned: Vec<_> =
-        verdicts.iter().map(|wall| (&wall.name, of_wall(wall))).filter(|(_, own)| !own.is_empty()).collect();
-    let printed = warned.iter().take(MOST_WARNED);
-    let mut lines: Vec<_> = printed
-        .flat_map(|(name, own)| own.iter().map(move |text| format!("wall {name:?}: {text}")))
-        .collect();
-    if let Some(more) = warned.len().checked_sub(MOST_WARNED).filter(|more| *more > 0) {
-        lines.push(format!("{more} more walls have warnings; see --csv or --json"));
-    }
-    lines
+/// The warnings of each wall in a line with its name, in the order of the table.
+fn warnings(verdicts: &[WallVerdict]) -> impl Iterator<Item = String> {
+    verdicts.iter().filter_map(|wall| {
+        let own = &wall.verdict.as_ref().ok()?.warnings;
+        (!own.is_empty()).then(|| format!("warning: wall {:?}: {}", wall.name, own.join("; ")))
+    })
 }
 
 /// The smallest `ζ_E` of each limit state: SLD, SLV with q, SLV, SLC.
