@@ -26,16 +26,13 @@ use super::syntax::{explained, number_meant, shown};
 pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
     toml::from_str(place.text()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        match DeTable::parse(place.text()) {
-            Ok(document) => {
-                let found = Found::at(document.get_ref(), place.text(), &span);
-                place.error(span, found.explained(error.message()))
-            }
-            Err(_) => {
-                let is_twice = error.message().starts_with("duplicate key");
-                let (line, message) = explained(place, span.start, is_twice);
-                SceneError::Line { file: place.name().to_owned(), line, message }
-            }
+        if let Ok(document) = DeTable::parse(place.text()) {
+            let found = Found::at(document.get_ref(), place.text(), &span);
+            place.error(span, found.explained(error.message()))
+        } else {
+            let is_twice = error.message().starts_with("duplicate key");
+            let (line, message) = explained(place, span.start, is_twice);
+            SceneError::Line { file: place.name().to_owned(), line, message }
         }
     })
 }

@@ -130,9 +130,10 @@ impl Wall {
             return Ok(());
         }
         let is_default = u_start == Parameters::default().u_start;
-        Err(match is_default {
-            true => ParameterError::NothingMoves { u_start, u_ins },
-            false => ParameterError::StartsOverturned { u_start, u_ins },
+        Err(if is_default {
+            ParameterError::NothingMoves { u_start, u_ins }
+        } else {
+            ParameterError::StartsOverturned { u_start, u_ins }
         })
     }
 

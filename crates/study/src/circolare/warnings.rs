@@ -68,7 +68,7 @@ pub(super) fn of_statement(
     warnings
 }
 
-/// Usual E of masonry: 0.1 to 50 GPa. NTC Tab. C8.5.I has 0.69 to 3.36 GPa.
+/// Usual E of masonry: 1e8 to 5e10 Pa. NTC Tab. C8.5.I has 0.69e9 to 3.36e9 Pa.
 const YOUNG_MODULUS: Usual = Usual {
     name: "young_modulus",
     unit: "Pa",
