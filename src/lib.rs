@@ -18,7 +18,7 @@
 //! ```
 //!
 //! # Modules
-//! This crate is what is inside `wall.fmu`, together with [`response`] and what describes a wall without
+//! This crate is the wall of `wall.fmu`, together with [`response`] and what describes a wall without
 //! moving it, which other programs use. Data flows from left to right; nothing flows back.
 //!
 //! ```text
@@ -48,8 +48,8 @@
 //! - Nothing in `wall` or `solver` opens a file, prints, reads a clock or knows FMI.
 //! - A [`wall::Wall`] that exists is valid and never changes.
 //! - A [`solver::Segment`] is a record sample or a communication step: the command line and the FMU run the
-//!   same code. Studies take whole records by `rocking-record`, which leaves all but plain steps and ordinary
-//!   corners to that code.
+//!   same code. Studies take whole records by `rocking-record`, which takes steps without events and passes
+//!   corners and impacts by itself, and leaves the rest to that code.
 //! - State is plain data ([`simulation::Progress`]), copied to save it. A step that fails leaves it as it
 //!   was.
 //! - Every loop is bounded, and reaching the bound is an error that says where.

@@ -1,9 +1,9 @@
 //! A scene: a wall, its motion and what a run shows, as a TOML file.
 //!
-//! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[start]` and `[solver]` hold the
-//! parameters of the model description under the same names; `[motion]` says what moves the supports, or the
-//! ground below `[[storeys]]`. An FMU made from a scene carries it as `resources/scene.toml`, read by the
-//! same code.
+//! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[tie]`, `[start]` and `[solver]` hold
+//! the parameters of the model description under the same names; `[motion]` says what moves the supports, or
+//! the ground below `[[storeys]]`, and `[supports]` between which of these the wall stands. `[check]` is read
+//! by whoever checks. An FMU made from a scene carries it as `resources/scene.toml`, read by the same code.
 
 mod document;
 mod error;

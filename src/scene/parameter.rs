@@ -98,9 +98,7 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter().copied());
         let all: Vec<_> = names.chain([KINEMATICS]).collect();
         let meant = suggestion(name, all.iter().copied());
-        let message = gone(name).unwrap_or_else(|| {
-            format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "))
-        });
+        let message = format!("there is no parameter {name:?}{meant}; the parameters are {}", all.join(", "));
         return Err(SceneError::Value { message });
     }
     let value = if let Ok(number) = text.trim().parse::<f64>() {
@@ -206,21 +204,9 @@ fn read_points(value: &Value) -> Result<Vec<[f64; 2]>, String> {
     list.iter().map(|item| pair(item).ok_or_else(shape)).collect()
 }
 
-/// Returns the message for a parameter that an earlier version had; `None` for other names.
-fn gone(name: &str) -> Option<String> {
-    (name == "damping_source").then(|| {
-        "there is no damping_source: xi and c_bar count where they are given, and are computed where they \
-         are left out; leave damping_source out, and xi and c_bar where it was predicted"
-            .to_owned()
-    })
-}
-
 fn unknown(name: &str, group: &str, names: &[&str]) -> String {
     if name == KINEMATICS {
         return format!("{name:?} belongs in [{KINEMATICS_GROUP}], not in [{group}]");
-    }
-    if let Some(message) = gone(name) {
-        return message;
     }
     belongs_in(name).map_or_else(
         || {

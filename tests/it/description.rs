@@ -67,6 +67,15 @@ fn items_have_the_names_others_rely_on_and_count_from_one() {
 }
 
 #[test]
+fn the_head_of_the_scene_names_every_table_of_parameters() {
+    let scene = include_str!("../../src/scene/mod.rs");
+    let head = scene.split("\n\n").next().unwrap();
+    for (group, _) in rocking_wall::scene::GROUPS {
+        assert!(head.contains(&format!("`[{group}]`")), "{group}");
+    }
+}
+
+#[test]
 fn every_variable_says_what_it_is() {
     for variable in variables() {
         assert!(variable.description.len() > 10, "{}", variable.name);

@@ -123,8 +123,8 @@ pub(crate) const COMPARED: f64 = 0.65;
 /// Relative change of the motion that shows how much the wall amplifies.
 const PROBE: f64 = 1e-8;
 
-/// Bounds the effect of rounding on a history with `parts` parts per segment: sixteen roundings for each
-/// piece, plus 1e-13 for the adaptive solver, both amplified as the wall amplifies a change of its motion.
+/// Bounds the effect of rounding on a history with `parts` parts per segment: 16 ε for each piece, plus
+/// 1e-13 for the adaptive solver, both amplified as the wall amplifies a change of its motion.
 /// Beyond an amplification of 1e5, the limit of the reference cases too, histories cannot be compared.
 fn allowed(run: &Run, motion: &[f64], parts: u32) -> Option<f64> {
     let history = run.history(0.0, 1);

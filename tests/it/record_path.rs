@@ -46,7 +46,8 @@ proptest! {
         agree(&parameters, &accelerations, step)?;
     }
 
-    /// Steps over a record and segments one by one agree to rounding in u, extremes and events.
+    /// Steps over a record and segments one by one agree in u, extremes and events: to rounding, and with
+    /// secant damping to the tolerance 1e-13.
     #[test]
     fn records_and_segments_agree(parameters in walls(), motion in motions(), refinement in 1_u32..40) {
         records_agree(&parameters, &motion, refinement)?;
@@ -256,8 +257,8 @@ fn agree(parameters: &Parameters, accelerations: &[f64], step: f64) -> Result<()
     let (history, outcome) = alone(parameters, &forcing, step, 1.0);
     let reference = Reference::new(parameters, accelerations, step);
     prop_assume!(reference.amplification < 1e5);
-    // sixteen roundings for each piece of motion, amplified as the wall amplifies, and the tolerance 1e-13
-    // likewise
+    // 32 ε for each piece, 16 ε in each of the two motions, amplified as the wall amplifies; the tolerance
+    // 1e-13 likewise
     let end = reference.progress[reference.standing - 1];
     let allowed = reference.amplification * (32.0 * f64::EPSILON * (end.work.pieces + 1) as f64 + 1e-13);
     let difference = reference.apart(&history);

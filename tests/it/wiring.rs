@@ -3,7 +3,7 @@
 //!
 //! The compiler holds the rest together: code that names a variable does not build without it, a `match`
 //! without a `_` arm does not build with one more, and the generated start values name every field of
-//! [`Parameters`](rocking_wall::Parameters).
+//! [`Parameters`](rocking_wall::wall::Parameters).
 
 use fmu_export::VariableId;
 use rocking_wall::variables::{BooleanVariable, IntegerVariable, RealVariable};

@@ -1,11 +1,11 @@
-//! `cargo xtask fuzz`: mutated inputs for every reader, and random calls of the FMI functions.
+//! `cargo xtask fuzz`: mutated inputs for readers, and random calls of the FMI functions.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use crate::command::{Result, cargo, output, program, succeed, target};
 
-/// The readers, and folders of texts to start from.
+/// The readers that are fuzzed, and folders of texts to start from.
 const READERS: [(&str, &[&str]); 5] = [
     ("records", &["crates/ground-motion/tests/it"]),
     ("scenes", &["scenes", "tests/data/cases"]),

@@ -7,6 +7,7 @@
 
 mod bench;
 mod book;
+mod codemeta;
 mod command;
 mod coupling;
 mod demo;
@@ -54,8 +55,11 @@ The jobs of the project.
                                    wheels for each platform, the source distribution, components, notices,
                                    checksums; TAG is checked; --platforms as for fmu, to compare a part
   cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
-  cargo xtask fuzz                 feed mutated inputs to every reader for a minute each, and call the FMI
-                                   functions 10^6 times at random, also under AddressSanitizer (nightly)
+  cargo xtask codemeta [--check]   write codemeta.json from Cargo.toml and CITATION.cff
+                                   --check: fail if it is stale
+  cargo xtask fuzz                 feed mutated inputs to five readers for a minute each, and call the FMI
+                                   functions 10^6 times at random, and 50,000 times under AddressSanitizer
+                                   (nightly)
   cargo xtask mutants [--count N] [--seed S] [PATH...]
                                    change the code in about N places, one at a time, and count what no
                                    Rust test notices, by cargo-mutants
@@ -105,6 +109,8 @@ fn main() -> ExitCode {
         ["release", tag] => release::run(Some(tag), fmu::PORTABLE),
         ["fuzz"] => fuzz::run(),
         ["workflows"] => workflows::check(),
+        ["codemeta"] => codemeta::run(false),
+        ["codemeta", "--check"] => codemeta::run(true),
         ["mutants", options @ ..] => mutants::run(options),
         ["bench"] => bench::paths(None),
         ["bench", record] if !record.starts_with('-') => bench::paths(Some(record)),

@@ -6,8 +6,8 @@
 //! On a branch with constant damping a step is an affine map of (u, u̇) and of the forcing at its ends, made
 //! once for each branch; so are several steps. A *plain* step applies the map and checks that u at both ends
 //! is so far from the corners that none can have been reached in between. On a branch with secant damping
-//! a step is a Taylor series. Ordinary corners are passed where u̇ keeps its sign up to them; everything
-//! else is left to the general search for events, the one of `wall.fmu`.
+//! a step is a Taylor series. Ordinary corners and impacts are passed where u̇ keeps its sign up to them.
+//! Everything else is left to the general search for events, the one of `wall.fmu`.
 //!
 //! One code serves a run by itself and eight side by side: a number is a vector of one lane.
 //! docs/record-path.md has the bounds, their proofs and the course of a run.

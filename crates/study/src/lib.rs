@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Modules
-//! Nothing here prints, and only [`loaded`] and `wall_table` open files. Each module uses only modules above
-//! it in this table:
+//! Nothing here prints. Only [`loaded`], `wall_table` and [`validation`] open files. Each module uses only
+//! modules above it in this table:
 //!
 //! | module | holds |
 //! |---|---|
@@ -30,8 +30,6 @@
 //! | [`reproduce`] | the tables and figures of the paper |
 //! | [`validation`] | the model beside published tests |
 //! | [`verification`] | every formula against a reference of its own |
-//!
-//! Each module has a short example.
 
 pub mod accuracy;
 #[cfg(not(target_arch = "wasm32"))]

@@ -60,6 +60,65 @@ fn documents_name_what_exists() {
     assert!(paths > 80 && links > 70 && rows > 40, "{paths} paths, {links} links, {rows} names in tables");
 }
 
+/// What README says of errors is what docs/accuracy.md measured.
+#[test]
+fn the_readme_states_the_errors_that_were_measured() {
+    let table = read("docs/accuracy.md");
+    let rows = table.lines().filter(|line| line.starts_with("| Table 5, wall "));
+    let errors = |cell: usize| rows.clone().map(move |row| row.split('|').nth(cell).unwrap().trim().parse());
+    let (own, newmark): (Vec<f64>, Vec<f64>) =
+        (errors(4).collect::<Result<_, _>>().unwrap(), errors(5).collect::<Result<_, _>>().unwrap());
+    let walls: std::collections::BTreeSet<_> = rows.clone().map(|row| row.split(',').nth(1)).collect();
+    assert!(own.len() == 6 && walls.len() == 3, "{own:?}, {walls:?}");
+    assert!(own.iter().all(|error| *error <= 1e-11), "{own:?}");
+    let least = newmark.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = newmark.iter().copied().fold(0.0, f64::max);
+    let range = format!("off by {} to {} %", 100.0 * least, 100.0 * most);
+    let paper = read("paper/paper.md");
+    for (name, text) in [("README.md", read("README.md")), ("paper/paper.md", paper.clone())] {
+        assert!(text.replace('\n', " ").contains(&range), "{name}: {range}");
+    }
+    let cheapest = table.split("wall 5 CDC").nth(1).unwrap().split("cheapest setting").nth(1).unwrap();
+    let tools = cheapest.lines().skip(2).take(5).map(|line| line.split_whitespace());
+    for mut words in tools {
+        let (tool, ratio) = (words.next().unwrap(), words.next_back().unwrap().parse::<f64>().unwrap());
+        let stated = format!("{ratio:.0} ({tool})");
+        assert!(paper.contains(&stated), "paper/paper.md: {stated}");
+    }
+}
+
+/// The paper cites what its bibliography has, and the bibliography has nothing else.
+#[test]
+fn the_paper_cites_its_bibliography() {
+    let (paper, list) = (read("paper/paper.md"), read("paper/paper.bib"));
+    let cited: std::collections::BTreeSet<_> = paper
+        .split('@')
+        .skip(1)
+        .filter_map(|rest| rest.split(|c: char| !c.is_alphanumeric()).next())
+        .collect();
+    let listed = list.lines().filter_map(|line| line.strip_prefix('@')?.split(['{', ',']).nth(1));
+    assert_eq!(cited, listed.collect());
+}
+
+/// The answers for the badge have statuses that it knows, reasons, and files that exist.
+#[test]
+fn the_answers_for_the_badge_name_what_exists() {
+    let answers: serde_json::Value = serde_json::from_str(&read(".bestpractices.json")).unwrap();
+    let answers = answers.as_object().unwrap();
+    let statuses = answers.iter().filter_map(|(key, value)| Some((key.strip_suffix("_status")?, value)));
+    let mut count = 0;
+    for (criterion, status) in statuses {
+        assert!(["Met", "Unmet", "N/A", "?"].contains(&status.as_str().unwrap()), "{criterion}: {status}");
+        let reason = answers[&format!("{criterion}_justification")].as_str().unwrap();
+        assert!(!reason.is_empty(), "{criterion} has no reason");
+        for file in quoted(reason) {
+            assert!(root().join(file).is_file(), "{criterion}: there is no {file}");
+        }
+        count += 1;
+    }
+    assert!(count == 67 && answers.len() == 2 * count, "{count} criteria");
+}
+
 #[test]
 fn every_equation_of_the_paper_has_its_place() {
     let text = read("docs/architecture.md");

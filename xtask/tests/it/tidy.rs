@@ -3,9 +3,11 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::read;
+
 /// Columns of code, comments and documents.
 const COLUMNS: usize = 110;
-/// Lines of a Rust file.
+/// A Rust file has fewer lines.
 const LINES: usize = 400;
 /// Kinds of files with lines that people read.
 const ENDINGS: [&str; 11] =
@@ -52,7 +54,7 @@ fn lines_and_files_are_short() {
         for (index, line) in text.lines().enumerate().filter(|(_, line)| line.chars().count() > COLUMNS) {
             long.push(format!("{name}:{} has {} columns", index + 1, line.chars().count()));
         }
-        if is_rust(name) && text.lines().count() > LINES {
+        if is_rust(name) && text.lines().count() >= LINES {
             long.push(format!("{name} has {} lines", text.lines().count()));
         }
     }
@@ -71,4 +73,51 @@ fn unsafe_code_stands_at_the_c_boundary() {
         let allowed = UNSAFE.iter().any(|folder| name.starts_with(folder));
         assert!(allowed || !is_unsafe, "{name} has unsafe code");
     }
+    // what users run is named where they look
+    let promised = read(".github/SECURITY.md");
+    for place in UNSAFE.iter().filter(|place| place.contains("/src/")) {
+        assert!(promised.contains(&format!("`{place}`")), "SECURITY.md does not name {place}");
+    }
+}
+
+#[test]
+fn no_test_measures_time() {
+    // `tests/peers` is a program that measures
+    let is_test = |name: &str| {
+        (name.contains("tests/") || name.ends_with("tests.rs")) && !name.starts_with("tests/peers/")
+    };
+    let clocks = ["Instant::", "SystemTime::", "perf_counter", "time.time("];
+    let tests: Vec<_> = files().into_iter().filter(|(name, _)| is_test(name)).collect();
+    assert!(tests.len() > 100, "git lists {} files of tests", tests.len());
+    for (name, text) in tests.iter().filter(|(name, _)| name != "xtask/tests/it/tidy.rs") {
+        let clock = clocks.iter().find(|clock| text.contains(*clock));
+        assert!(clock.is_none(), "{name} has {clock:?}");
+    }
+}
+
+/// `ClusterFuzzLite` starts from the same texts as `cargo xtask fuzz`.
+#[test]
+fn fuzzers_have_one_list_of_seeds() {
+    let (job, build) = (read("xtask/src/fuzz.rs"), read(".clusterfuzzlite/build.sh"));
+    let rows = job.lines().filter_map(|line| line.trim().strip_prefix("(\"")?.strip_suffix("]),"));
+    let rows: Vec<Vec<&str>> = rows.map(|row| row.split('"').step_by(2).collect()).collect();
+    assert!(rows.len() >= 5, "{rows:?}");
+    // the first word of a row is the target; one has no texts to start from
+    for row in rows.iter().filter(|row| row.len() > 1) {
+        let seeds = format!("\nseeds {}\n", row.join(" "));
+        assert!(build.contains(&seeds), "build.sh has no line {seeds:?}");
+    }
+}
+
+/// Modules of `rocking-study` that open files, as its head lists them.
+#[test]
+fn studies_open_files_where_their_head_says() {
+    const OPENS: [&str; 3] = ["read_text(", "Scene::read(", "std::fs::"];
+    let src = "crates/study/src/";
+    let opens = |text: &str| OPENS.iter().any(|word| text.contains(word));
+    let modules = files().into_iter().filter(|(name, text)| is_rust(name) && opens(text));
+    let modules: Vec<_> = modules.filter_map(|(name, _)| Some(name.strip_prefix(src)?.to_owned())).collect();
+    assert_eq!(modules, ["loaded.rs", "validation/case.rs", "wall_table.rs"]);
+    let head = read("crates/study/src/lib.rs");
+    assert!(head.contains("Only [`loaded`], `wall_table` and [`validation`] open files"));
 }

@@ -1,4 +1,4 @@
-//! The tests of many runs.
+//! The tests of studies, checks and comparisons.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
