@@ -196,8 +196,8 @@ fn bad_one_sided_walls_are_refused_with_the_remedy() {
     let open = Parameters { rocking: Rocking::OneSidedNegative, ..Parameters::default() };
     assert_eq!(
         Wall::new(&open).unwrap_err().to_string(),
-        "rocking = one_sided_negative does not go with impact = none (set impact = restitution), nor with xi = \
-         -1 (computed) (set xi, or damping_model = none), nor with restitution_source = calibrated (set \
+        "rocking = one_sided_negative does not go with impact = none (set impact = restitution), nor with \
+         xi = -1 (computed) (set xi, or damping_model = none), nor with restitution_source = calibrated (set \
          restitution, or restitution_source = analytic); or set rocking = two_sided"
     );
     // a start is that of a run, not of a wall

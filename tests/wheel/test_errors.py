@@ -30,7 +30,7 @@ def test_other_values():
         rw.Wall(3, 0.25, 1.0)
     with pytest.raises(TypeError, match="height is given twice, by place and by name"):
         rw.Wall(3, height=3)
-    with pytest.raises(ValueError, match="thickness = 30 m is unusual.*in cm, give 0.3 m; as given, restitution_source"):
+    with pytest.raises(ValueError, match="thickness = 30 m is unusual.*in cm, give 0.3 m; as given, rest"):
         rw.Wall(3, 30)
     with pytest.raises(ValueError, match="exact"):
         rw.Wall(solver="exact", damping_model="constant_ratio")
@@ -70,7 +70,9 @@ def test_runs(record):
         wall.peaks(record, [1.0, float("inf")])
 
 
-@pytest.mark.parametrize("threads, error", [(0, ValueError), (-1, ValueError), (1.5, TypeError), ("2", TypeError)])
+@pytest.mark.parametrize(
+    "threads, error", [(0, ValueError), (-1, ValueError), (1.5, TypeError), ("2", TypeError)]
+)
 def test_threads(threads, error):
     for run in (
         lambda: rw.Wall().pulse_spectrum("ricker", threads=threads),
@@ -102,7 +104,7 @@ def study(levels):
         ({"method": "gird"}, ValueError, 'levels: method = "gird" is not one of hunt, step, grid'),
         ({"method": "grid"}, ValueError, 'levels: method = "grid" needs values'),
         ({"method": "grid", "values": "0.1"}, ValueError, 'levels: values = "0.1": expected a list'),
-        ({"method": "step", "step": -1, "top": 2}, ValueError, "step of the levels is .*-1 g.; it must be above 0"),
+        ({"method": "step", "step": -1, "top": 2}, ValueError, "step of the levels is .*; it must be"),
         ({"method": "step", "stap": 1}, ValueError, 'levels: unknown key "stap" .*did you mean "step"'),
     ],
 )

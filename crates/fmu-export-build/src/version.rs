@@ -38,8 +38,8 @@ fn profile(output: &str) -> String {
     name.map_or_else(String::new, |name| name.to_string_lossy().replace("debug", "dev"))
 }
 
-/// The commit of the repository that begins at the workspace, two folders above its crates. A repository around
-/// it is another project's.
+/// The commit of the repository that begins at the workspace, two folders above its crates. A repository
+/// around it is another project's.
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn of_repository(package: &Path) -> Option<String> {
     let root = package.ancestors().nth(2)?.canonicalize().ok()?;

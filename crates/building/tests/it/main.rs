@@ -138,7 +138,8 @@ fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
 /// Every line of a building, broken in every way: no message speaks in words of the reader.
 #[test]
 fn broken_files_are_refused_in_plain_words() {
-    let text = "title = \"a\"\nstop_time = 10.0\nstep = 0.01\nexpose_ground = false\n[[floor]]\nname = \"one\"\n\
+    let text = "title = \"a\"\nstop_time = 10.0\nstep = 0.01\nexpose_ground = false\n[[floor]]\n\
+                name = \"one\"\n\
                 on = \"ground\"\nmass = 2e4\nstiffness = 4e7\nhysteresis = \"none\"\n[[wall]]\nname = \"p\"\n\
                 scene = \"p.toml\"\nbottom = \"ground\"\ntop = \"one\"\ndrift = true\n";
     let read = |text: &str| Building::parse(Path::new("b.toml"), text);

@@ -85,7 +85,8 @@ class Study:
 
         :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
             their names in a column `name` or an index of that name; or walls, or dictionaries of parameters,
-            in a list or by their names. What is missing has its default. Damping and impact are those of the models.
+            in a list or by their names. What is missing has its default. Damping and impact are those of the
+            models.
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
@@ -105,8 +106,8 @@ class Study:
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
             if not isinstance(levels, Mapping):
-                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]} or {"method": "step", "step": 0.1, "top": 5}'
-                raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}, in g")
+                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}, in g'
+                raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
             options = {"models": models, "levels": levels, **options}
             given = {name: option for name, option in options.items() if option is not None}
             text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())

@@ -45,8 +45,8 @@ fn period_factor(state: LimitState) -> f64 {
 ///
 /// # Errors
 /// [`CheckError`] of a statement that is missing or does not go with the wall, of a wall that the code does
-/// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they may be
-/// the cause.
+/// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they may
+/// be the cause.
 pub fn check(
     parameters: &Parameters,
     floors: Option<&Floors>,

@@ -67,14 +67,14 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
     }
 }
 
-/// E in MPa makes a wall so soft that it does not rock: the unit is the cause, and the line is that of a scene.
+/// E in MPa makes a wall so soft that it does not rock: the unit is the cause.
 #[test]
 fn a_refusal_begins_with_the_numbers_that_may_be_its_cause() {
     let beam = open("before_activation = \"beam\"\nyoung_modulus = 1500");
     let error = refuses(
         &format!("{PARAPET}{beam}"),
-        "young_modulus = 1500 Pa is unusual: 100000000 to 5e10 Pa is usual; if it is in MPa, give 1.5e9 Pa; as \
-         given, the elastic branch reaches d_SLV",
+        "young_modulus = 1500 Pa is unusual: 100000000 to 5e10 Pa is usual; if it is in MPa, give 1.5e9 Pa; \
+         as given, the elastic branch reaches d_SLV",
     );
     assert!(error.starts_with("scene.toml: young_modulus"), "{error}");
     let beam = beam.replace("1500", "1.5");

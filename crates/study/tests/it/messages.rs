@@ -60,8 +60,8 @@ fn messages_name_line_and_key_and_what_is_expected() {
         ),
         (
             check(&CHECK.replace("\"nonlinear\"", "\"nonlinaer\"")),
-            "line 10: method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" (did you mean \
-             \"nonlinear\"?)",
+            "line 10: method = \"nonlinaer\" is not one of \"nonlinear\", \"linear\", \"dynamic\" (did you \
+             mean \"nonlinear\"?)",
         ),
         (check(&CHECK.replace("\"LC1\"", "1")), "line 5: knowledge_level = 1: expected a name in quotes"),
         (
