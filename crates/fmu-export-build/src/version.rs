@@ -15,9 +15,7 @@ const DIGITS: usize = 10;
 /// script again after a commit or a change of branch only.
 ///
 /// ```no_run
-/// fn main() {
-///     fmu_export_build::state_version();
-/// }
+/// fmu_export_build::state_version();
 /// ```
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 pub fn state_version() {
