@@ -1,7 +1,7 @@
-//! Records in any format: read or refused, and what is read can be checked.
+//! Records in any format, and spectra: read or refused, and what is read can be checked.
 #![no_main]
 
-use ground_motion::{RecordOptions, Unit, parse, parse_channels};
+use ground_motion::{RecordOptions, SpectrumFile, Unit, parse, parse_channels};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -15,5 +15,8 @@ fuzz_target!(|bytes: &[u8]| {
             let _ = record.check();
         }
         let _ = parse_channels("record", bytes.to_vec(), &options);
+    }
+    if let Ok(spectrum) = SpectrumFile::parse("spectrum", bytes.to_vec(), unit, None) {
+        assert!(spectrum.points.len() == spectrum.lines.len());
     }
 });

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fmu_export::VariableId;
+use ground_motion::columns::Fault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
@@ -105,10 +106,6 @@ pub fn read_text(path: &Path, what: &str, limit: u64) -> Result<String, SceneErr
         Ok(bytes) => bytes,
         Err(error) => return Err(SceneError::File { file, reason: format!("cannot be read: {error}") }),
     };
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = before.split(|&byte| byte == b'\n').count();
-        let message = format!("not UTF-8 text; give {what}, and save it as UTF-8");
-        SceneError::Line { file, line, message }
-    })
+    let in_file = |fault: Fault| SceneError::Line { file, line: fault.line(), message: fault.to_string() };
+    ground_motion::utf8_text(bytes, what).map_err(in_file)
 }

@@ -405,6 +405,10 @@ def walls_of(kind):
     if kind == "pyarrow":
         pyarrow = pytest.importorskip("pyarrow")
         return pyarrow.Table.from_pylist([{**row, "thickness": 0.25} for row in ROWS])
+    if kind == "emptied":
+        pandas = pytest.importorskip("pandas")
+        frame = pandas.DataFrame(ROWS).assign(thickness=0.25)
+        return pandas.concat([frame[:1], pandas.DataFrame([{"name": None}]), frame[1:]])
     if kind == "table":
         return rw.Table({name: [row[name] for row in ROWS] for name in ROWS[0]} | {"thickness": [0.25] * 2})
     if kind == "list":
@@ -415,7 +419,8 @@ def walls_of(kind):
     return {name: rw.Wall(**row) for name, row in zip(names, parameters)}
 
 
-KINDS = ("frame", "missing", "index", "pyarrow columns", "pyarrow", "table", "list", "dictionaries", "walls")
+KINDS = ("frame", "missing", "emptied", "index", "pyarrow columns", "pyarrow")
+KINDS += ("table", "list", "dictionaries", "walls")
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -430,6 +435,18 @@ def test_a_study_without_a_file(study_file, kind):
     for name in ("levels", "collapses", "fragilities"):
         for column, values in getattr(told, name).items():
             np.testing.assert_array_equal(getattr(found, name)[column], values)
+
+
+def test_a_table_of_walls_has_names_of_its_own(record):
+    pandas = pytest.importorskip("pandas")
+    options = {"records": record, "models": ["CDC 0.05"], "levels": OPTIONS["levels"]}
+    frame = pandas.DataFrame([["low", 1.5, 0.25], ["high", 3.0, 0.25]], columns=["name", "height", "height"])
+    with pytest.raises(ValueError, match="two columns 'height'"):
+        rw.Study(walls=frame, **options)
+    frame.columns = ["name", "height", "thickness"]
+    frame.loc[1, "name"] = np.nan
+    with pytest.raises(ValueError, match="row 2 of the table of walls has no name"):
+        rw.Study(walls=frame, **options)
 
 
 def test_a_study_without_a_file_is_sent(program, tmp_path, record):

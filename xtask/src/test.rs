@@ -132,7 +132,8 @@ fn pytest(python: &Environment, folder: &str, sharing: &str) -> Command {
 }
 
 fn rust() -> Result<()> {
-    run_tests(build().args(["test", "--locked"]))
+    // all packages, even where a test of one fails
+    run_tests(build().args(["test", "--locked", "--no-fail-fast"]))
 }
 
 fn run_tests(command: &mut Command) -> Result<()> {
@@ -213,7 +214,7 @@ fn conformance() -> Result<()> {
     let libclang = clang.package("clang")?.join("native");
     let include = output(program("cc").arg("-print-file-name=include"), "install a C compiler")?;
     let mut test = build();
-    test.args(["test", "--locked", "--package", "conformance"]);
+    test.args(["test", "--locked", "--no-fail-fast", "--package", "conformance"]);
     test.env("LIBCLANG_PATH", libclang)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", include.trim()))
         .env("ROCKING_WALL_FMU", absolute(&unit))

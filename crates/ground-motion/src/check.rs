@@ -14,6 +14,9 @@ const FINAL_VELOCITY: f64 = 0.05;
 /// have up to 2 % and 6 %.
 const AT_THE_ENDS: f64 = 0.1;
 
+/// Largest time step without a warning (s); records have 0.02 s and less.
+const USUAL_STEP: f64 = 0.1;
+
 /// Range of peaks (g) without a warning about the unit; the strongest records have about 4 g, few have more
 /// than 2 g.
 const CREDIBLE_PEAK: [f64; 2] = [1e-4, 3.0];
@@ -53,6 +56,11 @@ pub struct Check {
 pub enum Warning {
     /// Every sample is zero.
     NoMotion,
+    /// The time step is longer than that of any record, so the times may not be in seconds.
+    Step {
+        /// Time between samples (s).
+        step: f64,
+    },
     /// The ground still moves at the end.
     Baseline {
         /// Velocity at the end (m/s).
@@ -97,6 +105,11 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoMotion => write!(f, "every sample is 0"),
+            Self::Step { step } => write!(
+                f,
+                "step: {step} s between samples is longer than records have; are the times in milliseconds, \
+                 or numbers of samples?"
+            ),
             Self::Baseline { last, peak } => write!(
                 f,
                 "baseline: the ground ends at {last:.3} m/s, its peak velocity is {peak:.3} m/s; \
@@ -157,14 +170,19 @@ impl Warning {
 }
 
 impl Record {
-    /// Checks that the ground comes to rest, that the peak is credible and agrees with the one that the file
-    /// states, and that neither the start nor the end of the shaking is missing.
+    /// Checks that the time step is that of a record, that the ground comes to rest, that the peak is
+    /// credible and agrees with the one that the file states, and that neither the start nor the end of the
+    /// shaking is missing.
     pub fn check(&self) -> Check {
         let motion = &self.motion;
         let [peak_velocity, final_velocity] = velocities(motion);
         let samples = motion.samples();
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
+        let step = motion.step();
         let mut warnings = Vec::new();
+        if step > USUAL_STEP {
+            warnings.push(Warning::Step { step });
+        }
         let peak = motion.peak();
         if peak == 0.0 {
             warnings.push(Warning::NoMotion);

@@ -89,9 +89,10 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Groun
     check_parameter(value > 0.0 && value.is_finite(), name, value, "positive and finite")
 }
 
-/// A fault in a record's text, before the name of its file is known.
-#[derive(Debug)]
-pub(crate) struct Fault {
+/// A fault in a text, before the name of its file is known.
+#[derive(Debug, thiserror::Error)]
+#[error("expected {expected}, found {found}; {remedy}")]
+pub struct Fault {
     pub(crate) line: usize,
     pub(crate) expected: String,
     pub(crate) found: String,
@@ -106,6 +107,11 @@ impl Fault {
         remedy: impl Into<String>,
     ) -> Self {
         Self { line, expected: expected.into(), found: found.into(), remedy: remedy.into() }
+    }
+
+    /// Returns the line, from 1.
+    pub fn line(&self) -> usize {
+        self.line
     }
 
     /// Makes a fault that quotes what was found in the file.

@@ -1,19 +1,21 @@
 //! Lines, words and numbers of a record: in free form, and in the fixed widths that Fortran wrote.
 
 use crate::error::{CUT_SHORT, DAMAGED, Fault};
+use crate::quantity::Quantity;
 
 /// A line and its number, from 1.
 pub(crate) type Line<'a> = (usize, &'a str);
 
 /// Returns the lines that are not blank, trimmed, with their numbers from 1. Line ends may be `\n`, `\r\n` or
-/// `\r\r\n`.
+/// `\r\r\n`; in a text without `\n`, as old Macs wrote it, `\r`.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
     untrimmed_lines(text).map(|(number, line)| (number, line.trim_start()))
 }
 
 /// Returns the lines that are not blank, with their numbers from 1 and with leading blanks.
 pub(crate) fn untrimmed_lines(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
-    let numbered = text.split('\n').enumerate().map(|(index, line)| (index + 1, line.trim_end()));
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let numbered = text.split(end).enumerate().map(|(index, line)| (index + 1, line.trim_end()));
     numbered.filter(|(_, line)| !line.is_empty())
 }
 
@@ -53,14 +55,21 @@ pub(crate) fn leading_real(text: &str) -> Option<f64> {
     real(leading_number(text).0).filter(|value| value.is_finite())
 }
 
-/// Finds the word after `UNITS OF`, `UNITS ARE`, `UNITS:` …
+/// Finds the unit after `UNITS OF`, `UNITS ARE`, `UNITS:` …: the most words that are one, or else the first.
 pub(crate) fn unit_word(line: &str) -> Option<&str> {
+    const MOST_WORDS: usize = 6;
     let text = after(line, "UNITS")?;
-    let is_edge = |c: char| matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
-    let words = text.split_ascii_whitespace().map(|word| word.trim_matches(is_edge));
+    let is_edge =
+        |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
     let is_filler =
         |word: &str| ["of", "are", "is", "in", ""].iter().any(|filler| word.eq_ignore_ascii_case(filler));
-    words.into_iter().find(|word| !is_filler(word))
+    let start_of = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
+    let words = text.split_ascii_whitespace().skip_while(|word| is_filler(word.trim_matches(is_edge)));
+    let words: Vec<&str> = words.take(MOST_WORDS).collect();
+    let start = start_of(words.first()?);
+    let until = |word: &&str| text[start..start_of(word) + word.len()].trim_matches(is_edge);
+    let unit = words.iter().rev().map(until).find(|unit| Quantity::of(unit).is_some());
+    unit.or_else(|| words.first().map(until))
 }
 
 /// Refuses a number of samples that is not the stated one.

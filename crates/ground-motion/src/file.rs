@@ -4,6 +4,8 @@ use std::fs::{File, metadata};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
+use crate::error::Fault;
+
 /// Reads a regular file of at most `limit` bytes; `what` says in messages what it should be.
 ///
 /// Anything else is refused before it is opened: opening a pipe waits for its other end, and a device never
@@ -35,4 +37,62 @@ pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit { refused("more") } else { Ok(bytes) }
+}
+
+/// The mark that DOS put at the end of texts.
+pub(crate) const END_OF_FILE: u8 = 0x1a;
+
+/// Returns the text of bytes in UTF-8; `what` says in messages what it should be. Bytes in UTF-16, and those
+/// of Windows-1252, in which Excel saves CSV, are named for what they are.
+///
+/// ```
+/// let error = ground_motion::utf8_text(b"M\xfcller,3".to_vec(), "a table").unwrap_err();
+/// assert!(error.to_string().contains("Windows-1252") && error.line() == 1);
+/// ```
+///
+/// # Errors
+/// [`Fault`] if the bytes are not UTF-8.
+pub fn utf8_text(bytes: Vec<u8>, what: &str) -> std::result::Result<String, Fault> {
+    if is_utf16(&bytes) {
+        return Err(utf16());
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let bytes = error.as_bytes();
+        let expected = "text in UTF-8";
+        if let Some(at) = strange_byte(bytes) {
+            let found = format!("the byte 0x{:02x}, as in a binary file", bytes[at]);
+            return Fault::new(line_of(bytes, at), expected, found, format!("give {what}"));
+        }
+        let at = error.utf8_error().valid_up_to();
+        let found = format!("the byte 0x{:02x}, as in Windows-1252 or Latin-1", bytes[at]);
+        Fault::new(line_of(bytes, at), expected, found, SAVE_AS_UTF8)
+    })
+}
+
+const SAVE_AS_UTF8: &str = "save the file as UTF-8 (Excel: \"CSV UTF-8\")";
+
+/// Returns whether bytes are UTF-16: by their mark, or by a zero beside each of the first letters.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    let is_letter = |byte: u8| matches!(byte, b'\t' | b'\n' | b'\r' | 0x20..=0x7e);
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [0, first, 0, second, ..] | [first, 0, second, 0, ..] => is_letter(first) && is_letter(second),
+        _ => false,
+    }
+}
+
+/// Makes the fault of a file in UTF-16.
+pub(crate) fn utf16() -> Fault {
+    Fault::new(1, "text in UTF-8", "UTF-16, which Excel calls Unicode text", SAVE_AS_UTF8)
+}
+
+/// Finds the first byte that no text has.
+pub(crate) fn strange_byte(bytes: &[u8]) -> Option<usize> {
+    let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80..);
+    bytes.iter().position(|&byte| !is_text(byte))
+}
+
+/// Returns the line, from 1, of a place in bytes.
+pub(crate) fn line_of(bytes: &[u8], at: usize) -> usize {
+    bytes[..at].split(|&byte| byte == b'\n').count()
 }

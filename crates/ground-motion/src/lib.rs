@@ -6,6 +6,8 @@
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
 //! | [`read_file`] | the content of any regular file of a limited size |
+//! | [`columns`] | columns of text, whatever separates them: tables of numbers and of words |
+//! | [`SpectrumFile`] | a response spectrum of a file |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
@@ -19,6 +21,7 @@
 //! finite. Units are converted where a file is read and nowhere else.
 
 mod check;
+pub mod columns;
 mod error;
 mod fields;
 mod file;
@@ -27,16 +30,18 @@ mod motion;
 mod options;
 mod parsed;
 mod pulse;
+mod quantity;
 mod readers;
 mod record;
 pub mod spectrum;
+mod spectrum_file;
 mod storeys;
 mod synthetic;
 mod unit;
 
 pub use check::{Check, Warning};
 pub use error::GroundMotionError;
-pub use file::read_file;
+pub use file::{read_file, utf8_text};
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;
@@ -44,6 +49,7 @@ pub use pulse::{Pulse, Shape};
 pub use readers::CSV_HEADER;
 pub use record::{MAX_FILE_BYTES, Record, parse, parse_channels, read, read_channels};
 pub use spectrum::{Maxima, Spectrum};
+pub use spectrum_file::SpectrumFile;
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
 pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};

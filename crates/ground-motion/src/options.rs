@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::error::Fault;
 use crate::format::Format;
+use crate::quantity::Quantity;
 use crate::unit::Unit;
 
 /// How to read a record file. Most formats need none of this.
@@ -24,18 +25,9 @@ pub struct RecordOptions {
 }
 
 impl RecordOptions {
-    /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the
-    /// user states counts; where it is one, the user's must not contradict it.
+    /// Finds the unit of a file that writes `word` on `line`, as [`stated_unit`] does.
     pub(crate) fn unit_of(&self, word: &str, line: usize) -> Result<Unit, Fault> {
-        match (word.parse::<Unit>(), self.unit) {
-            (Ok(unit), Some(stated)) if unit != stated => {
-                let expected = format!("the stated unit {stated}");
-                Err(Fault::new(line, expected, unit.name(), "state no unit: the file has its own"))
-            }
-            (Ok(unit), _) => Ok(unit),
-            (Err(_), Some(stated)) => Ok(stated),
-            (Err(_), None) => Err(Fault::excerpt(line, "a unit of acceleration", word, STATE_THE_UNIT)),
-        }
+        stated_unit(self.unit, word, line)
     }
 
     /// Refuses a stated step that is not the file's own.
@@ -52,5 +44,22 @@ impl RecordOptions {
     }
 }
 
-/// The remedy for a record whose unit is not known.
-pub(crate) const STATE_THE_UNIT: &str = "state the unit of the record (m/s2, cm/s2, mm/s2 or g)";
+/// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the user
+/// states counts; where it is one, of whatever quantity, the user's must not contradict it.
+pub(crate) fn stated_unit(given: Option<Unit>, word: &str, line: usize) -> Result<Unit, Fault> {
+    match (Quantity::of(word), given) {
+        (Some(Quantity::Acceleration(unit)), Some(given)) if unit != given => {
+            let expected = format!("the stated unit {given}");
+            let remedy = "state no unit (leave out --unit): the file has its own";
+            Err(Fault::new(line, expected, unit.name(), remedy))
+        }
+        (Some(Quantity::Acceleration(unit)), _) => Ok(unit),
+        (Some(other), _) => Err(other.refused(word, line)),
+        (None, Some(given)) => Ok(given),
+        (None, None) => Err(Fault::excerpt(line, "a unit of acceleration", word, STATE_THE_UNIT)),
+    }
+}
+
+/// The remedy for a file whose unit is not known.
+pub(crate) const STATE_THE_UNIT: &str =
+    "state the unit as `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g";

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::{Fault, GroundMotionError, excerpt};
-use crate::file::read_file;
+use crate::file::{END_OF_FILE, is_utf16, line_of, read_file, strange_byte, utf16};
 use crate::format::Format;
 use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
@@ -12,6 +12,9 @@ use crate::unit::Unit;
 
 /// Largest file that is read: about four million samples in AT2, hours of shaking.
 pub const MAX_FILE_BYTES: u64 = 64 << 20;
+
+/// Longest time step of a file that is read without being stated too (s).
+const LONGEST_STEP: f64 = 1.0;
 
 /// A motion as read from a file.
 #[derive(Clone, PartialEq, Debug)]
@@ -35,13 +38,20 @@ pub struct Record {
 }
 
 impl Parsed {
-    fn into_record(self, format: Format) -> Result<Record, Fault> {
+    fn into_record(self, format: Format, stated_step: Option<f64>) -> Result<Record, Fault> {
         let Self { step, samples, unit, first_time, channel, stated_peak, is_vertical, header, last_line } =
             self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
             let remedy = "check that the file is complete";
             return Err(Fault::new(last_line, "at least two samples", found, remedy));
+        }
+        if step > LONGEST_STEP && stated_step.is_none() {
+            let remedy = "the times may be in milliseconds, or numbers of samples: write seconds; if the \
+                          step is right, state it, as `step` (on the command line --record-step, in Python \
+                          dt)";
+            let expected = format!("a time step of at most {LONGEST_STEP} s");
+            return Err(Fault::new(last_line, expected, format!("{step} s"), remedy));
         }
         let motion = GroundMotion::new(step, samples).map_err(|error| {
             Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
@@ -107,7 +117,7 @@ pub fn parse_channels(
     if let Some(wanted) = &options.channel {
         parsed = vec![chosen(parsed, wanted, name)?];
     }
-    let records = parsed.into_iter().map(|parsed| parsed.into_record(format));
+    let records = parsed.into_iter().map(|parsed| parsed.into_record(format, options.step));
     records.map(|record| record.map_err(|fault| fault.in_file(name))).collect()
 }
 
@@ -157,9 +167,6 @@ fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
         .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
 }
 
-/// The mark that DOS put at the end of texts.
-const END_OF_FILE: u8 = 0x1a;
-
 /// Strips the byte order mark and the end mark of DOS from a text.
 fn sound_part(text: &str) -> Result<&str, Fault> {
     let mark = char::from(END_OF_FILE);
@@ -176,11 +183,12 @@ fn sound_part(text: &str) -> Result<&str, Fault> {
 
 /// Refuses bytes that are not text.
 fn check_is_text(bytes: &[u8]) -> Result<(), Fault> {
-    let is_text = |byte| matches!(byte, b'\n' | b'\t' | b'\r' | 0x0c | END_OF_FILE | 0x20..=0x7e | 0x80..);
-    let Some(at) = bytes.iter().position(|&byte| !is_text(byte)) else { return Ok(()) };
-    let line = bytes[..at].split(|&byte| byte == b'\n').count();
-    let remedy = "binary and UTF-16 files are not read: save the record as plain text (UTF-8)";
-    Err(Fault::new(line, "text", format!("the byte 0x{:02x}", bytes[at]), remedy))
+    if is_utf16(bytes) {
+        return Err(utf16());
+    }
+    let Some(at) = strange_byte(bytes) else { return Ok(()) };
+    let remedy = "binary files are not read: save the record as plain text (UTF-8)";
+    Err(Fault::new(line_of(bytes, at), "text", format!("the byte 0x{:02x}", bytes[at]), remedy))
 }
 
 /// Decodes UTF-8, or else Latin-1, in which old headers name stations.

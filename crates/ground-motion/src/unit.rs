@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::Deserialize;
 
 use crate::error::GroundMotionError;
+use crate::quantity::{parts, plain};
 
 /// Standard gravity, the unit g of records (m/s²): 3rd General Conference on Weights and Measures, 1901.
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -124,29 +125,21 @@ impl fmt::Display for Unit {
 }
 
 /// Reads the usual spellings, in any case: `m/s2`, `m/s^2`, `m/s²`, `m/s**2`, `m/s/s`, `m/sec2`, `m/sec/sec`,
-/// `m s-2`, each of them with `cm` or `mm` too, and `gal` and `g`.
+/// `m s-2`, `m.s⁻²`, each of them with `cm` or `mm` too, and `gal` and `g`.
 impl FromStr for Unit {
     type Err = GroundMotionError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let plain: String = text
-            .to_lowercase()
-            .replace("sec", "s")
-            .replace('²', "2")
-            .replace('−', "-")
-            .chars()
-            .filter(|c| !c.is_whitespace() && !matches!(c, '^' | '*' | '·' | '(' | ')'))
-            .collect();
+        let plain = plain(text);
         match plain.as_str() {
-            "g" => return Ok(Self::StandardGravity),
+            "g" | "g's" => return Ok(Self::StandardGravity),
             "gal" | "gals" => return Ok(Self::CentimetrePerSecondSquared),
             _ => {}
         }
-        let length = ["/s2", "/s/s", "s-2"].iter().find_map(|per_time| plain.strip_suffix(per_time));
-        match length {
-            Some("m") => Ok(Self::MetrePerSecondSquared),
-            Some("cm") => Ok(Self::CentimetrePerSecondSquared),
-            Some("mm") => Ok(Self::MillimetrePerSecondSquared),
+        match parts(&plain) {
+            Some(("m", 2)) => Ok(Self::MetrePerSecondSquared),
+            Some(("cm", 2)) => Ok(Self::CentimetrePerSecondSquared),
+            Some(("mm", 2)) => Ok(Self::MillimetrePerSecondSquared),
             _ => Err(GroundMotionError::Unit { found: text.chars().take(40).collect() }),
         }
     }

@@ -5,6 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
+use study::parallel::STACK;
 
 /// Time between two looks at Ctrl-C and at the progress.
 const LOOK: Duration = Duration::from_millis(50);
@@ -13,7 +14,8 @@ const LOOK: Duration = Duration::from_millis(50);
 /// is still wanted. This thread looks at Ctrl-C and calls `report`.
 ///
 /// # Errors
-/// `KeyboardInterrupt`, or the error of `report`; the work has then ended.
+/// `KeyboardInterrupt`, or the error of `report`; the work has then ended. `OSError` where the system refuses
+/// the thread.
 pub(crate) fn watched<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
@@ -23,19 +25,20 @@ pub(crate) fn watched<T: Send>(
     let is_wanted = || !asked_to_stop.load(Ordering::Relaxed);
     let watcher = thread::current();
     let (outcome, watched) = thread::scope(|scope| {
-        let work = scope.spawn(|| {
+        let thread = thread::Builder::new().stack_size(STACK);
+        let work = thread.spawn_scoped(scope, || {
             let outcome = work(&is_wanted);
             watcher.unpark();
             outcome
-        });
+        })?;
         let mut watched = Ok(());
         while !work.is_finished() && watched.is_ok() {
             py.detach(|| thread::park_timeout(LOOK));
             watched = py.check_signals().and_then(|()| report());
         }
         asked_to_stop.store(watched.is_err(), Ordering::Relaxed);
-        (py.detach(|| work.join()), watched)
-    });
+        PyResult::Ok((py.detach(|| work.join()), watched))
+    })?;
     let outcome = outcome.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
     watched.map(|()| outcome)
 }

@@ -175,7 +175,7 @@ fn arrows_between_crates_point_one_way() {
 
 /// Crates and their features behind a `|`, as cargo builds them.
 fn built(arguments: &[&str]) -> BTreeSet<String> {
-    let tree = ["tree", "--offline", "--locked", "--prefix", "none", "--format", "{p}|{f}"];
+    let tree = ["tree", "--locked", "--prefix", "none", "--format", "{p}|{f}"];
     cargo(&tree, arguments).lines().map(str::to_owned).collect()
 }
 

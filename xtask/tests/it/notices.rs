@@ -20,8 +20,8 @@ const ABOVE_THE_UNIT: [&str; 10] = [
 
 /// The crates that a package links: those of this workspace, and others.
 fn crates(package: &[&str]) -> [BTreeSet<String>; 2] {
-    let tree =
-        ["tree", "--offline", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--package"];
+    // not `--offline`: the crates of another target are fetched where nobody has built for it
+    let tree = ["tree", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--package"];
     let tree = cargo(&tree, package);
     let root = crate::root().canonicalize().unwrap().display().to_string();
     let (ours, others): (Vec<_>, Vec<_>) = tree.lines().partition(|line| line.contains(&root));

@@ -17,6 +17,7 @@ use crate::error::{Fault, excerpt};
 use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::{Parsed, is_vertical};
+use crate::quantity::Quantity;
 use crate::unit::Unit;
 
 /// The line with NPTS is searched among this many lines that are not blank.
@@ -81,11 +82,12 @@ fn count_and_step(line: &str, number: usize) -> Result<(usize, f64), Fault> {
             (count, leading_number(rest))
         }
     };
-    let step_unit = step_unit.trim_start();
-    let foreign =
-        step_unit.starts_with(|c: char| c.is_ascii_alphabetic() && !matches!(c, 's' | 'S' | 'n' | 'N'));
-    if foreign {
-        return Err(fault("the step must be in seconds"));
+    let step_unit = step_unit.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, '(' | '['));
+    let step_unit = step_unit.split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
+    let is_second = matches!(Quantity::of(step_unit), Some(Quantity::Time(1.0)));
+    // in the oldest form the word is NPTS
+    if !(step_unit.is_empty() || is_second || step_unit.starts_with(['n', 'N'])) {
+        return Err(fault("the step must be in seconds: convert it, and write SEC behind it"));
     }
     let count = count.parse::<usize>().map_err(|_| unreadable())?;
     Ok((count, positive(step).ok_or_else(unreadable)?))

@@ -14,20 +14,17 @@
 //! Commas, semicolons, tabs or blanks separate the columns. Beside semicolons, tabs and blanks, decimals may
 //! have a comma. Times are uniform. Lines that start with `#` or `%` are skipped, and so are titles above a
 //! header line. The unit has to be stated, unless the header line has it in brackets: `t [s],a [g]`, or as in
-//! [`CSV_HEADER`].
+//! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
-mod cells;
-mod heading;
 mod times;
 
+use crate::columns::{Columns, Name, Numbers};
 use crate::error::{Fault, excerpt};
-use crate::fields::{Line, lines};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
+use crate::quantity::Quantity;
 use crate::unit::Unit;
 
-use cells::{Numbers, Separator};
-use heading::{Heading, name_and_unit, unquoted};
 use times::Times;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
@@ -38,85 +35,105 @@ pub const CSV_HEADER: &str = "time (a_g in m/s2),a_g";
 const FORMS: &str = "a header line such as `time,a_g` and rows of numbers, times and accelerations in two \
                      columns, or one column of numbers (or the header of another format)";
 
-const COMMENTS: [char; 2] = ['#', '%'];
-
 /// Returns whether one of the first lines is the header line of a table, and the next one a row of it.
 pub(super) fn recognises(head: &[&str]) -> bool {
-    let content = head.iter().enumerate().map(|(index, line)| (index, line.trim_start()));
-    let mut content = content.filter(|(_, line)| !line.starts_with(COMMENTS));
-    let Some(heading) = Heading::find(content.clone()) else { return false };
-    content.find(|(index, _)| *index > heading.line).is_some_and(|(_, row)| heading.fits(row))
+    let text = head.join("\n");
+    let Ok(columns) = Columns::of_numbers(&text, is_time, FORMS) else { return false };
+    columns.names().len() > 1 && is_time(&columns.names()[0]) && matches!(columns.rows().next(), Some(Ok(_)))
 }
 
-/// Returns the lines that are no comments.
-fn content(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
-    lines(text).filter(|(_, line)| !line.starts_with(COMMENTS))
+/// Returns whether a column is the time: `t`, `time [s]`, `time_s` …
+fn is_time(name: &Name) -> bool {
+    let words = name.words();
+    let is_unit = |word: &String| matches!(Quantity::of(word), Some(Quantity::Time(_)));
+    let is_time = words.first().is_some_and(|word| ["t", "time"].contains(&word.as_str()));
+    is_time && words[1..].iter().all(is_unit) && words.len() < 3
 }
 
 /// Reads the text of a table or a column.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
-    let mut rows = content(text);
-    let Some((number, first)) = rows.next() else {
-        let found = if lines(text).next().is_some() { "comments only" } else { "an empty file" };
-        return Err(Fault::new(1, FORMS, found, "check that this is the right file"));
+    let columns = Columns::of_numbers(text, is_time, FORMS)?;
+    let column = if columns.width() == 1 {
+        0
+    } else {
+        check_times(&columns)?;
+        columns.beside_the_first(options.column.as_deref(), "`time`")?
     };
-    let heading = Heading::find(content(text));
-    let chosen = heading.as_ref().map(|heading| heading.chosen(options)).transpose()?;
-    let row = if is_name(first) { rows.next().map(|(_, row)| row) } else { Some(first) };
-    let separator = row.and_then(Separator::of_row);
-    let stated = match chosen {
-        Some((_, unit)) => unit,
-        // what is in the brackets of a title need not be a unit
-        None if separator.is_none() => match name_and_unit(unquoted(first)) {
-            (_, Some(word)) if word.parse::<Unit>().is_ok() => Some(options.unit_of(word, number)?),
-            _ => None,
-        },
-        None => None,
-    };
-    let stated = stated.or(options.unit);
+    let stated = stated_unit(&columns, column, options)?.or(options.unit);
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
-    let unit = stated.unwrap_or(Unit::MetrePerSecondSquared);
-    let parsed = match (&heading, chosen, separator) {
-        (Some(heading), Some((column, _)), _) => {
-            let Heading { line, separator, .. } = *heading;
-            let columns = heading.columns();
-            table(text, options, unit, &Table { line, first_row: line + 1, separator, columns, column })?
-        }
-        (_, _, Some(_)) if is_name(first) => {
-            let remedy = "the first column must be `time`, in seconds, with a header line that names the \
-                          columns; mark titles with #";
-            return Err(Fault::excerpt(number, FORMS, first, remedy));
-        }
-        (_, _, Some(separator)) => pairs(text, options, unit, separator, (number, first))?,
-        (_, _, None) => column(text, options, unit)?,
-    };
+    let mut parsed = Parsed::new(f64::NAN, stated.unwrap_or(Unit::MetrePerSecondSquared), columns.line());
+    parsed.keep_header(columns.header());
+    if columns.width() == 1 {
+        read_column(&columns, options, &mut parsed)?;
+    } else {
+        read_table(&columns, column, options, &mut parsed)?;
+    }
     if stated.is_none() {
         let remedy = "give `unit` (on the command line --unit): m/s2, cm/s2, mm/s2 or g; or write it into a \
                       header line, `t [s],a [g]`";
-        return Err(Fault::new(number, "a stated unit (this file has none)", "no unit", remedy));
+        let expected = "a stated unit (this file has none)";
+        return Err(Fault::new(columns.line(), expected, "no unit", remedy));
     }
     Ok(parsed)
 }
 
-/// Reads one column of samples.
-fn column(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Fault> {
-    let mut parsed = Parsed::new(f64::NAN, unit, 1);
-    let (mut numbers, mut name) = (Numbers::new(None), None);
-    let mut first_row = usize::MAX;
-    for (number, line) in content(text) {
-        parsed.last_line = number;
-        if parsed.samples.is_empty() && name.is_none() && is_name(line) {
-            name = Some((number, unquoted(line)));
-            continue;
-        }
-        first_row = first_row.min(number);
-        parsed.samples.push(numbers.sample(line, number, unit)?);
+/// Refuses a first column that is not the time in seconds.
+fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
+    let Some(name) = columns.checked_first()? else { return Ok(()) };
+    let words = name.words();
+    let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
+    let stated = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));
+    let is_comment = columns.names().is_empty();
+    if !is_comment && !is_time(name) {
+        let remedy = "the first column must be `time`, in seconds, with a header line that names the \
+                      columns; mark titles with #";
+        return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
     }
+    match (stated, name.unit()) {
+        (Some((_, Quantity::Time(1.0))), _) | (None, None) => Ok(()),
+        // `time (a_g in m/s2)`
+        (None, Some(unit)) if is_comment || unit.contains(" in ") => Ok(()),
+        (stated, unit) => {
+            let unit = unit.or(stated.map(|(unit, _)| unit)).unwrap_or_default();
+            let remedy = "write the times in seconds, and so in the header line";
+            Err(Fault::excerpt(columns.line(), "times in s", unit, remedy))
+        }
+    }
+}
+
+/// Finds the unit that the names state for a column.
+fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
+    let Some(name) = columns.names().get(column) else { return Ok(None) };
+    let of_first = columns.names()[0].unit().and_then(|unit| unit.split_once(" in ")).map(|(_, unit)| unit);
+    let unit = match columns.width() {
+        // what is in the brackets of a title need not be a unit
+        1 => name.unit().filter(|unit| Quantity::of(unit).is_some()),
+        _ => name.unit().or(of_first),
+    };
+    if let Some(unit) = unit {
+        return options.unit_of(unit, columns.line()).map(Some);
+    }
+    let words = name.words();
+    let quantity = words.iter().find_map(|word| match word.get(..3) {
+        Some("vel") => Some(Quantity::Velocity),
+        Some("dis") => Some(Quantity::Displacement),
+        _ => None,
+    });
+    match quantity {
+        Some(quantity) if columns.width() > 1 => Err(quantity.refused(name.written(), columns.line())),
+        _ => Ok(None),
+    }
+}
+
+/// Reads one column of samples.
+fn read_column(columns: &Columns<'_>, options: &RecordOptions, parsed: &mut Parsed) -> Result<(), Fault> {
+    read_samples(columns, 0, parsed, |_, _| Ok(()))?;
+    let name = columns.names().first().map(Name::written);
     if let Some(wanted) = &options.column
-        && name.is_none_or(|(_, name)| name != wanted)
+        && name != Some(wanted)
     {
-        let found = name.map_or_else(|| "one column without a name".to_owned(), |(_, name)| excerpt(name));
-        let line = name.map_or(1, |(number, _)| number);
+        let found = name.map_or_else(|| "one column without a name".to_owned(), excerpt);
+        let line = if name.is_some() { columns.line() } else { 1 };
         return Err(Fault::new(line, format!("the column {}", excerpt(wanted)), found, "state no column"));
     }
     let Some(step) = options.step else {
@@ -125,100 +142,59 @@ fn column(text: &str, options: &RecordOptions, unit: Unit) -> Result<Parsed, Fau
         return Err(Fault::new(parsed.last_line, "a stated step (one column has none)", "no step", remedy));
     };
     parsed.step = step;
-    keep_header(&mut parsed, text, first_row);
-    Ok(parsed)
-}
-
-/// What is known of a table before its rows.
-struct Table {
-    /// Its header line, or else its first row.
-    line: usize,
-    first_row: usize,
-    separator: Separator,
-    columns: usize,
-    /// Index of the column to read.
-    column: usize,
-}
-
-/// Reads times and accelerations without a header line.
-fn pairs(
-    text: &str,
-    options: &RecordOptions,
-    unit: Unit,
-    separator: Separator,
-    (line, first): Line<'_>,
-) -> Result<Parsed, Fault> {
-    let columns = separator.cells(first).count();
-    if columns != 2 {
-        let remedy = "name the columns in a header line that starts with `time`, or write one sample a \
-                      line; where decimals have a comma, separate the columns by semicolons";
-        let expected = "two columns, times and accelerations, or one";
-        return Err(Fault::new(line, expected, format!("{columns} in {}", excerpt(first)), remedy));
-    }
-    if let Some(wanted) = &options.column {
-        let expected = format!("a header line with the column {}", excerpt(wanted));
-        return Err(Fault::excerpt(line, expected, first, "state no column: only one can be read"));
-    }
-    let has_point = |(_, row): (usize, &str)| row.contains('.');
-    if separator == Separator::Comma && !first.contains(char::is_whitespace) && !content(text).any(has_point)
-    {
-        let remedy = "write decimal points, separate columns by semicolons, or add a header line such as \
-                      `time,a_g`";
-        return Err(Fault::excerpt(
-            line,
-            "commas that either separate or stand before decimals",
-            first,
-            remedy,
-        ));
-    }
-    table(text, options, unit, &Table { line, first_row: line, separator, columns, column: 1 })
+    Ok(())
 }
 
 /// Reads the rows of a table; they start with the time.
-fn table(text: &str, options: &RecordOptions, unit: Unit, table: &Table) -> Result<Parsed, Fault> {
-    let &Table { line, first_row, separator, columns, column } = table;
-    let mut parsed = Parsed::new(f64::NAN, unit, line);
-    let (mut times, mut numbers) = (Times::default(), Numbers::new(Some(separator)));
-    for (number, row) in content(text).skip_while(|(number, _)| *number < first_row) {
-        let found = separator.cells(row).count();
-        if found != columns {
-            let expected = format!("{columns} values, one for each column");
-            let found = format!("{found} in {}", excerpt(row));
-            let remedy = match separator {
-                Separator::Comma => {
-                    "complete the row; where decimals have a comma, separate the columns by semicolons"
-                }
-                Separator::Semicolon => "complete the row",
-                Separator::Blanks => {
-                    "complete the row; between blanks, each name in the header line must be one word"
-                }
-            };
-            return Err(Fault::new(number, expected, found, remedy));
-        }
-        let mut cells = separator.cells(row);
-        times.push(numbers.real(cells.next().unwrap_or_default(), number)?, number)?;
-        parsed.samples.push(numbers.sample(cells.nth(column - 1).unwrap_or_default(), number, unit)?);
-        parsed.last_line = number;
-    }
+fn read_table(
+    columns: &Columns<'_>,
+    column: usize,
+    options: &RecordOptions,
+    parsed: &mut Parsed,
+) -> Result<(), Fault> {
+    let mut times = Times::default();
+    read_samples(columns, column, parsed, |time, line| times.push(time, line))?;
     let Some((first_time, step)) = times.uniform()? else {
         let found = parsed.samples.len().to_string();
         let remedy = "check that the file is complete";
         return Err(Fault::new(parsed.last_line, "at least two rows", found, remedy));
     };
-    options.check_step(step, line)?;
+    options.check_step(step, columns.line())?;
     (parsed.first_time, parsed.step) = (first_time, step);
-    keep_header(&mut parsed, text, first_row);
-    Ok(parsed)
+    Ok(())
 }
 
-/// Keeps the comments, titles and names above the first row.
-fn keep_header(parsed: &mut Parsed, text: &str, first_row: usize) {
-    let header = lines(text).take_while(|(number, _)| *number < first_row);
-    parsed.keep_header(header.map(|(_, line)| line.trim_start_matches(COMMENTS).trim_start()));
+/// Reads the samples of a column; `take_time` takes the number of the first column and its line.
+fn read_samples(
+    columns: &Columns<'_>,
+    column: usize,
+    parsed: &mut Parsed,
+    mut take_time: impl FnMut(f64, usize) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    let mut numbers = Numbers::new(columns);
+    for row in columns.rows() {
+        let row = row?;
+        let mut cells = row.cells();
+        if column > 0 {
+            let time = cells.next().unwrap_or_default();
+            refuse_clock_time(&time, row.line)?;
+            take_time(numbers.real(&time, row.line)?, row.line)?;
+        }
+        let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
+        let sample = Some(parsed.unit.to_si(numbers.real(&cell, row.line)?));
+        parsed.samples.push(sample.filter(|sample| sample.is_finite()).ok_or_else(|| {
+            Fault::excerpt(row.line, "a finite acceleration", &cell, "check the value and the unit")
+        })?);
+        parsed.last_line = row.line;
+    }
+    Ok(())
 }
 
-/// Returns whether a line names its column: it starts with a letter and is not a number, as `nan` and `inf`
-/// are.
-fn is_name(line: &str) -> bool {
-    unquoted(line).starts_with(char::is_alphabetic) && line.parse::<f64>().is_err()
+/// Refuses dates and times of the day.
+fn refuse_clock_time(cell: &str, line: usize) -> Result<(), Fault> {
+    if !(cell.starts_with(|c: char| c.is_ascii_digit()) && cell.contains([':', '/'])) {
+        return Ok(());
+    }
+    let remedy = "this is a date or a time of the day: write the seconds since the start of the record";
+    Err(Fault::excerpt(line, "a time in s", cell, remedy))
 }

@@ -9,6 +9,7 @@ mod chain;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod damaged_records;
+mod inputs;
 mod motion;
 mod pulse;
 mod record_at2;

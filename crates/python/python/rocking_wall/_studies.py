@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -184,21 +184,44 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
         walls = [walls]
     elif hasattr(walls, "to_pylist"):
         # a table of pyarrow
-        walls = walls.to_pylist()
+        walls = with_content(walls.to_pylist())
     elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
-        if "name" in getattr(getattr(walls, "index", None), "names", ()) and "name" not in walls.columns:
-            # the names of the walls are the index of the DataFrame
-            walls = walls.reset_index()
-        walls = Table({str(name): list(walls[name]) for name in walls.columns}).rows()
+        walls = rows_of(walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
-            walls = Table(walls).rows()
+            walls = with_content(Table(walls).rows())
         else:
             return [(str(name), one_wall(wall)) for name, wall in walls.items()]
-    return [
-        (str(wall.get("name", number) if isinstance(wall, Mapping) else number), one_wall(wall))
-        for number, wall in enumerate(walls, 1)
-    ]
+    return [(name_of(wall, number), one_wall(wall)) for number, wall in enumerate(walls, 1)]
+
+
+def rows_of(frame: Any) -> list[dict[str, Any]]:
+    """Returns the rows of a DataFrame that have content; names may be an index called `name`."""
+    if "name" in getattr(getattr(frame, "index", None), "names", ()) and "name" not in frame.columns:
+        frame = frame.reset_index()
+    names = [str(name) for name in frame.columns]
+    twins = sorted({name for name in names if names.count(name) > 1})
+    if twins:
+        raise ValueError(f"the table of walls has two columns {twins[0]!r}; give each column its own name")
+    return with_content(Table({str(name): list(frame[name]) for name in frame.columns}).rows())
+
+
+def with_content(rows: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Returns the rows that have a cell with content; one without a name is refused."""
+    filled = []
+    for number, row in enumerate(rows, 1):
+        if all(is_missing(value) for value in row.values()):
+            continue
+        if "name" in row and is_missing(row["name"]):
+            raise ValueError(f"row {number} of the table of walls has no name; write one, or delete the row")
+        filled.append(row)
+    return filled
+
+
+def name_of(wall: object, number: int) -> str:
+    """Returns the name of a wall of a list, or else its number."""
+    name = wall.get("name") if isinstance(wall, Mapping) else None
+    return str(number if is_missing(name) else name)
 
 
 def one_wall(wall: object) -> Any:

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use figures::plot::Picture;
 use figures::records;
@@ -88,12 +88,14 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
     let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut rows = Vec::new();
     for record in read_channels(path, options)? {
-        let average = in_g(spectrum.average(&record.motion, &arguments.average)?);
-        let accelerations = spectrum.accelerations(&record.motion, &arguments.periods)?;
+        let in_file = || path.display().to_string();
+        let average = spectrum.average(&record.motion, &arguments.average).with_context(in_file)?;
+        let accelerations =
+            spectrum.accelerations(&record.motion, &arguments.periods).with_context(in_file)?;
         let check = record.check();
         rows.push(Row {
             file: file.clone(),
-            average,
+            average: in_g(average),
             accelerations: accelerations.into_iter().map(in_g).collect(),
             check,
             record,
@@ -210,7 +212,8 @@ fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
         for index in 0..=PERIODS {
             let part = f64::from(index) / f64::from(PERIODS);
             let period = SHORTEST + (LONGEST - SHORTEST) * part * part;
-            points.push((period, spectrum.acceleration(motion, period)? / STANDARD_GRAVITY));
+            let acceleration = spectrum.acceleration(motion, period).with_context(|| row.name())?;
+            points.push((period, acceleration / STANDARD_GRAVITY));
         }
         let is_vertical = row.record.is_vertical;
         Ok(records::Record { name: row.name(), history, spectrum: points, is_vertical })

@@ -53,8 +53,14 @@ fn a_spectrum_states_its_unit() {
         refused(&folder, &[&check[..], &["--unit", "m/s2"]].concat(), &["line 1", "g", "leave out --unit"]);
     }
     write("T,Sa (5 %)");
-    refused(&folder, &check, &["states no unit", "--unit"]);
+    refused(&folder, &check, &["s.csv, line 1", "a unit of acceleration", "--unit"]);
     assert!(printed(&folder, &[&check[..], &["--unit", "m/s2"]].concat()).contains("0.200000"));
+    // the column that is read is said
+    let rows = "T [s],Sa 2% [g],Sa 5% [g]\n0,0.3,0.2\n0.5,0.6,0.5\n4,0.04,0.03\n";
+    std::fs::write(folder.join("s.csv"), rows).unwrap();
+    refused(&folder, &check, &["s.csv, line 1", "one column beside T", "--column"]);
+    let text = printed(&folder, &[&check[..], &["--column", "Sa 5%"]].concat());
+    assert_has(&text, &["s.csv, column Sa 5% [g], Sa in g", "1.96133"]);
 }
 
 #[test]
@@ -67,7 +73,7 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("T,Sa\n0.1,1\n2,0.5\n", "no T = 0");
     refuses("0,1\n1,0.5\n0.5,0.3\n", "line 3: expected periods from 0 on that rise");
     refuses("0,1\n1,0.5\n", "has no T = 1.4");
-    refuses("0,1\n1\n", "line 2: expected T in s and Sa");
+    refuses("0,1.0\n1\n", "line 2: expected 2 values");
 }
 
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
@@ -188,7 +194,8 @@ fn the_smallest_wall_that_passes_is_found() {
 #[test]
 fn many_walls_are_checked() {
     let folder = folder("check_walls");
-    let walls = "name,height,thickness,overburden\nlow,1,0.4,0\n\"tall, thin\",6,0.4,0\nloaded,3,0.4,5000\n";
+    let walls =
+        "name,height,thickness,overburden\nlow,1,0.4,0\n\"tall, thin\",6,0.4,0\nloaded,3,0.4,5000\n,,,\n";
     std::fs::write(folder.join("walls.csv"), walls).unwrap();
     let table = TIED.split("[check]").nth(1).unwrap();
     let study = format!("walls = [{{ table = \"walls.csv\" }}]\n[check]{table}");

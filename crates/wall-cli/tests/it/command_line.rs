@@ -215,9 +215,9 @@ fn bad_scenes() {
     }
     refused(&folder, &["simulate", "missing.toml"], &["missing.toml"]);
     std::fs::write(folder.join("noise.toml"), [0xff_u8, 0xfe, 0x00, 0x80]).unwrap();
-    refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "save it as UTF-8"]);
+    refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "as UTF-8"]);
     std::fs::write(folder.join("cp1252.toml"), b"title = \"Mauer\"\n# M\xfcller\n").unwrap();
-    refused(&folder, &["simulate", "cp1252.toml"], &["cp1252.toml, line 2", "save it as UTF-8"]);
+    refused(&folder, &["simulate", "cp1252.toml"], &["cp1252.toml, line 2", "as UTF-8"]);
 }
 
 /// A record, its arguments, and words that the message must contain. The readers have tests of their own.

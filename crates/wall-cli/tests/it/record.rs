@@ -34,6 +34,15 @@ fn the_table_lists_every_channel() {
     assert_has(&table, &["check    two.V2 [2: Up]: ", "is the end missing?"]);
 }
 
+/// A step that is too long for an oscillator is one of a file.
+#[test]
+fn a_long_step_names_its_file() {
+    let folder = records("record_long_step");
+    let arguments = ["record", "one.AT2", "column.csv", "--unit", "cm/s2", "--record-step", "6"];
+    let words = ["column.csv: ", "at most 500 periods", "one.AT2, line 4: expected the stated step of 6 s"];
+    fails(&folder, &[&arguments[..], &["--periods", "0.01"]].concat(), &words);
+}
+
 #[test]
 fn json_and_csv_hold_the_same_numbers() {
     let folder = records("record_json");

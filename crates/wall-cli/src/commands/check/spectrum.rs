@@ -9,8 +9,8 @@ use figures::capacity::over_demand;
 use figures::escaped;
 use figures::plot::Plot;
 use ground_motion::spectrum::DAMPING;
-use ground_motion::{RecordOptions, Unit};
-use rocking_wall::scene::{Floors, read_text};
+use ground_motion::{RecordOptions, SpectrumFile, Unit};
+use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
@@ -23,7 +23,7 @@ use figures::template;
 
 #[derive(Debug, Args)]
 pub(super) struct SpectrumArguments {
-    /// Demand: a response spectrum as CSV, T in s and Sa, from T = 0 on; of the ground or of a floor
+    /// Demand: a response spectrum as CSV or text, T in s and Sa, from T = 0 on; of the ground or of a floor
     #[arg(long, value_name = "FILE", conflicts_with = "records")]
     spectrum: Option<PathBuf>,
     /// Demand: the median spectrum of these records, felt on the floor of a scene with storeys
@@ -32,6 +32,9 @@ pub(super) struct SpectrumArguments {
     /// Unit of a spectrum or of records that do not state theirs: m/s2, cm/s2, mm/s2 or g
     #[arg(long)]
     unit: Option<String>,
+    /// Name of the column with Sa, for a spectrum with several
+    #[arg(long, value_name = "NAME", requires = "spectrum")]
+    column: Option<String>,
     /// Damping ratio of the spectrum [default: 0.05]
     #[arg(long, value_name = "RATIO")]
     damping: Option<f64>,
@@ -50,6 +53,7 @@ impl SpectrumArguments {
             ("--spectrum", self.spectrum.is_some()),
             ("--records", !self.records.is_empty()),
             ("--unit", self.unit.is_some()),
+            ("--column", self.column.is_some()),
             ("--damping", self.damping.is_some()),
             ("--displacement-fraction", self.displacement_fraction.is_some()),
             ("--secant-fraction", self.secant_fraction.is_some()),
@@ -113,9 +117,6 @@ struct Source {
     demand: Demand,
 }
 
-/// Largest spectrum file that is read.
-const MAX_FILE_BYTES: u64 = 1 << 20;
-
 impl Source {
     fn read(arguments: &SpectrumArguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
@@ -126,8 +127,8 @@ impl Source {
                     "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
                 );
             }
-            let (unit, demand) = points(path, unit)?;
-            return Ok(Self { name: format!("{}, Sa in {unit}", path.display()), damping, demand });
+            let (note, demand) = points(path, unit, arguments.column.as_deref())?;
+            return Ok(Self { name: format!("{}, {note}", path.display()), damping, demand });
         }
         let options = RecordOptions { unit, ..RecordOptions::default() };
         let motion = |path: &PathBuf| Ok(read_record(path, &options)?.motion);
@@ -142,49 +143,17 @@ impl Source {
     }
 }
 
-/// Reads a spectrum and its unit, which the file states in its header line, or the arguments do.
-fn points(path: &Path, given: Option<Unit>) -> Result<(Unit, Demand)> {
-    let text = read_text(path, "a spectrum (CSV)", MAX_FILE_BYTES)?;
-    let unit = match (stated_unit(&text), given) {
-        (Some(stated), Some(given)) if stated != given => {
-            bail!("{}: line 1 states {stated}, but --unit is {given}; leave out --unit", path.display());
-        }
-        (stated, given) => stated.or(given).with_context(|| {
-            let path = path.display();
-            format!("{path}: states no unit; give --unit, or write it into a header line, T [s],Sa [g]")
-        })?,
-    };
-    let (mut points, mut lines) = (Vec::new(), Vec::new());
-    for (index, line) in text.lines().enumerate() {
-        let number = |field: &str| field.trim().parse::<f64>().ok();
-        let fields: Vec<_> = line.split([',', ';', '\t']).collect();
-        let pair = match fields[..] {
-            [period, value] => number(period).zip(number(value)),
-            _ => None,
-        };
-        let Some((period, value)) = pair else {
-            if index == 0 || line.trim().is_empty() {
-                continue;
-            }
-            bail!("{}: line {}: expected T in s and Sa, such as 0.5,0.42", path.display(), index + 1);
-        };
-        points.push((period, unit.to_si(value)));
-        lines.push(index + 1);
-    }
+/// Reads a spectrum: a note on its column and unit, and the demand.
+fn points(path: &Path, given: Option<Unit>, column: Option<&str>) -> Result<(String, Demand)> {
+    let SpectrumFile { points, lines, unit, column } = SpectrumFile::read(path, given, column)?;
     let demand = Demand::of_points(points).map_err(|error| match error {
         CheckError::Point { number, .. } => {
-            anyhow!("{}: line {}: expected {POINTS}", path.display(), lines[number - 1])
+            anyhow!("{}, line {}: expected {POINTS}", path.display(), lines[number - 1])
         }
         other => anyhow!("{}: {other}", path.display()),
     })?;
-    Ok((unit, demand))
-}
-
-/// Finds the unit in brackets at the end of a header line, `T [s],Sa [g]`; `Sa (5 %)` states none.
-fn stated_unit(text: &str) -> Option<Unit> {
-    let header = text.lines().next()?.trim().trim_end_matches('"');
-    let bracket = |(opening, closing)| header.strip_suffix(closing)?.rsplit_once(opening);
-    [('[', ']'), ('(', ')')].into_iter().find_map(bracket)?.1.parse().ok()
+    let column = column.map_or_else(String::new, |column| format!("column {column}, "));
+    Ok((format!("{column}Sa in {unit}"), demand))
 }
 
 fn side_name(side: &SideCheck) -> &'static str {

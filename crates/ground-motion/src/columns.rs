@@ -1,0 +1,342 @@
+//! Columns of text: the tables that people have in files, whatever separates their cells.
+//!
+//! Records, response spectra and tables of walls are read from them. A file has one of two forms:
+//!
+//! - [`Columns::of_numbers`]: rows of numbers, with or without a line of names above them;
+//! - [`Columns::of_texts`]: a line of names, and rows of numbers and words.
+//!
+//! Semicolons, commas, tabs or blanks separate the cells, which may stand in quotes. Decimals have a point,
+//! or a comma where that cannot be a separator. Lines that start with `#` or `%` are comments. Rows without
+//! any content, such as `,,`, are skipped, and so are empty columns at the end.
+
+mod cells;
+mod heading;
+
+pub use crate::error::Fault;
+pub use cells::{Numbers, Row};
+pub use heading::Name;
+
+use crate::error::excerpt;
+use crate::fields::{Line, lines};
+use cells::{Cells, Separator};
+
+/// What starts a comment.
+pub(crate) const COMMENTS: [char; 2] = ['#', '%'];
+
+/// What starts a comment in other programs' files.
+const OTHER_COMMENTS: [&str; 2] = ["//", "!"];
+
+/// A line of names is searched among this many lines before the first number.
+const TITLE_LINES: usize = 20;
+
+/// What the columns of a file are called, what separates them, and their rows.
+///
+/// ```
+/// use ground_motion::columns::{Columns, Numbers};
+///
+/// let text = "# a spectrum\nT [s];Sa [g]\n0;0,2\n0,5;0,45\n";
+/// let columns = Columns::of_numbers(text, |name| name.text() == "T", "periods and Sa")?;
+/// assert_eq!(columns.names()[1].unit(), Some("g"));
+/// let mut numbers = Numbers::new(&columns);
+/// for row in columns.rows() {
+///     let row = row?;
+///     let cells: Vec<_> = row.cells().collect();
+///     assert!(numbers.real(&cells[1], row.line)? >= 0.2);
+/// }
+/// # Ok::<(), ground_motion::columns::Fault>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Columns<'a> {
+    text: &'a str,
+    names: Vec<Name>,
+    /// The last comment above the rows, where no line names the columns.
+    remark: Vec<Name>,
+    /// The line of the names, or else the first row.
+    heading: Line<'a>,
+    first_row: usize,
+    separator: Separator,
+    width: usize,
+}
+
+impl<'a> Columns<'a> {
+    /// Finds the columns of a text with rows of numbers. Above these may stand titles, a line of names, and a
+    /// row of units.
+    ///
+    /// A line names the columns if `is_first` knows its first name, or if it has as many names as the first
+    /// row has cells. `forms` says in messages what the file should have.
+    ///
+    /// # Errors
+    /// [`Fault`] if there are no rows, or if it cannot be told what separates their cells.
+    pub fn of_numbers(text: &'a str, is_first: impl Fn(&Name) -> bool, forms: &str) -> Result<Self, Fault> {
+        let first = first_line(text, forms)?;
+        let titles: Vec<Line<'a>> =
+            content(text).take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES).collect();
+        refuse_other_comments(content(text).take(titles.len() + 1))?;
+        let row = content(text).nth(titles.len()).filter(|(_, line)| starts_a_number(line));
+        let of_row = row.map_or(Separator::None, |(_, line)| Separator::of_row(line));
+        let width = row.map_or(0, |(_, line)| filled(of_row, line));
+        let names = |line: &str| heading::names(line, Separator::of_names(line, false));
+        let is_heading = |&&(_, line): &&Line<'a>| {
+            let names = names(line);
+            names.len() > 1 && is_first(&names[0])
+        };
+        let unit_row =
+            titles.last().filter(|(_, line)| titles.len() > 1 && heading::is_unit_row(&names(line)));
+        let titles_only = &titles[..titles.len() - usize::from(unit_row.is_some())];
+        let found = titles_only.last().filter(is_heading).or_else(|| titles_only.iter().find(is_heading));
+        let fits = |&&(_, line): &&Line<'a>| width > 1 && names(line).len() == width;
+        let found = found.or_else(|| titles_only.last().filter(fits));
+        if let Some(&(number, line)) = found {
+            let mut names = names(line);
+            if let Some((_, units)) = unit_row {
+                heading::add_units(&mut names, units);
+            }
+            let first_row = unit_row.map_or(number, |(number, _)| *number) + 1;
+            let (separator, width) = (Separator::of_names(line, false), names.len());
+            let heading = (number, line);
+            return Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width });
+        }
+        let Some((number, line)) = row else {
+            let remedy = "write rows of numbers below a line that names the columns";
+            return Err(Fault::excerpt(first.0, forms, first.1, remedy));
+        };
+        let mut columns = Self {
+            text,
+            names: Vec::new(),
+            remark: Vec::new(),
+            heading: (number, line),
+            first_row: number,
+            separator: of_row,
+            width,
+        };
+        if of_row == Separator::None {
+            // one column has a name of any number of words
+            if let Some(&title) = titles.first() {
+                (columns.heading, columns.first_row) = (title, title.0 + 1);
+                columns.names = vec![Name::of(title.1)];
+            }
+            return Ok(columns);
+        }
+        if !titles.is_empty() {
+            let remedy = "name the columns in the line above the numbers; mark titles with #";
+            return Err(Fault::excerpt(first.0, forms, first.1, remedy));
+        }
+        columns.refuse_ambiguous_commas()?;
+        let remark = lines(text).take_while(|(line, _)| *line < number).last();
+        let remark = remark.map_or("", |(_, line)| line.trim_start_matches(COMMENTS).trim());
+        columns.remark = Some(names(remark)).filter(|names| names.len() == width).unwrap_or_default();
+        Ok(columns)
+    }
+
+    /// Finds the columns of a text whose first line names them.
+    ///
+    /// # Errors
+    /// [`Fault`] if there is no such line, or if two columns have one name.
+    pub fn of_texts(text: &'a str, forms: &str) -> Result<Self, Fault> {
+        refuse_other_comments(content(text).take(1))?;
+        let heading = first_line(text, forms)?;
+        let separator = Separator::of_names(heading.1, true);
+        let names = heading::names(heading.1, separator);
+        let twin = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
+        if let Some((_, name)) = twin {
+            let found = format!("two columns {}", excerpt(name.text()));
+            return Err(Fault::new(
+                heading.0,
+                "columns with names of their own",
+                found,
+                "delete one of them",
+            ));
+        }
+        let (first_row, width) = (heading.0 + 1, names.len());
+        Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width })
+    }
+
+    /// Returns the names of the columns; none where no line has them.
+    pub fn names(&self) -> &[Name] {
+        &self.names
+    }
+
+    /// Returns the name of the first column, or else what a comment above the rows calls it.
+    pub fn first(&self) -> Option<&Name> {
+        self.names.first().or_else(|| self.remark.first())
+    }
+
+    /// Returns the line of the names, or else of the first row.
+    pub fn line(&self) -> usize {
+        self.heading.0
+    }
+
+    /// Returns the text of that line.
+    pub(crate) fn heading(&self) -> &'a str {
+        self.heading.1
+    }
+
+    /// Counts the columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Returns the comments and lines above the first row, without the marks of comments.
+    pub fn header(&self) -> impl Iterator<Item = &'a str> {
+        let first_row = self.first_row;
+        let header = lines(self.text).take_while(move |(number, _)| *number < first_row);
+        header.map(|(_, line)| line.trim_start_matches(COMMENTS).trim_start())
+    }
+
+    /// Returns the rows that have content.
+    ///
+    /// # Errors
+    /// [`Fault`] of a row with more or fewer cells than there are columns.
+    pub fn rows(&self) -> impl Iterator<Item = Result<Row<'a>, Fault>> {
+        let Self { text, first_row, separator, width, .. } = *self;
+        let names = self.names.is_empty();
+        let rows = lines(text).skip_while(move |(number, _)| *number < first_row);
+        rows.filter_map(move |(line, text)| {
+            let row = Row { line, text, separator, width };
+            if text.starts_with(COMMENTS) {
+                return row.unclear_comment().map(Err);
+            }
+            if separator != Separator::None && row.all_cells().all(|cell| cell.is_empty()) {
+                return None;
+            }
+            Some(row.checked(names))
+        })
+    }
+
+    /// Finds the column to read beside the first: the one that is wanted by its name, or else the only one.
+    /// Where there are more, it is the only one that states an acceleration while all others state something
+    /// else. `first` is what the first column is, for messages.
+    ///
+    /// # Errors
+    /// [`Fault`] if none or more than one could be meant; it lists the names.
+    pub fn beside_the_first(&self, wanted: Option<&str>, first: &str) -> Result<usize, Fault> {
+        let (line, text) = self.heading;
+        let Some(wanted) = wanted else { return self.only_one(first) };
+        if self.names.is_empty() {
+            let expected = format!("a header line with the column {}", excerpt(wanted));
+            return Err(Fault::excerpt(line, expected, text, "state no column: only one can be read"));
+        }
+        let is_wanted = |name: &Name| name.written() == wanted || name.text() == wanted;
+        let mut matches = (1..self.names.len()).filter(|&column| is_wanted(&self.names[column]));
+        match (matches.next(), matches.next()) {
+            (Some(column), None) => Ok(column),
+            (None, _) => {
+                let expected = format!("a column {}", excerpt(wanted));
+                Err(Fault::excerpt(line, expected, text, "state one of these columns"))
+            }
+            (Some(_), Some(_)) => {
+                let expected = format!("one column {}", excerpt(wanted));
+                Err(Fault::excerpt(line, expected, text, "give each column its own name"))
+            }
+        }
+    }
+
+    /// Returns the name of the first column, or else what a comment above the rows calls it. Refuses an empty
+    /// one above rows of numbers: that column is an index.
+    pub(crate) fn checked_first(&self) -> Result<Option<&Name>, Fault> {
+        match self.first() {
+            Some(name) if name.written().is_empty() => {
+                let remedy = "delete the first column, an index without a name (pandas: index=False)";
+                Err(Fault::excerpt(self.heading.0, "a name for the first column", self.heading.1, remedy))
+            }
+            first => Ok(first),
+        }
+    }
+
+    /// Finds the only column beside the first.
+    fn only_one(&self, first: &str) -> Result<usize, Fault> {
+        let (line, text) = self.heading;
+        refuse_twins(&self.names, line)?;
+        let (accelerations, others): (Vec<usize>, Vec<usize>) =
+            (1..self.names.len()).partition(|&column| self.names[column].is_acceleration());
+        match (self.width, &accelerations[..]) {
+            (2, _) => Ok(1),
+            (_, &[column]) if others.iter().all(|&other| self.names[other].is_another_quantity()) => {
+                Ok(column)
+            }
+            _ if self.names.is_empty() => {
+                let found = format!("{} in {}", self.width, excerpt(text));
+                let expected = format!("two columns, {first} and accelerations, or one");
+                let remedy = "name the columns in a header line, and state the one to read (on the command \
+                              line --column); or write one sample a line; where decimals have a comma, \
+                              separate the columns by semicolons";
+                Err(Fault::new(line, expected, found, remedy))
+            }
+            _ => {
+                let expected = format!("one column beside {first}");
+                let blanks = match self.separator {
+                    Separator::Blanks => "; between blanks, each name must be one word",
+                    _ => "",
+                };
+                let remedy =
+                    format!("state the name of the column to read (on the command line --column){blanks}");
+                Err(Fault::excerpt(line, expected, text, remedy))
+            }
+        }
+    }
+
+    /// Refuses rows such as `0,5`: one number, or two.
+    fn refuse_ambiguous_commas(&self) -> Result<(), Fault> {
+        let (line, first) = self.heading;
+        let is_clear = |(_, row): Line<'_>| row.contains(['.', '"']);
+        let is_comma = self.separator == Separator::Comma && self.width == 2;
+        if !is_comma || first.contains(char::is_whitespace) || content(self.text).any(is_clear) {
+            return Ok(());
+        }
+        let expected = "commas that either separate or stand before decimals";
+        let remedy = "write decimal points, separate columns by semicolons, or add a header line such as \
+                      `time,a_g`";
+        Err(Fault::excerpt(line, expected, first, remedy))
+    }
+}
+
+/// Refuses two columns of one name.
+fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
+    let mut named = names.iter().enumerate().filter(|(_, name)| !name.written().is_empty());
+    let Some((_, name)) = named.find(|(at, name)| names[..*at].contains(name)) else { return Ok(()) };
+    let found = format!("two columns {}", excerpt(name.written()));
+    let remedy = "delete one of them, or give each its own name";
+    Err(Fault::new(line, "columns with names of their own", found, remedy))
+}
+
+/// Returns the lines that are no comments. `sep=;`, by which Excel knows the separator, counts as one.
+fn content(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
+    lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)))
+}
+
+fn is_separator_line(line: &str) -> bool {
+    line.len() <= "sep=;".len() && line.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("sep="))
+}
+
+/// Returns the first line that is no comment.
+fn first_line<'a>(text: &'a str, forms: &str) -> Result<Line<'a>, Fault> {
+    content(text).next().ok_or_else(|| {
+        let found = if lines(text).next().is_some() { "comments only" } else { "an empty file" };
+        Fault::new(1, forms, found, "check that this is the right file")
+    })
+}
+
+/// Refuses lines that start with the comment marks of other programs.
+fn refuse_other_comments<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
+    let is_other = |line: &str| OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark));
+    match lines.find(|(_, line)| is_other(line)) {
+        Some((number, line)) => Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT)),
+        None => Ok(()),
+    }
+}
+
+const OTHER_COMMENT: &str = "comments start with # or %; start this line with # if it is one";
+
+/// Counts the cells of a row without the empty ones at its end.
+fn filled(separator: Separator, row: &str) -> usize {
+    let filled = Cells::new(row, separator).enumerate().filter(|(_, cell)| !cell.is_empty());
+    filled.last().map_or(0, |(at, _)| at + 1)
+}
+
+/// Returns whether a line starts as a number does; it may stand in quotes.
+fn starts_a_number(line: &str) -> bool {
+    let line = line.trim_start().trim_start_matches('"').trim_start();
+    // `,T [s]` is none
+    let digits = line.trim_start_matches(['+', '-']).trim_start_matches(['.', ',']);
+    digits.starts_with(|c: char| c.is_ascii_digit()) || line.parse::<f64>().is_ok()
+}

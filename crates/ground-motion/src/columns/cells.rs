@@ -1,0 +1,220 @@
+//! The cells of a row: what separates them, and how their numbers are written.
+
+use std::borrow::Cow;
+
+use super::{COMMENTS, Columns, OTHER_COMMENT, OTHER_COMMENTS, filled};
+use crate::error::{Fault, excerpt};
+use crate::fields::real;
+
+/// What separates the cells of a row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Separator {
+    /// Nothing: a row is one cell.
+    None,
+    /// A comma; decimals have points, except in quotes.
+    Comma,
+    /// A semicolon.
+    Semicolon,
+    /// A tab, in rows that may have empty cells.
+    Tab,
+    /// Blanks or tabs, any number of them.
+    Blanks,
+}
+
+impl Separator {
+    /// Finds what separates the numbers of a row. A comma beside a blank separates numbers. In a row with
+    /// blanks, any other comma is a decimal comma.
+    pub(super) fn of_row(row: &str) -> Self {
+        let is_beside = |before: &str, after: &str| {
+            let edge = |c: char| c.is_whitespace() || c == '"';
+            before.is_empty() || before.ends_with(edge) || after.starts_with(edge) || after.is_empty()
+        };
+        let separates = |(at, _): (usize, &str)| is_beside(&row[..at], &row[at + 1..]);
+        if row.contains(';') {
+            Self::Semicolon
+        } else if row.match_indices(',').any(separates) {
+            Self::Comma
+        } else if row.contains(char::is_whitespace) {
+            Self::Blanks
+        } else if row.contains(',') {
+            Self::Comma
+        } else {
+            Self::None
+        }
+    }
+
+    /// Finds what separates names, and the rows below them. Rows of texts may have empty cells between tabs.
+    pub(super) fn of_names(line: &str, of_texts: bool) -> Self {
+        match line {
+            _ if line.contains(';') => Self::Semicolon,
+            _ if line.contains(',') => Self::Comma,
+            _ if line.contains('\t') && of_texts => Self::Tab,
+            _ => Self::Blanks,
+        }
+    }
+
+    fn is(self, c: char) -> bool {
+        match self {
+            Self::None => false,
+            Self::Comma => c == ',',
+            Self::Semicolon => c == ';',
+            Self::Tab => c == '\t',
+            Self::Blanks => c.is_whitespace(),
+        }
+    }
+}
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a> {
+    /// Its line, from 1.
+    pub line: usize,
+    pub(super) text: &'a str,
+    pub(super) separator: Separator,
+    pub(super) width: usize,
+}
+
+impl<'a> Row<'a> {
+    /// Returns the cells, one for each column, without blanks around them and without quotes.
+    pub fn cells(&self) -> impl Iterator<Item = Cow<'a, str>> {
+        self.all_cells().take(self.width)
+    }
+
+    pub(super) fn all_cells(&self) -> Cells<'a> {
+        Cells::new(self.text, self.separator)
+    }
+
+    /// Refuses a number of cells that is not that of the columns; empty ones at the end do not count.
+    pub(super) fn checked(self, without_names: bool) -> Result<Self, Fault> {
+        let Self { line, text, separator, width } = self;
+        let all = self.all_cells().count();
+        if all == width || all > width && filled(separator, text) <= width {
+            return Ok(self);
+        }
+        if OTHER_COMMENTS.iter().any(|mark| text.starts_with(mark)) {
+            return Err(Fault::excerpt(line, "a row", text, OTHER_COMMENT));
+        }
+        let expected = match width {
+            1 => "one value".to_owned(),
+            _ => format!("{width} values, one for each column"),
+        };
+        let remedy = match separator {
+            Separator::Comma => {
+                "complete the row; where decimals have a comma, separate the columns by semicolons"
+            }
+            Separator::Blanks if without_names => "complete the row",
+            Separator::Blanks => {
+                "complete the row; between blanks, each name in the header line must be one word"
+            }
+            Separator::None | Separator::Semicolon | Separator::Tab => "complete the row",
+        };
+        Err(Fault::new(line, expected, format!("{all} in {}", excerpt(text)), remedy))
+    }
+
+    /// Refuses a comment that could be a row of texts: `#1,3.0,0.25`, whose first cell is a name.
+    pub(super) fn unclear_comment(&self) -> Option<Fault> {
+        let is_numbers = matches!(self.separator, Separator::None | Separator::Blanks);
+        let is_word = self.text.trim_start_matches(COMMENTS).starts_with(char::is_alphanumeric);
+        let is_unclear = !is_numbers && is_word && self.all_cells().count() == self.width;
+        is_unclear.then(|| {
+            let remedy = "put a name that starts with it in quotes, or a blank behind the mark of a comment";
+            Fault::excerpt(self.line, "a row or a comment", self.text, remedy)
+        })
+    }
+}
+
+/// The cells of a row, without blanks around them and without quotes.
+#[derive(Clone, Debug)]
+pub(super) struct Cells<'a> {
+    rest: Option<&'a str>,
+    separator: Separator,
+}
+
+impl<'a> Cells<'a> {
+    pub(super) fn new(row: &'a str, separator: Separator) -> Self {
+        Self { rest: Some(row), separator }
+    }
+}
+
+impl<'a> Iterator for Cells<'a> {
+    type Item = Cow<'a, str>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut rest = self.rest.take()?;
+        if self.separator == Separator::Blanks {
+            rest = rest.trim_start();
+            if rest.is_empty() {
+                return None;
+            }
+        }
+        let may_close = rest.trim_start().starts_with('"');
+        let mut is_open = false;
+        let end = rest.find(|c: char| {
+            is_open ^= may_close && c == '"';
+            !is_open && self.separator.is(c)
+        });
+        let Some(end) = end else { return Some(unquoted(rest)) };
+        let mut after = rest[end..].chars();
+        after.next();
+        self.rest = Some(after.as_str());
+        Some(unquoted(&rest[..end]))
+    }
+}
+
+/// Strips blanks and quotes from a cell; doubled quotes inside stand for one.
+pub(super) fn unquoted(cell: &str) -> Cow<'_, str> {
+    let cell = cell.trim();
+    match cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')) {
+        Some(inner) if inner.contains("\"\"") => Cow::Owned(inner.trim().replace("\"\"", "\"")),
+        Some(inner) => Cow::Borrowed(inner.trim()),
+        None => Cow::Borrowed(cell),
+    }
+}
+
+/// Reads numbers whose decimals are all written alike.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    separator: Separator,
+    /// The first decimal mark, and its line.
+    mark: Option<(char, usize)>,
+}
+
+impl Numbers {
+    /// Makes a reader for the cells of some columns.
+    pub fn new(columns: &Columns<'_>) -> Self {
+        Self { separator: columns.separator, mark: None }
+    }
+
+    /// Reads the finite number in a cell. The letter of an exponent may be D, as Fortran writes it.
+    ///
+    /// # Errors
+    /// [`Fault`] if it is none, or if its decimals are not written as those before.
+    pub fn real(&mut self, cell: &str, line: usize) -> Result<f64, Fault> {
+        let cell = cell.trim();
+        let mut plain = Cow::Borrowed(cell);
+        if self.separator != Separator::None
+            && let Some(mark) = cell.chars().find(|c| matches!(c, '.' | ','))
+        {
+            let (first, first_line) = *self.mark.get_or_insert((mark, line));
+            if mark != first {
+                let expected = format!("`{first}` before the decimals, as on line {first_line}");
+                let remedy = "write all decimals alike, and no marks between thousands";
+                return Err(Fault::excerpt(line, expected, cell, remedy));
+            }
+            if mark == ',' {
+                plain = Cow::Owned(cell.replacen(',', ".", 1));
+            }
+        }
+        let value = real(&plain).filter(|value| value.is_finite());
+        value.ok_or_else(|| {
+            let remedy = match self.separator {
+                Separator::None => "correct the value; in one column decimals have a point",
+                Separator::Comma => {
+                    "correct the value; commas separate columns here, so decimals have a point"
+                }
+                _ => "correct the value; write no marks between thousands",
+            };
+            Fault::excerpt(line, "a finite number", cell, remedy)
+        })
+    }
+}

@@ -1,0 +1,142 @@
+//! The names of columns, and the units that they state.
+
+use super::cells::{Cells, Separator, unquoted};
+use crate::quantity::Quantity;
+
+/// The name of a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    written: String,
+    text: String,
+    unit: Option<String>,
+}
+
+impl Name {
+    /// Splits `a_g [m/s2]` or `a_g (m/s2)` into the name and its unit. Of several brackets the first that
+    /// holds a unit of acceleration counts, or else the first with another unit, or else one at the end.
+    pub(super) fn of(cell: &str) -> Self {
+        let written = unquoted(cell).into_owned();
+        let brackets = written.match_indices(['[', '(']).filter_map(|(at, opening)| {
+            let rest = &written[at + 1..];
+            // a unit may have brackets inside: (cm/(s*s))
+            let end = closing(rest, opening)?;
+            let is_last = rest[end + 1..].trim().is_empty();
+            Some((at, rest[..end].trim(), is_last))
+        });
+        let is_acceleration = |text: &str| matches!(Quantity::of(text), Some(Quantity::Acceleration(_)));
+        let unit = brackets.clone().find(|(_, text, _)| is_acceleration(text));
+        let unit = unit.or_else(|| brackets.clone().find(|(_, text, _)| Quantity::of(text).is_some()));
+        let unit = unit.or_else(|| brackets.clone().find(|(.., is_last)| *is_last));
+        let unit = unit.map(|(at, unit, _)| (at, unit)).or_else(|| behind(&written));
+        let text = unit.map_or(&*written, |(at, _)| &written[..at]).trim().to_owned();
+        let unit = unit.map(|(_, unit)| unit.to_owned());
+        Self { written, text, unit }
+    }
+
+    /// Returns the name as the file has it.
+    pub fn written(&self) -> &str {
+        &self.written
+    }
+
+    /// Returns the name without its unit.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the unit, or what else stands in the brackets.
+    pub fn unit(&self) -> Option<&str> {
+        self.unit.as_deref()
+    }
+
+    /// Returns the words of the name, in small letters.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let words = self.text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        words.map(str::to_lowercase).collect()
+    }
+
+    /// Returns whether it states a unit of acceleration that is read.
+    pub(crate) fn is_acceleration(&self) -> bool {
+        matches!(self.unit.as_deref().and_then(Quantity::of), Some(Quantity::Acceleration(_)))
+    }
+
+    /// Returns whether it states a quantity other than an acceleration.
+    pub(crate) fn is_another_quantity(&self) -> bool {
+        let quantity = self.unit.as_deref().and_then(Quantity::of);
+        quantity.is_some_and(|of| !matches!(of, Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
+    }
+}
+
+/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`. The g of
+/// `a_g` is none: it may mean the ground.
+fn behind(name: &str) -> Option<(usize, &str)> {
+    let at = name.rfind(',').or_else(|| name.rfind(['_', ' ']).filter(|at| name[*at..].contains('/')))?;
+    let unit = name[at + 1..].trim();
+    Quantity::of(unit).map(|_| (at, unit))
+}
+
+/// Finds the bracket that closes one which is open at the start of a text.
+fn closing(text: &str, opening: &str) -> Option<usize> {
+    let closing = if opening == "[" { ']' } else { ')' };
+    let mut depth = 1_usize;
+    let mut characters = text.char_indices();
+    let closes = |(_, c): &(usize, char)| {
+        depth = if opening.starts_with(*c) { depth + 1 } else { depth - usize::from(*c == closing) };
+        depth == 0
+    };
+    characters.find(closes).map(|(at, _)| at)
+}
+
+/// Splits a line of names, without empty ones at its end.
+pub(super) fn names(line: &str, separator: Separator) -> Vec<Name> {
+    let mut names: Vec<Name> = match separator {
+        Separator::Blanks if line.contains('\t') => Cells::new(line, Separator::Tab)
+            .filter(|name| !name.is_empty())
+            .map(|name| Name::of(&name))
+            .collect(),
+        Separator::Blanks => words(line).iter().map(|name| Name::of(name)).collect(),
+        _ => Cells::new(line, separator).map(|name| Name::of(&name)).collect(),
+    };
+    let filled = names.iter().rposition(|name| !name.written.is_empty()).map_or(0, |last| last + 1);
+    names.truncate(filled);
+    names
+}
+
+/// Splits a line of names at blanks; a bracket belongs to the name before it, `time [s]`.
+fn words(text: &str) -> Vec<String> {
+    const OPENING: [char; 2] = ['(', '['];
+    let mut words: Vec<String> = Vec::new();
+    let mut depth = 0_usize;
+    // in a row of units, each bracket is a word of its own
+    let is_unit_row = text.trim_start().starts_with(OPENING);
+    for word in text.split_whitespace() {
+        let continues = depth > 0 || !is_unit_row && word.starts_with(OPENING);
+        match words.last_mut().filter(|_| continues) {
+            Some(before) => before.extend([" ", word]),
+            None => words.push(word.to_owned()),
+        }
+        depth += word.matches(OPENING).count();
+        depth = depth.saturating_sub(word.matches([')', ']']).count());
+    }
+    words
+}
+
+/// The unit in a cell of a row of units: `m/s2`, `[m/s2]` or `(m/s2)`.
+fn unit_alone(name: &Name) -> &str {
+    name.unit().filter(|_| name.text().is_empty()).unwrap_or(name.written())
+}
+
+/// Returns whether a line has units only, for two columns or more.
+pub(super) fn is_unit_row(names: &[Name]) -> bool {
+    let is_unit =
+        |name: &Name| matches!(unit_alone(name), "" | "-") || Quantity::of(unit_alone(name)).is_some();
+    names.len() > 1 && names.iter().all(is_unit)
+}
+
+/// Gives the units of a row to the names above it that state none.
+pub(super) fn add_units(names: &mut [Name], line: &str) {
+    let units = self::names(line, Separator::of_names(line, false));
+    for (name, unit) in names.iter_mut().zip(&units) {
+        let unit = Some(unit_alone(unit)).filter(|unit| !matches!(*unit, "" | "-"));
+        name.unit = name.unit.take().or_else(|| unit.map(str::to_owned));
+    }
+}

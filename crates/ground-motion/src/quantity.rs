@@ -1,0 +1,136 @@
+//! What files state where a unit of acceleration should stand.
+
+use crate::error::Fault;
+use crate::unit::Unit;
+
+/// The quantity of a unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Quantity {
+    /// An acceleration in a unit that is read.
+    Acceleration(Unit),
+    /// An acceleration in another unit: how much it is in one that is read.
+    OtherAcceleration(f64, Unit),
+    Velocity,
+    Displacement,
+    /// A time: how many seconds the unit has.
+    Time(f64),
+    Frequency,
+}
+
+/// Units of length: names, and their lengths in m.
+const LENGTHS: [(&[&str], f64); 9] = [
+    (&["m"], 1.0),
+    (&["dm"], 0.1),
+    (&["cm"], 0.01),
+    (&["mm"], 0.001),
+    (&["µm", "μm", "um"], 1e-6),
+    (&["nm"], 1e-9),
+    (&["km"], 1000.0),
+    (&["ft", "feet", "foot"], 0.3048),
+    (&["in", "inch", "inches"], 0.0254),
+];
+
+/// Parts of g: names, and their sizes in g.
+const PARTS_OF_G: [(&[&str], f64); 3] = [
+    (&["%g", "g%", "pctg"], 0.01),
+    (&["mg", "milli-g", "millig"], 0.001),
+    (&["µg", "μg", "ug", "micro-g", "microg"], 1e-6),
+];
+
+const TIMES: [(&[&str], f64); 5] = [
+    (&["s", "sec", "secs", "second", "seconds"], 1.0),
+    (&["ms", "msec", "msecs", "millisecond", "milliseconds"], 1e-3),
+    (&["µs", "μs", "us", "microsecond", "microseconds"], 1e-6),
+    (&["min", "mins", "minute", "minutes"], 60.0),
+    (&["hr", "hrs", "hour", "hours"], 3600.0),
+];
+
+const FREQUENCIES: [&str; 8] = ["hz", "khz", "1/s", "s-1", "rad/s", "rads-1", "r/s", "cps"];
+
+/// Finds the size of a unit by one of its names.
+fn size_of(word: &str, units: &[(&[&str], f64)]) -> Option<f64> {
+    units.iter().find(|(names, _)| names.contains(&word)).map(|(_, size)| *size)
+}
+
+impl Quantity {
+    /// Finds the quantity of a unit; `None` if the text is no unit.
+    pub(crate) fn of(text: &str) -> Option<Self> {
+        if let Ok(unit) = text.parse::<Unit>() {
+            return Some(Self::Acceleration(unit));
+        }
+        if let Some(seconds) = size_of(text.trim_matches(['.', ' ']).to_lowercase().as_str(), &TIMES) {
+            return Some(Self::Time(seconds));
+        }
+        let plain = plain(text);
+        let word = plain.as_str();
+        if FREQUENCIES.contains(&word) {
+            return Some(Self::Frequency);
+        }
+        if ["kine", "kines"].contains(&word) {
+            return Some(Self::Velocity);
+        }
+        if let Some((length, time)) = parts(word) {
+            let length = size_of(length, &LENGTHS)?;
+            return Some(match time {
+                0 => Self::Displacement,
+                1 => Self::Velocity,
+                _ => Self::OtherAcceleration(length, Unit::MetrePerSecondSquared),
+            });
+        }
+        if ["mgal", "milligal"].contains(&word) {
+            return Some(Self::OtherAcceleration(1e-3, Unit::CentimetrePerSecondSquared));
+        }
+        let part =
+            word.strip_prefix("g/").and_then(|parts| parts.parse::<f64>().ok()).map(|parts| 1.0 / parts);
+        let part = part.or_else(|| word.strip_suffix('g')?.parse::<f64>().ok());
+        let part = part.or_else(|| size_of(word, &PARTS_OF_G))?;
+        Some(Self::OtherAcceleration(part, Unit::StandardGravity))
+    }
+
+    /// Makes the fault of a unit other than one that is read, which `word` states on a line.
+    pub(crate) fn refused(self, word: &str, line: usize) -> Fault {
+        let remedy = match self {
+            Self::OtherAcceleration(size, unit) => format!("convert the samples: 1 {word} is {size} {unit}"),
+            Self::Velocity | Self::Displacement => {
+                let what = if self == Self::Velocity { "velocity" } else { "displacement" };
+                format!(
+                    "this is a {what}: convert it to an acceleration, or use the file or column of the \
+                     acceleration"
+                )
+            }
+            Self::Acceleration(_) | Self::Time(_) | Self::Frequency => {
+                "correct the unit, or use another column".to_owned()
+            }
+        };
+        let remedy = format!(
+            "{remedy}; m/s2, cm/s2, mm/s2 and g are read, and a unit that you state does not override that \
+             of the file"
+        );
+        Fault::excerpt(line, "a unit of acceleration", word, remedy)
+    }
+}
+
+/// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
+pub(crate) fn plain(text: &str) -> String {
+    let text = text.to_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
+    let text = text.replace("second", "s").replace("sec", "s");
+    let text = text.replace('²', "2").replace(['−', '–', '⁻'], "-");
+    let text = text.replace('¹', "1").replace('⁄', "/");
+    let is_mark = |c: char| c.is_whitespace() || matches!(c, '^' | '*' | '·' | '⋅' | '(' | ')');
+    let text: String = text.chars().filter(|c| !is_mark(*c)).collect();
+    // m.s-2, but not 0.1g
+    match text.split_once('.') {
+        Some((before, after)) if !after.starts_with(|c: char| c.is_ascii_digit()) => {
+            format!("{before}{after}")
+        }
+        _ => text,
+    }
+}
+
+/// Splits a plain unit such as `cm/s2` into its length and the power of the time below it.
+pub(crate) fn parts(plain: &str) -> Option<(&str, u8)> {
+    let below = [("/s2", 2), ("/s/s", 2), ("/ss", 2), ("s-2", 2), ("/s", 1), ("s-1", 1)];
+    let found = below.iter().find_map(|(time, power)| Some((plain.strip_suffix(time)?, *power)));
+    let (length, power) = found.unwrap_or((plain, 0));
+    size_of(length, &LENGTHS).map(|_| (length, power))
+}

@@ -1,0 +1,141 @@
+//! Response spectra in files: periods in s and Sa in columns.
+
+use std::path::Path;
+
+use crate::columns::{Columns, Name, Numbers};
+use crate::error::{Fault, GroundMotionError};
+use crate::file::{read_file, utf8_text};
+use crate::options::stated_unit;
+use crate::quantity::Quantity;
+use crate::unit::Unit;
+
+/// Largest file that is read.
+const MAX_FILE_BYTES: u64 = 1 << 20;
+
+const FORMS: &str = "rows of periods in s and Sa, below a header line such as `T [s],Sa [g]`";
+
+/// A response spectrum as read from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectrumFile {
+    /// Points (T, Sa) \[s, m/s²\], as the file has them.
+    pub points: Vec<(f64, f64)>,
+    /// The line of each point, from 1.
+    pub lines: Vec<usize>,
+    /// Unit of the file.
+    pub unit: Unit,
+    /// Name of the column that Sa was read from, in a file with several beside the periods.
+    pub column: Option<String>,
+}
+
+impl SpectrumFile {
+    /// Reads a spectrum: the column of a name, or the only one beside the periods. `unit` is needed where the
+    /// file states none, and must not contradict a file that does.
+    ///
+    /// # Errors
+    /// [`GroundMotionError`], with file, line, what was expected, what was found and the remedy.
+    pub fn read(path: &Path, unit: Option<Unit>, column: Option<&str>) -> Result<Self, GroundMotionError> {
+        let name = path.display().to_string();
+        let bytes = read_file(path, "a spectrum (CSV)", MAX_FILE_BYTES)
+            .map_err(|reason| GroundMotionError::Io { file: name.clone(), reason })?;
+        Self::parse(&name, bytes, unit, column)
+    }
+
+    /// Reads a spectrum from the bytes of a file; `name` stands for the file in messages.
+    ///
+    /// ```
+    /// use ground_motion::{SpectrumFile, Unit};
+    ///
+    /// let text = "T [s];Sa [cm/s2];Sd [cm]\n0;196;0\n0,5;490;3,1\n";
+    /// let spectrum = SpectrumFile::parse("s.csv", text.into(), None, None)?;
+    /// assert_eq!(spectrum.points, [(0.0, 1.96), (0.5, 4.9)]);
+    /// # Ok::<(), ground_motion::GroundMotionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(
+        name: &str,
+        bytes: Vec<u8>,
+        unit: Option<Unit>,
+        column: Option<&str>,
+    ) -> Result<Self, GroundMotionError> {
+        let read = || {
+            let text = utf8_text(bytes, "a spectrum (CSV)")?;
+            Self::of_text(text.trim_start_matches('\u{feff}'), unit, column)
+        };
+        read().map_err(|fault| fault.in_file(name))
+    }
+
+    fn of_text(text: &str, given: Option<Unit>, wanted: Option<&str>) -> Result<Self, Fault> {
+        let columns = Columns::of_numbers(text, is_abscissa, FORMS)?;
+        if columns.width() < 2 {
+            let remedy = "write the period and Sa on each line, between commas, semicolons, tabs or blanks";
+            return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
+        }
+        check_periods(&columns)?;
+        let column = columns.beside_the_first(wanted, "T")?;
+        let name = columns.names().get(column);
+        let stated = name.and_then(Name::unit).map(|word| stated_unit(given, word, columns.line()));
+        let Some(unit) = stated.transpose()?.or(given) else {
+            let remedy =
+                "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";
+            return Err(Fault::excerpt(columns.line(), "a unit of Sa", columns.heading(), remedy));
+        };
+        let (mut points, mut lines) = (Vec::new(), Vec::new());
+        let mut numbers = Numbers::new(&columns);
+        for row in columns.rows() {
+            let row = row?;
+            let mut cells = row.cells();
+            let mut next = |skipped| numbers.real(&cells.nth(skipped).unwrap_or_default(), row.line);
+            points.push((next(0)?, unit.to_si(next(column - 1)?)));
+            lines.push(row.line);
+        }
+        let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
+        Ok(Self { points, lines, unit, column })
+    }
+}
+
+/// What a word of a name says about the first column.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Abscissa {
+    Period,
+    Frequency,
+}
+
+impl Abscissa {
+    fn of(name: &Name) -> Option<Self> {
+        let words = name.words();
+        words.iter().find_map(|word| match word.as_str() {
+            "t" | "tn" => Some(Self::Period),
+            "f" | "freq" | "frequency" | "frequencies" | "omega" | "ω" | "w" | "hz" => Some(Self::Frequency),
+            word if word.starts_with("period") => Some(Self::Period),
+            _ => None,
+        })
+    }
+}
+
+/// Returns whether a column may be the first of a spectrum.
+fn is_abscissa(name: &Name) -> bool {
+    let quantity = name.unit().and_then(Quantity::of);
+    matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
+}
+
+/// Refuses a first column that is not the period in seconds.
+fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
+    let Some(name) = columns.checked_first()? else { return Ok(()) };
+    let words = name.words();
+    let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
+    let unit = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));
+    let remedy = match (unit, Abscissa::of(name)) {
+        (Some((_, Quantity::Frequency)), _) | (_, Some(Abscissa::Frequency)) => {
+            "write periods instead of frequencies: T = 1/f, and T = 2π/ω".to_owned()
+        }
+        (Some((_, Quantity::Time(1.0))), _) | (None, Some(Abscissa::Period)) => return Ok(()),
+        (Some((unit, Quantity::Time(seconds))), _) => format!("convert the periods: 1 {unit} is {seconds} s"),
+        // a comment need not name the columns
+        (_, None) if columns.names().is_empty() => return Ok(()),
+        _ => "make the periods in s the first column, and name it `T [s]`".to_owned(),
+    };
+    let expected = "periods in s in the first column";
+    Err(Fault::excerpt(columns.line(), expected, name.written(), remedy))
+}
