@@ -189,7 +189,7 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
         walls = rows_of(walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
-            walls = with_content(Table(walls).rows())
+            walls = rows_of_columns(walls)
         else:
             return [(str(name), one_wall(wall)) for name, wall in walls.items()]
     return [(name_of(wall, number), one_wall(wall)) for number, wall in enumerate(walls, 1)]
@@ -203,7 +203,13 @@ def rows_of(frame: Any) -> list[dict[str, Any]]:
     twins = sorted({name for name in names if names.count(name) > 1})
     if twins:
         raise ValueError(f"the table of walls has two columns {twins[0]!r}; give each column its own name")
-    return with_content(Table({str(name): list(frame[name]) for name in frame.columns}).rows())
+    return rows_of_columns({str(name): frame[name] for name in frame.columns})
+
+
+def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Returns the rows of columns by their names that have content; each cell keeps its type."""
+    cells = (each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values())
+    return with_content(dict(zip(columns, row)) for row in zip(*cells))
 
 
 def with_content(rows: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
