@@ -18,9 +18,48 @@ use super::tolerances::Tolerances;
 
 /// A piece of motion by its Taylor series.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Series {
+pub(super) struct Series<'a> {
     polynomial: Polynomial,
     horizon: f64,
+    /// What gives ü instead of the series, and bounds it.
+    law: Option<Law<'a>>,
+}
+
+/// The equation of motion on a branch with secant damping, under a forcing p₀ + p₁ t.
+///
+/// u(t) is singular where C is: at u₃ and at u = 0. From close to one of them a step may go further than the
+/// series converges, because its terms are small there in u and in u̇. Those in ü, n/t times as large as in
+/// u̇, are not.
+#[derive(Clone, Copy, Debug)]
+struct Law<'a> {
+    branch: &'a Branch,
+    forcing: [f64; 2],
+}
+
+impl Law<'_> {
+    fn forcing(&self, time: f64) -> f64 {
+        self.forcing[0] + self.forcing[1] * time
+    }
+
+    /// Bounds the second derivative of ü between two times with their motions:
+    /// ```text
+    /// ü = p − c u̇ − f,   u‴ = p₁ − c′ u̇² − c ü − k u̇,   u⁗ = −c″ u̇³ − 3c′ u̇ ü − c u‴ − k ü
+    /// ```
+    fn snap(&self, times: [f64; 2], motions: [KinematicState; 2], most_acceleration: f64) -> f64 {
+        let length = times[1] - times[0];
+        let [u0, u1] = motions.map(|motion| motion.displacement);
+        let sag = 0.125 * length * length * most_acceleration;
+        let Branch { lower, upper, stiffness, .. } = *self.branch;
+        let range = [(u0.min(u1) - sag).clamp(lower, upper), (u0.max(u1) + sag).clamp(lower, upper)];
+        let larger = |[a, b]: [f64; 2]| a.abs().max(b.abs());
+        let speed = larger(motions.map(|motion| motion.velocity)) + 0.5 * length * most_acceleration;
+        let [c, slope, bend] = self.branch.damping_bounds(range);
+        let force = larger(range.map(|u| self.branch.restoring(u)));
+        let acceleration = larger(times.map(|time| self.forcing(time))) + c * speed + force;
+        let stiffness = stiffness.abs();
+        let jerk = self.forcing[1].abs() + (slope * speed + stiffness) * speed + c * acceleration;
+        bend * speed.powi(3) + (3.0 * slope * speed + stiffness) * acceleration + c * jerk
+    }
 }
 
 /// An equation of motion that gives the Taylor coefficients of u one after the other.
@@ -74,7 +113,7 @@ impl Recurrence for Viscous<'_> {
     }
 }
 
-impl Series {
+impl<'a> Series<'a> {
     /// Computes the motion from a recurrence, over `remaining` or as much of it as the highest order can
     /// cover within the tolerance.
     pub(super) fn new(mut work: impl Recurrence, remaining: f64, tolerances: Tolerances) -> Self {
@@ -91,25 +130,26 @@ impl Series {
                 // the forcing enters the first two terms, and damping one more
                 && order > 3;
             if small && small_before {
-                return Self { polynomial: polynomial(work, order), horizon: remaining };
+                return Self { polynomial: polynomial(work, order), horizon: remaining, law: None };
             }
             small_before = small;
             power *= remaining;
         }
         let horizon = longest_step(work.displacement(), tolerances).min(remaining);
-        Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon }
+        Self { polynomial: polynomial(work, HIGHEST_ORDER), horizon, law: None }
     }
 
-    /// Computes the motion on a branch with secant damping under a forcing from p₀ to p₁.
+    /// Computes the motion on a branch with secant damping under the forcing p₀ + p₁ t.
     pub(super) fn secant(
-        branch: &Secant,
+        (secant, branch): (&Secant, &'a Branch),
         now: [f64; 2],
         forcing: [f64; 2],
         remaining: f64,
         tolerances: Tolerances,
     ) -> Self {
-        let (polynomial, horizon) = branch.series(now, forcing, remaining, tolerances);
-        Self { polynomial, horizon }
+        let ends = [forcing[0], forcing[0] + forcing[1] * remaining];
+        let (polynomial, horizon) = secant.series(now, ends, remaining, tolerances);
+        Self { polynomial, horizon, law: Some(Law { branch, forcing }) }
     }
 
     /// Makes the cubic motion with a constant d³u/dt³.
@@ -119,7 +159,7 @@ impl Series {
         coefficients[1] = start.velocity;
         coefficients[2] = 0.5 * start.acceleration;
         coefficients[3] = acceleration_rate / 6.0;
-        Self { polynomial: Polynomial { coefficients, order: 3 }, horizon }
+        Self { polynomial: Polynomial { coefficients, order: 3 }, horizon, law: None }
     }
 }
 
@@ -142,7 +182,7 @@ fn longest_step(coefficients: &[f64; HIGHEST_ORDER + 1], tolerances: Tolerances)
     0.9 * step
 }
 
-impl Piece for Series {
+impl Piece for Series<'_> {
     fn start(&self) -> KinematicState {
         self.polynomial.start()
     }
@@ -160,8 +200,19 @@ impl Piece for Series {
         self.polynomial.bounds(self.horizon)
     }
 
-    fn snap(&self, _bounds: (f64, f64)) -> f64 {
-        self.polynomial.snap(self.horizon)
+    fn balanced(&self, time: f64) -> KinematicState {
+        let motion = self.at(time);
+        let Some(law) = &self.law else { return motion };
+        let KinematicState { displacement, velocity, .. } = motion;
+        let acceleration = law.branch.acceleration(displacement, velocity, law.forcing(time));
+        KinematicState { acceleration, ..motion }
+    }
+
+    fn snap(&self, between: [f64; 2], (acceleration, _): (f64, f64)) -> f64 {
+        match &self.law {
+            Some(law) => law.snap(between, between.map(|time| self.at(time)), acceleration),
+            None => self.polynomial.snap(self.horizon),
+        }
     }
 
     fn displacement_integral(&self, time: f64) -> f64 {
@@ -189,8 +240,8 @@ mod tests {
                 let start = KinematicState { displacement, velocity, acceleration: 0.0 };
                 let any = Series::new(Viscous::new(&branch, start, [0.4, 2.0]), 0.01, tolerances);
                 let secant = Secant::new(&branch).expect("secant damping");
-                let ends = [0.4, 0.4 + 2.0 * 0.01];
-                let own = Series::secant(&secant, [displacement, velocity], ends, 0.01, tolerances);
+                let (law, now) = ((&secant, &branch), [displacement, velocity]);
+                let own = Series::secant(law, now, [0.4, 2.0], 0.01, tolerances);
                 let time = any.horizon().min(own.horizon());
                 let (any, own) = (any.at(time), own.at(time));
                 assert!((any.displacement - own.displacement).abs() < 1e-12, "{any:?} {own:?}");
@@ -203,6 +254,44 @@ mod tests {
             }
         }
         assert_eq!(compared, 6);
+    }
+
+    /// The second derivative of ü keeps within its bound where the series converges. The bound is larger by
+    /// what cancels. From close to u₃ on, where the terms of ü do not fall, ü is that of a far shorter
+    /// series.
+    #[test]
+    fn acceleration_follows_the_equation_of_motion() {
+        let own = Line { anchor: 0.3, force: 0.0, slope: -5.0 };
+        let forcing = [0.4, 2.0];
+        let mut far = 0;
+        for damping in [BranchDamping::SecantRatio(0.1), BranchDamping::SecantStiffness(0.05)] {
+            let (lower, upper) = (0.01, 0.3 * (1.0 - 1e-10));
+            let branch = Branch { lower, upper, anchor: 0.3, force: 0.0, stiffness: -5.0, own, damping };
+            let secant = Secant::new(&branch).expect("secant damping");
+            let series = |now: [f64; 2], time: f64, length: f64, tolerance: f64| {
+                let tolerances = Tolerances { displacement: tolerance, velocity: tolerance };
+                let forcing = [forcing[0] + forcing[1] * time, forcing[1]];
+                Series::secant((&secant, &branch), now, forcing, length, tolerances)
+            };
+            for (u, v) in [(0.1, 0.3), (0.25, -0.4), (0.02, 0.3)] {
+                let piece = series([u, v], 0.0, 0.005, 1e-14);
+                let length = piece.horizon();
+                let bounds = piece.bounds(piece.start(), length);
+                let [wide, narrow] = [length, 1e-3 * length].map(|end| piece.snap([0.0, end], bounds));
+                let snap = piece.polynomial.derivatives(0.0)[4].abs();
+                assert!(narrow >= snap && narrow <= wide, "{u}: {snap} of {narrow} of {wide}");
+                assert!(narrow <= 30.0 * snap, "{u}: {narrow} for {snap}");
+            }
+            let from_end = series([upper, -0.4], 0.0, 0.01, 1e-8);
+            let time = 0.9 * from_end.horizon();
+            let found = from_end.balanced(time);
+            let now = from_end.at(time);
+            let wanted = series([now.displacement, now.velocity], time, 1e-16, 1e-8).start().acceleration;
+            assert!((found.acceleration - wanted).abs() <= 1e-14, "{} for {wanted}", found.acceleration);
+            far += u32::from((now.acceleration - wanted).abs() > 0.1 * wanted.abs());
+        }
+        // C of a constant ratio alone is singular there
+        assert_eq!(far, 1);
     }
 
     /// Without the factor 0.9 for the terms left out, the step found is that at which the larger of the last

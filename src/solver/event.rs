@@ -21,8 +21,15 @@ pub(super) trait Piece {
     /// Bounds on |ü| \[m/s²\] and on the jerk \[m/s³\] for `length` seconds after an instant of the piece.
     fn bounds(&self, from: KinematicState, length: f64) -> (f64, f64);
 
-    /// Bound on the rate of the jerk \[m/s⁴\], where |ü| and the jerk keep within `bounds`.
-    fn snap(&self, bounds: (f64, f64)) -> f64;
+    /// Returns the motion at a time, with ü by the equation of motion. A series whose u and u̇ are within the
+    /// tolerance may be far from it in ü.
+    fn balanced(&self, time: f64) -> KinematicState {
+        self.at(time)
+    }
+
+    /// Bound on the second derivative of the ü of [`balanced`](Self::balanced) between two times \[m/s⁴\],
+    /// where |ü| and the jerk of the piece keep within `bounds`.
+    fn snap(&self, between: [f64; 2], bounds: (f64, f64)) -> f64;
 
     /// ∫u dt from the start of the piece \[m s\].
     fn displacement_integral(&self, time: f64) -> f64;

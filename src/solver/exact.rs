@@ -164,7 +164,7 @@ impl Piece for ClosedForm<'_> {
         self.oscillator.bounds(from, self.forcing_rate, length)
     }
 
-    fn snap(&self, (acceleration, jerk): (f64, f64)) -> f64 {
+    fn snap(&self, _between: [f64; 2], (acceleration, jerk): (f64, f64)) -> f64 {
         // u⁗ = −c u‴ − k ü
         self.oscillator.damping() * jerk + self.oscillator.stiffness().abs() * acceleration
     }

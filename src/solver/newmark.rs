@@ -13,7 +13,12 @@ use super::adaptive::Series;
 
 /// Computes one step of `duration` \[s\] from `start`, which is in equilibrium, while the forcing grows by
 /// `forcing_change` \[m/s²\].
-pub(super) fn step(branch: &Branch, start: KinematicState, forcing_change: f64, duration: f64) -> Series {
+pub(super) fn step(
+    branch: &Branch,
+    start: KinematicState,
+    forcing_change: f64,
+    duration: f64,
+) -> Series<'static> {
     let KinematicState { displacement, velocity, acceleration } = start;
     let (h, c, k) = (duration, branch.damping_at(displacement), branch.stiffness);
     // per unit effective mass: k̂ = k + 3c/h + 6/h²

@@ -191,7 +191,9 @@ impl<'a> Run<'a> {
             leaving = self.time + until(lowest);
         }
         let until = leaving.max(self.time).min(self.duration);
-        if let Some(watch) = &mut self.watch {
+        if let Some(watch) = &mut self.watch
+            && !self.state.overturned
+        {
             watch.rest(self.time, until);
         }
         self.time = until;
@@ -229,8 +231,9 @@ impl<'a> Run<'a> {
             return self.follow_piece(&Series::new(rotation, remaining, motion.tolerances));
         }
         if let Some(secant) = &motion.secants[index] {
-            let (now, ends) = ([displacement, velocity], [forcing, forcing + self.rate * remaining]);
-            return self.follow_piece(&Series::secant(secant, now, ends, remaining, motion.tolerances));
+            let (now, forcing) = ([displacement, velocity], [forcing, self.rate]);
+            let piece = Series::secant((secant, branch), now, forcing, remaining, motion.tolerances);
+            return self.follow_piece(&piece);
         }
         let viscous = Viscous::new(branch, start, [forcing, self.rate]);
         self.follow_piece(&Series::new(viscous, remaining, motion.tolerances))

@@ -1,6 +1,6 @@
 //! Collects demands on each piece of a motion.
 //!
-//! Demands are found on the pieces, not at samples. On a piece every watched quantity g has a bound M on
+//! Demands are found on the pieces, not at samples. On an interval every watched quantity g has a bound M on
 //! |g̈|, so that between two instants δ apart g ≤ max(g₀, g₁) + M δ²/8. Intervals whose bound does not exceed
 //! the extreme so far are dropped and the others halved, until the bound is met within [`ACCURACY`].
 
@@ -51,10 +51,10 @@ pub(super) struct Followed<'a, P> {
 }
 
 /// A quantity on a piece: its value by the motion, the bound on its second derivative, and the size of its
-/// terms.
+/// terms. The bound is the sum of a number and of a share of the bound on that of ü.
 struct Quantity<F> {
     value: F,
-    curvature: f64,
+    curvature: [f64; 2],
     size: f64,
 }
 
@@ -75,31 +75,25 @@ impl Watch<'_> {
     pub(super) fn piece<P: Piece>(&mut self, followed: &Followed<'_, P>) -> Result<(), SearchExhausted> {
         let &Followed { piece, length, from, .. } = followed;
         let search = ExtremeSearch::new(piece, length, [self.time, from]);
-        let (acceleration, jerk) = piece.bounds(search.seen[0].1, length);
-        let snap = piece.snap((acceleration, jerk));
+        let (acceleration, jerk) = search.bounds;
         let demands = &mut *self.demands;
         let [u, v, a]: [fn(&KinematicState) -> f64; 3] =
             [|m| m.displacement, |m| m.velocity, |m| m.acceleration];
         for (extremes, pick, curvature) in [
-            (&mut demands.displacement, u, acceleration),
-            (&mut demands.velocity, v, jerk),
-            (&mut demands.acceleration, a, snap),
+            (&mut demands.displacement, u, [acceleration, 0.0]),
+            (&mut demands.velocity, v, [jerk, 0.0]),
+            (&mut demands.acceleration, a, [0.0, 1.0]),
         ] {
             let value = |_: f64, motion: &KinematicState| pick(motion);
             search.raise(extremes, &Quantity { value, curvature, size: search.largest(pick) })?;
         }
-        self.forces(&search, acceleration, snap)?;
+        self.forces(&search)?;
         self.cross(followed)?;
         self.count(followed)
     }
 
     /// Includes the reactions over a piece, on which the accelerations of the supports are linear.
-    fn forces<P: Piece>(
-        &mut self,
-        search: &ExtremeSearch<'_, P>,
-        acceleration: f64,
-        snap: f64,
-    ) -> Result<(), SearchExhausted> {
+    fn forces<P: Piece>(&mut self, search: &ExtremeSearch<'_, P>) -> Result<(), SearchExhausted> {
         let (body, segment, drift) = (self.wall.body(), self.segment, self.drift);
         let largest = |pick: fn(&Support) -> f64| pick(&segment.from).abs().max(pick(&segment.to).abs());
         let given = largest(|support| support.bottom) + largest(|support| support.top);
@@ -115,7 +109,7 @@ impl Watch<'_> {
                 pick(body.reactions(support, motion.acceleration, motion.displacement, drift))
             };
             let (slope_a, slope_u) = (pick(by_a).abs(), pick(by_u).abs());
-            let curvature = slope_a * snap + slope_u * acceleration;
+            let curvature = [slope_u * search.bounds.0, slope_a];
             let size = slope_a * (most_a + given) + slope_u * most_u;
             search.raise(extremes, &Quantity { value, curvature, size })?;
         }
@@ -134,9 +128,8 @@ impl Watch<'_> {
         let search = ExtremeSearch::new(piece, length, [self.time, from]);
         let value = |_: f64, motion: &KinematicState| self.wall.tie_force(branch, motion.displacement);
         let slope = tie.stiffness * tie.lever;
-        let (acceleration, _) = piece.bounds(search.seen[0].1, length);
         let size = slope * search.largest(|m| m.displacement);
-        let quantity = Quantity { value, curvature: slope * acceleration, size };
+        let quantity = Quantity { value, curvature: [slope * search.bounds.0, 0.0], size };
         let Some(largest) = search.highest(1.0, force.value, &quantity)? else { return Ok(()) };
         *force = largest;
         let (Some(reach), Some(limit)) = (tie.strength_displacement(), tie.strength) else { return Ok(()) };
@@ -218,6 +211,9 @@ struct ExtremeSearch<'a, P> {
     time: f64,
     from: f64,
     seen: [(f64, KinematicState); FIRST],
+    /// Bounds on |ü|, on the jerk, and on the second derivative of ü \[m/s², m/s³, m/s⁴\].
+    bounds: (f64, f64),
+    snap: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -230,13 +226,15 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
     fn new(piece: &'a P, length: f64, [time, from]: [f64; 2]) -> Self {
         let seen = std::array::from_fn(|index| match index {
             0 => (0.0, piece.start()),
-            _ if index + 1 == FIRST => (length, piece.at(length)),
+            _ if index + 1 == FIRST => (length, piece.balanced(length)),
             _ => {
                 let offset = length * (index as f64 / (FIRST - 1) as f64);
-                (offset, piece.at(offset))
+                (offset, piece.balanced(offset))
             }
         });
-        Self { piece, time, from, seen }
+        let bounds = piece.bounds(piece.start(), length);
+        let snap = piece.snap([0.0, length], bounds);
+        Self { piece, time, from, seen, bounds, snap }
     }
 
     fn largest(&self, pick: fn(&KinematicState) -> f64) -> f64 {
@@ -265,22 +263,29 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
         best: f64,
         quantity: &Quantity<F>,
     ) -> Result<Option<Instant>, SearchExhausted> {
+        let [number, share] = quantity.curvature;
+        let above = |width: f64, snap: f64| 0.125 * width * width * (number + share * snap);
         let node = |offset: f64, motion: &KinematicState| Node {
             offset,
             value: sign * (quantity.value)(offset, motion),
         };
-        let mut found = Node { offset: f64::NAN, value: best };
-        let mut left = node(0.0, &self.seen[0].1);
-        // from right to left, because the last interval added is searched first
-        let mut pending = [left; DEEPEST];
-        for (place, (offset, motion)) in pending.iter_mut().zip(self.seen[1..].iter().rev()) {
-            *place = node(*offset, motion);
+        let first = self.seen.map(|(offset, motion)| node(offset, &motion));
+        let highest = first.iter().fold(f64::NEG_INFINITY, |most, node| most.max(node.value));
+        let longest = first[FIRST - 1].offset / (FIRST - 1) as f64;
+        if highest + above(longest, self.snap) <= best {
+            return Ok(None);
         }
-        let mut count = FIRST - 1;
-        for node in [left].iter().chain(&pending[..count]) {
+        let mut found = Node { offset: f64::NAN, value: best };
+        for node in first {
             if node.value > found.value {
-                found = *node;
+                found = node;
             }
+        }
+        // from right to left, because the last interval added is searched first
+        let (mut left, mut count) = (first[0], FIRST - 1);
+        let mut pending = [left; DEEPEST];
+        for (place, node) in pending.iter_mut().zip(first[1..].iter().rev()) {
+            *place = *node;
         }
         for visited in 0..MOST_INTERVALS {
             let Some(index) = usize::checked_sub(count, 1) else {
@@ -289,16 +294,19 @@ impl<'a, P: Piece> ExtremeSearch<'a, P> {
             };
             let right = pending[index];
             let width = right.offset - left.offset;
-            let most = left.value.max(right.value) + 0.125 * width * width * quantity.curvature;
+            let higher = left.value.max(right.value);
             // the error of a sum with cancellation is relative to its terms
             let patience = 2.0_f64.powi((visited / PATIENCE).cast_signed());
             let tolerance = patience * ACCURACY * quantity.size.max(found.value.abs());
-            if most <= found.value + tolerance || count == DEEPEST {
+            let within = |snap: f64| higher + above(width, snap) <= found.value + tolerance;
+            // the bound between two instants is smaller than that over the whole piece, which is known
+            let between = || self.piece.snap([left.offset, right.offset], self.bounds);
+            if count == DEEPEST || within(self.snap) || (share > 0.0 && within(between())) {
                 (left, count) = (right, index);
                 continue;
             }
             let offset = 0.5 * (left.offset + right.offset);
-            let middle = node(offset, &self.piece.at(offset));
+            let middle = node(offset, &self.piece.balanced(offset));
             if middle.value > found.value {
                 found = middle;
             }

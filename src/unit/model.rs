@@ -123,10 +123,9 @@ impl Model for Unit {
         self.input(variable).map(|input| input.rate = value).is_some()
     }
 
-    #[allow(clippy::match_same_arms, reason = "the reason stands beside each group")]
     fn output_derivative(&self, variable: RealVariable) -> Option<f64> {
         use RealVariable as V;
-        let Outputs { velocity, acceleration, .. } = self.outputs();
+        let Outputs { displacement, velocity, acceleration, .. } = self.outputs();
         let rates = || {
             let support_rate = self.inputs.rate(|input| input.last_rate);
             self.simulation.derivative(self.support(), [velocity, acceleration], support_rate)
@@ -138,9 +137,15 @@ impl Model for Unit {
             V::ReactionBottom => Some(rates().reactions.bottom),
             V::ReactionTop => Some(rates().reactions.top),
             V::TieForce => Some(rates().tie_force),
-            // outputs that no floor needs, and outputs that depend on the past
-            V::URatio | V::RestoringForce | V::DampingForce => None,
-            V::ImpulseBottom | V::ImpulseTop | V::OverturnTime | V::UMax => None,
+            V::URatio => Some(rates().ratio),
+            V::RestoringForce => Some(rates().restoring_force),
+            V::DampingForce => Some(rates().damping_force),
+            // the largest |u| grows with |u| alone
+            V::UMax if displacement.abs() >= self.real(V::UMax) => {
+                Some((displacement.signum() * velocity).max(0.0))
+            }
+            // these change at communication points and events alone
+            V::UMax | V::ImpulseBottom | V::ImpulseTop | V::OverturnTime => Some(0.0),
             real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }

@@ -48,6 +48,12 @@ impl Branch {
         self.damping.derivatives(&self.own, displacement)[1]
     }
 
+    /// Bounds C/`m_eff` \[1/s\] and the sizes of its first two derivatives between two displacements on the
+    /// branch \[m\].
+    pub(crate) fn damping_bounds(&self, range: [f64; 2]) -> [f64; 3] {
+        self.damping.bounds(&self.own, range)
+    }
+
     /// Relative acceleration, ü = p − c u̇ − F/`m_eff`, under the forcing p \[m/s²\].
     pub fn acceleration(&self, displacement: f64, velocity: f64, forcing: f64) -> f64 {
         forcing - self.damping_at(displacement) * velocity - self.restoring(displacement)

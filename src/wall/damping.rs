@@ -159,6 +159,24 @@ impl BranchDamping {
         [c, by_w * slope, by_w2 * slope * slope - 2.0 * by_w * slope / u]
     }
 
+    /// Bounds c \[1/s\], |dc/du| and |d²c/du²| between two displacements of a branch \[m\], where `own` is
+    /// the force of the wall without a tie. ω² = k + f(0)/u is monotone there.
+    pub(super) fn bounds(self, own: &Line, range: [f64; 2]) -> [f64; 3] {
+        let [first, second] = range.map(|u| own.at(u) / u);
+        let (least, most) = (first.min(second), first.max(second));
+        let nearest = range[0].abs().min(range[1].abs());
+        let [c, by_w, by_w2] = match self {
+            Self::Constant(c) => return [c, 0.0, 0.0],
+            Self::SecantRatio(twice_xi) => {
+                let slope = 0.5 * twice_xi / least.sqrt();
+                [twice_xi * most.sqrt(), slope, 0.5 * slope / least]
+            }
+            Self::SecantStiffness(factor) => [factor * most, factor, 0.0],
+        };
+        let slope = own.at(0.0).abs() / (nearest * nearest);
+        [c, by_w * slope, by_w2 * slope * slope + 2.0 * by_w * slope / nearest]
+    }
+
     /// Returns the fraction of u₃, the end of the softening branch, up to which the damping acts.
     pub(super) fn end(self) -> f64 {
         match self {
@@ -284,5 +302,42 @@ impl DampingInUse {
         } else {
             self.rocking
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// c and its derivatives keep within their bounds between two displacements on either side. Over a short
+    /// way, on which nothing cancels, the bounds are the values.
+    #[test]
+    fn damping_keeps_within_its_bounds() {
+        for law in [BranchDamping::SecantRatio(0.4), BranchDamping::SecantStiffness(0.03)] {
+            for (slope, force) in [(-3.7, 0.0), (0.0, 0.4), (2.5, 0.6)] {
+                for (side, from, width) in [(1.0, 0.01, 0.08), (-1.0, 0.01, 0.08), (1.0, 0.09, 1e-9)] {
+                    let own = Line { anchor: 0.1 * side, force: force * side, slope };
+                    let range = [from * side, (from + width) * side];
+                    let bounds = law.bounds(&own, range);
+                    let mut most = [0.0_f64; 3];
+                    for part in (0..=64).map(|n| f64::from(n) / 64.0) {
+                        let found = law.derivatives(&own, range[0] + part * (range[1] - range[0]));
+                        for (most, value) in most.iter_mut().zip(found) {
+                            *most = most.max(value.abs());
+                        }
+                    }
+                    for (n, (bound, most)) in bounds.into_iter().zip(most).enumerate() {
+                        // rounding; the terms of d²c/du² may cancel
+                        assert!(bound >= most * (1.0 - 1e-14), "{law:?} {slope}, {n}: {most} of {bound}");
+                        let near = n < 2 && width < 1e-8;
+                        assert!(!near || bound <= most * (1.0 + 1e-6), "{law:?} {n}: {most} of {bound}");
+                    }
+                }
+            }
+        }
+        assert_eq!(
+            BranchDamping::Constant(0.7).bounds(&Line { anchor: 0.1, force: 0.2, slope: 1.0 }, [0.1; 2]),
+            [0.7, 0.0, 0.0]
+        );
     }
 }

@@ -12,7 +12,7 @@ use crate::record_path::{batches_agree, records_agree};
 use crate::ties::tied;
 
 /// A wall that rocks to one side, rigid or elastic, with a tie or without.
-fn one_sided() -> impl Strategy<Value = Parameters> {
+pub(crate) fn one_sided() -> impl Strategy<Value = Parameters> {
     (prop_oneof![walls(), tied()], any::<bool>(), 0.0_f64..0.95).prop_map(|(parameters, positive, e)| {
         Parameters {
             rocking: if positive { Rocking::OneSidedPositive } else { Rocking::OneSidedNegative },

@@ -73,7 +73,7 @@ def test_a_check_with_records(program, tmp_path, scene):
 def test_a_check_with_a_spectrum(program, tmp_path):
     path = tmp_path / "spectrum.csv"
     points = [(0.0, 2.0), (0.1, 5.0), (0.5, 5.0), (1.0, 2.5), (2.0, 1.25), (4.0, 0.3)]
-    path.write_text("time,a_g\n" + "".join(f"{t},{sa}\n" for t, sa in points), encoding="utf-8")
+    path.write_text("T [s],Sa\n" + "".join(f"{t},{sa}\n" for t, sa in points), encoding="utf-8")
     fractions = ["--displacement-fraction", "0.6", "--secant-fraction", "0.5"]
     told = program("check", *ARGUMENTS, "--spectrum", path, "--unit", "m/s2", "--json", *fractions)
     wall, spectrum = rw.Wall(**SET), tuple(zip(*points))

@@ -53,7 +53,8 @@ The jobs of the project.
                                    from its archive
   cargo xtask release [TAG]        build the files of a release into target/release-files/: FMUs, `wall` and
                                    wheels for each platform, the source distribution, components, notices,
-                                   checksums; TAG is checked; --platforms as for fmu, to compare a part
+                                   checksums; and target/fmi-compatibility/; TAG is checked;
+                                   --platforms as for fmu, to compare a part
   cargo xtask workflows            check .github with zizmor, and with actionlint where it is installed
   cargo xtask codemeta [--check]   write codemeta.json from Cargo.toml and CITATION.cff
                                    --check: fail if it is stale

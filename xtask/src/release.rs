@@ -15,8 +15,8 @@ const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", 
 
 /// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the Python package
 /// for all but Windows and as sources, the list of components (SBOM), the notices of third parties and the
-/// checksums into `target/release-files/`, and the version's section of the changelog beside it. The same
-/// commit and compiler give the same bytes.
+/// checksums into `target/release-files/`. Beside it stand the version's section of the changelog and the
+/// folder `fmi-compatibility`. The same commit and compiler give the same bytes.
 pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
     let notes = notes()?;
     if let Some(tag) = tag.filter(|tag| tag.strip_prefix('v') != Some(VERSION)) {
@@ -39,6 +39,9 @@ pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
         copy(&unit, &folder.join(&*name))?;
         copy(&unit.with_file_name("fmi3").join(&*name), &folder.join(format!("fmi3-{name}")))?;
     }
+    let beside = target().join("fmi-compatibility");
+    let _ = std::fs::remove_dir_all(&beside);
+    compatibility(&folder, &beside)?;
     let unit = folder.join("wall.fmu");
     let mut packages = vec![wheel::sources(&unit)?];
     for platform in platforms {
@@ -59,6 +62,47 @@ pub(crate) fn run(tag: Option<&str>, names: &str) -> Result<()> {
     succeed(sums.current_dir(&folder), "install coreutils")?;
     println!("written {}", folder.display());
     Ok(())
+}
+
+/// Where `wall.fmu` has its results to compare with.
+const REFERENCE: &str = "modelDescription/extra/org.fmi-standard.fmi-ls-ref/free_rocking_out.csv";
+
+/// Writes what the FMI project asks of a tool that exports FMUs, for its list of tools: for each version of
+/// FMI a folder with `wall.fmu` and the reference results of its default experiment in `wall_ref.csv`, and
+/// the table of importers that run it, from docs/fmi.md, as `README.md`. `files` are those of the release.
+fn compatibility(files: &Path, folder: &Path) -> Result<()> {
+    for (version, unit) in [("fmi2", "wall.fmu"), ("fmi3", "fmi3-wall.fmu")] {
+        let folder = folder.join(version);
+        std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        copy(&files.join(unit), &folder.join("wall.fmu"))?;
+        copy(&root().join(REFERENCE), &folder.join("wall_ref.csv"))?;
+    }
+    let path = root().join("docs/fmi.md");
+    let text = std::fs::read_to_string(&path).map_err(|error| format!("docs/fmi.md: {error}"))?;
+    let section = text.split("\n## ").find_map(|section| section.strip_prefix("Importers\n"));
+    let section = section.ok_or("docs/fmi.md has no section `## Importers`")?;
+    let page = format!(
+        "# FMI compatibility of rocking-wall {VERSION}\n\n\
+         The folders `fmi2` and `fmi3` have `wall.fmu` for each version, Co-Simulation and Model\n\
+         Exchange, and in `wall_ref.csv` what its default experiment comes to: displacement `u` [m] and\n\
+         velocity `u_dot` [m/s] of a parapet that rocks freely, computed from the equations by SciPy.\n\n{}",
+        without_links(section.trim_start())
+    );
+    let page_path = folder.join("README.md");
+    std::fs::write(&page_path, page).map_err(|error| format!("{}: {error}", page_path.display()))
+}
+
+/// Returns Markdown with the text of each link alone: elsewhere its target is not beside it.
+fn without_links(text: &str) -> String {
+    let mut parts = text.split("](");
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        if let Some(at) = plain.rfind('[') {
+            plain.remove(at);
+        }
+        plain.push_str(part.split_once(')').map_or(part, |(_, after)| after));
+    }
+    plain
 }
 
 /// Returns what the changelog says of this version.
@@ -84,4 +128,33 @@ fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
 fn copy(from: &Path, to: &Path) -> Result<()> {
     let copied = std::fs::copy(from, to);
     copied.map(drop).map_err(|error| format!("{} to {}: {error}", from.display(), to.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_compatibility_folder_has_units_results_and_the_table() {
+        let folder = std::env::temp_dir().join(format!("fmi-compatibility-{}", std::process::id()));
+        let (files, beside) = (folder.join("files"), folder.join("fmi-compatibility"));
+        std::fs::create_dir_all(&files).expect("a folder");
+        for unit in ["wall.fmu", "fmi3-wall.fmu"] {
+            std::fs::write(files.join(unit), unit).expect("a file");
+        }
+        compatibility(&files, &beside).expect("everything is there");
+        let read = |name: &str| std::fs::read_to_string(beside.join(name)).expect(name);
+        for (version, unit) in [("fmi2", "wall.fmu"), ("fmi3", "fmi3-wall.fmu")] {
+            assert_eq!(read(&format!("{version}/wall.fmu")), unit);
+            let results = read(&format!("{version}/wall_ref.csv"));
+            assert!(results.starts_with("time,u,u_dot\n0,0.18,0\n") && results.lines().count() > 500);
+        }
+        let page = read("README.md");
+        for part in [VERSION, "| importer | FMI |", "\n| FMPy ", "against the reference\nresults"] {
+            assert!(page.contains(part), "{part} is missing in\n{page}");
+        }
+        assert!(!page.contains("](") && !page.contains("\n## "), "{page}");
+        std::fs::remove_dir_all(folder).expect("the folder of this test");
+        assert_eq!(without_links("u [m], see [a](b.md#c) and [d](e)."), "u [m], see a and d.");
+    }
 }

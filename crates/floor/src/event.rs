@@ -26,6 +26,11 @@ impl State {
         }
     }
 
+    /// Returns the rate of the plastic displacement \[m/s\].
+    pub(crate) fn plastic_rate(&self) -> f64 {
+        if self.branch == Branch::Elastic { 0.0 } else { self.velocity }
+    }
+
     /// Returns the event indicators; each is positive while the branch holds.
     pub(crate) fn indicators(&self, floor: &Floor) -> [f64; INDICATORS] {
         let Some(Yielding { displacement: limit, .. }) = floor.yielding else { return [1.0; INDICATORS] };

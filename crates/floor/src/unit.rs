@@ -5,7 +5,7 @@ use fmu_export::{Environment, Failure, Input, Interface, Log, Model, StateCodec,
 use crate::choices::Coupling;
 use crate::floor::{Branch, Floor, Parameters};
 use crate::inputs::{Base, Inputs, Source};
-use crate::motion::{Load, State};
+use crate::motion::{Load, State, Work};
 use crate::values;
 use crate::variables::{
     BooleanVariable, GUID, IntegerVariable, MODEL_IDENTIFIER, RealVariable, StringVariable,
@@ -104,7 +104,7 @@ impl Unit {
         let coupling = self.parameters.coupling;
         let load = self.inputs.ahead(&self.floor, coupling, duration);
         let velocity = self.state.velocity;
-        let corners = self
+        let Work { corners, .. } = self
             .state
             .advance(&self.floor, load, duration)
             .map_err(|error| format!("in the step from t = {from} s: {error}"))?;
@@ -245,15 +245,15 @@ impl Model for Unit {
             V::SpringForce => Some(spring),
             V::DampingForce => Some(damping),
             V::ReactionBottom => Some(-(spring + damping)),
-            // steps, and sums of them
-            V::ImpulseBottom
-            | V::DisplacementPlastic
-            | V::EnergyDamping
-            | V::EnergyHysteretic
-            | real_local!()
-            | real_input!()
-            | real_parameter!()
-            | real_calculated!() => None,
+            V::DisplacementPlastic => Some(self.state.plastic_rate()),
+            V::EnergyDamping => Some(self.damping_force() * self.state.velocity),
+            V::EnergyHysteretic => {
+                let force = self.floor.yielding.map_or(0.0, |yielding| yielding.force);
+                Some(force * self.state.plastic_rate().abs())
+            }
+            // it changes at communication points alone
+            V::ImpulseBottom => Some(0.0),
+            real_local!() | real_input!() | real_parameter!() | real_calculated!() => None,
         }
     }
 

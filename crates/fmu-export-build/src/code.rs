@@ -147,6 +147,7 @@ fn base_type(code: &mut String, base: BaseType, variables: &[&Variable], descrip
         &FILLED
             .replace("@name@", &name)
             .replace("@table@", &format!("{base:?}").to_uppercase())
+            .replace("@interpolates@", &(base == BaseType::Real && description.interpolates()).to_string())
             .replace("@count@", &variables.len().to_string())
             .replace("@list@", &list.collect::<String>())
             .replace("@arms@", &arms.collect::<String>())
@@ -174,6 +175,7 @@ const FILLED: &str = "
 impl ::fmu_export::VariableId for @name@ {
     const ALL: &'static [Self] = &[@list@
     ];
+    const INTERPOLATES: bool = @interpolates@;
 
     fn variable(self) -> &'static ::fmu_export::Variable {
         &@table@[self as usize]

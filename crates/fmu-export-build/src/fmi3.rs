@@ -118,7 +118,7 @@ impl Description {
     }
 
     /// Returns whether continuous inputs may change inside a step.
-    fn interpolates(&self) -> bool {
+    pub(crate) fn interpolates(&self) -> bool {
         let steps = self.root.child("CoSimulation");
         steps.is_some_and(|steps| matches!(steps.attribute("canInterpolateInputs"), Some("true" | "1")))
     }

@@ -21,6 +21,7 @@
 //! fmi3         Description ─► description and terminals of FMI 3.0
 //! archive      FMU ◄─► files in memory, the same bytes for the same content
 //! sources      FMI 3.0 unit ◄─► the description it is made from
+//! library      library ─► its platforms, its version of FMI, its model
 //! pack         files of a build ─► FMU
 //! version      commit and profile of a program, for its build.rs
 //! ```
@@ -36,6 +37,8 @@ mod element;
 mod error;
 mod fingerprint;
 mod fmi3;
+#[cfg(feature = "archive")]
+mod library;
 mod names;
 #[cfg(feature = "archive")]
 pub mod pack;

@@ -29,9 +29,14 @@ pub(crate) fn type_name(variable: &Variable) -> String {
     camel(variable.declared_type.as_deref().unwrap_or_default())
 }
 
-/// The field of a parameter: its name, with `_` for what Rust names cannot contain.
+/// The field of a parameter: its name, with `_` for what Rust names cannot contain, and never `__`, which
+/// rustc warns of: `tank[1].count` becomes `tank_1_count`.
 pub(crate) fn field(parameter: &Variable) -> String {
-    parameter.name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
+    let mut field = parameter.name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    while field.contains("__") {
+        field = field.replace("__", "_");
+    }
+    field
 }
 
 /// `text` as rustdoc's Markdown: identifiers in backticks, brackets as they are.

@@ -15,14 +15,14 @@
 //! ```
 
 use crate::archive::Archive;
+use crate::library;
 use crate::sources::Sources;
 use crate::{Description, DescriptionError};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// FMI 2.0's platforms, the ending of their libraries, and FMI 3.0's folders for these. A library for
-/// `darwin64` is taken for both processors.
+/// FMI 2.0's platforms, the ending of their libraries, and FMI 3.0's folders for these.
 const PLATFORMS: [(&str, &str, &[&str]); 8] = [
     ("linux64", "so", &["x86_64-linux"]),
     ("win64", "dll", &["x86_64-windows"]),
@@ -55,8 +55,8 @@ const MAX_DEPTH: usize = 8;
 pub struct Package {
     /// The model description; a `model.png` and a folder `extra` beside it go in as well.
     pub description: PathBuf,
-    /// Platform by its name in FMI 2.0 (such as `linux64`), and library. FMI 3.0 also has `aarch64-linux`,
-    /// and `wasm32-wasip2` for a WebAssembly component.
+    /// Platform by its name in FMI 2.0 (such as `linux64`), and library, which was built from this
+    /// description. FMI 3.0 also has `aarch64-linux`, and `wasm32-wasip2` for a WebAssembly component.
     pub binaries: Vec<(String, PathBuf)>,
     /// Folder that becomes `documentation/`.
     pub documentation: PathBuf,
@@ -89,6 +89,29 @@ pub enum PackError {
          darwin32; aarch64-linux and wasm32-wasip2 are for FMI 3.0"
     )]
     UnknownPlatform { platform: String },
+    /// The library is some other file.
+    #[error(
+        "{}: is neither a shared library of Linux, Windows or macOS nor a WebAssembly component",
+        path.display()
+    )]
+    NoLibrary { path: PathBuf },
+    /// The library is for other machines.
+    #[error("{}: is for {found}, and not for the platform {platform}", path.display())]
+    OtherPlatform { path: PathBuf, found: String, platform: String },
+    /// The library is of another version of FMI.
+    #[error(
+        "{}: does not export the functions of FMI {version}.0; fmu_export::export_fmu! says which model gets \
+         which",
+        path.display()
+    )]
+    OtherVersion { path: PathBuf, version: u8 },
+    /// The library was built from another description.
+    #[error(
+        "{}: was built from another description, because it does not hold the guid {guid} of this one; build \
+         it again",
+        path.display()
+    )]
+    OtherModel { path: PathBuf, guid: String },
     /// The documentation does not have the page importers open.
     #[error("{}: has no index.html, the page that importers open", path.display())]
     NoIndex { path: PathBuf },
@@ -102,8 +125,9 @@ impl Package {
     /// variables where it says `{where NAME}`.
     ///
     /// # Errors
-    /// A description that contradicts itself, files that cannot be read, an unknown platform, no
-    /// `index.html`, or one that asks for a condition that is not there.
+    /// A description that contradicts itself, files that cannot be read, an unknown platform, a library of
+    /// another platform, version of FMI or model, no `index.html`, or one that asks for a condition that is
+    /// not there.
     pub fn archive(&self) -> Result<Archive, PackError> {
         let text = read_text(&self.description)?;
         let invalid = |path: &Path, fault| DescriptionError::Invalid {
@@ -117,7 +141,8 @@ impl Package {
             let name = if self.fmi3 { "terminalsAndIcons/icon.png" } else { "model.png" };
             archive.insert(name, read(&icon)?);
         }
-        let text = description.text_with_guid(&description.guid());
+        let guid = description.guid();
+        let text = description.text_with_guid(&guid);
         if self.fmi3 {
             let path = self.description.with_file_name("fmi3.xml");
             let additions = if path.exists() { read_text(&path)? } else { "<fmi3/>".to_owned() };
@@ -132,9 +157,11 @@ impl Package {
             archive.insert("modelDescription.xml", text);
         }
         for (platform, library) in &self.binaries {
-            let name = description.model_identifier();
-            for file in self.libraries(platform, name)? {
-                archive.insert(file, read(library)?);
+            let (content, machines) = self.library(library, &guid)?;
+            let (folders, ending) = self.folders(platform, library, &machines)?;
+            for folder in folders {
+                let name = description.model_identifier();
+                archive.insert(format!("binaries/{folder}/{name}.{ending}"), content.clone());
             }
             if platform == COMPONENT {
                 for name in MANIFESTS {
@@ -157,15 +184,38 @@ impl Package {
         Ok(archive)
     }
 
-    /// The paths of the library `name` for `platform`.
-    fn libraries(&self, platform: &str, name: &str) -> Result<Vec<String>, PackError> {
+    /// Reads a library, which must be of this version of FMI and of the model with this guid. Returns it with
+    /// the folders of FMI 3.0 that it belongs into.
+    fn library(&self, path: &Path, guid: &str) -> Result<(Vec<u8>, Vec<&'static str>), PackError> {
+        let (content, path) = (read(path)?, path.to_path_buf());
+        let Some(machines) = library::platforms(&content) else { return Err(PackError::NoLibrary { path }) };
+        if !library::is_of_version(&content, self.fmi3) {
+            return Err(PackError::OtherVersion { path, version: if self.fmi3 { 3 } else { 2 } });
+        }
+        if !library::is_of_model(&content, guid) {
+            return Err(PackError::OtherModel { path, guid: guid.to_owned() });
+        }
+        Ok((content, machines))
+    }
+
+    /// The folders for `platform` of the library at `path`, which is for these machines, and its ending.
+    fn folders(
+        &self,
+        platform: &str,
+        path: &Path,
+        machines: &[&'static str],
+    ) -> Result<(Vec<&'static str>, &'static str), PackError> {
         let found = PLATFORMS
             .iter()
             .find(|(known, _, of_3)| *known == platform && (self.fmi3 || !of_3.contains(&platform)));
         let unknown = || PackError::UnknownPlatform { platform: platform.to_owned() };
         let &(of_2, ending, of_3) = found.ok_or_else(unknown)?;
-        let folders = if self.fmi3 { of_3 } else { &[of_2][..] };
-        Ok(folders.iter().map(|folder| format!("binaries/{folder}/{name}.{ending}")).collect())
+        let folders: Vec<_> = of_3.iter().copied().filter(|folder| machines.contains(folder)).collect();
+        if folders.is_empty() {
+            let (path, platform) = (path.to_path_buf(), platform.to_owned());
+            return Err(PackError::OtherPlatform { path, found: machines.join(" and "), platform });
+        }
+        Ok((if self.fmi3 { folders } else { vec![of_2] }, ending))
     }
 }
 

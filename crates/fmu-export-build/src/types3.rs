@@ -106,10 +106,12 @@ impl Types {
     }
 }
 
-/// `<SimpleType>` and the element inside become one element.
+/// `<SimpleType>` and the element inside become one element, without its description: `FMPy` up to 0.3.22,
+/// and what builds on it, refuses a type that has one.
 fn type_definition(simple: &Element) -> Option<Element> {
     let inner = simple.children.first()?;
     let mut written = Element { name: format!("{}Type", type_name(&inner.name)), ..simple.clone() };
+    written.attributes.retain(|(name, _)| name != "description");
     written.attributes.extend(inner.attributes.iter().cloned());
     written.children.clone_from(&inner.children);
     Some(written)

@@ -106,6 +106,8 @@ const SET: u16 = INST | INIT | RUN;
 const SET_DISCRETE: u16 = INST | INIT | STEP | EVENT;
 /// When values can be read.
 const GET: u16 = INIT | RUN | END;
+/// FMI 3.0 reads values from instantiation on (section 2.3.2, as of June 2026).
+const GET_3: u16 = INST | GET;
 /// The continuous-time values of FMI 3.0 can be read from Initialization Mode on.
 const GET_CONTINUOUS: u16 = INIT | EVENT | TIME | END;
 
@@ -173,10 +175,10 @@ calls! {
     ExitInitializationMode: any("fmi2ExitInitializationMode", INIT), any("fmi3ExitInitializationMode", INIT);
     Terminate: any("fmi2Terminate", RUN), any("fmi3Terminate", RUN);
     Reset: any("fmi2Reset", ALIVE), any("fmi3Reset", ALIVE);
-    GetReal: any("fmi2GetReal", GET), any("fmi3GetFloat64", GET);
-    GetInteger: any("fmi2GetInteger", GET), any("fmi3GetInt32", GET);
-    GetBoolean: any("fmi2GetBoolean", GET), any("fmi3GetBoolean", GET);
-    GetString: any("fmi2GetString", GET), any("fmi3GetString", GET);
+    GetReal: any("fmi2GetReal", GET), any("fmi3GetFloat64", GET_3);
+    GetInteger: any("fmi2GetInteger", GET), any("fmi3GetInt32", GET_3);
+    GetBoolean: any("fmi2GetBoolean", GET), any("fmi3GetBoolean", GET_3);
+    GetString: any("fmi2GetString", GET), any("fmi3GetString", GET_3);
     SetReal: any("fmi2SetReal", SET), any("fmi3SetFloat64", SET | UPDATE);
     SetInteger: any("fmi2SetInteger", SET_DISCRETE), any("fmi3SetInt32", SET_DISCRETE);
     SetBoolean: any("fmi2SetBoolean", SET_DISCRETE), any("fmi3SetBoolean", SET_DISCRETE);
@@ -191,15 +193,15 @@ calls! {
     GetDirectionalDerivative: any("fmi2GetDirectionalDerivative", GET),
         any("fmi3GetDirectionalDerivative", GET);
     // Values of types of FMI 3.0 alone. Enumerations are 64-bit integers there; the other types have none.
-    GetInt64: NONE, any("fmi3GetInt64", GET);
-    GetFloat32: NONE, any("fmi3GetFloat32", GET);
-    GetInt8: NONE, any("fmi3GetInt8", GET);
-    GetUInt8: NONE, any("fmi3GetUInt8", GET);
-    GetInt16: NONE, any("fmi3GetInt16", GET);
-    GetUInt16: NONE, any("fmi3GetUInt16", GET);
-    GetUInt32: NONE, any("fmi3GetUInt32", GET);
-    GetUInt64: NONE, any("fmi3GetUInt64", GET);
-    GetBinary: NONE, any("fmi3GetBinary", GET);
+    GetInt64: NONE, any("fmi3GetInt64", GET_3);
+    GetFloat32: NONE, any("fmi3GetFloat32", GET_3);
+    GetInt8: NONE, any("fmi3GetInt8", GET_3);
+    GetUInt8: NONE, any("fmi3GetUInt8", GET_3);
+    GetInt16: NONE, any("fmi3GetInt16", GET_3);
+    GetUInt16: NONE, any("fmi3GetUInt16", GET_3);
+    GetUInt32: NONE, any("fmi3GetUInt32", GET_3);
+    GetUInt64: NONE, any("fmi3GetUInt64", GET_3);
+    GetBinary: NONE, any("fmi3GetBinary", GET_3);
     SetInt64: NONE, any("fmi3SetInt64", SET_DISCRETE);
     SetFloat32: NONE, any("fmi3SetFloat32", SET);
     SetInt8: NONE, any("fmi3SetInt8", SET_DISCRETE);

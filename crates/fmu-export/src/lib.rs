@@ -73,11 +73,12 @@
 //!   reset, saved states and free are served. Only a getter that fails and a state that is refused (a freed
 //!   `fmi2FMUstate`, damaged bytes) leave an instance as it was.
 //! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets
-//!   nothing. A Boolean that is read as a Real is 0 or 1, with one warning per instance. In step mode with
-//!   Event Mode, a discrete input can be set to the value that it has, and to no other.
+//!   nothing. A Boolean that is read as a Real is 0 or 1, with one warning per instance. A fixed parameter
+//!   after the start, or a discrete input outside Event Mode, can be set to the value that it has, and to no
+//!   other, by the setter of Reals too. The function of another type names the right one.
 //! - Time: communication points are compared with a tolerance, and the step goes from the model's own time,
-//!   so that rounding is never lost or counted twice. A step of length 0, or too small to reach the model's
-//!   time, changes nothing: input derivatives then hold for the step after it.
+//!   so that rounding is never lost or counted twice. A step shorter than 1e-30 s, or too small to reach
+//!   the model's time, changes nothing: input derivatives then hold for the step after it.
 //! - Saved states, in memory and as bytes with guid and checksum; reset. A state in memory belongs to its
 //!   instance; as bytes it goes to any other of the same guid.
 //! - The log with its categories. Errors are always logged; the rest is off unless asked for, and not even
@@ -88,7 +89,8 @@
 //!   after a `longjmp` out of it the instance refuses every call, and a C++ exception ends the process.
 //! - Guids: description and library belong together, and a payload in `resources/` to its description.
 //!
-//! Instances share nothing. Nothing here allocates in a step, a get or a set of numbers that succeeds.
+//! Instances share nothing: two can work in two threads at the same time, and one can move from thread to
+//! thread. Nothing here allocates in a step, a get or a set of numbers that succeeds.
 //!
 //! # Map
 //! [`Variable`], [`Model`] and, for Model Exchange, [`ModelExchange`] are the model's side, [`ffi`] is C's,

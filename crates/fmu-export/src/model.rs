@@ -114,7 +114,9 @@ pub trait Model: Clone + Send + Sized + 'static {
         false
     }
 
-    /// The first time derivative of an output, in its unit per second. None if it has none: the default.
+    /// The first time derivative of an output, in its unit per second; 0 for one that changes at events
+    /// alone. None if it has none: the default. A description with `maxOutputDerivativeOrder="1"` promises
+    /// one for every Real output.
     fn output_derivative(&self, _variable: Self::Real) -> Option<f64> {
         None
     }
@@ -125,8 +127,8 @@ pub trait Model: Clone + Send + Sized + 'static {
         None
     }
 
-    /// Computes what follows from the parameters. In Initialization Mode it is called after sets and before
-    /// gets, and before [`initialize`](Self::initialize).
+    /// Computes what follows from the parameters. Before the end of Initialization Mode it is called
+    /// after sets and before gets, and before [`initialize`](Self::initialize).
     ///
     /// # Errors
     /// When the parameters contradict each other.
@@ -275,7 +277,7 @@ pub struct Experiment {
 pub struct Step {
     /// Time at its start \[s\].
     pub from: f64,
-    /// Its length \[s\], above 0. It may be too small to change the time.
+    /// Its length \[s\], 1e-30 or more. It may be too small to change the time.
     pub duration: f64,
     /// The importer accepts that the step ends early, at an event (FMI 3.0 `earlyReturnAllowed`).
     pub may_end_early: bool,

@@ -92,6 +92,9 @@ pub trait VariableId: Copy + Eq + Debug + 'static {
     /// Every variable of this type, in the order of the description.
     const ALL: &'static [Self];
 
+    /// Continuous inputs of this type may change inside a step: the description has `canInterpolateInputs`.
+    const INTERPOLATES: bool = false;
+
     /// Returns what the description says about the variable.
     fn variable(self) -> &'static Variable;
 

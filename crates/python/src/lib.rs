@@ -59,6 +59,7 @@ mod _native {
     #[pymodule_export]
     use crate::motions::{
         average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
+        warnings_of_channel,
     };
     #[pymodule_export]
     use crate::responses::picture_of_response;

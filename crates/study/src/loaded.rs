@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ground_motion::{GroundMotion, GroundMotionError, read};
+use ground_motion::{GroundMotion, GroundMotionError, is_companion, read};
 use rocking_wall::scene::{Scene, SceneError, read_text};
 use rocking_wall::wall::{COMPUTED, Parameters, Usual, Wall, Warning};
 
@@ -63,7 +63,7 @@ impl LoadedStudy {
         warn(&walls, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
-        inputs.extend(paths);
+        inputs.extend(paths.into_iter().map(|file| file.path));
         let study = Self::assemble(&name, text, file, walls, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings, ..study })
@@ -247,47 +247,72 @@ fn warn(
     }
 }
 
+/// A record file of a study.
+pub(crate) struct RecordFile {
+    pub(crate) path: PathBuf,
+    /// Whether the study names the file itself, and not its folder or a pattern.
+    is_named: bool,
+}
+
 /// Lists the record files of a study, in the order of its patterns.
 pub(crate) fn record_files(
     entry: &RecordsEntry,
     folder: &Path,
     study: &str,
-) -> Result<Vec<PathBuf>, SceneError> {
-    let mut paths: Vec<PathBuf> = Vec::new();
+) -> Result<Vec<RecordFile>, SceneError> {
+    let mut listed: Vec<RecordFile> = Vec::new();
     for (pattern, line) in &entry.files {
-        let found = files(&folder.join(pattern)).map_err(|reason| SceneError::Line {
+        let place = folder.join(pattern);
+        let is_named = place.is_file();
+        let found = files(&place).map_err(|reason| SceneError::Line {
             file: study.to_owned(),
             line: *line,
             message: format!("{pattern:?}: {reason}"),
         })?;
-        // a file that two patterns match is one record
-        paths.extend(found.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
+        for path in found {
+            // a file that two patterns match is one record
+            match listed.iter_mut().find(|file| file.path == path) {
+                Some(file) => file.is_named |= is_named,
+                None => listed.push(RecordFile { path, is_named }),
+            }
+        }
     }
-    Ok(paths)
+    Ok(listed)
 }
 
+/// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
 pub(crate) fn all_records(
     entry: &RecordsEntry,
-    paths: &[PathBuf],
+    files: &[RecordFile],
     study: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedRecord>, SceneError> {
     let short =
         |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
-    for path in paths {
+    for RecordFile { path, .. } in files {
         *uses.entry(short(path)).or_default() += 1;
     }
-    let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
-    for path in paths {
+    let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
+    for RecordFile { path, is_named } in files {
         let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
         let record = read(path, &entry.options).map_err(refused)?;
+        if record.is_vertical && !is_named {
+            let path = path.display();
+            warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
+            continue;
+        }
         warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
         let motion = record.motion;
         let name = short(path);
         // files with equal names go by their whole paths
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
         records.push(NamedRecord { name, motion });
+    }
+    if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
+        let reason =
+            "records: all are vertical, and records shake walls sideways; name horizontal ones".into();
+        return Err(SceneError::File { file: study.to_owned(), reason });
     }
     for recipe in &entry.synthetic {
         let motion = recipe.motion().map_err(|error| SceneError::File {
@@ -312,7 +337,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
         let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
         glob::glob(pattern)?.collect::<Result<_, _>>()?
     };
-    found.retain(|path| visible(path));
+    found.retain(|path| visible(path) && !is_companion(path));
     found.sort();
     if found.is_empty() {
         return Err(

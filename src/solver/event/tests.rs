@@ -57,7 +57,7 @@ impl Piece for Sway {
         (acceleration, acceleration * self.rate)
     }
 
-    fn snap(&self, (_, jerk): (f64, f64)) -> f64 {
+    fn snap(&self, _between: [f64; 2], (_, jerk): (f64, f64)) -> f64 {
         jerk * self.rate
     }
 

@@ -6,6 +6,7 @@ mod hysteresis;
 mod linear;
 #[path = "../../../../tests/it/page.rs"]
 mod page;
+mod work;
 
 use fmu_export::{Experiment, Log, Model, Step, VariableId};
 use rocking_floor::unit::Unit;

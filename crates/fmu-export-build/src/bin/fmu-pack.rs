@@ -23,7 +23,8 @@ fmu-pack --description FILE --binary LIBRARY --platform NAME --documentation DIR
                         leaves open: attributes of CoSimulation, and terminals
   --output FILE         the FMU to write
 
-Hidden files are left out. The exit code is 0, or 2 after an error.";
+A library of another platform, of another version of FMI, or built from another description is refused. Hidden
+files are left out. The exit code is 0, or 2 after an error.";
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();

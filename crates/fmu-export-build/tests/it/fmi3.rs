@@ -44,7 +44,7 @@ fn everything_is_written_with_the_names_of_fmi_3() {
             r#"mightReturnEarlyFromDoStep="true"/>"#
         ),
         r#"<Float64Type name="Length" unit="m" displayUnit="mm" max="50"/>"#,
-        r#"<EnumerationType name="Surface" description="What it slides on">"#,
+        r#"<EnumerationType name="Surface">"#,
         r#"<Item name="sand" value="2"/>"#,
         r#"<DefaultExperiment startTime="0" stopTime="1" stepSize="0.1" tolerance="1e-6"/>"#,
         concat!(

@@ -100,3 +100,11 @@ fn removing_or_adding_a_variable_changes_the_enum() {
         "{with}"
     );
 }
+
+/// rustc warns of a field with two underscores in a row.
+#[test]
+fn a_structured_name_becomes_a_field_without_a_warning() {
+    let code = module("structured", &block_with("name='layers'", "name='tank[1].count'"));
+    assert!(code.contains("self.tank_1_count = value") && code.contains("tank_1_count: 3"), "{code}");
+    assert!(code.contains("Tank1Count"));
+}

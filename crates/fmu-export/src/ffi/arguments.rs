@@ -95,15 +95,24 @@ pub(super) unsafe fn place<'a, T>(name: &str, target: *mut T) -> Result<&'a mut 
 /// The text at `start`. None if it is NULL.
 ///
 /// # Safety
-/// `start` is NULL or points to a text that ends with a NUL and that nobody changes during `'a`.
+/// As for [`bytes`].
 pub(super) unsafe fn text<'a>(name: &str, start: Text) -> Result<Option<&'a str>, Failure> {
+    // SAFETY: `start` is NULL or points to a text that ends with a NUL and that nobody changes during `'a`.
+    let bytes = unsafe { bytes(start) };
+    bytes.map(|bytes| str::from_utf8(bytes).map_err(|_| Failure(format!("{name} is not UTF-8")))).transpose()
+}
+
+/// The bytes of the text at `start`, whatever their encoding. None if it is NULL.
+///
+/// # Safety
+/// `start` is NULL or points to a text that ends with a NUL and that nobody changes during `'a`.
+pub(super) unsafe fn bytes<'a>(start: Text) -> Option<&'a [u8]> {
     if start.is_null() {
-        return Ok(None);
+        return None;
     }
     // SAFETY: `start` is not NULL and points to a text that ends with a NUL and that nobody changes during
     // `'a`.
-    let bytes = unsafe { CStr::from_ptr(start) }.to_bytes();
-    str::from_utf8(bytes).map(Some).map_err(|_| Failure(format!("{name} is not UTF-8")))
+    Some(unsafe { CStr::from_ptr(start) }.to_bytes())
 }
 
 /// The text at `start`, which is not NULL.

@@ -1,6 +1,6 @@
 //! The functions that co-simulation and Model Exchange have in common (FMI 2.0.5, section 2.1).
 
-use super::arguments::{array, array_mut, required_text, text, to_get, to_set};
+use super::arguments::{array, array_mut, bytes, required_text, text, to_get, to_set};
 use super::guard::{self, Slot, functions};
 use super::kinds::Kinds;
 use super::types::{
@@ -60,8 +60,7 @@ pub unsafe fn instantiate<M: Model>(
     let logger = || Logger::new(sink(), logging_on != 0);
     make("fmi2Instantiate", logger, |logger| {
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
-        let (guid, location) =
-            unsafe { (required_text("fmuGUID", guid)?, text("fmuResourceLocation", resource_location)?) };
+        let (guid, location) = unsafe { (required_text("fmuGUID", guid)?, bytes(resource_location)) };
         Instance::new(&name.to_string_lossy(), guid, location, kinds.purpose(fmu_type)?, logger)
     })
 }
@@ -120,7 +119,7 @@ pub unsafe fn free_instance<M: Model>(component: Component) {
 functions! {
     /// `fmi2SetDebugLogging`, `fmi3SetDebugLogging`
     ///
-    /// Without categories all are meant. An unknown one is refused, and nothing changes then.
+    /// Without categories all are meant. An unknown one is warned of and left out.
     set_debug_logging<Model>(
         logging_on: impl From<bool> + PartialEq, count: usize, categories: *const Text
     ): SetDebugLogging, |instance| {

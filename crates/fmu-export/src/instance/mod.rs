@@ -90,14 +90,15 @@ impl<M: Model> Instance<M> {
     pub(crate) fn new(
         name: &str,
         guid: &str,
-        location: Option<&str>,
+        location: Option<&[u8]>,
         purpose: Purpose<M>,
         mut logger: Logger,
     ) -> Result<Self, Failure> {
-        let resources = location.and_then(path_from_location);
+        let resources = location.and_then(|bytes| str::from_utf8(bytes).ok()).and_then(path_from_location);
         if let (Some(location), None) = (location, &resources) {
             logger.log().warning(format_args!(
-                "the resource location {location:?} is not a local folder: it is ignored"
+                "the resource location {:?} is not a local folder in UTF-8: it is ignored",
+                String::from_utf8_lossy(location)
             ));
         }
         let payload = guid::check::<M>(guid, resources.as_deref())?;
@@ -181,14 +182,23 @@ impl<M: Model> Instance<M> {
         on: bool,
         categories: impl Iterator<Item = Result<&'a str, Failure>>,
     ) -> Result<(), Failure> {
-        let mut filter = None;
+        let (mut filter, mut unknown) = (None, Vec::new());
         for name in categories {
             let name = name?;
-            let category = Category::from_name(name).ok_or_else(|| {
-                let known: Vec<_> = Category::ALL.iter().map(|category| category.name()).collect();
-                Failure(format!("unknown log category {name:?}: the categories are {}", known.join(", ")))
-            })?;
-            filter = Some(filter.unwrap_or(Filter::ERRORS).with(category));
+            let wanted = filter.unwrap_or(Filter::ERRORS);
+            let category = Category::from_name(name);
+            unknown.extend(category.is_none().then_some(name));
+            filter = Some(category.map_or(wanted, |category| wanted.with(category)));
+        }
+        if on && !unknown.is_empty() {
+            // whoever asks for categories is told of a wrong one, whatever the others are
+            self.logger.filter = Filter::EVERYTHING;
+            let known: Vec<_> = Category::ALL.iter().map(|category| category.name()).collect();
+            self.logger.log().warning(format_args!(
+                "{}: there are no log categories {unknown:?}, they are left out; the categories are {}",
+                Call::SetDebugLogging.name(self.purpose.version),
+                known.join(", ")
+            ));
         }
         self.logger.filter = if on { filter.unwrap_or(Filter::EVERYTHING) } else { Filter::ERRORS };
         Ok(())
@@ -199,6 +209,7 @@ impl<M: Model> Instance<M> {
         self.now.time = experiment.start;
         self.now.experiment = experiment;
         self.now.model.setup_experiment(experiment);
+        self.now.stale = true;
         Ok(())
     }
 
@@ -225,9 +236,9 @@ impl<M: Model> Instance<M> {
         self.last_step = Status::Ok;
     }
 
-    /// Computes what depends on values set in Initialization Mode, before values are read.
+    /// Computes what depends on values set before the start, before values are read.
     fn calculate(&mut self) -> Result<(), Failure> {
-        if self.now.stale && self.now.phase == Phase::InitializationMode {
+        if self.now.stale && self.now.phase.is_before_the_start() {
             self.now.model.calculate()?;
             self.now.stale = false;
         }

@@ -1,7 +1,7 @@
 //! Communication steps.
 
 use super::{Instance, IntermediateUpdate};
-use crate::access;
+use crate::access::{self, Access};
 use crate::call::{Call, Phase};
 use crate::failure::Failure;
 use crate::limits;
@@ -14,6 +14,8 @@ use crate::variable::VariableId;
 const TIME_ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Largest absolute difference \[s\]: some importers round time to nanoseconds.
 const CLOCK_ROUNDING: f64 = 1e-9;
+/// Shortest step that is computed \[s\]: over a shorter one nothing moves, but rates overflow.
+const SHORTEST: f64 = 1e-30;
 
 impl<M: Model> Instance<M> {
     /// Computes a step. Returns `true` where it ended early, at an event.
@@ -55,7 +57,7 @@ impl<M: Model> Instance<M> {
     pub(super) fn set_at_end(&mut self, references: &[u32], values: &[f64]) -> Result<(), Failure> {
         let Some((step, _)) = self.pending else { return Ok(()) };
         for (&reference, &value) in references.iter().zip(values) {
-            let variable = access::find::<M::Real>(reference)?;
+            let variable: M::Real = self.find(Access::Set, reference)?;
             access::check_derivable_input(variable.variable())?;
             limits::check_real(variable.variable(), value)?;
             let rate = (value - self.now.model.real(variable)) / step.duration;
@@ -67,8 +69,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Returns the step and its end. `None` for a step too small to reach the instance's own time, or of
-    /// length 0; some importers make such steps to evaluate outputs.
+    /// Returns the step and its end. `None` for a step too small to reach the instance's own time, or shorter
+    /// than [`SHORTEST`]; some importers make steps of length 0 to evaluate outputs.
     fn checked_step(&self, point: f64, size: f64) -> Result<Option<(Step, f64)>, Failure> {
         // Times are shown as Debug does: Display spells 1e300 out.
         let time = self.now.time;
@@ -99,7 +101,7 @@ impl<M: Model> Instance<M> {
         // The step starts at the instance's own time, so that no time is computed twice or left out.
         let duration = (point - time) + size;
         let step = Step { from: time, duration, may_end_early: self.purpose.early_return };
-        Ok((size > 0.0 && duration > 0.0).then_some((step, end)))
+        Ok((size >= SHORTEST && duration >= SHORTEST).then_some((step, end)))
     }
 
     pub(crate) fn uses_event_mode(&self) -> bool {

@@ -1,12 +1,12 @@
 //! Getting and setting values and derivatives.
 
 use super::Instance;
-use crate::access;
+use crate::access::{self, Access};
 use crate::call::{Call, Phase};
 use crate::failure::Failure;
 use crate::limits;
 use crate::model::Model;
-use crate::variable::{Causality, Kind, Variable, VariableId};
+use crate::variable::{Causality, Kind, Variability, Variable, VariableId};
 use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
 
@@ -19,7 +19,7 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, slot) in references.iter().zip(values) {
-            slot.write(self.number(reference)?.ok_or_else(|| access::unknown(reference))?);
+            slot.write(self.number(reference)?.ok_or_else(|| self.unknown(Access::Get, reference))?);
         }
         Ok(())
     }
@@ -57,7 +57,7 @@ impl<M: Model> Instance<M> {
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
         for &reference in references {
-            find_served::<M::Integer>(reference, serves)?;
+            self.find_served(Access::Get, reference, serves)?;
         }
         self.get(references, values, |model, id| Ok(model.integer(id).into()))
     }
@@ -75,7 +75,7 @@ impl<M: Model> Instance<M> {
         self.calculate()?;
         self.texts.clear();
         for &reference in references {
-            let text = self.now.model.text(access::find::<M::Text>(reference)?);
+            let text = self.now.model.text(self.find(Access::Get, reference)?);
             self.texts.push(c_string(text));
         }
         Ok(self.texts.iter().map(CString::as_c_str))
@@ -89,7 +89,7 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&reference, slot) in references.iter().zip(values) {
-            slot.write(value(&self.now.model, access::find(reference)?)?);
+            slot.write(value(&self.now.model, self.find(Access::Get, reference)?)?);
         }
         Ok(())
     }
@@ -100,14 +100,33 @@ impl<M: Model> Instance<M> {
             return self.set_at_end(references, values);
         }
         for (&reference, &value) in references.iter().zip(values) {
-            let id = access::find::<M::Real>(reference)?;
+            if self.has_number(reference, value) {
+                continue;
+            }
+            let id: M::Real = self.find(Access::Set, reference)?;
             let variable = id.variable();
             if phase.is_before_the_start() || !self.purpose.states.contains(&id) {
                 self.check_settable(variable, |model| model.real(id) == value)?;
             }
             limits::check_real(variable, value)?;
         }
-        self.set(references, values, |model, variable, &value| model.set_real(variable, value))
+        self.set(references, values, |model, variable, &value| model.set_real(variable, value));
+        Ok(())
+    }
+
+    /// Returns whether a parameter or input of another type than Real has the value `number`: some importers
+    /// set all of them as Reals, and none to another value.
+    fn has_number(&self, reference: u32, number: f64) -> bool {
+        let model = &self.now.model;
+        let integer =
+            M::Integer::from_reference(reference).map(|id| (id.variable(), model.integer(id).into()));
+        let boolean = || {
+            let id = M::Boolean::from_reference(reference)?;
+            Some((id.variable(), f64::from(model.boolean(id))))
+        };
+        integer.or_else(boolean).is_some_and(|(variable, value): (_, f64)| {
+            matches!(variable.causality, Causality::Input | Causality::Parameter) && value == number
+        })
     }
 
     /// Sets those Integer and Enumeration variables that the function `serves`.
@@ -118,7 +137,7 @@ impl<M: Model> Instance<M> {
         serves: fn(&Kind) -> bool,
     ) -> Result<(), Failure> {
         for (&reference, &value) in references.iter().zip(values) {
-            let id = find_served::<M::Integer>(reference, serves)?;
+            let id = self.find_served(Access::Set, reference, serves)?;
             self.check_settable(id.variable(), |model| i64::from(model.integer(id)) == value.into())?;
             limits::check_integer(id.variable(), value.into())?;
         }
@@ -126,7 +145,8 @@ impl<M: Model> Instance<M> {
             if let Ok(value) = i32::try_from(value.into()) {
                 model.set_integer(variable, value);
             }
-        })
+        });
+        Ok(())
     }
 
     /// 0 is false, anything else true.
@@ -136,46 +156,78 @@ impl<M: Model> Instance<M> {
         values: &[T],
     ) -> Result<(), Failure> {
         for (&reference, value) in references.iter().zip(values) {
-            let id = access::find::<M::Boolean>(reference)?;
+            let id: M::Boolean = self.find(Access::Set, reference)?;
             self.check_settable(id.variable(), |model| model.boolean(id) == (*value != false.into()))?;
         }
-        self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()))
+        self.set(references, values, |model, id, value| model.set_boolean(id, *value != false.into()));
+        Ok(())
     }
 
     pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Result<(), Failure> {
         for (&reference, value) in references.iter().zip(values) {
-            let id = access::find::<M::Text>(reference)?;
+            let id: M::Text = self.find(Access::Set, reference)?;
             self.check_settable(id.variable(), |model| model.text(id) == *value)?;
         }
-        self.set(references, values, |model, variable, value| model.set_text(variable, value))
+        self.set(references, values, |model, variable, value| model.set_text(variable, value));
+        Ok(())
     }
 
-    /// Checks that `variable` may be set now. An input may always be set to the value that it already has
-    /// (`is_same`), because some importers set all inputs before each step.
+    /// Returns the variable of one type with this value reference.
+    pub(super) fn find<V: VariableId>(&self, access: Access, reference: u32) -> Result<V, Failure> {
+        access.find::<M, V>(self.purpose.version, reference)
+    }
+
+    /// Returns the Integer or Enumeration with this value reference, if it is of a kind that is served.
+    fn find_served(
+        &self,
+        access: Access,
+        reference: u32,
+        serves: fn(&Kind) -> bool,
+    ) -> Result<M::Integer, Failure> {
+        let found: M::Integer = self.find(access, reference)?;
+        if serves(&found.variable().kind) { Ok(found) } else { Err(self.unknown(access, reference)) }
+    }
+
+    pub(super) fn unknown(&self, access: Access, reference: u32) -> Failure {
+        access.unknown::<M>(self.purpose.version, reference)
+    }
+
+    /// Returns an error if there are any references: no variable has the type.
+    pub(crate) fn none_served(&self, access: Access, references: &[u32]) -> Result<(), Failure> {
+        references.first().map_or(Ok(()), |&reference| Err(self.unknown(access, reference)))
+    }
+
+    /// Checks that `variable` may be set now. An input or a parameter may always be set to the value that it
+    /// already has (`is_same`), because some importers set all of them before each step.
     fn check_settable(&self, variable: &Variable, is_same: impl Fn(&M) -> bool) -> Result<(), Failure> {
         let phase = self.now.phase;
-        let is_input = variable.causality == Causality::Input;
         if access::is_settable(variable, phase, self.purpose.event_mode)
-            || (is_input && is_same(&self.now.model))
+            || (self.keeps_its_value(variable) && is_same(&self.now.model))
         {
             return Ok(());
         }
         Err(access::not_settable(variable, &phase.describe(self.purpose.version)))
     }
 
-    /// Sets values after all of them have been checked. If one is refused, none is set.
-    fn set<V: VariableId, T>(
-        &mut self,
-        references: &[u32],
-        values: &[T],
-        set: impl Fn(&mut M, V, &T),
-    ) -> Result<(), Failure> {
+    /// Returns whether `variable` is an input or a parameter that may not change now.
+    fn keeps_its_value(&self, variable: &Variable) -> bool {
+        matches!(variable.causality, Causality::Input | Causality::Parameter)
+            && variable.variability != Variability::Constant
+            && !access::is_settable(variable, self.now.phase, self.purpose.event_mode)
+    }
+
+    /// Sets values after all of them have been checked. If one is refused, none is set. A variable that may
+    /// not change now keeps the value that it has.
+    fn set<V: VariableId, T>(&mut self, references: &[u32], values: &[T], set: impl Fn(&mut M, V, &T)) {
         for (&reference, value) in references.iter().zip(values) {
-            set(&mut self.now.model, access::find(reference)?, value);
+            // none for a variable of another type, which has this value
+            let id = V::from_reference(reference).filter(|id| !self.keeps_its_value(id.variable()));
+            if let Some(id) = id {
+                set(&mut self.now.model, id, value);
+            }
         }
         // After initialisation `calculate` is not called: a model applies a tunable parameter in `set_*`.
         self.now.stale |= self.now.phase.is_before_the_start();
-        Ok(())
     }
 }
 
@@ -188,13 +240,13 @@ impl<M: Model> Instance<M> {
         values: &[f64],
     ) -> Result<(), Failure> {
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            let variable = access::find::<M::Real>(reference)?.variable();
+            let variable = self.find::<M::Real>(Access::Derive, reference)?.variable();
             access::check_derivable_input(variable)?;
             access::check_order(variable, order)?;
             finite_slope(variable, value)?;
         }
         for (&reference, &value) in references.iter().zip(values) {
-            let variable = access::find::<M::Real>(reference)?;
+            let variable: M::Real = self.find(Access::Derive, reference)?;
             if !self.now.model.set_input_derivative(variable, value) {
                 return Err(Failure(format!("{} takes no derivative", variable.variable().name)));
             }
@@ -209,7 +261,7 @@ impl<M: Model> Instance<M> {
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Failure> {
         for ((&reference, &order), slot) in references.iter().zip(orders).zip(values) {
-            let variable = access::find::<M::Real>(reference)?;
+            let variable: M::Real = self.find(Access::Derive, reference)?;
             access::check_order(variable.variable(), order)?;
             let found = self.now.model.output_derivative(variable);
             let variable = variable.variable();
@@ -252,10 +304,10 @@ impl<M: Model> Instance<M> {
     ) -> Result<(), Failure> {
         self.calculate()?;
         for (&wanted, slot) in wanted.iter().zip(values) {
-            let wanted = access::find::<M::Real>(wanted)?;
+            let wanted: M::Real = self.find(Access::Derive, wanted)?;
             let mut sum = 0.0;
             for (&seeded, &seed) in seeded.iter().zip(seeds).filter(|&(_, &seed)| seed != 0.0) {
-                let seeded = access::find::<M::Real>(seeded)?;
+                let seeded: M::Real = self.find(Access::Derive, seeded)?;
                 if !seed.is_finite() {
                     let name = seeded.variable().name;
                     return Err(Failure(format!("the seed {seed:?} of {name} is not a finite number")));
@@ -271,12 +323,6 @@ impl<M: Model> Instance<M> {
         }
         Ok(())
     }
-}
-
-/// The variable with this value reference, if it is of a kind that is served.
-fn find_served<V: VariableId>(reference: u32, serves: fn(&Kind) -> bool) -> Result<V, Failure> {
-    let found = access::find::<V>(reference)?;
-    if serves(&found.variable().kind) { Ok(found) } else { Err(access::unknown(reference)) }
 }
 
 fn finite_slope(variable: &Variable, value: f64) -> Result<f64, Failure> {

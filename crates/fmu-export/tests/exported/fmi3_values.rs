@@ -304,3 +304,19 @@ fn other_calls_inside_a_step_are_refused() {
     assert!(messages[0].text.contains("in Intermediate Update Mode"), "{messages:?}");
     assert_eq!(get(&importer, Real::X.reference()), 1.0);
 }
+
+/// Values are read before Initialization Mode, too: those that are set, and what follows from them.
+#[test]
+fn values_are_read_from_instantiation_on() {
+    let importer = Fmi3::co_simulation(false, false);
+    let [stiffness, period] = [Real::Stiffness, Real::Period].map(Real::reference);
+    assert_eq!(get(&importer, stiffness), 4.0);
+    assert_eq!(get(&importer, period), std::f64::consts::PI);
+    assert_eq!(unsafe { fmi3SetFloat64(importer.component, &stiffness, 1, &16.0, 1) }, OK);
+    assert_eq!([get(&importer, stiffness), get(&importer, period)], [16.0, std::f64::consts::FRAC_PI_2]);
+    // a fixed parameter can still change, and the start is that of an instance nobody has read
+    let untouched = Fmi3::co_simulation(false, false);
+    assert_eq!(unsafe { fmi3SetFloat64(importer.component, &stiffness, 1, &4.0, 1) }, OK);
+    let [read, untouched] = [importer, untouched].map(Fmi3::started);
+    assert_eq!(crate::states::bytes(&read), crate::states::bytes(&untouched));
+}

@@ -1,10 +1,12 @@
 //! Instantiation: kinds, guids, resources, names, callbacks.
 
 use crate::fmi2::*;
-use crate::importer::{Importer, Journal, SILENT, expect_error, instantiate};
+use crate::fmi3::fmi3InstantiateModelExchange;
+use crate::importer::{Importer, Journal, SILENT, expect_error, instantiate, write_down_3};
 use crate::spring::{GUID, Real, Spring, Text};
 use fmu_export::ffi::types::{CO_SIMULATION, CallbackFunctions, ERROR, OK};
 use fmu_export::{Model, fnv1a_128};
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::process::Command;
 use std::{fs, ptr};
@@ -125,6 +127,36 @@ fn an_unusable_location_is_a_warning() {
     assert!(messages[0].text.contains("http://host/p"));
 }
 
+/// Nothing is in a plain unit's resources that it would need.
+#[test]
+fn a_location_that_is_not_utf_8_is_a_warning() {
+    let (journal, of_3) = (Journal::new(), Journal::new());
+    let (name, latin_1) = (c"one".as_ptr(), c"/home/J\xfcrgen".as_ptr());
+    // SAFETY: texts and callbacks live until the call returns.
+    let made = unsafe {
+        [
+            fmi2Instantiate(name, CO_SIMULATION, GUID.as_ptr(), latin_1, &journal.callbacks(), 0, 1),
+            fmi3InstantiateModelExchange(
+                name,
+                GUID.as_ptr(),
+                latin_1,
+                false,
+                true,
+                of_3.environment(),
+                Some(write_down_3),
+            ),
+        ]
+    };
+    for (component, journal) in made.into_iter().zip([journal, of_3]) {
+        let messages = Importer::of((component, journal)).journal.take();
+        assert_eq!(messages[0].category, "logStatusWarning");
+        assert!(
+            messages[0].text.contains("/home/J\u{fffd}rgen\" is not a local folder in UTF-8"),
+            "{messages:?}"
+        );
+    }
+}
+
 #[test]
 fn a_model_that_refuses_or_panics_gives_no_instance() {
     for (name, part) in [("fail", "no spring today"), ("panic", "spring snapped at once")] {
@@ -163,10 +195,11 @@ fn texts_that_are_no_text_are_refused() {
     let journal = Journal::new();
     let callbacks = journal.callbacks();
     let (name, latin_1) = (c"one".as_ptr(), c"\xfc".as_ptr());
+    let with_payload = CString::new(Spring::GUID.replace('}', &format!("-{:032x}}}", 0))).unwrap();
     for (guid, location, message) in [
         (ptr::null(), ptr::null(), "fmuGUID is NULL"),
         (latin_1, ptr::null(), "fmuGUID is not UTF-8"),
-        (GUID.as_ptr(), latin_1, "fmuResourceLocation is not UTF-8"),
+        (with_payload.as_ptr(), latin_1, "needs resources/spring.toml"),
     ] {
         // SAFETY: texts and callbacks live until the call returns.
         let made = unsafe { fmi2Instantiate(name, CO_SIMULATION, guid, location, &callbacks, 0, 0) };

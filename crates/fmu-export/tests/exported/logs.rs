@@ -54,10 +54,21 @@ fn errors_are_always_logged() {
 }
 
 #[test]
-fn an_unknown_category_is_refused_and_changes_nothing() {
-    let importer = Importer::in_step_mode();
-    assert_eq!(want(&importer, true, &["logEvents", "logNonsense"]), ERROR);
-    importer.expect_error(&["\"logNonsense\"", "logStatusWarning", "logAll"]);
+fn an_unknown_category_is_warned_of_and_left_out() {
+    for (categories, events) in [(&["logEvents", "logNonsense"][..], 1), (&["logNonsense"], 0)] {
+        let importer = Importer::in_step_mode();
+        assert_eq!(want(&importer, true, categories), OK);
+        let messages = importer.journal.take();
+        let [message] = &messages[..] else { panic!("{messages:?}") };
+        assert_eq!((message.status, message.category.as_str()), (WARNING, "logStatusWarning"));
+        for part in ["fmi2SetDebugLogging", "\"logNonsense\"", "logStatusWarning", "logAll"] {
+            assert!(message.text.contains(part), "{message:?}");
+        }
+        // the others hold
+        assert_eq!(told(&importer), vec![(OK, "logEvents".to_owned()); events]);
+        assert_eq!(want(&importer, false, categories), OK);
+        assert!(importer.journal.take().is_empty(), "who wants no log gets none");
+    }
 }
 
 #[test]

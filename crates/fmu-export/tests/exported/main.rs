@@ -17,6 +17,7 @@ mod fmi3_values;
 mod importer;
 mod instantiation;
 mod logs;
+mod not_announced;
 mod nulls;
 mod order;
 mod panics;

@@ -2,9 +2,12 @@
 
 use crate::allocator;
 use crate::fmi2::{fmi2FreeInstance, fmi2GetFMUstate, fmi2Instantiate};
+use crate::fmi3_order::Fmi3;
+use crate::fmi3_values::step;
 use crate::importer::{Importer, Journal};
 use crate::spring::{GUID, Real};
-use fmu_export::ffi::types::{CO_SIMULATION, OK};
+use fmu_export::ffi::types::{CO_SIMULATION, OK, Status};
+use std::sync::{Arc, Barrier};
 use std::{ptr, thread};
 
 #[test]
@@ -47,6 +50,35 @@ fn eight_threads_swing_alike() {
         })
     });
     assert_eq!(threads.map(|thread| thread.join().unwrap()), [expected; 8]);
+}
+
+/// Two instances of each version, in two threads that take their steps at the same time.
+#[test]
+fn two_instances_in_two_threads_do_not_meet() {
+    type Kind = (fn() -> Importer, fn(&Importer, f64) -> Status);
+    let kinds: [Kind; 2] = [
+        (Importer::swinging, |importer, time| importer.step(time, 0.01)),
+        (|| Fmi3::started(Fmi3::co_simulation(false, false)), |importer, time| step(importer, time, 0.01).0),
+    ];
+    for (made, step) in kinds {
+        let (begin, pushes) = (Arc::new(Barrier::new(2)), [1.5, -0.25]);
+        let pushed = move |push, begin: Option<&Barrier>| {
+            let importer = made();
+            assert_eq!(importer.set(Real::Push, push), OK);
+            for count in 0..500 {
+                begin.map(Barrier::wait);
+                assert_eq!(step(&importer, f64::from(count) * 0.01), OK);
+            }
+            importer.get(Real::X).to_bits()
+        };
+        let expected = pushes.map(|push| pushed(push, None));
+        assert_ne!(expected[0], expected[1]);
+        let threads = pushes.map(|push| {
+            let begin = Arc::clone(&begin);
+            thread::spawn(move || pushed(push, Some(&begin)))
+        });
+        assert_eq!(threads.map(|thread| thread.join().unwrap()), expected);
+    }
 }
 
 #[test]

@@ -31,6 +31,7 @@ macro_rules! variables {
 
         impl VariableId for $id {
             const ALL: &'static [Self] = &[$(Self::$variant,)*];
+            const INTERPOLATES: bool = true;
             fn variable(self) -> &'static Variable {
                 static TABLE: &[Variable] = &[$(Variable {
                     name: $name, reference: $reference, description: "", unit: $unit,

@@ -14,6 +14,7 @@ use crate::fmi3_values::{ASKED, set_force, step};
 use crate::importer::{Call, Importer};
 use crate::spring::{Boolean, Integer, Real, Text};
 use crate::states::bytes;
+use fmu_export::TIME_REFERENCE;
 use fmu_export::ffi::types::{Component, ERROR, OK, Status, WARNING};
 use std::ptr::{null, null_mut};
 
@@ -61,10 +62,75 @@ fn a_discrete_input_is_set_in_step_mode_to_the_value_that_it_has_alone() {
         assert_eq!(status, ERROR);
     }
     assert_eq!(importer.get(Real::Force), 0.0);
-    // a fixed parameter is no input
-    let importer = stepping_with_events();
-    let status = unsafe { fmi3SetFloat64(importer.component, &Real::Stiffness.reference(), 1, &4.0, 1) };
-    assert_eq!(status, ERROR);
+}
+
+#[test]
+fn a_parameter_is_set_to_the_value_that_it_has_at_any_time() {
+    // the kind of each differs, and so does its function; `trim` is tunable but not in Continuous-Time Mode
+    type Set = fn(Component, bool) -> Status;
+    let sets: [(&str, Set); 5] = [
+        ("stiffness", |c, other| unsafe {
+            fmi3SetFloat64(c, &Real::Stiffness.reference(), 1, &if other { 5.0 } else { 4.0 }, 1)
+        }),
+        ("law", |c, other| unsafe {
+            fmi3SetInt64(c, &Integer::Law.reference(), 1, &if other { 2 } else { 1 }, 1)
+        }),
+        ("substeps", |c, other| unsafe {
+            fmi3SetInt32(c, &Integer::Substeps.reference(), 1, &if other { 9 } else { 8 }, 1)
+        }),
+        ("clamped", |c, other| unsafe { fmi3SetBoolean(c, &Boolean::Clamped.reference(), 1, &other, 1) }),
+        ("label", |c, other| unsafe {
+            let text = if other { c"other" } else { c"spring" };
+            fmi3SetString(c, &Text::Label.reference(), 1, &text.as_ptr(), 1)
+        }),
+    ];
+    let in_event_mode = || Fmi3::started(Fmi3::model_exchange());
+    for (name, set) in sets {
+        for importer in
+            [stepping_with_events(), Fmi3::started(Fmi3::co_simulation(false, false)), in_event_mode()]
+        {
+            let before = bytes(&importer);
+            assert_eq!(set(importer.component, false), OK, "{name}: {:?}", importer.journal.take());
+            assert_eq!(bytes(&importer), before);
+            assert_eq!(set(importer.component, true), ERROR, "{name}");
+            importer.expect_error(&[&format!("{name} is a fixed parameter and cannot be set")]);
+        }
+    }
+    let importer = in_event_mode().after(&[fmi3EnterContinuousTimeMode]);
+    assert_eq!(sets[0].1(importer.component, false), OK, "{:?}", importer.journal.take());
+    // a constant and an output are never set
+    for variable in [Real::Gravity, Real::Energy] {
+        let importer = stepping_with_events();
+        let value = importer.get(variable);
+        let status = unsafe { fmi3SetFloat64(importer.component, &variable.reference(), 1, &value, 1) };
+        assert_eq!(status, ERROR, "{variable:?}");
+    }
+}
+
+/// GEMSEO-FMU sets every parameter as a Real before each step, enumerations too.
+#[test]
+fn an_enumeration_is_set_as_a_real_to_the_value_that_it_has() {
+    let [law, force, substeps, held] = [
+        Integer::Law.reference(),
+        Real::Force.reference(),
+        Integer::Substeps.reference(),
+        Boolean::Held.reference(),
+    ];
+    for importer in [Importer::new(), Importer::swinging(), Exchange::in_event_mode()] {
+        let references = [law, force, substeps, held];
+        let set = |values: [f64; 4]| unsafe {
+            fmi2SetReal(importer.component, references.as_ptr(), 4, values.as_ptr())
+        };
+        assert_eq!(set([1.0, 2.0, 8.0, 0.0]), OK, "{:?}", importer.journal.take());
+        assert_eq!(set([1.0, 3.0, 8.5, 0.0]), ERROR);
+        importer.expect_error(&["fmi2SetReal: substeps is an Integer: use fmi2SetInteger"]);
+    }
+    let importer = Importer::swinging();
+    let status = unsafe { fmi2SetReal(importer.component, [law, force].as_ptr(), 2, [1.0, 2.0].as_ptr()) };
+    assert_eq!((status, importer.get(Real::Force), importer.get_integer(Integer::Law)), (OK, 2.0, 1));
+    // an output is not set, whatever its value
+    let count = Integer::Count.reference();
+    assert_eq!(unsafe { fmi2SetReal(importer.component, &count, 1, &0.0) }, ERROR);
 }
 
 #[test]
@@ -120,10 +186,50 @@ fn a_boolean_is_read_as_a_real_with_one_warning() {
 
 #[test]
 fn other_types_are_not_read_as_reals() {
-    for reference in [Integer::Law, Integer::Count].map(Integer::reference).into_iter().chain([40, UNKNOWN]) {
+    for (reference, message) in [
+        (Integer::Law.reference(), "law is an Enumeration: use fmi2GetInteger for value reference 20"),
+        (Integer::Count.reference(), "count is an Integer: use fmi2GetInteger for value reference 23"),
+        (Text::Label.reference(), "label is a String: use fmi2GetString for value reference 40"),
+        (UNKNOWN, "no variable of this type has the value reference 999"),
+    ] {
         let importer = Importer::swinging();
         assert_eq!(unsafe { fmi2GetReal(importer.component, &reference, 1, &mut 0.0) }, ERROR);
-        importer.expect_error(&["fmi2GetReal", &format!("value reference {reference}")]);
+        importer.expect_error(&["fmi2GetReal: ", message]);
+    }
+}
+
+#[test]
+#[rustfmt::skip]
+fn a_function_of_another_type_says_which_one_it_is() {
+    let calls: [(Call, &str); 11] = [
+        (|c| unsafe { fmi3GetInt32(c, &Real::X.reference(), 1, &mut 0, 1) },
+         "fmi3GetInt32: x is a Float64: use fmi3GetFloat64 for value reference 6"),
+        (|c| unsafe { fmi3GetFloat32(c, &Real::X.reference(), 1, &mut 0.0, 1) },
+         "fmi3GetFloat32: x is a Float64: use fmi3GetFloat64"),
+        (|c| unsafe { fmi3SetFloat32(c, &Real::Force.reference(), 1, &0.0, 1) },
+         "fmi3SetFloat32: force is a Float64: use fmi3SetFloat64"),
+        (|c| unsafe { fmi3GetInt32(c, &Integer::Law.reference(), 1, &mut 0, 1) },
+         "law is an Enumeration: use fmi3GetInt64"),
+        (|c| unsafe { fmi3SetInt64(c, &Integer::Fault.reference(), 1, &0, 1) },
+         "fault is an Int32: use fmi3SetInt32"),
+        (|c| unsafe { fmi3GetFloat64(c, &Integer::Count.reference(), 1, &mut 0.0, 1) },
+         "count is an Int32: use fmi3GetInt32"),
+        (|c| unsafe { fmi3SetFloat64(c, &Boolean::Held.reference(), 1, &1.0, 1) },
+         "held is a Boolean: use fmi3SetBoolean"),
+        (|c| unsafe { fmi3GetBinary(c, &Text::Label.reference(), 1, &mut 0, &mut null(), 1) },
+         "label is a String: use fmi3GetString"),
+        (|c| unsafe { fmi3GetBoolean(c, &TIME_REFERENCE, 1, &mut false, 1) },
+         "time is a Float64: use fmi3GetFloat64"),
+        (|c| unsafe { fmi3GetOutputDerivatives(c, &Integer::Count.reference(), 1, &1, &mut 0.0, 1) },
+         "count is an Int32 and has no derivatives"),
+        (|c| unsafe { fmi2SetReal(c, &Integer::Law.reference(), 1, &2.0) },
+         // the instance is of FMI 3.0, whoever calls
+         "law is an Enumeration: use fmi3SetInt64"),
+    ];
+    for (call, message) in calls {
+        let importer = Fmi3::started(Fmi3::co_simulation(false, false));
+        assert_eq!(unsafe { call(importer.component) }, ERROR, "{message}");
+        importer.expect_error(&[message]);
     }
 }
 
@@ -180,7 +286,7 @@ fn a_getter_out_of_turn_leaves_the_instance_where_it_is() {
         assert_eq!(fmi2GetReal(importer.component, &reference, 1, &mut value), ERROR);
         assert_eq!(fmi2EnterInitializationMode(importer.component), OK);
         let importer = Fmi3::model_exchange();
-        assert_eq!(fmi3GetFloat64(importer.component, &reference, 1, &mut value, 1), ERROR);
+        assert_eq!(fmi3GetContinuousStates(importer.component, &mut value, 1), ERROR);
         assert_eq!(fmi3EnterInitializationMode(importer.component, false, 0.0, 0.0, false, 0.0), OK);
         let importer = Exchange::in_continuous_time_mode();
         assert_eq!(fmi2GetReal(importer.component, &UNKNOWN, 1, &mut value), ERROR);
@@ -203,7 +309,9 @@ fn a_step_of_length_0_does_nothing() {
     assert_eq!(importer.step(0.0, 0.5), OK);
     assert_eq!(set_rate(&importer, Real::Force.reference(), 1, 2.0), OK);
     let before = bytes(&importer);
-    for (point, size) in [(0.5, 0.0), (0.5, -0.0), (0.5 + 1e-10, 0.0), (0.5 - 1e-10, 0.0)] {
+    let short = [0.0, -0.0, f64::from_bits(1), 1e-300, 9.9e-31];
+    let steps = short.map(|size| (0.5, size)).into_iter().chain([(0.5 + 1e-10, 0.0), (0.5 - 1e-10, 0.0)]);
+    for (point, size) in steps {
         assert_eq!(importer.step(point, size), OK, "{:?}", importer.journal.take());
         assert_eq!(bytes(&importer), before, "{point:?} {size:?}");
     }
@@ -224,9 +332,11 @@ fn a_step_of_length_0_does_nothing() {
 fn a_step_of_length_0_answers_in_fmi_3() {
     for importer in [stepping_with_events(), Fmi3::started(Fmi3::updated(false, true, Some(set_force)))] {
         let before = bytes(&importer);
-        assert_eq!(step(&importer, 0.0, 0.0), (OK, false, false, 0.0));
-        assert_eq!(bytes(&importer), before);
-        assert!(ASKED.get().is_nan(), "there are no inputs at its end to ask for");
+        for size in [0.0, 9.9e-31] {
+            assert_eq!(step(&importer, 0.0, size), (OK, false, false, 0.0));
+            assert_eq!(bytes(&importer), before);
+            assert!(ASKED.get().is_nan(), "there are no inputs at its end to ask for");
+        }
     }
     let importer = stepping_with_events();
     assert_eq!(step(&importer, 0.0, 0.5).0, OK);

@@ -22,6 +22,7 @@ mod fragility;
 mod ida;
 mod linearisation;
 mod messages;
+mod record_files;
 #[path = "../../../ground-motion/tests/it/records.rs"]
 mod records;
 mod reproduce;

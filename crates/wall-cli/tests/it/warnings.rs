@@ -277,3 +277,16 @@ fn a_study_says_that_it_ignores_a_motion() {
     let shaken = "wall \"shaken\": the study ignores the motion of its scene";
     assert_has(&message, &[shaken, "wall \"light\": density = 1.8 kg/m3 is unusual"]);
 }
+
+/// A run warns of a vertical record, from the command line or a scene.
+#[test]
+fn vertical_records_are_warned_of() {
+    let folder = folder("vertical_record");
+    let up = crate::specimen::at2(&crate::specimen::SAMPLES).replace(", 90\n", ", UP\n");
+    std::fs::write(folder.join("a.AT2"), up).unwrap();
+    std::fs::write(folder.join("s.toml"), "[motion]\nrecord = \"a.AT2\"\n").unwrap();
+    for arguments in [&["simulate", "--record", "a.AT2"][..], &["simulate", "s.toml"]] {
+        let told = text(&succeed(&folder, arguments).stderr);
+        assert_has(&told, &["warning: ", "vertical: this component is vertical", "use a horizontal one"]);
+    }
+}

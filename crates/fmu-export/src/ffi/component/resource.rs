@@ -38,7 +38,7 @@ impl<M: ModelExchange> Resource<M> {
         if let Some(warning) = warning {
             logger().log().warning(warning);
         }
-        let resources = Some(&*resources).filter(|path| !path.is_empty());
+        let resources = Some(resources.as_bytes()).filter(|path| !path.is_empty());
         match Instance::new(&name, &token, resources, purpose, logger()) {
             Ok(instance) => Some(Self(RefCell::new(instance))),
             Err(failure) => {

@@ -4,8 +4,9 @@ use super::types::{
     ClockUpdateCallback, Instance, InstanceEnvironment, IntermediateUpdate, IntermediateUpdateCallback,
     LogMessageCallback, PreemptionCallback,
 };
-use crate::access;
-use crate::ffi::arguments::{array, required_text, text};
+use crate::access::{self, Access};
+use crate::call::Version;
+use crate::ffi::arguments::{array, bytes, required_text, text};
 use crate::ffi::common::make;
 use crate::ffi::types::{Text, ValueReference, status};
 use crate::instance::{self, Purpose};
@@ -50,7 +51,8 @@ pub unsafe fn instantiate_model_exchange<M: ModelExchange>(
 /// `fmi3InstantiateCoSimulation`
 ///
 /// NULL is returned, after a log, when token or environment do not suit. A warning names intermediate
-/// variables that are not continuous inputs: some importers list all that they record.
+/// variables that are not continuous inputs: some importers list all that they record. `intermediate_update`
+/// is called only where the description says `providesIntermediateUpdate`.
 ///
 /// # Safety
 /// As for [`instantiate_model_exchange`]; `intermediate_variables` is NULL or points to as many references.
@@ -77,7 +79,8 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
             array("requiredIntermediateVariables", intermediate_variables, intermediate_variable_count)
         }?;
         let served = |&reference: &ValueReference| {
-            access::check_derivable_input(access::find::<M::Real>(reference)?.variable())
+            let variable: M::Real = Access::Derive.find::<M, _>(Version::Fmi3, reference)?;
+            access::check_derivable_input(variable.variable())
         };
         if let Some(failure) = intermediate.iter().find_map(|reference| served(reference).err()) {
             logger.log().warning(format_args!("intermediate updates are for continuous inputs: {failure}"));
@@ -87,7 +90,9 @@ pub unsafe fn instantiate_co_simulation<M: ModelExchange>(
         // SAFETY: the texts are NULL, or end with a NUL and stay as they are during the call.
         let (name, token, path) = unsafe { texts(name, token, resource_path) }?;
         let mut made = instance::Instance::<M>::new(name, token, path, purpose, logger)?;
-        made.intermediate_update = intermediate_update.map(|callback| asking(environment, callback));
+        // an importer need not be ready for a call that the description does not announce
+        let announced = intermediate_update.filter(|_| M::Real::INTERPOLATES);
+        made.intermediate_update = announced.map(|callback| asking(environment, callback));
         Ok(made)
     })
 }
@@ -132,11 +137,11 @@ unsafe fn texts<'a>(
     name: Text,
     token: Text,
     path: Text,
-) -> Result<(&'a str, &'a str, Option<&'a str>), crate::Failure> {
+) -> Result<(&'a str, &'a str, Option<&'a [u8]>), crate::Failure> {
     // SAFETY: each text is NULL, or ends with a NUL and stays as it is during `'a`.
     unsafe {
         let name = text("instanceName", name)?.unwrap_or_default();
-        Ok((name, required_text("instantiationToken", token)?, text("resourcePath", path)?))
+        Ok((name, required_text("instantiationToken", token)?, bytes(path)))
     }
 }
 

@@ -1,13 +1,14 @@
 //! Getting and setting values (FMI 3.0.2, section 2.2.6). All variables are scalars.
 
 use super::types::{Binary, Boolean};
-use crate::access;
+use crate::access::Access;
 use crate::call::Call;
 use crate::failure::Failure;
 use crate::ffi::arguments::{array, to_get, to_set};
 use crate::ffi::common::{get_texts, set_texts};
 use crate::ffi::guard::functions;
 use crate::ffi::types::{Component, Status, Text, ValueReference};
+use crate::instance::Instance;
 use crate::model::{Model, ModelExchange};
 use crate::variable::Kind;
 
@@ -38,9 +39,9 @@ functions! {
     get_binary<Model>(
         references: *const ValueReference, count: usize, _sizes: *mut usize, _values: *mut Binary,
         _value_count: usize
-    ): GetBinary, |_| {
+    ): GetBinary, |instance| {
         // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-        unsafe { none_served(references, count) }
+        unsafe { none_served(instance, Access::Get, references, count) }
     };
     /// `fmi3SetBinary`
     ///
@@ -48,9 +49,9 @@ functions! {
     set_binary<Model>(
         references: *const ValueReference, count: usize, _sizes: *const usize, _values: *const Binary,
         _value_count: usize
-    ): SetBinary, |_| {
+    ): SetBinary, |instance| {
         // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-        unsafe { none_served(references, count) }
+        unsafe { none_served(instance, Access::Set, references, count) }
     };
 }
 
@@ -103,18 +104,18 @@ macro_rules! unused_types {
             #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
             $get<Model>(
                 references: *const ValueReference, count: usize, _values: *mut $type, _value_count: usize
-            ): $get_call, |_| {
+            ): $get_call, |instance| {
                 // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
                 // the call.
-                unsafe { none_served(references, count) }
+                unsafe { none_served(instance, Access::Get, references, count) }
             };
             #[doc = concat!("There are no variables of type `", stringify!($type), "`.")]
             $set<Model>(
                 references: *const ValueReference, count: usize, _values: *const $type, _value_count: usize
-            ): $set_call, |_| {
+            ): $set_call, |instance| {
                 // SAFETY: `references` is NULL or points to `count` elements that stay as they are during
                 // the call.
-                unsafe { none_served(references, count) }
+                unsafe { none_served(instance, Access::Set, references, count) }
             };
         )* }
     };
@@ -134,9 +135,14 @@ unused_types! {
 ///
 /// # Safety
 /// As for [`array`].
-unsafe fn none_served(references: *const ValueReference, count: usize) -> Result<(), Failure> {
+unsafe fn none_served<M: Model>(
+    instance: &Instance<M>,
+    access: Access,
+    references: *const ValueReference,
+    count: usize,
+) -> Result<(), Failure> {
     // SAFETY: `references` is NULL or points to `count` elements that stay as they are during the call.
-    access::none(unsafe { array("valueReferences", references, count) }?)
+    instance.none_served(access, unsafe { array("valueReferences", references, count) }?)
 }
 
 /// Refuses a number of values that is not that of the scalars they belong to.

@@ -11,6 +11,7 @@ use serde_json::json;
 use study::{counted, parallel};
 
 use super::arguments::Arguments;
+use crate::args::short_name;
 use crate::output::progress::{self, Progress};
 use crate::output::{self, demands};
 use study::polarity::Polarities;
@@ -82,7 +83,7 @@ fn motions(arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
         let (motion, note) = arguments.record.read(path)?;
         let motion = arguments.record.scaled(motion)?;
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };
     arguments.table().iter().map(shaking).collect()
