@@ -82,6 +82,20 @@ def test_what_follows_from_the_parameters_can_be_read():
     assert wall.mass == pytest.approx(1800 * 3 * 0.25) and wall.F0 == pytest.approx(wall.mass * 9.81 / 12)
 
 
+def test_parameters_can_be_read():
+    wall = rw.Wall(3, 0.25, overburden=5e3)
+    assert wall == rw.Wall(height=3, thickness=0.25, overburden=5e3) and rw.Wall(3) == rw.Wall(height=3)
+    assert (wall.height, wall.thickness, wall.overburden, wall.mechanism) == (3.0, 0.25, 5e3, "parapet")
+    for name, value in wall.parameters.items():
+        assert getattr(wall, name) == value, name
+    assert (wall.xi, wall.kinematics, wall.points, wall.force_law) == (-1.0, "linear", None, "bilinear")
+    law = WALLS["law of points"]
+    assert (law.force_law, law.points) == ("multilinear", [[0.02, 0.8], [0.1, 0.9], [1.0, 0.0]])
+    assert WALLS["full rotations"].kinematics == "trigonometric"
+    with pytest.raises(AttributeError):
+        wall.hight
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_a_record_is_copied_and_sent(way):
     record = rw.Record(0.01, SAMPLES, name="one", warnings=("odd",))

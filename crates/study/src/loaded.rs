@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use ground_motion::{GroundMotion, GroundMotionError, is_companion, read};
 use rocking_wall::scene::{Scene, SceneError, read_text};
-use rocking_wall::wall::{COMPUTED, Parameters, Wall, Warning};
+use rocking_wall::wall::{COMPUTED, Parameters, Usual, Wall, Warning};
 
 use crate::document::{
     RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text, walls_of,
 };
-use crate::ida::{NamedRecord, NamedWall, Study};
+use crate::ida::{IntensityMeasure, NamedRecord, NamedWall, Study};
 use crate::model::Model;
 use crate::wall_table;
 
@@ -55,12 +55,12 @@ impl LoadedStudy {
         let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
         let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
-        let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
+        let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut walls = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            walls.extend(wall(entry, folder, &name, &mut inputs, &mut warnings)?);
+            walls.extend(wall(entry, folder, &name, &mut inputs, &mut ignored)?);
         }
-        warn(&walls, &file.models, &mut warnings);
+        warn(&walls, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
@@ -81,7 +81,7 @@ impl LoadedStudy {
         let name = "the study";
         let file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
-        warn(&walls, &file.models, &mut warnings);
+        warn(&walls, &[], (&file.models, &file.measure), &mut warnings);
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
 
@@ -155,13 +155,16 @@ pub(crate) fn read_walls(text: &str, path: &Path) -> Result<(Vec<NamedWall>, Vec
     Ok((walls, inputs))
 }
 
+/// The name of a wall, and what the study ignores of its scene.
+type Ignored = (String, &'static str);
+
 /// Reads the walls of an entry.
 fn wall(
     entry: WallEntry,
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    warnings: &mut Vec<String>,
+    ignored: &mut Vec<Ignored>,
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         file: study.to_owned(),
@@ -186,15 +189,13 @@ fn wall(
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
-                warnings.push(format!(
-                    "wall {name:?}: the study ignores the motion of its scene and uses its records"
-                ));
+                let warning = "the study ignores the motion of its scene and uses its records";
+                ignored.push((name.clone(), warning));
             }
             let Parameters { xi, c_bar, .. } = scene.parameters;
             if xi != COMPUTED || c_bar != COMPUTED {
-                warnings.push(format!(
-                    "wall {name:?}: the study ignores the damping of its scene and uses its models"
-                ));
+                let warning = "the study ignores the damping of its scene and uses its models";
+                ignored.push((name.clone(), warning));
             }
             let floors = entry.floors.or(scene.floors);
             Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
@@ -213,18 +214,34 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
 }
 
-/// Adds warnings of improbable walls and models, and of parameters without effect.
-fn warn(walls: &[NamedWall], models: &[Model], warnings: &mut Vec<String>) {
+/// Adds the warnings of each wall, by its name: what is ignored of its scene, improbable numbers, parameters
+/// without effect. Then those of the intensity measure and the models.
+fn warn(
+    walls: &[NamedWall],
+    ignored: &[Ignored],
+    (models, measure): (&[Model], &IntensityMeasure),
+    warnings: &mut Vec<String>,
+) {
     for NamedWall { name, parameters, floors } in walls {
         let made = Wall::new(parameters).ok();
         let about_work =
             made.iter().flat_map(Wall::warnings).filter(|warning| warning.is_about_work()).cloned();
         let found =
             unused(parameters, models).into_iter().chain(about_work).chain(Warning::unusual(parameters));
-        let heavy = floors.as_ref().zip(made.as_ref()).and_then(|(floors, wall)| floors.warning(wall));
-        let all = found.map(|warning| warning.to_string()).chain(heavy);
+        let of_floors = floors.as_ref().zip(made.as_ref());
+        let of_floors = of_floors.into_iter().flat_map(|(floors, wall)| floors.warnings(wall));
+        let own = ignored.iter().filter(|(wall, _)| wall == name).map(|(_, warning)| (*warning).to_owned());
+        let all = own.chain(found.map(|warning| warning.to_string())).chain(of_floors);
         warnings.extend(all.map(|warning| format!("wall {name:?}: {warning}")));
     }
+    let periods: &[f64] = match measure {
+        IntensityMeasure::Pga => &[],
+        IntensityMeasure::Sa { period } => std::slice::from_ref(period),
+        IntensityMeasure::AvgSa { periods } => periods,
+    };
+    let unusual =
+        periods.iter().filter_map(|period| Usual::period("period of the intensity").warning(*period));
+    warnings.extend(unusual.map(|warning| warning.to_string()));
     for model in models {
         warnings.extend(model.unusual().map(|warning| format!("model {:?}: {warning}", model.name)));
     }

@@ -123,6 +123,21 @@ impl SceneArguments {
     }
 }
 
+/// Replaces what Rust says of a text that is no number.
+pub(crate) fn in_plain_words(message: &str) -> String {
+    [
+        ("invalid float literal", "expected a number with a decimal point, such as 0.3"),
+        ("invalid digit found in string", "expected a whole number"),
+        ("cannot parse integer from empty string", "expected a whole number"),
+        ("cannot parse float from empty string", "expected a number"),
+        ("number too large to fit in target type", "expected a smaller number"),
+        ("number too small to fit in target type", "expected a larger number"),
+        ("number would be zero for non-zero type", "expected a number from 1 on"),
+    ]
+    .into_iter()
+    .fold(message.to_owned(), |text, (rust, plain)| text.replace(rust, plain))
+}
+
 /// Refuses the first option that is given, and says why.
 pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> Result<()> {
     match options.into_iter().find(|(_, is_given)| *is_given) {

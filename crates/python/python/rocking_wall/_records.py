@@ -189,7 +189,7 @@ class Record:
 
     def scaled(self, factor: float) -> Record:
         """Returns the record with every sample multiplied by `factor`."""
-        return self._with(_native.scaled(self._motion, factor))
+        return self._with(scaled(self._motion, factor, "factor"))
 
     def scaled_to(self, pga: float) -> Record:
         """Returns the record scaled to a peak ground acceleration [m/s²]."""
@@ -242,6 +242,20 @@ def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.f
         of_trace = ", or rw.Record.from_trace(trace, unit)" if hasattr(record, "stats") else ""
         remedy = f"make one with rw.Record(dt, samples) or rw.read_record(path){of_trace}"
     raise TypeError(f"{name} must be a Record, found a value of the type {type(record).__name__}: {remedy}")
+
+
+def scaled(
+    motion: tuple[float, NDArray[np.float64]], factor: float, name: str
+) -> tuple[float, NDArray[np.float64]]:
+    """Returns a motion multiplied by a factor; `name` stands for the factor in messages."""
+    if not isinstance(factor, NUMBERS):
+        raise TypeError(f"{name} = {factor!r} must be a finite number")
+    if not np.isfinite(factor):
+        raise ValueError(f"{name} = {factor} must be a finite number")
+    try:
+        return _native.scaled(motion, float(factor))
+    except ValueError as error:
+        raise ValueError(f"{name} = {factor}: {error}") from None
 
 
 def at_samples(maxima: Maxima) -> bool:

@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
     wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
-    if let Some(warning) = first.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
+    for warning in first.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
         output::warn(&warning);
     }
     let runs = signs.len() * motions.len();
