@@ -11,7 +11,8 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
     // side by side: one of the two waits for the network
     let (built, python) = std::thread::scope(|scope| {
         let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
-        let programs = fmu::programs("demo", &["rocking-wall-cli", "fmu-export-build"]);
+        let programs =
+            fmu::programs("demo", &["--package", "rocking-wall-cli", "--package", "fmu-export-build"]);
         let built = programs.and_then(|programs| Ok((fmu::quick_library(fmu::WALL)?, programs)));
         (built, python.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned())))
     });

@@ -65,7 +65,7 @@ pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
 
 /// Builds `fmu-pack`, and returns its folder.
 fn packer() -> Result<PathBuf> {
-    programs("dev", &["fmu-export-build"])
+    programs("dev", &["--package", "fmu-export-build", "--features", "archive"])
 }
 
 /// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
@@ -102,12 +102,10 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
     Ok(libraries)
 }
 
-/// Builds the programs of some packages with a profile, and returns their folder.
+/// Builds the programs of packages with a profile, and returns their folder.
 pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--locked", "--bins", "--features", "fmu-export-build/archive"]);
-    build.args(["--profile", profile]);
-    build.args(packages.iter().flat_map(|package| ["--package", *package]));
+    build.args(["build", "--locked", "--bins", "--profile", profile]).args(packages);
     succeed(&mut build, "see the compiler's message above")?;
     Ok(target().join(if profile == "dev" { "debug" } else { profile }))
 }
