@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
 
+#[path = "../../../../tests/it/broken.rs"]
+mod broken;
 mod calibration;
 mod circolare;
 mod circolare_cases;
@@ -13,5 +15,7 @@ mod circolare_refusals;
 mod configuration;
 mod fragility;
 mod ida;
+mod messages;
+mod record_files;
 mod rocking_spectrum;
 mod storeys;
