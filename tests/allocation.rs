@@ -183,6 +183,7 @@ const BESIDE: usize = 1 << 16;
 fn reading_takes_a_small_multiple_of_the_file() {
     const SIZE: usize = 1 << 20;
     let row = |index: usize| format!("{index},1\n");
+    let knet_row = |index: usize| format!(",{index},1\n");
     let at2 = |count: usize| format!("units of cm/s2\nNPTS= {count}, DT= .01 SEC\n");
     let knet = "Sampling Freq(Hz) 100Hz\nDuration Time(s)  9e15\nScale Factor      1(gal)/1\n";
     let knet = knet.to_owned() + &"Memo.\n".repeat(14);
@@ -226,10 +227,7 @@ fn reading_takes_a_small_multiple_of_the_file() {
         (Format::Unam, "A : 1\n".repeat(SIZE / 6)),
         (Format::Volume1, volume_1.to_owned() + &"1 ".repeat(SIZE / 2)),
         (Format::Volume1, volume_1.to_owned() + &"1. 1.\n".repeat(SIZE / 6)),
-        (
-            Format::KnetCsv,
-            knet_csv.to_owned() + &(0..SIZE / 8).map(|i| format!(",{i},1\n")).collect::<String>(),
-        ),
+        (Format::KnetCsv, knet_csv.to_owned() + &(0..SIZE / 8).map(knet_row).collect::<String>()),
         (Format::KnetCsv, knet_csv.replace("N-S(gal)", &names(","))),
         (Format::Geonet, geonet + &"       1".repeat(SIZE / 8)),
         (Format::Cwa, cwa.to_owned() + &" 1 1\n".repeat(SIZE / 5)),

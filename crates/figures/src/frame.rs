@@ -72,7 +72,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Draws the axes with their numbers and labels around what is drawn inside, which the plot area cuts off.
+    /// Draws the axes with their numbers and labels around what is drawn inside, cut off at the plot area.
     pub(crate) fn around(&self, inside: &str) -> String {
         let [left, right, top, bottom] = self.area();
         let [across, up] = self.numbers();
@@ -130,8 +130,8 @@ pub(crate) fn legend(svg: &mut String, series: &[Series], [_, right, top, _]: [f
     let (left, top) = (right - LEGEND - width, top + LEGEND);
     let _ = write!(
         svg,
-        "<rect x=\"{left:.2}\" y=\"{top}\" width=\"{width:.2}\" height=\"{:.0}\" fill=\"#fff\" stroke=\"#000\"/>\
-         <g font-size=\"12\">",
+        "<rect x=\"{left:.2}\" y=\"{top}\" width=\"{width:.2}\" height=\"{:.0}\" fill=\"#fff\" \
+         stroke=\"#000\"/><g font-size=\"12\">",
         ROW * named.len() as f64 + 10.0
     );
     for (index, series) in named.into_iter().enumerate() {
