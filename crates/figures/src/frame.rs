@@ -11,7 +11,7 @@ pub(crate) const CHARACTER: f64 = 7.1;
 /// Space that a number takes on the horizontal and the vertical axis, at least \[px\].
 const BETWEEN_NUMBERS: [f64; 2] = [70.0, 30.0];
 /// Exponents of ten between the numbers of a vertical axis that counts them.
-const EXPONENTS: usize = 3;
+const EXPONENTS: f64 = 3.0;
 /// Distance of the legend from the sides of the plot area, height of its rows, length of its samples \[px\].
 const LEGEND: f64 = 8.0;
 const ROW: f64 = 18.0;
@@ -62,8 +62,8 @@ impl Frame<'_> {
         match self.scale {
             Scale::Linear => [ticks(across, count[0]), ticks(up, count[1])],
             Scale::Logarithmic => {
-                let decades = whole(across.map(f64::log10), 1).map(|power| 10.0_f64.powf(power));
-                let powers = whole(up, EXPONENTS);
+                let decades = multiples(1.0, across.map(f64::log10)).map(|power| 10.0_f64.powf(power));
+                let powers = multiples(EXPONENTS, up);
                 [
                     decades.map(|value| (value, number(value, 9))).collect(),
                     powers.map(|power| (power, power_of_ten(power))).collect(),
@@ -112,10 +112,11 @@ impl Frame<'_> {
     }
 }
 
-/// Returns whole numbers within a range, every `step`-th.
-fn whole([low, high]: [f64; 2], step: usize) -> impl Iterator<Item = f64> {
-    let first = (low - 1e-9).ceil();
-    (0..400).step_by(step).map(move |k| first + f64::from(k)).take_while(move |value| *value <= high + 1e-9)
+/// Returns the multiples of a whole number within a range.
+fn multiples(step: f64, [low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let first = (low / step - 1e-9).ceil();
+    let multiples = (0..400).map(move |k| (first + f64::from(k)) * step);
+    multiples.take_while(move |value| *value <= high + 1e-9)
 }
 
 fn power_of_ten(exponent: f64) -> String {

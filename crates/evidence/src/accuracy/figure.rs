@@ -65,8 +65,10 @@ pub fn plot(tools: &[Tool], rounding: Option<f64>) -> Plot {
     let times = tools.iter().flat_map(|tool| tool.points.iter().map(|point| point.0));
     let (low, high) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     let decade = |value: f64, round: fn(f64) -> f64| 10.0_f64.powf(round(value.log10()));
+    let left = decade(low, f64::floor);
     let axes = [
-        Axis::over("run time (ms)", [decade(low, f64::floor), decade(high, f64::ceil)]),
+        // one decade at least
+        Axis::over("run time (ms)", [left, decade(high, f64::ceil).max(10.0 * left)]),
         Axis::over("max error / u_ins", [exponent(FLOOR), 1.0]),
     ];
     let limits = rounding.map(|error| (exponent(error), GREY)).into_iter().collect();
