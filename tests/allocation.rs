@@ -183,6 +183,7 @@ const BESIDE: usize = 1 << 16;
 fn reading_takes_a_small_multiple_of_the_file() {
     const SIZE: usize = 1 << 20;
     let row = |index: usize| format!("{index},1\n");
+    let knet_row = |index: usize| format!(",{index},1\n");
     let at2 = |count: usize| format!("units of cm/s2\nNPTS= {count}, DT= .01 SEC\n");
     let knet = "Sampling Freq(Hz) 100Hz\nDuration Time(s)  9e15\nScale Factor      1(gal)/1\n";
     let knet = knet.to_owned() + &"Memo.\n".repeat(14);
@@ -197,7 +198,19 @@ fn reading_takes_a_small_multiple_of_the_file() {
     let digits = "1".repeat(SIZE);
     let lines: String = digits.as_bytes().chunks(100).map(|_| "1".repeat(100) + "\n").collect();
     let esm = "SAMPLING_INTERVAL_S: 0.01\nNDATA: 9\nUNITS: cm/s^2\n".to_owned() + &"A:\n".repeat(61);
-    let texts: [(Format, String); 9] = [
+    let afad =
+        "RECORDS OF TURKIYE\nNUMBER OF DATA : 9\nSAMPLING INTERVAL (sec) : .01\nPGA VALUES (gal) : 1\n";
+    let names = |separator: &str| ["N", separator].concat().repeat(SIZE / 4);
+    let unam = "ORIENTACION C1-C6 : /N/E\nNUM. TOTAL DE MUESTRAS, C1-C6 : /9/9\n\
+                INTERVALO DE MUESTREO, C1-C6 (s) : /1/1\nUNIDADES DE LOS DATOS : Gal\n\
+                FORMATO DATOS (FORTRAN,10 campos/dato) : 2F2.0\n---------+---------+\n---------+---------+\n";
+    let volume_1 = "* VOL1DS FILE: 1\nNO. OF POINTS = 999999999 DURATION = 9\nUNITS ARE SECONDS AND G/10\n";
+    let knet_csv = "#SamplingFrequency(Hz)\n#1\n#DurationTime(s)\n#9\n#Time,RelativeTime(s),N-S(gal)\n";
+    let geonet = "Uncorrected accelerogram GNS Science\n".to_owned()
+        + &format!("{:8}", 99_999_999).repeat(40)
+        + &"1".repeat(480);
+    let cwa = "#SampleRate(Hz): 1\n#AmplitudeUnit: gal\n#DataSequence: Time N\n#Data: 2F2.0\n";
+    let texts: [(Format, String); 22] = [
         (Format::At2, at2(SIZE / 2) + &"1 ".repeat(SIZE / 2)),
         (Format::At2, at2(usize::MAX) + "1 1 1\n"),
         (Format::Csv, "1\n".repeat(SIZE / 2)),
@@ -207,6 +220,19 @@ fn reading_takes_a_small_multiple_of_the_file() {
         (Format::Cosmos, cosmos + &digits),
         (Format::Smc, smc + &"|\n".repeat(SIZE / 2)),
         (Format::Esm, esm + &"1\n".repeat(SIZE / 2)),
+        (Format::Afad, afad.to_owned() + "N E\n" + &"1 1\n".repeat(SIZE / 4)),
+        (Format::Afad, afad.to_owned() + &names(" ") + "\n1 1\n"),
+        (Format::Unam, unam.to_owned() + &" 1 1\n".repeat(SIZE / 5)),
+        (Format::Unam, unam.replace("/N/E", &names("/"))),
+        (Format::Unam, "A : 1\n".repeat(SIZE / 6)),
+        (Format::Volume1, volume_1.to_owned() + &"1 ".repeat(SIZE / 2)),
+        (Format::Volume1, volume_1.to_owned() + &"1. 1.\n".repeat(SIZE / 6)),
+        (Format::KnetCsv, knet_csv.to_owned() + &(0..SIZE / 8).map(knet_row).collect::<String>()),
+        (Format::KnetCsv, knet_csv.replace("N-S(gal)", &names(","))),
+        (Format::Geonet, geonet + &"       1".repeat(SIZE / 8)),
+        (Format::Cwa, cwa.to_owned() + &" 1 1\n".repeat(SIZE / 5)),
+        (Format::Cwa, "#\n".repeat(SIZE / 2)),
+        (Format::Numbers, "1 ".repeat(SIZE / 2)),
     ];
     for (format, text) in texts {
         let peak = peak_of_reading(text.as_bytes(), format);

@@ -19,9 +19,6 @@ use super::storeys::{StoreyTable, SupportsTable};
 /// Largest scene file that is read.
 pub(super) const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// Most characters of a faulty line that a message repeats.
-const SHOWN_CHARACTERS: usize = 60;
-
 /// A scene file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -97,41 +94,6 @@ impl Document {
         }
         Ok(inputs)
     }
-}
-
-/// Reads a TOML text. Errors name the line.
-///
-/// # Errors
-/// [`SceneError::Line`] where the text is not such a document.
-pub fn parse_toml<T: serde::de::DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
-    toml::from_str(place.text()).map_err(|error| {
-        let span = error.span().unwrap_or(0..0);
-        let message = in_toml_words(&error.message().replace('\n', " "));
-        // unknown field `x`, expected one of `a`, `b`, ...
-        let mut names = message.split('`').skip(1).step_by(2);
-        let meant = match names.next() {
-            Some(unknown) if message.starts_with("unknown field") => suggestion(unknown, names),
-            _ => String::new(),
-        };
-        let line = place.text().lines().nth(place.line(span.clone()) - 1).unwrap_or_default();
-        let shown: String = line.trim().chars().take(SHOWN_CHARACTERS).collect();
-        place.error(span, format!("{message}, in `{shown}`{meant}"))
-    })
-}
-
-/// Replaces the Rust type in a message of the TOML reader with TOML's own word.
-fn in_toml_words(message: &str) -> String {
-    let Some((found, expected)) = message.rsplit_once(", expected ") else { return message.to_owned() };
-    let expected = match expected {
-        "a map" => "a table",
-        "a sequence" => "a list",
-        "path string" => "a path in quotes",
-        "f64" => "a number",
-        "u32" | "u64" | "usize" => "a whole number from 0 on",
-        name if name.starts_with("struct ") => "a table",
-        other => other,
-    };
-    format!("{found}, expected {expected}")
 }
 
 /// Reads a text file of at most `limit` bytes; `what` says in messages what it should be.

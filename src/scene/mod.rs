@@ -11,6 +11,8 @@ mod motion;
 mod nearest;
 mod parameter;
 mod storeys;
+mod syntax;
+mod toml_text;
 mod used;
 
 use std::borrow::Cow;
@@ -30,12 +32,13 @@ pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTa
 pub use parameter::{Group, KINEMATICS, POINTS, input_names, parameter_text};
 pub use storeys::{Floors, StoreyTable, SupportsTable};
 
-pub use document::{parse_toml, read_text};
+pub use document::read_text;
 use error::check_duration;
 pub use error::{Place, SceneError};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;
+pub use toml_text::parse_toml;
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]
@@ -130,7 +133,7 @@ impl Scene {
     /// [`SceneError`].
     pub fn parse(name: &str, text: &str, folder: &Path) -> Result<Self, SceneError> {
         let place = Place::new(name, text);
-        let document: Document = document::parse_toml(&place)?;
+        let document: Document = parse_toml(&place)?;
         Self::from_document(&document, &place, folder)
     }
 

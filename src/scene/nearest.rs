@@ -14,7 +14,9 @@ pub fn suggestion<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) 
 fn nearest<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let length = mistyped.chars().take(LONGEST + 1).count();
     let names = names.into_iter().filter(|_| length <= LONGEST);
-    let distances = names.map(|name| (osa_distance(mistyped, name), name));
+    // Height is a slip for height, not another name
+    let lower = mistyped.to_lowercase();
+    let distances = names.map(|name| (osa_distance(&lower, &name.to_lowercase()), name));
     distances.filter(|(changes, _)| *changes <= (length / 3).max(1)).min().map(|(_, name)| name)
 }
 
@@ -31,6 +33,7 @@ mod tests {
             ("resitution", "restitution"),
             ("u_strat", "u_start"),
             ("Xi", "xi"),
+            ("HEIGHT", "height"),
         ] {
             assert_eq!(nearest(typed, names), Some(name), "{typed}");
         }

@@ -10,6 +10,7 @@ use crate::wall::{Kinematics, Parameters};
 
 use super::error::{Place, SceneError};
 use super::nearest::suggestion;
+use super::syntax::number_meant;
 
 /// A table of parameters: names and values with their places.
 pub type Group = BTreeMap<Spanned<String>, Spanned<Value>>;
@@ -121,7 +122,10 @@ fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), Str
         return Ok(());
     }
     if let Some(variable) = RealVariable::from_name(name) {
-        let number = number(value).ok_or_else(|| format!("{name} = {} is not a number", shown(value)))?;
+        let number = number(value).ok_or_else(|| {
+            let meant = value.as_str().and_then(|text| number_meant(name, text));
+            meant.unwrap_or_else(|| format!("{name} = {} is not a number", shown(value)))
+        })?;
         check_limits(variable.variable(), number)?;
         if parameters.set_real(variable, number) {
             return Ok(());
@@ -204,12 +208,16 @@ fn unknown(name: &str, group: &str, names: &[&str]) -> String {
     if name == KINEMATICS {
         return format!("{name:?} belongs in [{KINEMATICS_GROUP}], not in [{group}]");
     }
-    let elsewhere = GROUPS.iter().find(|(_, others)| others.contains(&name));
-    elsewhere.map_or_else(
+    belongs_in(name).map_or_else(
         || {
             let meant = suggestion(name, names.iter().copied());
             format!("unknown key {name:?} in [{group}]{meant}; it holds {}", names.join(", "))
         },
-        |(other, _)| format!("{name:?} belongs in [{other}], not in [{group}]"),
+        |other| format!("{name:?} belongs in [{other}], not in [{group}]"),
     )
+}
+
+/// Returns the table that a parameter belongs in; `None` for other names.
+pub(super) fn belongs_in(name: &str) -> Option<&'static str> {
+    GROUPS.iter().find(|(_, names)| names.contains(&name)).map(|(group, _)| *group)
 }

@@ -12,7 +12,7 @@ use toml::Spanned;
 
 use crate::choices::Mechanism;
 use crate::simulation::Excitation;
-use crate::wall::Wall;
+use crate::wall::{Usual, Wall, Warning};
 
 use super::error::{Place, SceneError};
 
@@ -160,8 +160,20 @@ impl Floors {
         Ok(motion.with_drift(GroundMotion::new(step[0].min(step[1]), drift).map_err(failed)?))
     }
 
+    /// Returns what a user should know of a wall on these storeys: improbable periods, and a wall that is
+    /// heavy beside a floor that supports it.
+    pub fn warnings(&self, wall: &Wall) -> impl Iterator<Item = String> {
+        self.improbable().map(|warning| warning.to_string()).chain(self.heavy(wall))
+    }
+
+    /// Finds the periods of storeys that are improbable.
+    pub fn improbable(&self) -> impl Iterator<Item = Warning> {
+        let given = self.tables.iter().filter_map(|table| table.period);
+        given.filter_map(|period| Usual::period("period of a storey").warning(period))
+    }
+
     /// Returns a warning where the wall is heavy beside a floor that supports it.
-    pub fn warning(&self, wall: &Wall) -> Option<String> {
+    pub fn heavy(&self, wall: &Wall) -> Option<String> {
         let (bottom, top) = self.supports(wall.body().mechanism).ok()?;
         let floors = [Some(bottom), top].into_iter().flatten().filter(|floor| *floor > 0);
         let least = floors.map(|floor| self.storeys.storeys()[floor - 1].mass).fold(f64::INFINITY, f64::min);

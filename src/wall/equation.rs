@@ -38,16 +38,21 @@ impl Wall {
     /// Checks the relations between parameters and lays out the branches.
     ///
     /// # Errors
-    /// [`ParameterError`], with the values, the limit and the remedy.
+    /// [`ParameterError`], with the values, the limit and the remedy; numbers that walls rarely have come
+    /// first, since they may be the cause.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        Self::checked(parameters).map_err(|error| error.with_doubts(Warning::unusual(parameters).collect()))
+    }
+
+    fn checked(parameters: &Parameters) -> Result<Self, ParameterError> {
         let mut body = Body::new(parameters)?;
+        let asked = Damping::of(parameters)?;
+        let restitution = restitution::coefficient(parameters, asked, &body)?;
         let rotations = match parameters.kinematics {
             Kinematics::Linear => None,
             Kinematics::Trigonometric => Some(FullRotations::new(parameters, &body)?),
         };
         let force = RestoringForce::new(parameters, &body)?;
-        let asked = Damping::of(parameters)?;
-        let restitution = restitution::coefficient(parameters, asked, &body)?;
         let damping = DampingInUse::new(asked, parameters, &body, &force, restitution)?;
         let impact = parameters.impact == Impact::Restitution;
         if let Some(rotations) = &rotations {
@@ -114,13 +119,22 @@ impl Wall {
     /// Checks a displacement \[m\] at which a run is to start.
     ///
     /// # Errors
-    /// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartsOverturned`].
+    /// [`ParameterError::StartsBehindWalls`], [`ParameterError::StartsOverturned`],
+    /// [`ParameterError::NothingMoves`].
     pub fn check_start(&self, u_start: f64) -> Result<(), ParameterError> {
         if self.free_side().is_some_and(|side| side * u_start < 0.0) {
             return Err(ParameterError::StartsBehindWalls { u_start, rocking: self.rocking.name() });
         }
         let u_ins = self.body.instability.of(u_start);
-        if u_start.abs() <= u_ins { Ok(()) } else { Err(ParameterError::StartsOverturned { u_start, u_ins }) }
+        if u_start.abs() <= u_ins {
+            return Ok(());
+        }
+        let is_default = u_start == Parameters::default().u_start;
+        Err(if is_default {
+            ParameterError::NothingMoves { u_start, u_ins }
+        } else {
+            ParameterError::StartsOverturned { u_start, u_ins }
+        })
     }
 
     /// The signs of u to which the wall can rock.

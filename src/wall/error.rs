@@ -1,5 +1,7 @@
 //! What can be wrong about a choice of parameters.
 
+use super::warning::Warning;
+
 /// A relation between parameters that does not hold. Each message names the values, the limit and the remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are the numbers of the message")]
@@ -63,9 +65,12 @@ pub enum ParameterError {
          the tie above the base"
     )]
     TieHeight { tie_height: f64, height: f64 },
-    /// A parameter that one-sided rocking does not allow.
-    #[error("rocking = {rocking} does not go with {name} = {value}; set {remedy}, or rocking = two_sided")]
-    OneSided { rocking: &'static str, name: &'static str, value: String, remedy: String },
+    /// Parameters that one-sided rocking does not allow.
+    #[error(
+        "rocking = {rocking} does not go with {}; or set rocking = two_sided",
+        conflicts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", nor with ")
+    )]
+    OneSided { rocking: &'static str, conflicts: Vec<Conflict> },
     /// A start behind the transverse walls.
     #[error(
         "u_start = {u_start} m is behind the transverse walls of rocking = {rocking}; start the wall on the \
@@ -75,6 +80,13 @@ pub enum ParameterError {
     /// A start at which the wall has overturned.
     #[error("u_start = {u_start} m is beyond u_ins = {u_ins:.6} m: for a wall at rest set u_start = 0")]
     StartsOverturned { u_start: f64, u_ins: f64 },
+    /// The start value of the model description, where the wall has overturned.
+    #[error(
+        "u_start = {u_start} m, its default where no motion is given, is beyond u_ins = {u_ins:.6} m: give a \
+         motion ([motion] or --record), or set u_start: 0 for a wall at rest, or one that inputs of an FMU \
+         move"
+    )]
+    NothingMoves { u_start: f64, u_ins: f64 },
     /// Full rotations are those of rigid bodies with impacts only.
     #[error(
         "kinematics = trigonometric does not go with {name} = {value}; set {name} = {remedy}, or \
@@ -94,4 +106,29 @@ pub enum ParameterError {
          use solver = automatic or adaptive"
     )]
     NotExact { model: &'static str },
+    /// A wall that is refused and has numbers that walls rarely have: they may be the cause.
+    #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Improbable { doubts: Vec<Warning>, error: Box<ParameterError> },
+}
+
+impl ParameterError {
+    /// Adds the numbers that may be the cause.
+    pub(super) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
+        if doubts.is_empty() { self } else { Self::Improbable { doubts, error: Box::new(self) } }
+    }
+}
+
+/// A parameter that does not go with another one, and what to set.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub struct Conflict {
+    pub name: &'static str,
+    pub value: String,
+    pub remedy: String,
+}
+
+impl std::fmt::Display for Conflict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} = {} (set {})", self.name, self.value, self.remedy)
+    }
 }

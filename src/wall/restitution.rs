@@ -3,7 +3,7 @@
 use crate::choices::{Impact, Mechanism, RestitutionSource, Rocking};
 
 use super::damping::Damping;
-use super::error::ParameterError;
+use super::error::{Conflict, ParameterError};
 use super::mechanism::Body;
 use super::parameters::{Parameters, given};
 
@@ -88,36 +88,43 @@ pub(super) fn coefficient(
     }
 }
 
-/// e₁ of one-sided rocking \[-\].
+/// e₁ of one-sided rocking \[-\]. All that does not go with it is named at once.
 fn one_sided(
     parameters: &Parameters,
     damping: Damping,
     body: &Body,
     number: Option<f64>,
 ) -> Result<f64, ParameterError> {
-    let rocking = parameters.rocking.name();
-    let refuse = |name, value: String, remedy: &str| {
-        Err(ParameterError::OneSided { rocking, name, value, remedy: remedy.into() })
-    };
+    let mut conflicts = Vec::new();
+    let mut refuse =
+        |name, value: String, remedy: &str| conflicts.push(Conflict { name, value, remedy: remedy.into() });
     if parameters.impact != Impact::Restitution {
-        return refuse("impact", parameters.impact.name().into(), "impact = restitution");
+        refuse("impact", parameters.impact.name().into(), "impact = restitution");
     }
     if let Some(name) = damping.computed_name() {
-        return refuse(name, "-1 (computed)".into(), &format!("{name}, or damping_model = none"));
+        refuse(name, "-1 (computed)".into(), &format!("{name}, or damping_model = none"));
     }
     let source = parameters.restitution_source;
     let value = match (number, source, body.mechanism) {
-        (Some(number), ..) if number < 1.0 => number,
-        (Some(number), ..) => return refuse("restitution", number.to_string(), "restitution below 1"),
+        (Some(number), ..) => {
+            if number >= 1.0 {
+                refuse("restitution", number.to_string(), "restitution below 1");
+            }
+            number
+        }
         (None, RestitutionSource::Analytic, Mechanism::Parapet) => analytic_one_sided(body.slenderness),
         (None, _, mechanism) => {
             let remedy = match mechanism {
                 Mechanism::Parapet => "restitution, or restitution_source = analytic",
                 Mechanism::VerticalSpanning => "restitution",
             };
-            return refuse("restitution_source", source.name().into(), remedy);
+            refuse("restitution_source", source.name().into(), remedy);
+            f64::NAN
         }
     };
+    if !conflicts.is_empty() {
+        return Err(ParameterError::OneSided { rocking: parameters.rocking.name(), conflicts });
+    }
     if (0.0..1.0).contains(&value) {
         Ok(value)
     } else {

@@ -9,6 +9,7 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::tie::Tie;
 use super::usage::{Usage, usage};
+use super::usual::improbable;
 
 /// A usual step of records and importers \[s\].
 const USUAL_STEP: f64 = 0.01;
@@ -38,7 +39,14 @@ pub enum Warning {
     /// A tie that holds the wall beyond its instability.
     TieHolds { u_ins: f64 },
     /// A number that walls rarely have: probably a typing error or another unit.
-    Unusual { name: &'static str, value: f64, unit: &'static str, usual: [f64; 2] },
+    Unusual {
+        name: &'static str,
+        value: f64,
+        unit: &'static str,
+        usual: [f64; 2],
+        /// How it was perhaps meant, such as "in cm", and the number in its own unit then.
+        meant: Option<(&'static str, f64)>,
+    },
 }
 
 impl std::fmt::Display for Warning {
@@ -81,13 +89,14 @@ impl std::fmt::Display for Warning {
                 "the tie pulls the wall back even beyond u_ins = {u_ins:.6} m: overturned means |u| > u_ins \
                  of the wall without its tie, not a collapse; compare tie_force with what the tie resists"
             ),
-            Self::Unusual { name, value, unit, usual } => {
+            Self::Unusual { name, value, unit, usual, meant } => {
                 let [value, least, most] = [*value, usual[0], usual[1]].map(six_digits);
-                write!(
-                    f,
-                    "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; check value and \
-                     unit"
-                )
+                let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+                write!(f, "{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; ")?;
+                match meant {
+                    Some((other, own)) => write!(f, "if it is {other}, give {}{unit}", six_digits(*own)),
+                    None => f.write_str("check value and unit"),
+                }
             }
         }
     }
@@ -152,35 +161,7 @@ impl Warning {
     }
 
     /// Finds the parameters of a wall whose values are improbable.
-    pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> {
-        let Parameters { height, thickness: b, width, overburden, overburden_eccentricity, .. } = *parameters;
-        // without a load its eccentricity does not matter
-        let loaded = overburden > 0.0;
-        let any = [f64::NEG_INFINITY, f64::INFINITY];
-        [
-            ("density", parameters.density, " kg/m3", [400.0, 3000.0]),
-            ("height", height, " m", [0.2, 30.0]),
-            ("thickness", b, " m", [0.03, 3.0]),
-            ("height/thickness", height / b, "", [1.0, 100.0]),
-            ("gravity", parameters.gravity, " m/s2", [9.7, 9.9]),
-            // a number in per cent; below 0 it is computed
-            ("xi", parameters.xi, "", if parameters.xi < 0.0 { any } else { [0.0, 0.5] }),
-            // 0.1 to 1000 kN per metre of width
-            (
-                "overburden",
-                overburden,
-                " N",
-                if loaded { [100.0, 1e6].map(|load| load * width) } else { any },
-            ),
-            (
-                "overburden_eccentricity",
-                overburden_eccentricity,
-                " m",
-                if loaded { [-b / 2.0, b / 2.0] } else { any },
-            ),
-        ]
-        .into_iter()
-        .filter(|(_, value, _, usual)| !(usual[0]..=usual[1]).contains(value))
-        .map(|(name, value, unit, usual)| Self::Unusual { name, value, unit, usual })
+    pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> + use<> {
+        improbable(parameters)
     }
 }

@@ -11,6 +11,8 @@ use rocking_wall::solver::Segment;
 use rocking_wall::unit::Unit;
 use rocking_wall::wall::{Parameters, Support};
 
+mod broken;
+mod broken_scenes;
 mod capacity;
 mod cases;
 #[path = "../../crates/ground-motion/tests/it/chain.rs"]

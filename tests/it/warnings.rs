@@ -89,35 +89,96 @@ fn a_parapet_warns_once_of_a_top_support() {
     }
 }
 
+type Change = fn(&mut Parameters);
+
+/// What is said where no other unit brings the number into its range.
+const UNCLEAR: &str = "check value and unit";
+
+/// Changes to the default wall, what is said of the number, and of what it may mean.
+const IMPROBABLE: [(Change, &str, &str); 21] = [
+    (|wall| wall.density = 1.8, "density = 1.8 kg/m3 is unusual: 400 to 3000 kg/m3", "t/m3, give 1800 kg/m3"),
+    (
+        |wall| wall.density = 18.0,
+        "density = 18 kg/m3 is unusual: 400 to 3000 kg/m3",
+        "kN/m3, give 1835.49 kg/m3",
+    ),
+    (|wall| wall.overburden = 10.0, "overburden = 10 N is unusual: 100 to 1000000 N", "kN, give 10000 N"),
+    (
+        |wall| (wall.overburden, wall.overburden_eccentricity) = (3e3, 0.25),
+        "overburden_eccentricity = 0.25 m is unusual: -0.2 to 0.2 m",
+        "cm, give 0.0025 m",
+    ),
+    // 100 N/m times 0.07 m is 7.000000000000001 N
+    (
+        |wall| (wall.width, wall.overburden) = (0.07, 1.0),
+        "overburden = 1 N is unusual: 7 to 70000 N",
+        "kN, give 1000 N",
+    ),
+    (
+        |wall| (wall.width, wall.overburden) = (0.07, 1e11),
+        "overburden = 1e11 N is unusual: 7 to 70000 N",
+        UNCLEAR,
+    ),
+    (|wall| wall.height = 300.0, "height = 300 m is unusual: 0.2 to 30 m", "cm, give 3 m"),
+    (|wall| wall.height = 3e3, "height = 3000 m is unusual: 0.2 to 30 m", "mm, give 3 m"),
+    // a wall in cm: no word on its ratio
+    (
+        |wall| (wall.height, wall.thickness) = (200.0, 30.0),
+        "thickness = 30 m is unusual: 0.03 to 3 m",
+        "cm, give 0.3 m",
+    ),
+    // small numbers are in powers of ten
+    (|wall| wall.density = 1e-5, "density = 1e-5 kg/m3 is unusual: 400 to 3000 kg/m3", UNCLEAR),
+    (|wall| wall.thickness = 5.0, "thickness = 5 m is unusual: 0.03 to 3 m", "cm, give 0.05 m"),
+    (
+        |wall| (wall.height, wall.thickness) = (2.0, 2.5),
+        "height/thickness = 0.8 is unusual: 1 to 100",
+        UNCLEAR,
+    ),
+    (|wall| wall.xi = 5.0, "xi = 5 is unusual: 0 to 0.5", "per cent, give 0.05"),
+    (|wall| wall.gravity = 1.62, "gravity = 1.62 m/s2 is unusual: 9.7 to 9.9 m/s2", UNCLEAR),
+    (|wall| wall.gravity = 981.0, "gravity = 981 m/s2 is unusual: 9.7 to 9.9 m/s2", "cm/s2, give 9.81 m/s2"),
+    (
+        |wall| (wall.tie_height, wall.tie_stiffness) = (3.0, 13e3),
+        "tie_stiffness = 13000 N/m is unusual: 100000 to 1e9 N/m",
+        "kN/m, give 13000000 N/m",
+    ),
+    (
+        |wall| (wall.tie_height, wall.tie_stiffness) = (3.0, 13.0),
+        "tie_stiffness = 13 N/m is unusual: 100000 to 1e9 N/m",
+        "kN/mm, give 13000000 N/m",
+    ),
+    (
+        |wall| (wall.tie_height, wall.tie_stiffness) = (3.0, 2e9),
+        "tie_stiffness = 2e9 N/m is unusual: 100000 to 1e9 N/m",
+        UNCLEAR,
+    ),
+    (
+        |wall| (wall.tie_height, wall.tie_stiffness, wall.tie_strength) = (3.0, 13e6, 75.0),
+        "tie_strength = 75 N is unusual: 1000 to 2000000 N",
+        "kN, give 75000 N",
+    ),
+    (
+        |wall| (wall.tie_height, wall.tie_stiffness, wall.tie_strength) = (3.0, 13e6, 3e6),
+        "tie_strength = 3000000 N is unusual: 1000 to 2000000 N",
+        UNCLEAR,
+    ),
+    (|wall| wall.height = 0.05, "height = 0.05 m is unusual: 0.2 to 30 m", UNCLEAR),
+];
+
 /// Numbers that walls rarely have are warned of, with their usual range and what to do.
 #[test]
 fn improbable_numbers_are_warned_of() {
-    type Change = fn(&mut Parameters);
-    let cases: [(Change, &str); 10] = [
-        (|wall| wall.density = 1.8, "density = 1.8 kg/m3 is unusual: 400 to 3000 kg/m3"),
-        (|wall| wall.overburden = 10.0, "overburden = 10 N is unusual: 100 to 1000000 N"),
-        (
-            |wall| (wall.overburden, wall.overburden_eccentricity) = (3e3, 0.25),
-            "overburden_eccentricity = 0.25 m is unusual: -0.2 to 0.2 m",
-        ),
-        // 100 N/m times 0.07 m is 7.000000000000001 N
-        (|wall| (wall.width, wall.overburden) = (0.07, 1.0), "overburden = 1 N is unusual: 7 to 70000 N"),
-        (|wall| (wall.width, wall.overburden) = (0.07, 1e11), "overburden = 1e11 N is unusual: 7 to 70000 N"),
-        (|wall| wall.height = 300.0, "height = 300 m is unusual: 0.2 to 30 m"),
-        // small numbers are in powers of ten
-        (|wall| wall.density = 1e-5, "density = 1e-5 kg/m3 is unusual: 400 to 3000 kg/m3"),
-        (|wall| wall.thickness = 5.0, "height/thickness = 0.8 is unusual: 1 to 100"),
-        // meant in per cent
-        (|wall| wall.xi = 5.0, "xi = 5 is unusual: 0 to 0.5"),
-        (|wall| wall.gravity = 1.62, "gravity = 1.62 m/s2 is unusual: 9.7 to 9.9 m/s2"),
-    ];
-    for (change, words) in cases {
-        let mut parameters = Parameters::default();
+    for (change, words, meant) in IMPROBABLE {
+        let mut parameters = Parameters { restitution: 0.5, ..Parameters::default() };
         change(&mut parameters);
         let warnings: Vec<_> =
             Wall::new(&parameters).unwrap().warnings().iter().map(ToString::to_string).collect();
-        let message = format!("{words} is usual; check value and unit");
+        let meant = if meant == UNCLEAR { UNCLEAR.to_owned() } else { format!("if it is in {meant}") };
+        let message = format!("{words} is usual; {meant}");
         assert!(warnings.contains(&message), "{message}: {warnings:?}");
+        let of_ratio = warnings.iter().filter(|warning| warning.starts_with("height/thickness")).count();
+        assert_eq!(of_ratio, usize::from(words.starts_with("height/thickness")), "{warnings:?}");
     }
     assert_eq!(Wall::new(&Parameters::default()).unwrap().warnings(), []);
 }
@@ -159,7 +220,7 @@ fn logged_by(
 fn the_unit_warns_once_of_a_start_that_was_forgotten() {
     use RealVariable::{ABottom, AG, D1, Thickness, UStart};
     let (started, reason) = logged(&[(Thickness, 0.25)], &[]);
-    assert!(!started && reason.contains("u_start = 0.18 m is beyond u_ins"), "{reason}");
+    assert!(!started && reason.contains("u_start = 0.18 m, its default where no motion"), "{reason}");
     assert_eq!(logged(&[], &[]), (true, String::new()));
     assert_eq!(logged(&[], &[(AG, 0.0)]).1, "");
     for input in [AG, ABottom] {

@@ -8,7 +8,11 @@ from pathlib import Path
 
 from rocking_wall import _native
 
-FILE = Path(__file__).parents[2] / "crates/python/python/rocking_wall/_parameters.py"
+FOLDER = Path(__file__).parents[2] / "crates/python/python/rocking_wall"
+FILE = FOLDER / "_parameters.py"
+GIVEN = FOLDER / "_given.py"
+GIVEN_HEAD = "    _native: _native.Wall\n"
+"""After this line the file of the attributes is written."""
 
 HEAD = '''"""The parameters of a wall, and what follows from them.
 
@@ -29,6 +33,14 @@ TAIL = '''
     """Small rotations, or full ones (rigid-linear walls with restitution)."""
     points: Sequence[Sequence[float]]
     """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"."""
+'''
+
+GIVEN_TAIL = '''
+    @property
+    def points(self) -> list[list[float]] | None:
+        """Corners [[u/u_ins, F/F0], ...] of the force law "multilinear"; None for another law."""
+        points: list[list[float]] | None = self._native.parameter("points")
+        return points
 '''
 
 CALCULATED = '''
@@ -64,6 +76,14 @@ def text() -> str:
     return HEAD + "\n".join(lines) + "\n" + TAIL + CALCULATED + calculated()
 
 
+def given() -> str:
+    """Returns the text of the file of the attributes."""
+    head = GIVEN.read_text(encoding="utf-8").partition(GIVEN_HEAD)[0]
+    names = [(each["name"], "Name" if each["choices"] else "Number") for each in _native.variables()]
+    lines = [f"    {name} = {kind}()\n" for name, kind in [*names, ("kinematics", "Name")]]
+    return head + GIVEN_HEAD + "\n" + "".join(lines) + GIVEN_TAIL
+
+
 def limited(description: str, unit: str, limits: str = "") -> str:
     """Returns a description with unit and limits, before the condition where it has one."""
     description, where, condition = description.partition("; where ")
@@ -83,3 +103,4 @@ def calculated() -> str:
 
 if __name__ == "__main__":
     FILE.write_text(text(), encoding="utf-8")
+    GIVEN.write_text(given(), encoding="utf-8")

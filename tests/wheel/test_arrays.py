@@ -59,6 +59,17 @@ def test_series_of_pandas():
     np.testing.assert_array_equal(rw.Record(0.01, pandas.Series(SAMPLES)[::2]).a, SAMPLES[::2])
 
 
+def test_columns_of_pyarrow():
+    pandas, pyarrow = pytest.importorskip("pandas"), pytest.importorskip("pyarrow")
+    columns = (
+        pyarrow.array(SAMPLES),
+        pyarrow.chunked_array([SAMPLES[:2], SAMPLES[2:]]),
+        pandas.Series(SAMPLES, dtype="double[pyarrow]"),
+    )
+    for column in columns:
+        np.testing.assert_array_equal(rw.Record(0.01, column).a, SAMPLES)
+
+
 @pytest.mark.parametrize(
     "given, error, words",
     [

@@ -27,7 +27,11 @@ def test_other_values():
     with pytest.raises(TypeError, match="height must be a number or a name, found a value of the type list"):
         rw.Wall(height=[3])
     with pytest.raises(TypeError, match="positional"):
-        rw.Wall(3)
+        rw.Wall(3, 0.25, 1.0)
+    with pytest.raises(TypeError, match="height is given twice, by place and by name"):
+        rw.Wall(3, height=3)
+    with pytest.raises(ValueError, match="thickness = 30 m is unusual.*in cm, give 0.3 m; as given, rest"):
+        rw.Wall(3, 30)
     with pytest.raises(ValueError, match="exact"):
         rw.Wall(solver="exact", damping_model="constant_ratio")
 
@@ -56,7 +60,7 @@ def test_runs(record):
         ({"tail": -1.0}, "tail = -1 s must be from 0 to"),
         ({"stop_time": 0.0}, "stop_time = 0 s must be above 0"),
         ({"thresholds": [2.0]}, "2 is not a fraction of u_ins"),
-        ({"scale": float("nan")}, "cannot be scaled by NaN"),
+        ({"scale": float("nan")}, "scale = nan must be a finite number"),
     ]:
         with pytest.raises(ValueError, match=words):
             wall.simulate(record, **arguments)
@@ -64,6 +68,49 @@ def test_runs(record):
         wall.simulate(scale=2.0)
     with pytest.raises(ValueError, match="a factor is inf"):
         wall.peaks(record, [1.0, float("inf")])
+
+
+@pytest.mark.parametrize(
+    "threads, error", [(0, ValueError), (-1, ValueError), (1.5, TypeError), ("2", TypeError)]
+)
+def test_threads(threads, error):
+    for run in (
+        lambda: rw.Wall().pulse_spectrum("ricker", threads=threads),
+        lambda: rw.Wall().calibrate(threads=threads),
+        lambda: study({"method": "grid", "values": [0.1]}).run(threads=threads, progress=False),
+    ):
+        with pytest.raises(error, match=f"threads = {threads!r} must be a whole number from 1 on"):
+            run()
+
+
+@pytest.mark.parametrize("scale, error", [(float("inf"), ValueError), ("2", TypeError), (1e308, ValueError)])
+def test_scale(scale, error, record):
+    wall = rw.Wall(height=3, thickness=0.25)
+    for run in (wall.simulate, wall.replace(tie_height=3).tie):
+        with pytest.raises(error, match=rf"scale = {str(scale).replace('+', '.')!s}|scale = {scale!r}"):
+            run(record, scale=scale)
+
+
+def study(levels):
+    """Makes a study with these levels."""
+    records = [rw.synthetic_record(duration=12)]
+    return rw.Study(walls=rw.Wall(3, 0.25), records=records, models=["CR"], levels=levels)
+
+
+@pytest.mark.parametrize(
+    "levels, error, words",
+    [
+        ([0.1, 0.2], TypeError, r"levels = \[0.1, 0.2\] must be a dictionary, such as"),
+        ({"method": "gird"}, ValueError, 'levels: method = "gird" is not one of hunt, step, grid'),
+        ({"method": "grid"}, ValueError, 'levels: method = "grid" needs values'),
+        ({"method": "grid", "values": "0.1"}, ValueError, 'levels: values = "0.1": expected a list'),
+        ({"method": "step", "step": -1, "top": 2}, ValueError, "step of the levels is .*; it must be"),
+        ({"method": "step", "stap": 1}, ValueError, 'levels: unknown key "stap" .*did you mean "step"'),
+    ],
+)
+def test_levels(levels, error, words):
+    with pytest.raises(error, match=words):
+        study(levels)
 
 
 def test_warnings():

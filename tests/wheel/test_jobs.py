@@ -73,7 +73,7 @@ def test_a_check_with_records(program, tmp_path, scene):
 def test_a_check_with_a_spectrum(program, tmp_path):
     path = tmp_path / "spectrum.csv"
     points = [(0.0, 2.0), (0.1, 5.0), (0.5, 5.0), (1.0, 2.5), (2.0, 1.25), (4.0, 0.3)]
-    path.write_text("time,a_g\n" + "".join(f"{t},{sa}\n" for t, sa in points), encoding="utf-8")
+    path.write_text("T [s],Sa\n" + "".join(f"{t},{sa}\n" for t, sa in points), encoding="utf-8")
     fractions = ["--displacement-fraction", "0.6", "--secant-fraction", "0.5"]
     told = program("check", *ARGUMENTS, "--spectrum", path, "--unit", "m/s2", "--json", *fractions)
     wall, spectrum = rw.Wall(**SET), tuple(zip(*points))
@@ -194,8 +194,8 @@ def test_a_dynamic_check_by_the_code(program, tmp_path):
         (SLV, ValueError, "before_activation is missing: state \"rigid\""),
         ({**SLV, "before_activation": "beam"}, ValueError, "beam needs young_modulus"),
         ({**SLV, "code": "EC8"}, ValueError, 'code = "EC8" is unknown; the code is "circolare-2019"'),
-        ({**SLV, "sol": "B"}, TypeError, 'unknown field `sol`.*did you mean "soil"'),
-        ({**SLV, "building": {"storey": 3}}, ValueError, 'unknown field `storey`.*did you mean "storeys"'),
+        ({**SLV, "sol": "B"}, TypeError, 'unknown key "sol" in .check. .did you mean "soil"'),
+        ({**SLV, "building": {"storey": 3}}, ValueError, 'key "storey" in .check.building. .*mean "storeys"'),
         ({**SLV, "damping": 0.05}, ValueError, "damping is for a check without a code"),
         ({**SLV, "method": "dynamic", "before_activation": "law"}, ValueError, "dynamic\" needs records"),
     ],
@@ -396,6 +396,15 @@ def walls_of(kind):
     if kind == "missing":
         pandas = pytest.importorskip("pandas")
         return pandas.DataFrame(ROWS).assign(thickness=0.25).convert_dtypes()
+    if kind == "index":
+        return pytest.importorskip("pandas").DataFrame(ROWS).assign(thickness=0.25).set_index("name")
+    if kind == "pyarrow columns":
+        pandas = pytest.importorskip("pandas")
+        pytest.importorskip("pyarrow")
+        return pandas.DataFrame(ROWS).assign(thickness=0.25).convert_dtypes(dtype_backend="pyarrow")
+    if kind == "pyarrow":
+        pyarrow = pytest.importorskip("pyarrow")
+        return pyarrow.Table.from_pylist([{**row, "thickness": 0.25} for row in ROWS])
     if kind == "emptied":
         pandas = pytest.importorskip("pandas")
         frame = pandas.DataFrame(ROWS).assign(thickness=0.25)
@@ -410,7 +419,11 @@ def walls_of(kind):
     return {name: rw.Wall(**row) for name, row in zip(names, parameters)}
 
 
-@pytest.mark.parametrize("kind", ["frame", "missing", "emptied", "table", "list", "dictionaries", "walls"])
+KINDS = ("frame", "missing", "emptied", "index", "pyarrow columns", "pyarrow")
+KINDS += ("table", "list", "dictionaries", "walls")
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_study_without_a_file(study_file, kind):
     folder, told = study_file
     paths = [folder / f"{number}.csv" for number in (1, 2, 3)]
@@ -475,9 +488,9 @@ PLAIN = {"damping_model": "constant_ratio", "impact": "none", "u_start": 0.0}
         ({"walls": [{"name": "a"}, {"name": "a"}]}, ValueError, 'the name "a" occurs twice'),
         ({"records": [[0.0, 1.0]]}, TypeError, "record must be a Record, found a value of the type list"),
         ({"records": []}, ValueError, "at least one record"),
-        ({"models": ["CDX"]}, ValueError, '^"CDX" is not a damping model'),
+        ({"models": ["CDX"]}, ValueError, '^models: "CDX" is not a damping model'),
         ({"levels": {"method": "walk"}}, ValueError, 'method = "walk" is not one of hunt, step, grid'),
-        ({"report": {"fractions": [1.5]}}, ValueError, "^1.5 is not a fraction of u_ins"),
+        ({"report": {"fractions": [1.5]}}, ValueError, "^report: 1.5 is not a fraction of u_ins"),
         ({"report": {"fractions": {1, 2}}}, TypeError, "found a value of the type set"),
         ({"path": "study.toml"}, TypeError, "a study file has its own walls, records, models, levels"),
     ],

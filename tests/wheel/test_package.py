@@ -2,7 +2,9 @@
 
 import doctest
 import importlib
+import importlib.metadata
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -32,6 +34,12 @@ def run(*command, **options):
 def test_the_parameters_are_those_of_the_model_description():
     written = parameters.FILE.read_text(encoding="utf-8")
     assert written == parameters.text(), "run tests/wheel/parameters.py"
+    assert parameters.GIVEN.read_text(encoding="utf-8") == parameters.given(), "run tests/wheel/parameters.py"
+
+
+def test_the_version_has_commit_and_profile():
+    version = importlib.metadata.version("rocking-wall")
+    assert re.fullmatch(rf"{re.escape(version)}\+([0-9a-f]{{10}}|unknown)\.[a-z]+", rw.__version__)
 
 
 def test_help_names_every_parameter_with_its_unit():

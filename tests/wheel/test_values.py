@@ -3,6 +3,7 @@
 import concurrent.futures
 import copy
 import pickle
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -81,6 +82,20 @@ def test_what_follows_from_the_parameters_can_be_read():
     assert wall.mass == pytest.approx(1800 * 3 * 0.25) and wall.F0 == pytest.approx(wall.mass * 9.81 / 12)
 
 
+def test_parameters_can_be_read():
+    wall = rw.Wall(3, 0.25, overburden=5e3)
+    assert wall == rw.Wall(height=3, thickness=0.25, overburden=5e3) and rw.Wall(3) == rw.Wall(height=3)
+    assert (wall.height, wall.thickness, wall.overburden, wall.mechanism) == (3.0, 0.25, 5e3, "parapet")
+    for name, value in wall.parameters.items():
+        assert getattr(wall, name) == value, name
+    assert (wall.xi, wall.kinematics, wall.points, wall.force_law) == (-1.0, "linear", None, "bilinear")
+    law = WALLS["law of points"]
+    assert (law.force_law, law.points) == ("multilinear", [[0.02, 0.8], [0.1, 0.9], [1.0, 0.0]])
+    assert WALLS["full rotations"].kinematics == "trigonometric"
+    with pytest.raises(AttributeError):
+        wall.hight
+
+
 @pytest.mark.parametrize("way", WAYS)
 def test_a_record_is_copied_and_sent(way):
     record = rw.Record(0.01, SAMPLES, name="one", warnings=("odd",))
@@ -142,6 +157,43 @@ def test_numpy_takes_a_record_as_its_samples():
 @pytest.mark.parametrize("unit, factor", [("m/s2", 1.0), ("cm/s2", 0.01), ("gal", 0.01), ("g", 9.80665)])
 def test_samples_in_a_unit(unit, factor):
     np.testing.assert_allclose(rw.Record(0.01, SAMPLES, unit=unit).a, factor * SAMPLES, rtol=1e-15)
+
+
+def trace(channel="HNE", data=SAMPLES, **stats):
+    """An object as ObsPy's traces are."""
+    stats = SimpleNamespace(channel=channel, **stats)
+    return SimpleNamespace(data=data, id=f"XX.STA..{channel}", stats=stats)
+
+
+def test_a_trace_becomes_a_record():
+    record = rw.Record.from_trace(trace(delta=0.01), "cm/s2")
+    assert record == rw.Record(0.01, SAMPLES, unit="cm/s2")
+    assert (record.name, record.warnings) == ("XX.STA..HNE", ())
+    # neither an id nor a channel is needed
+    plain = SimpleNamespace(data=list(SAMPLES), stats=SimpleNamespace(delta=np.float32(0.5)))
+    assert rw.Record.from_trace(plain, "m/s2") == rw.Record(0.5, SAMPLES)
+    with pytest.warns(UserWarning, match=r"XX.STA..HNZ: vertical: .* use a horizontal one"):
+        vertical = rw.Record.from_trace(trace("HNZ", delta=0.01), unit="g")
+    assert len(vertical.warnings) == 1
+    gaps = np.ma.array(SAMPLES, mask=[0, 0, 1, 0, 0, 0])
+    for given, unit, error, words in [
+        (trace(delta=0.01), None, ValueError, "a trace states no unit of its data; give unit"),
+        (trace(delta=0.01, data=gaps), "g", ValueError, "the trace has gaps"),
+        (trace(), "g", TypeError, "data and stats.delta, .* stream.0."),
+        ([trace(delta=0.01)], "g", TypeError, "found a value of the type list"),
+        (trace(delta=0.0), "g", ValueError, "time step"),
+    ]:
+        with pytest.raises(error, match=words):
+            rw.Record.from_trace(given, unit)
+    with pytest.raises(TypeError, match=r"or rw.Record.from_trace\(trace, unit\)"):
+        rw.Wall(height=3, thickness=0.25).simulate(trace(delta=0.01))
+
+
+def test_a_vertical_file_is_warned_of(tmp_path):
+    path = tmp_path / "a-UP.AT2"
+    path.write_text("A\nB, 1/1/2001, C, UP\nUNITS OF G\nNPTS= 3, DT= .01 SEC\n0 1 0\n", encoding="utf-8")
+    with pytest.warns(UserWarning, match="a-UP.AT2: vertical"):
+        rw.read_record(path)
 
 
 def test_wrong_arguments_say_what_is_expected(record):

@@ -3,20 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use crate::command::{Result, output, root, succeed};
-use crate::fmu::{self, Linker};
+use crate::fmu;
 use crate::python::Environment;
 
 /// Runs the demo with the embedded motion, then with the user's record if there is one.
 pub(crate) fn run(record: &[&str]) -> Result<()> {
-    // side by side: one of the three waits for a linker, one for the network
-    let (library, programs, python) = std::thread::scope(|scope| {
-        let library = scope.spawn(|| fmu::library(fmu::WALL, Linker::System));
+    // side by side: one of the two waits for the network
+    let (built, python) = std::thread::scope(|scope| {
         let python = scope.spawn(|| Environment::of("demo", "xtask/locks/demo.lock"));
-        let programs = fmu::programs("demo", &["rocking-wall-cli", "fmu-export-build"]);
-        (joined(library), programs, joined(python))
+        let programs =
+            fmu::programs("demo", &["--package", "rocking-wall-cli", "--package", "fmu-export-build"]);
+        let built = programs.and_then(|programs| Ok((fmu::quick_library(fmu::WALL)?, programs)));
+        (built, python.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned())))
     });
-    let (programs, python) = (programs?, python?);
-    let unit = fmu::pack_version(fmu::WALL, &[(fmu::host(), library?)], &programs, "2")?;
+    let ((library, programs), python) = (built?, python?);
+    let unit = fmu::pack_version(fmu::WALL, &[(fmu::host(), library)], &programs, "2")?;
     let wall = programs.join("wall");
     let out = root().join("fmu_out");
     shake(&unit, &python, &wall, &out.join("demo"), &["--synthetic", "--pga", "2.5"])?;
@@ -29,10 +30,6 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
         shake(&unit, &python, &wall, &out.join(format!("demo_{name}")), &arguments)?;
     }
     Ok(())
-}
-
-fn joined<T>(thread: std::thread::ScopedJoinHandle<'_, Result<T>>) -> Result<T> {
-    thread.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned()))
 }
 
 /// Shakes the FMU in FMPy with a motion, and the same wall on the command line.

@@ -1,6 +1,7 @@
 //! `cargo xtask fmu`: builds the library, then the archive.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::command::{Result, cargo, program, root, succeed, target};
 use crate::platform::{self, Platform, check_rust_library, reproducible};
@@ -50,6 +51,9 @@ pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
 /// The target of WebAssembly components, and their platform in FMI 3.0.
 const COMPONENT: &str = "wasm32-wasip2";
 
+/// The beginning and ending of this machine's libraries.
+const SYSTEM: (&str, &str) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+
 /// The platforms of portable FMUs and of releases.
 pub(crate) const PORTABLE: &str = "linux64,aarch64-linux,win64,darwin64";
 
@@ -61,7 +65,7 @@ pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
 
 /// Builds `fmu-pack`, and returns its folder.
 fn packer() -> Result<PathBuf> {
-    programs("dev", &["fmu-export-build"])
+    programs("dev", &["--package", "fmu-export-build", "--features", "archive"])
 }
 
 /// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
@@ -98,13 +102,10 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<Vec<(&'stati
     Ok(libraries)
 }
 
-/// Builds the programs of some packages with a profile, without Parquet, and returns their folder.
+/// Builds the programs of packages with a profile, and returns their folder.
 pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--locked", "--bins", "--no-default-features"]);
-    build.args(["--features", "fmu-export-build/archive"]);
-    build.args(["--profile", profile]);
-    build.args(packages.iter().flat_map(|package| ["--package", *package]));
+    build.args(["build", "--locked", "--bins", "--profile", profile]).args(packages);
     succeed(&mut build, "see the compiler's message above")?;
     Ok(target().join(if profile == "dev" { "debug" } else { profile }))
 }
@@ -112,20 +113,47 @@ pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
 /// Builds the library, without the command line's crates, and returns its path.
 pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
     let folder = target().join("fmu");
-    let (mut build, built, (beginning, ending)) = match linker {
+    let (mut build, built, names) = match linker {
         Linker::System => {
-            let names = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
             let mut build = cargo();
             reproducible(build.arg("rustc"), &[]);
-            (build, folder.clone(), names)
+            (build, folder.clone(), SYSTEM)
         }
         Linker::Zig(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
-    build.args(["--release", "--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
-    build.args(["--features", "fmu"]).env("CARGO_TARGET_DIR", &folder);
-    succeed(&mut build, "see the compiler's message above")?;
-    let name = unit.package.replace('-', "_");
-    Ok(built.join("release").join(format!("{beginning}{name}{ending}")))
+    link(build.arg("--release").env("CARGO_TARGET_DIR", &folder), unit)?;
+    Ok(built.join("release").join(file_name(unit, names)))
+}
+
+/// Builds the library for this machine as the programs of the demo are built, whose crates it shares, and
+/// returns its path. It is optimised within the crate of the unit, not across crates.
+pub(crate) fn quick_library(unit: Unit) -> Result<PathBuf> {
+    let mut build = cargo();
+    let optimised = format!("profile.demo.package.{}.opt-level=3", unit.package);
+    build.args(["rustc", "--profile", "demo", "--config", &optimised]);
+    link(&mut build, unit)?;
+    Ok(target().join("demo").join(file_name(unit, SYSTEM)))
+}
+
+/// Links the library of a unit by a prepared `cargo rustc`.
+fn link(build: &mut Command, unit: Unit) -> Result<()> {
+    build.args([
+        "--locked",
+        "--package",
+        unit.package,
+        "--lib",
+        "--crate-type",
+        "cdylib",
+        "--features",
+        "fmu",
+    ]);
+    succeed(build, "see the compiler's message above")
+}
+
+/// Returns the name of the file that a build gives the library of a unit, of the platform's beginning and
+/// ending.
+fn file_name(unit: Unit, (beginning, ending): (&str, &str)) -> String {
+    format!("{beginning}{}{ending}", unit.package.replace('-', "_"))
 }
 
 /// Checks that this machine can build WebAssembly components.

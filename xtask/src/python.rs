@@ -44,16 +44,23 @@ impl Environment {
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 
-    /// Prepares an installation into the environment, by one pip for all of them.
+    /// Prepares an installation into the environment: by the pip of Python itself if it can, otherwise by one
+    /// pip for all environments.
     pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
+        let into = |python: &Path| {
+            let mut pip = program(python);
+            pip.args(["-m", "pip", "--python"]).arg(&self.folder);
+            pip
+        };
         let installer = target().join("python").join("pip");
-        let python = installer.join(PROGRAMS).join("python");
-        if output(program(&python).args(["-m", "pip", "--version"]), "").is_err() {
+        let own = installer.join(PROGRAMS).join("python");
+        let mut able = [Path::new(PYTHON), &own].into_iter();
+        let able = able.find(|python| output(into(python).arg("--version"), "").is_ok());
+        if able.is_none() {
             let _ = std::fs::remove_dir_all(&installer);
             venv(&[], &installer)?;
         }
-        let mut pip = program(python);
-        pip.args(["-m", "pip", "--python"]).arg(&self.folder);
+        let mut pip = into(able.unwrap_or(&own));
         pip.args(["install", "--quiet", "--disable-pip-version-check"]);
         Ok(pip)
     }

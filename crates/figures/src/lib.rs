@@ -2,12 +2,12 @@
 //!
 //! # Modules
 //! ```text
-//! values ─► Plot ─► inline SVG for a page · picture (SVG or PNG) for a file
+//! values ─► Plot ─► inline SVG for a page · picture (SVG) for a file
 //! ```
 //!
 //! | module | draws |
 //! |---|---|
-//! | [`mod@plot`] | lines and marks over two axes, by kuva: what the next five are made of |
+//! | [`mod@plot`] | lines and marks over two axes: what the next five are made of |
 //! | [`chart`] | the charts of a study, with title and legend |
 //! | [`response`] | histories, the force path on its backbone, small beside full rotations |
 //! | [`capacity`] | capacity curves with their secants |
@@ -28,6 +28,7 @@ pub mod calibration;
 pub mod capacity;
 pub mod chart;
 pub mod check;
+mod frame;
 pub mod heat_map;
 pub mod many_lines;
 pub mod palette;

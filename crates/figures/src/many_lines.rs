@@ -17,6 +17,8 @@ pub const STYLE: &str = include_str!("many_lines.css");
 
 /// Margins around the plot area \[px\]: left, right, top, bottom.
 const MARGINS: [f64; 4] = [48.0, 12.0, 10.0, 42.0];
+/// Radius of a mark \[px\].
+const MARK: f64 = 3.3;
 /// Ticks on an axis, about.
 const TICKS: f64 = 5.0;
 
@@ -86,16 +88,7 @@ impl ManyLines {
 
     /// Adds a mark at each point.
     pub fn marks(&mut self, points: &[[f64; 2]], mark: Mark, color: &str) {
-        let shape = match mark {
-            Mark::Square => "m-3-3h6v6h-6z",
-            Mark::Triangle => "m0-4l4 7h-8z",
-            Mark::Diamond => "m0-4.5l4 4.5l-4 4.5l-4-4.5z",
-            Mark::Cross => "m-3-3l6 6m0-6l-6 6",
-            Mark::Plus => "m-4 0h8m-4-4v8",
-            Mark::TriangleDown => "m0 4l4-7h-8z",
-            Mark::Star => "m-4 0h8m-4-4v8m-3-7l6 6m0-6l-6 6",
-            _ => "m-3.3 0a3.3 3.3 0 1 0 6.6 0a3.3 3.3 0 1 0-6.6 0",
-        };
+        let shape = mark.outline(MARK);
         let mut path = String::new();
         for &point in points {
             let [x, y] = self.place(point);

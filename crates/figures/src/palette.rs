@@ -11,7 +11,50 @@
 
 #![allow(missing_docs, reason = "a colour's name says it")]
 
-pub use kuva::plot::scatter::MarkerShape as Mark;
+/// A mark at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    Circle,
+    Square,
+    Triangle,
+    TriangleDown,
+    Diamond,
+    Cross,
+    Plus,
+    Star,
+}
+
+impl Mark {
+    /// Returns its outline as a path relative to its middle, for a circle of a radius \[px\] and marks that
+    /// look as large.
+    pub(crate) fn outline(self, radius: f64) -> String {
+        let r = radius;
+        let plus = format!("m{0:.1} 0h{1:.1}m{0:.1}{0:.1}v{1:.1}", -1.2 * r, 2.4 * r);
+        let cross =
+            |r: f64| format!("m{0:.1}{0:.1}l{1:.1} {1:.1}m0{2:.1}l{2:.1} {1:.1}", -r, 2.0 * r, -2.0 * r);
+        match self {
+            Self::Circle => format!(
+                "m{0:.1} 0a{r:.1} {r:.1} 0 1 0 {1:.1} 0a{r:.1} {r:.1} 0 1 0{2:.1} 0",
+                -r,
+                2.0 * r,
+                -2.0 * r
+            ),
+            Self::Square => format!("m{0:.1}{0:.1}h{1:.1}v{1:.1}h{2:.1}z", -0.9 * r, 1.8 * r, -1.8 * r),
+            Self::Triangle => format!("m0{:.1}l{:.1} {:.1}h{:.1}z", -1.2 * r, 1.2 * r, 2.1 * r, -2.4 * r),
+            Self::TriangleDown => format!("m0 {:.1}l{:.1}{:.1}h{:.1}z", 1.2 * r, 1.2 * r, -2.1 * r, -2.4 * r),
+            Self::Diamond => format!(
+                "m0{0:.1}l{1:.1} {2:.1}l{3:.1} {2:.1}l{3:.1}{0:.1}z",
+                -1.35 * r,
+                1.2 * r,
+                1.35 * r,
+                -1.2 * r
+            ),
+            Self::Cross => cross(0.9 * r),
+            Self::Plus => plus,
+            Self::Star => format!("{plus}m{:.1}{:.1}{}", 0.0, -1.2 * r, cross(0.8 * r)),
+        }
+    }
+}
 
 /// The response, and whatever comes first.
 pub const BLUE: &str = "#1f5fa8";
@@ -53,7 +96,7 @@ pub fn character(mark: Mark) -> &'static str {
         Mark::Plus => "✚",
         Mark::TriangleDown => "▼",
         Mark::Star => "★",
-        _ => "●",
+        Mark::Circle => "●",
     }
 }
 

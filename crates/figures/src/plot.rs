@@ -1,4 +1,4 @@
-//! Lines and marks over two axes, drawn by kuva.
+//! Lines and marks over two axes, as SVG.
 //!
 //! ```
 //! use figures::palette::{BLUE, RED};
@@ -16,25 +16,20 @@
 //! assert!(plot.svg().starts_with("<svg"));
 //! ```
 
-use std::sync::Arc;
-
-#[cfg(not(target_arch = "wasm32"))]
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
-use kuva::plot::{LegendPosition, LinePlot, LineStyle, ScatterPlot};
-use kuva::render::annotations::ReferenceLine;
-use kuva::render::figure::Figure;
-use kuva::render::layout::{Layout, TickFormat};
-use kuva::render::plots::Plot as Drawn;
-use kuva::render::render::{Scene, render_multiple};
+use std::fmt::Write;
 
 pub use study::chart::Axis;
 
-use crate::axes::number;
+use crate::escaped;
+use crate::frame::{CHARACTER, Frame, legend};
 use crate::palette::Mark;
 
 /// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
 pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
+/// Size of the numbers on the axes \[px\]: inline, and in a picture.
+const NUMBERS: [f64; 2] = [13.0, 12.0];
+/// Space between plots one above the other \[px\].
+const SPACING: f64 = 4.0;
 
 /// Points that belong together, and how they look.
 #[derive(Clone, Debug)]
@@ -69,27 +64,36 @@ impl Series {
         Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
     }
 
-    fn drawn(&self) -> Drawn {
-        let style = match self.look {
-            Look::Solid => LineStyle::Solid,
-            Look::Dashed => LineStyle::Dashed,
-            Look::Dotted => LineStyle::Dotted,
-            Look::Marks(mark) => {
-                let marks = ScatterPlot::new().with_data(self.points.clone());
-                let mut marks = marks.with_color(self.color).with_marker(mark).with_size(self.width);
-                if !self.name.is_empty() {
-                    marks = marks.with_legend(self.name.as_str());
-                }
-                return Drawn::Scatter(if self.titles.is_empty() {
-                    marks
-                } else {
-                    marks.with_tooltips().with_tooltip_labels(self.titles.clone())
-                });
+    /// Writes the line or its marks at places \[px\].
+    pub(crate) fn write(&self, svg: &mut String, places: &[[f64; 2]]) {
+        // writing to a String cannot fail
+        let Look::Marks(mark) = self.look else {
+            let mut path = String::new();
+            for ([x, y], step) in places.iter().zip(std::iter::once("M").chain(std::iter::repeat("L"))) {
+                let _ = write!(path, "{step}{x:.2} {y:.2}");
             }
+            let dashes = match self.look {
+                Look::Dashed => " stroke-dasharray=\"8 4\"",
+                Look::Dotted => " stroke-dasharray=\"2 4\"",
+                Look::Solid | Look::Marks(_) => "",
+            };
+            let (color, width) = (self.color, self.width);
+            let _ = write!(
+                svg,
+                "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{dashes}/>"
+            );
+            return;
         };
-        let line = LinePlot::new().with_data(self.points.clone()).with_color(self.color);
-        let line = line.with_stroke_width(self.width).with_line_style(style);
-        Drawn::Line(if self.name.is_empty() { line } else { line.with_legend(self.name.as_str()) })
+        let outline = mark.outline(self.width);
+        let _ = write!(svg, "<g stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
+        for (index, [x, y]) in places.iter().enumerate() {
+            let _ = write!(svg, "<path d=\"M{x:.2} {y:.2}{outline}\"");
+            let _ = match self.titles.get(index) {
+                Some(title) => write!(svg, "><title>{}</title></path>", escaped(title)),
+                None => write!(svg, "/>"),
+            };
+        }
+        svg.push_str("</g>");
     }
 }
 
@@ -98,8 +102,7 @@ impl Series {
 pub enum Scale {
     /// Both count the values.
     Linear,
-    /// x counts the values, spaced by their logarithms. y counts exponents of ten, because kuva's
-    /// logarithmic axis ends at 1e-10.
+    /// x counts the values, spaced by their logarithms. y counts exponents of ten.
     Logarithmic,
 }
 
@@ -128,28 +131,21 @@ impl Plot {
 
     /// Draws inline SVG that takes the width of its place: it has a view box instead of a size, rounded to
     /// pixels.
-    ///
-    /// # Panics
-    /// If kuva does not write the size of a drawing as expected.
     pub fn svg(&self) -> String {
-        let [left, right, top, bottom] = MARGINS;
-        let plots = self.drawn();
+        let frame = self.frame(MARGINS, NUMBERS[0]);
         let [width, height] = self.size.map(f64::round);
-        let layout = self.layout(&plots, 13).with_width(width).with_height(height);
-        let layout = layout.with_legend_position(LegendPosition::InsideTopRight);
-        let layout = layout.with_force_margins(left, right);
-        let scene = render_multiple(plots, layout.with_force_margins_y(top, bottom));
-        let svg = SvgBackend::new().render_scene(&scene);
-        let sized = format!("width=\"{width}\" height=\"{height}\"");
-        assert!(svg.contains(&sized), "kuva writes the size as {sized}");
-        svg.replacen(&sized, &format!("viewBox=\"0 0 {width} {height}\""), 1)
+        format!(
+            "<svg viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\" role=\"img\" \
+             aria-label=\"{} over {}\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
+            escaped(&self.axes[1].label),
+            escaped(&self.axes[0].label),
+            self.body(&frame)
+        )
     }
 
     /// Draws a picture with title and legend, for a file of its own.
     pub fn picture(&self) -> Picture {
-        let plots = self.drawn();
-        let layout = self.picture_layout(&plots);
-        Picture(render_multiple(plots, layout))
+        Picture::stacked(std::slice::from_ref(self))
     }
 
     /// Returns the sides of the plot area of the inline SVG, as parts of its width and height: left, right,
@@ -165,76 +161,84 @@ impl Plot {
         [x0, x1, y0, y1]
     }
 
-    fn drawn(&self) -> Vec<Drawn> {
-        self.series.iter().map(Series::drawn).collect()
+    fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
+        let of = |index: usize| {
+            let pick = move |&(x, y): &(f64, f64)| if index == 0 { x } else { y };
+            let values = self.series.iter().flat_map(move |series| series.points.iter().map(pick));
+            self.axes[index].range.unwrap_or_else(|| extremes(values))
+        };
+        let labels = self.axes.each_ref().map(|axis| &*axis.label);
+        Frame { size: self.size, margins, ranges: [of(0), of(1)], labels, scale: self.scale, number_size }
     }
 
-    fn layout(&self, plots: &[Drawn], tick_size: u32) -> Layout {
-        let [x, y] = &self.axes;
-        let mut layout = Layout::auto_from_plots(plots)
-            .with_width(self.size[0])
-            .with_height(self.size[1])
-            .with_x_label(x.label.as_str())
-            .with_y_label(y.label.as_str())
-            .with_label_size(14)
-            .with_tick_size(tick_size)
-            .with_tick_format(TickFormat::Custom(Arc::new(|value| number(value, 9))))
-            .with_font_family("system-ui, sans-serif");
-        if let Some([low, high]) = x.range {
-            layout = layout.with_x_axis_min(low).with_x_axis_max(high);
-        }
-        if let Some([low, high]) = y.range {
-            layout = layout.with_y_axis_min(low).with_y_axis_max(high);
-        }
-        if self.scale == Scale::Logarithmic {
-            let power = TickFormat::Custom(Arc::new(|exponent| match exponent {
-                0.0 => "1".to_owned(),
-                _ => format!("1e{exponent:.0}"),
-            }));
-            layout = layout.with_log_x().with_y_tick_step(3.0).with_y_tick_format(power);
-        }
+    /// Draws the frame, and in it the limits and the series.
+    fn body(&self, frame: &Frame<'_>) -> String {
+        let mut inside = String::new();
         for &(limit, color) in &self.limits {
-            layout = layout.with_reference_line(ReferenceLine::horizontal(limit).with_color(color));
+            let [_, y] = frame.place((frame.ranges[0][0], limit));
+            let [left, right, ..] = frame.area();
+            let line = Series { look: Look::Dashed, ..Series::line(color, 1.0, Vec::new()) };
+            line.write(&mut inside, &[[left, y], [right, y]]);
         }
-        layout
-    }
-
-    fn picture_layout(&self, plots: &[Drawn]) -> Layout {
-        let layout = self.layout(plots, 12);
-        if self.title.is_empty() {
-            return layout.with_legend_position(LegendPosition::InsideTopRight);
+        for series in &self.series {
+            let places: Vec<_> = series.points.iter().map(|&point| frame.place(point)).collect();
+            series.write(&mut inside, &places);
         }
-        layout.with_title(self.title.as_str()).with_title_size(14)
+        frame.around(&inside)
     }
 }
 
+/// The range of an axis that takes it from the data: their extremes, with room around them.
+fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let finite = values.filter(|value| value.is_finite());
+    let (low, high) = finite
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let room = 0.06 * (high - low).max(1e-9 * high.abs().max(1.0));
+    // an axis that starts near zero starts there
+    [if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - room }, high + room]
+}
+
 /// A drawing for a file of its own.
-pub struct Picture(Scene);
+pub struct Picture {
+    size: [f64; 2],
+    body: String,
+}
 
 impl Picture {
     /// Draws plots of one width, one above the other.
     pub fn stacked(plots: &[Plot]) -> Self {
-        let panels: Vec<_> = plots.iter().map(Plot::drawn).collect();
-        let layouts = plots.iter().zip(&panels).map(|(plot, drawn)| plot.picture_layout(drawn)).collect();
-        let [width, height] = plots.first().map_or([0.0; 2], |plot| plot.size);
-        let mut figure = Figure::new(plots.len(), 1).with_cell_size(width, height).with_spacing(4.0);
-        for (row, plot) in plots.iter().enumerate() {
-            figure = figure.with_row_height(row, plot.size[1]);
+        let (mut body, mut size) = (String::new(), [0.0_f64; 2]);
+        for plot in plots {
+            let y = if size[1] > 0.0 { size[1] + SPACING } else { 0.0 };
+            let top = if plot.title.is_empty() { 10.0 } else { 32.0 };
+            let mut frame = plot.frame([0.0, 14.0, top, 51.0], NUMBERS[1]);
+            frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
+            let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
+            if !plot.title.is_empty() {
+                let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
+                let _ = write!(
+                    body,
+                    "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
+                );
+            }
+            legend(&mut body, &plot.series, frame.area());
+            body.push_str("</g>");
+            size = [size[0].max(plot.size[0]), y + plot.size[1]];
         }
-        Self(figure.with_plots(panels).with_layouts(layouts).render())
+        Self { size, body }
     }
 
     /// Writes it as SVG.
     pub fn svg(&self) -> String {
-        SvgBackend::new().render_scene(&self.0)
-    }
-
-    /// Writes it as PNG, two pixels for one of the SVG.
-    ///
-    /// # Errors
-    /// Kuva's reason for failing.
-    #[cfg(not(target_arch = "wasm32"))]
-    pub fn png(&self) -> Result<Vec<u8>, String> {
-        PngBackend::new().render_scene(&self.0)
+        let [width, height] = self.size;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
+             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
+            self.body
+        )
     }
 }

@@ -23,6 +23,7 @@
 //! sources      FMI 3.0 unit ◄─► the description it is made from
 //! library      library ─► its platforms, its version of FMI, its model
 //! pack         files of a build ─► FMU
+//! version      commit and profile of a program, for its build.rs
 //! ```
 
 #[cfg(feature = "archive")]
@@ -48,12 +49,14 @@ mod structure;
 mod types3;
 mod usage;
 mod variable;
+mod version;
 
 pub use description::Description;
 pub use error::{DescriptionError, Fault, Problem};
 pub use fingerprint::fingerprint;
 pub use fmi3::Additions;
 pub use reduced::{DefaultExperiment, Reduction, ReductionError};
+pub use version::state_version;
 
 use std::path::Path;
 use std::process::ExitCode;

@@ -99,6 +99,17 @@ pub enum Warning {
         /// Peak the file states (m/s²).
         stated: f64,
     },
+    /// The direction is vertical.
+    Vertical,
+    /// The file has more samples than it states.
+    Surplus {
+        /// Number of samples in the file.
+        found: usize,
+        /// Number it states; these are read.
+        stated: usize,
+    },
+    /// The line that closes the last channel is missing, with all its samples there.
+    Unclosed,
 }
 
 impl fmt::Display for Warning {
@@ -141,6 +152,16 @@ impl fmt::Display for Warning {
             Self::StatedPeak { peak, stated } => {
                 write!(f, "peak: the samples have {peak:.5} m/s², the file states {stated:.5} m/s²")
             }
+            Self::Vertical => write!(
+                f,
+                "vertical: this component is vertical, but records shake walls sideways; use a horizontal one"
+            ),
+            Self::Surplus { found, stated } => {
+                write!(f, "samples: the file states {stated} and has {found}; the first {stated} are used")
+            }
+            Self::Unclosed => {
+                write!(f, "end: the line that closes the channel is missing, all stated samples are there")
+            }
         }
     }
 }
@@ -179,7 +200,10 @@ impl Record {
         let samples = motion.samples();
         let mean = samples.iter().sum::<f64>() / samples.len() as f64;
         let step = motion.step();
-        let mut warnings = Vec::new();
+        let mut warnings = self.warnings.clone();
+        if self.is_vertical {
+            warnings.push(Warning::Vertical);
+        }
         if step > USUAL_STEP {
             warnings.push(Warning::Step { step });
         }
@@ -191,7 +215,8 @@ impl Record {
         if final_velocity.abs() > FINAL_VELOCITY * peak_velocity {
             warnings.push(Warning::Baseline { last: final_velocity, peak: peak_velocity });
         }
-        if let Some(stated) = self.stated_peak.filter(|stated| (peak - stated).abs() > STATED_PEAK * stated) {
+        let is_other = |stated: &f64| (peak - stated).abs() > STATED_PEAK * stated + self.peak_rounding;
+        if let Some(stated) = self.stated_peak.filter(is_other) {
             warnings.push(Warning::StatedPeak { peak, stated });
         }
         if !is_credible(peak) {

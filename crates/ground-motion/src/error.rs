@@ -2,6 +2,8 @@
 
 use std::io;
 
+use crate::format::Format;
+
 /// Why a ground motion could not be read or made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -52,7 +54,10 @@ pub enum GroundMotionError {
     #[error("{found:?} is not an acceleration; expected a number in m/s2, or one with a unit, such as 0.3g")]
     Acceleration { found: String },
     /// A record format that is not known.
-    #[error("unknown record format `{found}`; use one of at2, esm, knet, cosmos, csmip, smc, csv")]
+    #[error(
+        "unknown record format `{found}`; use one of {}",
+        Format::ALL.map(Format::name).join(", ")
+    )]
     Format { found: String },
     /// The file could not be opened or read, or is not a regular file, or larger than any record.
     #[error("{file}: cannot be read: {reason}")]
@@ -143,3 +148,11 @@ pub(crate) const DAMAGED: &str = "correct the file or fetch it again";
 
 /// The remedy for a file that ends too early.
 pub(crate) const CUT_SHORT: &str = "the file is cut short or damaged: fetch it again";
+
+/// The remedy for a file with more samples than it states.
+pub(crate) const TOO_MANY: &str =
+    "the file has more samples than it states: correct the number, or remove what does not belong to it";
+
+/// The remedy for samples at times that are not uniform.
+pub(crate) const UNEVEN: &str =
+    "unevenly spaced film data are not read: use the corrected record, or resample it to a uniform step";

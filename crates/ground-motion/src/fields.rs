@@ -1,6 +1,6 @@
 //! Lines, words and numbers of a record: in free form, and in the fixed widths that Fortran wrote.
 
-use crate::error::{CUT_SHORT, DAMAGED, Fault};
+use crate::error::{CUT_SHORT, DAMAGED, Fault, TOO_MANY};
 use crate::quantity::Quantity;
 
 /// A line and its number, from 1.
@@ -72,7 +72,7 @@ pub(crate) fn unit_word(line: &str) -> Option<&str> {
     unit.or_else(|| words.first().map(until))
 }
 
-/// Refuses a number of samples that is not the stated one.
+/// Refuses a number of samples that is not the stated one: a file that is cut short, or one with too many.
 pub(crate) fn check_count(
     found: usize,
     stated: usize,
@@ -83,7 +83,17 @@ pub(crate) fn check_count(
         return Ok(());
     }
     let expected = format!("{stated} samples, as {stated_by} says");
-    Err(Fault::new(last_line, expected, format!("{found} up to the end"), CUT_SHORT))
+    let remedy = if found < stated { CUT_SHORT } else { TOO_MANY };
+    Err(Fault::new(last_line, expected, format!("{found} up to the end"), remedy))
+}
+
+/// Returns half a unit of the last decimal that a number is written with: what rounding may have changed.
+pub(crate) fn rounding(text: &str) -> f64 {
+    let (number, _) = leading_number(text);
+    let mantissa = number.split(['E', 'e', 'D', 'd']).next().unwrap_or_default();
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    // longer numbers are not rounded as far as a double can tell
+    0.5 * 0.1_f64.powi(decimals.min(20).try_into().unwrap_or(20))
 }
 
 /// A Fortran format of numbers, such as `(8F10.6)`: how many stand on a line, and how wide each is. They
@@ -101,7 +111,8 @@ impl Layout {
         candidates.into_iter().find_map(Self::of)
     }
 
-    fn of(format: &str) -> Option<Self> {
+    /// Reads a format without parentheses, `4F10.3`.
+    pub(crate) fn of(format: &str) -> Option<Self> {
         const LARGEST: usize = 1000;
         let (count, rest) = format.trim().split_once(['E', 'e', 'F', 'f', 'I', 'i'])?;
         // The scale, as in `1P8E10.3`, changes the value of a number only if that has no exponent.
@@ -119,7 +130,7 @@ impl Layout {
 
     /// Returns the fields of a line, trimmed, without trailing blanks. A line that is too long ends in one
     /// long field.
-    fn fields(self, line: &str) -> impl Iterator<Item = &str> {
+    pub(crate) fn fields(self, line: &str) -> impl Iterator<Item = &str> {
         let line = line.trim_end();
         let fields = line.len().div_ceil(self.width).min(self.per_line);
         (0..fields).map(move |index| {
@@ -148,11 +159,15 @@ impl Layout {
             };
             last_line = number;
             for field in self.fields(line) {
+                let value = real(field).filter(|value| value.is_finite());
+                if numbers.len() == count && value == Some(0.0) {
+                    // some programs fill the last line with zeros
+                    continue;
+                }
                 if numbers.len() == count {
                     let expected = format!("an end after {count} numbers, as line {stated} says");
                     return Err(Fault::excerpt(number, expected, field, DAMAGED));
                 }
-                let value = real(field).filter(|value| value.is_finite());
                 numbers.push(value.ok_or_else(|| {
                     let expected = format!(
                         "a finite number ({} of {count}, as line {stated} says; \

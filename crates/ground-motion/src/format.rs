@@ -23,14 +23,42 @@ pub enum Format {
     Csmip,
     /// USGS SMC.
     Smc,
+    /// GeoNet of New Zealand, V1A or V2A.
+    Geonet,
+    /// Text of AFAD, Türkiye.
+    Afad,
+    /// Taiwan's Central Weather Administration.
+    Cwa,
+    /// UNAM's standard file, Mexico.
+    Unam,
+    /// Volume 1 of RENADIC (Chile) or BHRC (Iran).
+    Volume1,
+    /// K-NET or KiK-net as CSV.
+    KnetCsv,
+    /// Plain numbers, several a line, as OpenSees reads them.
+    Numbers,
     /// A text table: times and accelerations between commas, semicolons, tabs or blanks; or one column.
     Csv,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 7] =
-        [Self::At2, Self::Esm, Self::Knet, Self::Cosmos, Self::Csmip, Self::Smc, Self::Csv];
+    pub const ALL: [Self; 14] = [
+        Self::At2,
+        Self::Esm,
+        Self::Knet,
+        Self::KnetCsv,
+        Self::Cosmos,
+        Self::Csmip,
+        Self::Smc,
+        Self::Geonet,
+        Self::Afad,
+        Self::Cwa,
+        Self::Unam,
+        Self::Volume1,
+        Self::Csv,
+        Self::Numbers,
+    ];
 
     /// Returns the format's short name, such as `at2`.
     pub fn name(self) -> &'static str {
@@ -41,6 +69,13 @@ impl Format {
             Self::Cosmos => "cosmos",
             Self::Csmip => "csmip",
             Self::Smc => "smc",
+            Self::Geonet => "geonet",
+            Self::Afad => "afad",
+            Self::Cwa => "cwa",
+            Self::Unam => "unam",
+            Self::Volume1 => "volume1",
+            Self::KnetCsv => "knet-csv",
+            Self::Numbers => "numbers",
             Self::Csv => "csv",
         }
     }
@@ -54,6 +89,13 @@ impl Format {
             Self::Cosmos => "COSMOS V2",
             Self::Csmip => "CSMIP V2",
             Self::Smc => "USGS SMC",
+            Self::Geonet => "GeoNet",
+            Self::Afad => "AFAD",
+            Self::Cwa => "CWA",
+            Self::Unam => "UNAM",
+            Self::Volume1 => "RENADIC/BHRC",
+            Self::KnetCsv => "K-NET CSV",
+            Self::Numbers => "numbers",
             Self::Csv => "CSV",
         }
     }
@@ -68,6 +110,7 @@ impl Format {
             "v2c" => Some(Self::Cosmos),
             "v2" => Some(Self::Csmip),
             "smc" => Some(Self::Smc),
+            "v1a" | "v2a" => Some(Self::Geonet),
             _ => None,
         }
     }

@@ -5,10 +5,12 @@
 //! | item | gives |
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
+//! | [`is_companion`] | whether a file has the times of a record beside it |
 //! | [`read_file`] | the content of any regular file of a limited size |
 //! | [`columns`] | columns of text, whatever separates them: tables of numbers and of words |
 //! | [`SpectrumFile`] | a response spectrum of a file |
 //! | [`Record::check`] | warnings: baseline, unit, missing start or tail, another peak than stated |
+//! | [`is_vertical_channel`] | whether a channel such as `HNZ` is vertical |
 //! | [`GroundMotion::warning`] | a warning: a peak that no record has, as of a PGA in another unit |
 //! | [`GroundMotion`] | uniform step, m/s², linear between samples, zero outside; scaling and trimming |
 //! | [`Spectrum`] | Sa at any period and damping, AvgSA |
@@ -22,6 +24,7 @@
 
 mod check;
 pub mod columns;
+mod companion;
 mod error;
 mod fields;
 mod file;
@@ -38,8 +41,10 @@ mod spectrum_file;
 mod storeys;
 mod synthetic;
 mod unit;
+mod vertical;
 
 pub use check::{Check, Warning};
+pub use companion::is_companion;
 pub use error::GroundMotionError;
 pub use file::{read_file, utf8_text};
 pub use format::Format;
@@ -53,3 +58,4 @@ pub use spectrum_file::SpectrumFile;
 pub use storeys::{FloorMotion, Storey, Storeys};
 pub use synthetic::SyntheticMotion;
 pub use unit::{Acceleration, STANDARD_GRAVITY, Unit};
+pub use vertical::is_vertical_channel;

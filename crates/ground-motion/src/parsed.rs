@@ -2,8 +2,9 @@
 
 use std::iter::Peekable;
 
+use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Layout, Line, check_count};
+use crate::fields::{Layout, Line, check_count, leading_real, rounding};
 use crate::unit::Unit;
 
 /// How many lines of a header are kept, and how many characters of each.
@@ -22,25 +23,31 @@ pub(crate) struct Parsed {
     pub(crate) first_time: f64,
     pub(crate) channel: Option<String>,
     pub(crate) stated_peak: Option<f64>,
+    /// What rounding may have changed of the stated peak (m/s²).
+    pub(crate) peak_rounding: f64,
+    /// What the reader has to say about the file.
+    pub(crate) warnings: Vec<Warning>,
     /// Whether the file states the direction as vertical.
     pub(crate) is_vertical: bool,
     pub(crate) header: Vec<String>,
 }
 
-/// Returns whether one of the words of a direction, as files state it, means vertical.
-pub(crate) fn is_vertical(direction: &str) -> bool {
-    const VERTICAL: [&str; 11] =
-        ["UP", "DOWN", "DN", "DWN", "UD", "U-D", "V", "VER", "VERT", "VERTICAL", "Z"];
-    let mut words = direction.split(|c: char| !(c.is_alphanumeric() || c == '-'));
-    words.any(|word| VERTICAL.iter().any(|vertical| word.eq_ignore_ascii_case(vertical)))
-}
-
 impl Parsed {
     /// Makes a channel without a name that starts at time zero; its samples follow after line `last_line`.
     pub(crate) fn new(step: f64, unit: Unit, last_line: usize) -> Self {
-        let (samples, header) = (Vec::new(), Vec::new());
-        let (first_time, channel, stated_peak, is_vertical) = (0.0, None, None, false);
-        Self { step, unit, samples, last_line, first_time, channel, stated_peak, is_vertical, header }
+        Self {
+            step,
+            unit,
+            samples: Vec::new(),
+            last_line,
+            first_time: 0.0,
+            channel: None,
+            stated_peak: None,
+            peak_rounding: 0.0,
+            warnings: Vec::new(),
+            is_vertical: false,
+            header: Vec::new(),
+        }
     }
 
     /// Takes the next sample, the value of a field on a line; refuses one that is not finite.
@@ -74,6 +81,25 @@ impl Parsed {
     /// Refuses a number of samples other than the one that `stated_by` says.
     pub(crate) fn check_count(&self, stated: usize, stated_by: &str) -> Result<(), Fault> {
         check_count(self.samples.len(), stated, stated_by, self.last_line)
+    }
+
+    /// Leaves out zeros with which the last line was filled up: `line_start` samples precede that line, and
+    /// all beyond `stated` are zeros on it.
+    pub(crate) fn trim_padding(&mut self, stated: usize, line_start: usize) {
+        let is_padding = line_start < stated
+            && self.samples.get(stated..).is_some_and(|rest| rest.iter().all(|a| *a == 0.0));
+        if is_padding {
+            self.samples.truncate(stated);
+        }
+    }
+
+    /// Takes the peak that a header states, in the unit of the file and rounded as it is written there. A
+    /// peak of 0 states nothing.
+    pub(crate) fn state_peak(&mut self, text: &str) {
+        if let Some(peak) = leading_real(text).filter(|peak| *peak != 0.0) {
+            self.stated_peak = Some(self.unit.to_si(peak.abs()));
+            self.peak_rounding = self.unit.to_si(rounding(text));
+        }
     }
 
     /// Keeps the first lines of a header, shortened.

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::check::Warning;
+use crate::companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
 use crate::file::{END_OF_FILE, is_utf16, line_of, read_file, strange_byte, utf16};
 use crate::format::Format;
@@ -9,6 +11,7 @@ use crate::motion::GroundMotion;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
+use crate::vertical;
 
 /// Largest file that is read: about four million samples in AT2, hours of shaking.
 pub const MAX_FILE_BYTES: u64 = 64 << 20;
@@ -31,7 +34,11 @@ pub struct Record {
     pub channel: Option<String>,
     /// Peak acceleration the file itself states (m/s²).
     pub stated_peak: Option<f64>,
-    /// Whether the file states the direction as vertical.
+    /// What rounding may have changed of the stated peak (m/s²).
+    pub peak_rounding: f64,
+    /// What the reader has to say about the file; [`Record::check`] has it among its warnings.
+    pub warnings: Vec<Warning>,
+    /// Whether the file, or its name, states the direction as vertical.
     pub is_vertical: bool,
     /// First lines of the header.
     pub header: Vec<String>,
@@ -39,8 +46,8 @@ pub struct Record {
 
 impl Parsed {
     fn into_record(self, format: Format, stated_step: Option<f64>) -> Result<Record, Fault> {
-        let Self { step, samples, unit, first_time, channel, stated_peak, is_vertical, header, last_line } =
-            self;
+        let Self { step, samples, unit, first_time, channel, last_line, .. } = self;
+        let Self { stated_peak, peak_rounding, warnings, is_vertical, header, .. } = self;
         if samples.len() < 2 {
             let found = samples.len().to_string();
             let remedy = "check that the file is complete";
@@ -56,7 +63,18 @@ impl Parsed {
         let motion = GroundMotion::new(step, samples).map_err(|error| {
             Fault::new(last_line, "a sound motion", format!("that {error}"), "correct the file")
         })?;
-        Ok(Record { motion, format, unit, first_time, channel, stated_peak, is_vertical, header })
+        Ok(Record {
+            motion,
+            format,
+            unit,
+            first_time,
+            channel,
+            stated_peak,
+            peak_rounding,
+            warnings,
+            is_vertical,
+            header,
+        })
     }
 }
 
@@ -71,7 +89,7 @@ impl Parsed {
 pub fn read(path: impl AsRef<Path>, options: &RecordOptions) -> Result<Record, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    parse(&name, read_bounded(path, &name)?, options)
+    parse(&name, read_bounded(path, &name)?, &companion::completed(path, options)?)
 }
 
 /// Reads every channel of a record file, or the one that is asked for.
@@ -84,7 +102,7 @@ pub fn read_channels(
 ) -> Result<Vec<Record>, GroundMotionError> {
     let path = path.as_ref();
     let name = path.display().to_string();
-    parse_channels(&name, read_bounded(path, &name)?, options)
+    parse_channels(&name, read_bounded(path, &name)?, &companion::completed(path, options)?)
 }
 
 /// Reads a record from the bytes of a file; `name` stands for the file in messages.
@@ -126,8 +144,14 @@ fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format
     check_is_text(&bytes)?;
     let decoded = decode(bytes);
     let text = sound_part(&decoded)?;
-    let format = options.format.unwrap_or_else(|| Format::of(name, text));
-    Ok((format, format.parse(text, options)?))
+    let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
+    let mut parsed = format.parse(text, options)?;
+    if vertical::by_name(name, format, options) {
+        for channel in &mut parsed {
+            channel.is_vertical = true;
+        }
+    }
+    Ok((format, parsed))
 }
 
 /// Picks the channel with a number or name.
@@ -162,7 +186,7 @@ fn listed(channels: &[String]) -> String {
     names.join(", ")
 }
 
-fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
+pub(crate) fn read_bounded(path: &Path, name: &str) -> Result<Vec<u8>, GroundMotionError> {
     read_file(path, "a record", MAX_FILE_BYTES)
         .map_err(|reason| GroundMotionError::Io { file: name.to_owned(), reason })
 }

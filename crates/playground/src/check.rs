@@ -145,9 +145,15 @@ fn fault(fields: &Fields, error: CheckError) -> (String, String) {
             let below = names().filter(|name| name.starts_with(&path) && name.contains('.')).find(last);
             (below.unwrap_or(NO_FIELD).to_owned(), message)
         }
-        CheckError::Scene(SceneError::Line { message, .. }) => {
-            let of_line = names().find(|name| message.contains(&format!("in `{name} = ")));
-            (of_line.unwrap_or(NO_FIELD).to_owned(), message)
+        CheckError::Scene(SceneError::Line { line, message, .. }) => {
+            let text = table(fields);
+            let field = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next());
+            (field.filter(|field| fields.contains_key(*field)).unwrap_or(NO_FIELD).to_owned(), message)
+        }
+        CheckError::Improbable { doubts, error } => {
+            let (field, message) = fault(fields, *error);
+            let doubts: Vec<_> = doubts.iter().map(ToString::to_string).collect();
+            (field, format!("{}; as given, {message}", doubts.join("; ")))
         }
         other => {
             let message = other.to_string();

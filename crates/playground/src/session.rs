@@ -47,7 +47,8 @@ impl Session {
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
                 Charts::new(&prepared.wall, response, figures::response::WIDTH).file().into()
             }),
-            Err(error) => Err(fault_of("request", error.to_string())),
+            // the page writes its requests itself
+            Err(_) => Err(fault_of("request", "the page asks for what it cannot compute; load it again")),
         };
         match answer {
             Ok(answer) => json!({ "answer": answer }).to_string(),

@@ -95,7 +95,7 @@ fn a_message_stands_beside_its_field() {
     assert!(fault(&json!({ "height": "tall" }), &none, "height").contains("is not a number"));
     assert!(fault(&json!({ "a1": "0.9", "a3": "0.5" }), &synthetic, "a1").contains("smaller than a3"));
     let pulled = json!({ "overburden": "1e5", "overburden_eccentricity": "0.5" });
-    assert!(fault(&pulled, &none, "overburden").contains("no rocking strength"));
+    assert!(fault(&pulled, &none, "overburden_eccentricity").contains("no rocking strength"));
     let pulse =
         |amplitude, frequency| json!({ "kind": "half_sine", "amplitude": amplitude, "frequency": frequency });
     assert!(fault(&json!({}), &pulse("1", "-1"), "frequency").contains("must be"));
@@ -311,6 +311,7 @@ fn a_check_that_cannot_be_made_leaves_the_run() {
         (json!({}), json!({ "SLV.ag": "15" }), "SLV.ag", "give it in g"),
         (json!({}), json!({ "SLV.ag": "much" }), "SLV.ag", "expected a number"),
         (json!({}), json!({ "SLV.F0": "2" }), "SLV.F0", "is below 2.2"),
+        (json!({ "a1": "0.6" }), json!({ "SLV.F0": "24" }), "check", "F0 = 24 is unusual"),
         (json!({}), undamped, "SLV.building_damping", "state building_damping"),
         (json!({}), json!({ "confidence_factor": "1.2" }), "confidence_factor", "FC of LC1"),
         (rigid, json!({}), "before_activation", "no elastic branch"),

@@ -1,7 +1,5 @@
 //! Viscous damping that matches restitution.
 
-use std::num::NonZeroUsize;
-
 use figures::calibration::{charts, printed};
 use figures::chart;
 use pyo3::prelude::*;
@@ -10,12 +8,12 @@ use rocking_wall::variables::DampingModel;
 use study::calibration::{
     Calibration, CalibrationError, Coefficient, Fit, Grid, calibrate, calibrated_models, model_named,
 };
-use study::parallel;
 
 use crate::arrays::samples;
 use crate::errors::{failed, refused};
 use crate::tables::Column::{Counts, Names, Numbers};
 use crate::tables::table;
+use crate::threads::{self, Threads};
 use crate::walls::Wall;
 
 /// Calibrates damping models of a wall; returns the tables of fits, coefficients and laws, and the charts.
@@ -28,7 +26,7 @@ pub(crate) fn calibrate_wall<'py>(
     a1: Option<Bound<'py, PyAny>>,
     start: &Bound<'py, PyAny>,
     step: f64,
-    threads: Option<NonZeroUsize>,
+    threads: Option<Threads>,
 ) -> PyResult<([Bound<'py, PyDict>; 3], Vec<String>)> {
     let mut grid = Grid { start: samples(start)?, step, ..Grid::default() };
     if let Some(restitution) = &restitution {
@@ -42,7 +40,7 @@ pub(crate) fn calibrate_wall<'py>(
         Some(names) => names.iter().map(|name| model(name)).collect::<PyResult<_>>()?,
         None => calibrated_models(parameters),
     };
-    let threads = parallel::threads(threads);
+    let threads = threads::count(threads);
     let mut found = Vec::with_capacity(models.len());
     for model in models {
         grid.check(model).map_err(of_calibration)?;

@@ -1,15 +1,14 @@
 //! The class `Folder`: a study in a folder, whose parts other processes compute.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use study::parallel;
 use study_folder::FolderError;
 
 use crate::errors::{failed, refused};
 use crate::studies::Study;
+use crate::threads::{self, Threads};
 
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
@@ -41,8 +40,8 @@ impl Folder {
     }
 
     /// Writes the results of a complete folder; returns the summary and what the fits warn of.
-    fn finish(&self, py: Python<'_>, threads: Option<NonZeroUsize>) -> PyResult<(String, Option<String>)> {
-        let threads = parallel::threads(threads).get();
+    fn finish(&self, py: Python<'_>, threads: Option<Threads>) -> PyResult<(String, Option<String>)> {
+        let threads = threads::count(threads).get();
         let report = py.detach(|| study_folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
         Ok((report.summary, report.warning))
     }

@@ -9,6 +9,7 @@
 //! | `errors` | errors of the libraries as exceptions |
 //! | `arrays` | samples from Python, arrays to Python |
 //! | `tables` | tables for Python |
+//! | `threads` | the number of threads that is asked for |
 //! | `watch` | work on another thread, while this one looks at Ctrl-C |
 //! | `motions` | records, pulses, response spectra |
 //! | `variables` | the parameters of the model description |
@@ -37,6 +38,7 @@ mod spectra;
 mod studies;
 mod study_walls;
 mod tables;
+mod threads;
 mod ties;
 mod variables;
 mod verification;
@@ -57,6 +59,7 @@ mod _native {
     #[pymodule_export]
     use crate::motions::{
         average_sa, in_si, picture, pulse, read_channels, scaled, scaled_to, spectrum, synthetic, trimmed,
+        warnings_of_channel,
     };
     #[pymodule_export]
     use crate::responses::picture_of_response;
@@ -73,5 +76,5 @@ mod _native {
     #[pymodule_export]
     use crate::walls::Wall;
     #[pymodule_export]
-    const VERSION: &str = env!("CARGO_PKG_VERSION");
+    const VERSION: &str = env!("PACKAGE_VERSION");
 }

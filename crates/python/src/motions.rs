@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use figures::records;
 use ground_motion::{
     GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
-    SyntheticMotion, Unit,
+    SyntheticMotion, Unit, Warning,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -34,6 +34,12 @@ pub(crate) fn read_channels<'py>(
     };
     let records = py.detach(|| ground_motion::read_channels(path, &options)).map_err(of_motion)?;
     records.iter().map(|record| channel_of(py, record)).collect()
+}
+
+/// Warns of a channel, such as that of a trace, whose code is vertical.
+#[pyfunction]
+pub(crate) fn warnings_of_channel(code: &str) -> Vec<String> {
+    ground_motion::is_vertical_channel(code).then(|| Warning::Vertical.to_string()).into_iter().collect()
 }
 
 fn channel_of<'py>(py: Python<'py>, record: &Record) -> PyResult<Bound<'py, PyDict>> {

@@ -1,14 +1,11 @@
 //! Rocking spectra.
 
-use std::num::NonZeroUsize;
-
 use figures::rocking_spectrum::{Shown, svg};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::simulation::Excitation;
-use study::parallel;
 use study::spectrum::{
     MOST_POINTS, Point, PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
     over_pulses, over_walls,
@@ -16,6 +13,7 @@ use study::spectrum::{
 
 use crate::arrays::{Given, Numbers, grid, motion, samples};
 use crate::errors::{of_scene, refused};
+use crate::threads::{self, Threads};
 use crate::walls::Wall;
 
 /// Columns and rows, and of each row and column: u/`u_ins`, whether the wall rocked, the time of overturning.
@@ -35,7 +33,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     record: Option<Given<'py>>,
     sizes: (bool, Bound<'py, PyAny>),
     slendernesses: (bool, Bound<'py, PyAny>),
-    threads: Option<NonZeroUsize>,
+    threads: Option<Threads>,
 ) -> PyResult<Values<'py>> {
     let mut scene = wall.scene.clone();
     if let Some(record) = &record {
@@ -46,7 +44,7 @@ pub(crate) fn spectrum_over_walls<'py>(
     let slenderness = if slendernesses.0 { Slenderness::Angle } else { Slenderness::Ratio };
     let (columns, rows) = (samples(&sizes.1)?, samples(&slendernesses.1)?);
     check_count(columns.len(), rows.len())?;
-    let threads = parallel::threads(threads).get();
+    let threads = threads::count(threads).get();
     let mut points = Vec::with_capacity(rows.len());
     // between two rows this thread looks at Ctrl-C
     for row in &rows {
@@ -69,13 +67,13 @@ pub(crate) fn spectrum_over_pulses<'py>(
     form: &str,
     columns: &Bound<'py, PyAny>,
     rows: &Bound<'py, PyAny>,
-    threads: Option<NonZeroUsize>,
+    threads: Option<Threads>,
 ) -> PyResult<Values<'py>> {
     let form = PulseForm::from_name(form)
         .ok_or_else(|| refused(format!("form = {form:?} is not one of ricker, sine_cycle, half_sine")))?;
     let (columns, rows) = (samples(columns)?, samples(rows)?);
     check_count(columns.len(), rows.len())?;
-    let (parameters, threads) = (&wall.scene.parameters, parallel::threads(threads).get());
+    let (parameters, threads) = (&wall.scene.parameters, threads::count(threads).get());
     let mut points = vec![Vec::with_capacity(columns.len()); rows.len()];
     for columns in columns.chunks(COLUMNS_AT_ONCE * threads) {
         let over = || over_pulses(parameters, form, columns, &rows, threads);

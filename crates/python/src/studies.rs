@@ -1,7 +1,6 @@
 //! The class `Study`: an incremental dynamic analysis, in memory or in parts.
 
 use std::convert::Infallible;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,6 +21,7 @@ use crate::arrays::{Given, motion};
 use crate::errors::{failed, of_scene, refused};
 use crate::study_walls::named_walls;
 use crate::tables::{Column, table};
+use crate::threads::{self, Threads};
 use crate::watch::watched;
 
 /// A study ready to run.
@@ -62,10 +62,9 @@ impl Study {
         let walls = named_walls(&walls, &mut warnings)?;
         let record = |(name, given): (String, Given<'_>)| Ok(NamedRecord { name, motion: motion(&given)? });
         let records = records.into_iter().map(record).collect::<PyResult<_>>()?;
-        let made = py.detach(|| LoadedStudy::of_parts(text, walls, records));
+        let made = py.detach(|| LoadedStudy::of_parts(text.clone(), walls, records));
         let mut loaded = made.map_err(|error| match error {
-            // the user has not written this text, so its line numbers say nothing
-            SceneError::Line { message, .. } => refused(message),
+            SceneError::Line { line, message, .. } => refused(of_argument(&text, line, &message)),
             other => refused(other),
         })?;
         loaded.warnings.splice(..0, warnings);
@@ -148,11 +147,11 @@ impl Study {
     fn run<'py>(
         &self,
         py: Python<'py>,
-        threads: Option<NonZeroUsize>,
+        threads: Option<Threads>,
         progress: &Bound<'py, PyAny>,
     ) -> PyResult<[Bound<'py, PyDict>; 3]> {
         let LoadedStudy { study, report, .. } = &self.loaded;
-        let threads = parallel::threads(threads).get();
+        let threads = threads::count(threads).get();
         let curves = self.curves(py, threads, progress)?;
         let results = py.detach(|| {
             let grid = study.levels().shared();
@@ -205,6 +204,12 @@ impl Study {
             }
         })
     }
+}
+
+/// Names the argument in a message. The user has not written the text, which has a line for each argument.
+fn of_argument(text: &str, line: usize, message: &str) -> String {
+    let argument = text.lines().nth(line - 1).and_then(|line| line.split(" = ").next()).unwrap_or_default();
+    if message.starts_with(argument) { message.to_owned() } else { format!("{argument}: {message}") }
 }
 
 /// Makes a table of the results of all walls.

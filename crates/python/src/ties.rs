@@ -1,13 +1,10 @@
 //! Ties of any stiffness.
 
-use std::num::NonZeroUsize;
-
 use figures::tie::picture;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Fate;
-use study::parallel;
 use study::polarity::Polarities;
 use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
 
@@ -15,6 +12,7 @@ use crate::arrays::{Given, grid, motion, samples};
 use crate::errors::{of_scene, refused};
 use crate::tables::Column::{Counts, Numbers};
 use crate::tables::table;
+use crate::threads::{self, Threads};
 use crate::walls::Wall;
 
 /// Runs for each thread between two looks at Ctrl-C.
@@ -29,13 +27,13 @@ pub(crate) fn tie_of_wall<'py>(
     records: Vec<Given<'py>>,
     stiffness: Option<Bound<'py, PyAny>>,
     both_polarities: bool,
-    threads: Option<NonZeroUsize>,
+    threads: Option<Threads>,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, bool)> {
     let records = records.iter().map(motion).collect::<PyResult<_>>()?;
     let given = stiffness.as_ref().map(samples).transpose()?.unwrap_or_default();
     let study = TieStudy::new(wall.scene.clone(), records, both_polarities).map_err(refused)?;
     let stiffnesses = study.stiffnesses(&given).map_err(refused)?;
-    let threads = parallel::threads(threads).get();
+    let threads = threads::count(threads).get();
     let at_once = (RUNS_AT_ONCE * threads).div_ceil(study.motions());
     let mut rows = Vec::with_capacity(stiffnesses.len());
     for stiffnesses in stiffnesses.chunks(at_once) {

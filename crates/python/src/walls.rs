@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use figures::capacity::{Curve, plot};
 use ground_motion::GroundMotion;
 use numpy::PyArray1;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -142,8 +143,8 @@ impl Wall {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         let warnings = self.equation.warnings().iter();
-        let heavy = self.scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
-        warnings.map(ToString::to_string).chain(heavy).collect()
+        let of_floors = self.scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
+        warnings.map(ToString::to_string).chain(of_floors).collect()
     }
 
     /// Returns a number that follows from the parameters, by its name in the model description.
@@ -159,6 +160,25 @@ impl Wall {
     fn parameters(&self) -> Vec<(&'static str, String)> {
         let names = GROUPS.iter().flat_map(|(_, names)| names.iter());
         names.filter_map(|name| Some((*name, parameter_text(&self.scene.parameters, name)?))).collect()
+    }
+
+    /// Returns a parameter by its name: a number, the name of a choice, or the points of a law.
+    fn parameter<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let parameters = &self.scene.parameters;
+        let points = parameters.multilinear.as_deref().map(<[_]>::to_vec);
+        let text = match name {
+            POINTS => return points.into_bound_py_any(py),
+            KINEMATICS => Some(parameters.kinematics.name().to_owned()),
+            "force_law" if points.is_some() => Some("multilinear".to_owned()),
+            _ => parameter_text(parameters, name),
+        };
+        let Some(text) = text else {
+            return Err(PyAttributeError::new_err(format!("{name:?} is not a parameter of a wall")));
+        };
+        match text.parse::<f64>() {
+            Ok(number) => number.into_bound_py_any(py),
+            Err(_) => text.trim_matches('"').into_bound_py_any(py),
+        }
     }
 
     /// Returns name, symbol, value and unit of the numbers that follow from the parameters.
@@ -218,9 +238,9 @@ impl Wall {
             scene.thresholds = thresholds;
         }
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
-        let heavy = scene.floors.as_ref().and_then(|floors| floors.warning(&self.equation));
+        let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
-        let more = heavy.into_iter().chain(of_motion.map(|warning| warning.to_string()));
+        let more = of_floors.chain(of_motion.map(|warning| warning.to_string()));
         responses::values(py, &response, more)
     }
 

@@ -14,10 +14,10 @@ pub enum FolderError {
     NoStudy { path: PathBuf, source: std::io::Error },
     /// The description of a study is not one.
     #[error(
-        "{}: not the description of a study by this version; remove the folder or give another: {source}",
+        "{}, line {line}: not the description of a study by this version; remove the folder or give another",
         path.display()
     )]
-    Description { path: PathBuf, source: serde_json::Error },
+    Description { path: PathBuf, line: usize },
     /// The description of a study is damaged.
     #[error("{}: is damaged; remove it, and `wall ida` writes it again and keeps the runs", path.display())]
     Damaged { path: PathBuf },

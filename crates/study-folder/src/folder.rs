@@ -224,7 +224,7 @@ fn read(path: &Path) -> Result<Manifest, FolderError> {
     let bytes = ground_motion::read_file(&path, "the description of a study", MAX_STUDY_BYTES)
         .map_err(|source| FolderError::NoStudy { path: path.clone(), source })?;
     let manifest: Manifest = serde_json::from_slice(&bytes)
-        .map_err(|source| FolderError::Description { path: path.clone(), source })?;
+        .map_err(|error| FolderError::Description { path: path.clone(), line: error.line() })?;
     if manifest.checksum != manifest.fingerprint() {
         return Err(FolderError::Damaged { path });
     }

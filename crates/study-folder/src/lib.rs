@@ -35,7 +35,6 @@ mod folder;
 mod legend;
 mod nrml;
 mod page;
-#[cfg_attr(not(feature = "parquet"), path = "no_part.rs")]
 mod part;
 mod plots;
 mod population;

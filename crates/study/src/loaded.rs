@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ground_motion::{GroundMotion, GroundMotionError, read};
+use ground_motion::{GroundMotion, GroundMotionError, is_companion, read};
 use rocking_wall::scene::{Scene, SceneError, read_text};
-use rocking_wall::wall::{COMPUTED, Parameters, Wall, Warning};
+use rocking_wall::wall::{COMPUTED, Parameters, Usual, Wall, Warning};
 
 use crate::document::{
     RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text, walls_of,
 };
-use crate::ida::{NamedRecord, NamedWall, Study};
+use crate::ida::{IntensityMeasure, NamedRecord, NamedWall, Study};
 use crate::model::Model;
 use crate::wall_table;
 
@@ -55,15 +55,15 @@ impl LoadedStudy {
         let text = read_text(path, "a study file (TOML)", MAX_FILE_BYTES)?;
         let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
-        let (mut inputs, mut warnings) = (vec![path.to_owned()], Vec::new());
+        let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut walls = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            walls.extend(wall(entry, folder, &name, &mut inputs, &mut warnings)?);
+            walls.extend(wall(entry, folder, &name, &mut inputs, &mut ignored)?);
         }
-        warn(&walls, &file.models, &mut warnings);
+        warn(&walls, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
-        inputs.extend(paths);
+        inputs.extend(paths.into_iter().map(|file| file.path));
         let study = Self::assemble(&name, text, file, walls, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings, ..study })
@@ -81,7 +81,7 @@ impl LoadedStudy {
         let name = "the study";
         let file = StudyFile::parse(name, &text)?;
         let mut warnings = Vec::new();
-        warn(&walls, &file.models, &mut warnings);
+        warn(&walls, &[], (&file.models, &file.measure), &mut warnings);
         Self::assemble(name, text, file, walls, records).map(|study| Self { warnings, ..study })
     }
 
@@ -155,13 +155,16 @@ pub(crate) fn read_walls(text: &str, path: &Path) -> Result<(Vec<NamedWall>, Vec
     Ok((walls, inputs))
 }
 
+/// The name of a wall, and what the study ignores of its scene.
+type Ignored = (String, &'static str);
+
 /// Reads the walls of an entry.
 fn wall(
     entry: WallEntry,
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    warnings: &mut Vec<String>,
+    ignored: &mut Vec<Ignored>,
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         file: study.to_owned(),
@@ -186,15 +189,13 @@ fn wall(
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
-                warnings.push(format!(
-                    "wall {name:?}: the study ignores the motion of its scene and uses its records"
-                ));
+                let warning = "the study ignores the motion of its scene and uses its records";
+                ignored.push((name.clone(), warning));
             }
             let Parameters { xi, c_bar, .. } = scene.parameters;
             if xi != COMPUTED || c_bar != COMPUTED {
-                warnings.push(format!(
-                    "wall {name:?}: the study ignores the damping of its scene and uses its models"
-                ));
+                let warning = "the study ignores the damping of its scene and uses its models";
+                ignored.push((name.clone(), warning));
             }
             let floors = entry.floors.or(scene.floors);
             Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
@@ -213,21 +214,44 @@ fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     models.iter().filter_map(of_model).reduce(common).unwrap_or_default()
 }
 
-/// Adds warnings of improbable walls and models, and of parameters without effect.
-fn warn(walls: &[NamedWall], models: &[Model], warnings: &mut Vec<String>) {
+/// Adds the warnings of each wall, by its name: what is ignored of its scene, improbable numbers, parameters
+/// without effect. Then those of the intensity measure and the models.
+fn warn(
+    walls: &[NamedWall],
+    ignored: &[Ignored],
+    (models, measure): (&[Model], &IntensityMeasure),
+    warnings: &mut Vec<String>,
+) {
     for NamedWall { name, parameters, floors } in walls {
         let made = Wall::new(parameters).ok();
         let about_work =
             made.iter().flat_map(Wall::warnings).filter(|warning| warning.is_about_work()).cloned();
         let found =
             unused(parameters, models).into_iter().chain(about_work).chain(Warning::unusual(parameters));
-        let heavy = floors.as_ref().zip(made.as_ref()).and_then(|(floors, wall)| floors.warning(wall));
-        let all = found.map(|warning| warning.to_string()).chain(heavy);
+        let of_floors = floors.as_ref().zip(made.as_ref());
+        let of_floors = of_floors.into_iter().flat_map(|(floors, wall)| floors.warnings(wall));
+        let own = ignored.iter().filter(|(wall, _)| wall == name).map(|(_, warning)| (*warning).to_owned());
+        let all = own.chain(found.map(|warning| warning.to_string())).chain(of_floors);
         warnings.extend(all.map(|warning| format!("wall {name:?}: {warning}")));
     }
+    let periods: &[f64] = match measure {
+        IntensityMeasure::Pga => &[],
+        IntensityMeasure::Sa { period } => std::slice::from_ref(period),
+        IntensityMeasure::AvgSa { periods } => periods,
+    };
+    let unusual =
+        periods.iter().filter_map(|period| Usual::period("period of the intensity").warning(*period));
+    warnings.extend(unusual.map(|warning| warning.to_string()));
     for model in models {
         warnings.extend(model.unusual().map(|warning| format!("model {:?}: {warning}", model.name)));
     }
+}
+
+/// A record file of a study.
+pub(crate) struct RecordFile {
+    pub(crate) path: PathBuf,
+    /// Whether the study names the file itself, and not its folder or a pattern.
+    is_named: bool,
 }
 
 /// Lists the record files of a study, in the order of its patterns.
@@ -235,42 +259,60 @@ pub(crate) fn record_files(
     entry: &RecordsEntry,
     folder: &Path,
     study: &str,
-) -> Result<Vec<PathBuf>, SceneError> {
-    let mut paths: Vec<PathBuf> = Vec::new();
+) -> Result<Vec<RecordFile>, SceneError> {
+    let mut listed: Vec<RecordFile> = Vec::new();
     for (pattern, line) in &entry.files {
-        let found = files(&folder.join(pattern)).map_err(|reason| SceneError::Line {
+        let place = folder.join(pattern);
+        let is_named = place.is_file();
+        let found = files(&place).map_err(|reason| SceneError::Line {
             file: study.to_owned(),
             line: *line,
             message: format!("{pattern:?}: {reason}"),
         })?;
-        // a file that two patterns match is one record
-        paths.extend(found.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
+        for path in found {
+            // a file that two patterns match is one record
+            match listed.iter_mut().find(|file| file.path == path) {
+                Some(file) => file.is_named |= is_named,
+                None => listed.push(RecordFile { path, is_named }),
+            }
+        }
     }
-    Ok(paths)
+    Ok(listed)
 }
 
+/// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
 pub(crate) fn all_records(
     entry: &RecordsEntry,
-    paths: &[PathBuf],
+    files: &[RecordFile],
     study: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedRecord>, SceneError> {
     let short =
         |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
-    for path in paths {
+    for RecordFile { path, .. } in files {
         *uses.entry(short(path)).or_default() += 1;
     }
-    let mut records = Vec::with_capacity(paths.len() + entry.synthetic.len());
-    for path in paths {
+    let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
+    for RecordFile { path, is_named } in files {
         let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
         let record = read(path, &entry.options).map_err(refused)?;
+        if record.is_vertical && !is_named {
+            let path = path.display();
+            warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
+            continue;
+        }
         warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
         let motion = record.motion;
         let name = short(path);
         // files with equal names go by their whole paths
         let name = if uses[&name] > 1 { path.display().to_string() } else { name };
         records.push(NamedRecord { name, motion });
+    }
+    if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
+        let reason =
+            "records: all are vertical, and records shake walls sideways; name horizontal ones".into();
+        return Err(SceneError::File { file: study.to_owned(), reason });
     }
     for recipe in &entry.synthetic {
         let motion = recipe.motion().map_err(|error| SceneError::File {
@@ -295,7 +337,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
         let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
         glob::glob(pattern)?.collect::<Result<_, _>>()?
     };
-    found.retain(|path| visible(path));
+    found.retain(|path| visible(path) && !is_companion(path));
     found.sort();
     if found.is_empty() {
         return Err(

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Most threads. More would only wait for one another.
 const MOST_THREADS: usize = 512;
-/// Stack of each thread that works on runs \[bytes\]: what the main thread of Linux and macOS has. Unoptimised
-/// vectors of the record path need more than the 2 MiB that Rust gives.
+/// Stack of each thread that works on runs \[bytes\]: what the main thread of Linux and macOS has.
+/// Unoptimised vectors of the record path need more than the 2 MiB that Rust gives.
 pub const STACK: usize = 8 << 20;
 
 /// Returns the number of threads asked for, or one for each core.

@@ -1,10 +1,14 @@
 //! Arguments that several commands share: a scene, a record and how to read it.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
-use ground_motion::{Acceleration, GroundMotion, Record, RecordOptions, SyntheticMotion, read};
+use ground_motion::{
+    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, parse,
+    parse_channels, read,
+};
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 
@@ -23,7 +27,8 @@ pub(crate) struct SceneArguments {
 /// A record file and how to read it.
 #[derive(Debug, Args)]
 pub(crate) struct RecordArguments {
-    /// Accelerogram, in any format `wall record` reads; it replaces the motion of a scene
+    /// Accelerogram, in any format `wall record` reads, or `-` for standard input; it replaces the motion of
+    /// a scene
     #[arg(long, value_name = "FILE", group = "recorded")]
     pub(crate) record: Option<PathBuf>,
     #[command(flatten)]
@@ -54,7 +59,8 @@ pub(crate) struct RecordOptionsArguments {
     /// Channel of a record with several, by its number; `wall record` without it shows all
     #[arg(long, requires = "recorded")]
     channel: Option<String>,
-    /// Format of the record (at2, esm, knet, cosmos, csmip, smc, csv), if its content does not tell
+    /// Format of the record (at2, esm, knet, knet-csv, cosmos, csmip, smc, geonet, afad, cwa, unam, volume1,
+    /// csv, numbers), if its content does not tell
     #[arg(long, requires = "recorded")]
     format: Option<String>,
 }
@@ -117,6 +123,21 @@ impl SceneArguments {
     }
 }
 
+/// Replaces what Rust says of a text that is no number.
+pub(crate) fn in_plain_words(message: &str) -> String {
+    [
+        ("invalid float literal", "expected a number with a decimal point, such as 0.3"),
+        ("invalid digit found in string", "expected a whole number"),
+        ("cannot parse integer from empty string", "expected a whole number"),
+        ("cannot parse float from empty string", "expected a number"),
+        ("number too large to fit in target type", "expected a smaller number"),
+        ("number too small to fit in target type", "expected a larger number"),
+        ("number would be zero for non-zero type", "expected a number from 1 on"),
+    ]
+    .into_iter()
+    .fold(message.to_owned(), |text, (rust, plain)| text.replace(rust, plain))
+}
+
 /// Refuses the first option that is given, and says why.
 pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> Result<()> {
     match options.into_iter().find(|(_, is_given)| *is_given) {
@@ -125,20 +146,60 @@ pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> R
     }
 }
 
-/// Warns about accelerations of a scene's own motion that no record has.
+/// Warns about a scene's own motion: accelerations that no record has, and a vertical record.
 pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
+    let vertical = Warning::Vertical.to_string();
+    if scene.motion_notes.contains(&vertical) {
+        output::warn(&format!("{}: {vertical}", path.display()));
+    }
     if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {
         output::warn(&format!("{}: {warning}", path.display()));
     }
 }
 
-/// Reads a record, and warns about what its check finds.
+/// Reads a record, and warns about what its check finds; `-` is standard input.
 pub(crate) fn read_record(path: &Path, options: &RecordOptions) -> Result<Record> {
-    let record = read(path, options)?;
+    let record = match standard_input(path)? {
+        Some(bytes) => parse(STDIN, bytes, options)?,
+        None => read(path, options)?,
+    };
+    let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
     for warning in &record.check().warnings {
-        output::warn(&format!("{}: {warning}", path.display()));
+        output::warn(&format!("{name}: {warning}"));
     }
     Ok(record)
+}
+
+/// Reads every channel of a record, or the one that is asked for; `-` is standard input.
+pub(crate) fn read_channels(path: &Path, options: &RecordOptions) -> Result<Vec<Record>> {
+    Ok(match standard_input(path)? {
+        Some(bytes) => parse_channels(STDIN, bytes, options)?,
+        None => ground_motion::read_channels(path, options)?,
+    })
+}
+
+/// Name of standard input in messages.
+const STDIN: &str = "standard input";
+
+/// Reads standard input, up to the size of the largest record, if `path` is `-`.
+fn standard_input(path: &Path) -> Result<Option<Vec<u8>>> {
+    if path.as_os_str() != "-" {
+        return Ok(None);
+    }
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).context(STDIN)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        bail!("{STDIN}: expected a record of at most {MAX_FILE_BYTES} bytes, found more; shorten it");
+    }
+    Ok(Some(bytes))
+}
+
+/// Returns the name of a record's file without its folder.
+pub(crate) fn short_name(path: &Path) -> String {
+    if path.as_os_str() == "-" {
+        return STDIN.into();
+    }
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 impl RecordArguments {
@@ -174,7 +235,7 @@ impl RecordArguments {
     /// Reads a record and describes it.
     pub(crate) fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
         let record = read_record(path, &self.options.options()?)?;
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = short_name(path);
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }
 }

@@ -14,6 +14,9 @@ use rocking_wall::response::Response;
 use rocking_wall::scene::{Floors, Scene, StoreyTable, SupportsTable};
 use rocking_wall::simulation::Excitation;
 
+#[path = "../../../../tests/it/broken.rs"]
+mod broken;
+
 const STOREYS: [(f64, f64); 3] = [(2.0e4, 4.0e7), (2.0e4, 3.0e7), (1.5e4, 2.0e7)];
 
 /// Makes a folder for the files of a test.
@@ -130,4 +133,32 @@ fn a_light_wall_changes_its_floor_by_the_mass_ratio() {
         let halved = pair[1] / pair[0];
         assert!((0.45..0.55).contains(&halved), "{differences:?} {shares:?}");
     }
+}
+
+/// Every line of a building, broken in every way: no message speaks in words of the reader.
+#[test]
+fn broken_files_are_refused_in_plain_words() {
+    let text = "title = \"a\"\nstop_time = 10.0\nstep = 0.01\nexpose_ground = false\n[[floor]]\n\
+                name = \"one\"\n\
+                on = \"ground\"\nmass = 2e4\nstiffness = 4e7\nhysteresis = \"none\"\n[[wall]]\nname = \"p\"\n\
+                scene = \"p.toml\"\nbottom = \"ground\"\ntop = \"one\"\ndrift = true\n";
+    let read = |text: &str| Building::parse(Path::new("b.toml"), text);
+    read(text).unwrap();
+    let texts = broken::broken(text);
+    let mut refusals = 0;
+    for text in &texts {
+        if let Err(error) = read(text) {
+            refusals += 1;
+            let message = error.to_string();
+            // a building without floors has no line
+            if !message.contains("at least one [[floor]]") {
+                broken::assert_plain(&message, text);
+            }
+        }
+    }
+    assert!(2 * refusals > texts.len(), "{refusals} of {}", texts.len());
+    let error = read(&text.replace("drift = true", "drift = \"yes\"")).unwrap_err().to_string();
+    assert_eq!(error, "b.toml, line 16: drift = \"yes\": expected true or false");
+    let error = read(&text.replace("mass = 2e4", "mass = 20,5")).unwrap_err().to_string();
+    assert!(error.starts_with("b.toml, line 8: mass = 20,5: a number has a decimal point"), "{error}");
 }

@@ -66,8 +66,8 @@ impl Name {
     }
 }
 
-/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`. The g of
-/// `a_g` is none: it may mean the ground.
+/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`. The g
+/// of `a_g` is none: it may mean the ground.
 fn behind(name: &str) -> Option<(usize, &str)> {
     let at = name.rfind(',').or_else(|| name.rfind(['_', ' ']).filter(|at| name[*at..].contains('/')))?;
     let unit = name[at + 1..].trim();

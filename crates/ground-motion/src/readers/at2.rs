@@ -16,9 +16,10 @@
 use crate::error::{Fault, excerpt};
 use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
-use crate::parsed::{Parsed, is_vertical};
+use crate::parsed::Parsed;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
+use crate::vertical::is_vertical;
 
 /// The line with NPTS is searched among this many lines that are not blank.
 const HEADER_LINES: usize = 50;
@@ -55,11 +56,14 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let unit = unit(header(), count_line, options)?;
 
     let mut parsed = Parsed::new(step, unit, count_line);
+    let mut line_start = 0;
     for (number, line) in rest {
+        line_start = parsed.samples.len();
         for word in line.split_ascii_whitespace().flat_map(|word| Touching { rest: word }) {
             parsed.push(real(word), number, word, "a finite number")?;
         }
     }
+    parsed.trim_padding(count, line_start);
     parsed.check_count(count, &format!("NPTS on line {count_line}"))?;
     // event, date, station, component, and in old files the station's number in brackets
     let place = header().nth(1).and_then(|(_, line)| line.rsplit_once(", "));
@@ -118,8 +122,8 @@ fn unit<'a>(
 }
 
 /// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
-struct Touching<'a> {
-    rest: &'a str,
+pub(super) struct Touching<'a> {
+    pub(super) rest: &'a str,
 }
 
 impl<'a> Iterator for Touching<'a> {

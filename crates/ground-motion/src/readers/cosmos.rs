@@ -43,6 +43,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         // `Sta Chan   1: 90 Deg (Rcrdr Chan  1) Location: …`
         name: |line| after(line, "STA CHAN")?.split('(').next(),
         closing: ["END-OF-DATA", "`End-of-data`"],
+        needs_closing: false,
         data: [
             "acceleration data, `42000 acceleration pts, approx 210 secs, units=cm/sec2(04),Format=(1E15.6)`",
             "use the whole acceleration file of this record",

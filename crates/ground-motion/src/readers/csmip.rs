@@ -42,6 +42,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         scale,
         name: |line| after(line, "CHAN").filter(|_| find(line, "CHAN") == Some(0)),
         closing: ["/&", "`/& End of data for channel`"],
+        needs_closing: true,
         data: [
             "a heading `12000 points of accel data equally spaced at .005 sec, in cm/sec2. (8f10.6)`",
             "use the corrected data (volume 2) of this record",

@@ -1,6 +1,6 @@
 //! ESM and ITACA records in the DYNA ASCII form (`.ASC`).
 //!
-//! 64 header lines `KEY: value`, then one sample a line:
+//! Header lines `KEY: value`, then one sample a line:
 //!
 //! ```text
 //! EVENT_NAME: SOMEWHERE
@@ -14,21 +14,29 @@
 //! USER5:
 //! 0.001234
 //! ```
+//!
+//! ESM and ITACA have 64 header lines, ITACA before DYNA 1.2 has 55 or 43, AFAD of Türkiye 63, or a title
+//! above.
 
-use crate::error::Fault;
+use std::iter::Peekable;
+
+use crate::error::{Fault, excerpt};
 use crate::fields::{Line, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
+use crate::vertical::is_vertical;
 
-const HEADER_LINES: usize = 64;
+/// Most lines of a header, and of the titles above it.
+const HEADER_LINES: usize = 80;
+const TITLE_LINES: usize = 3;
 
 /// Tolerance of the stated peak, which may be rounded or come from samples with more digits.
 const PEAK_TOLERANCE: f64 = 0.01;
 
 /// Returns whether the first lines are such a header.
 pub(super) fn recognises(head: &[&str]) -> bool {
-    head.first().is_some_and(|line| line.starts_with("EVENT_NAME:"))
+    head.iter().take(1 + TITLE_LINES).any(|line| line.starts_with("EVENT_NAME:"))
         || head.iter().any(|line| line.starts_with("SAMPLING_INTERVAL_S:"))
 }
 
@@ -36,26 +44,27 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 struct Header<'a>(Vec<(usize, &'a str, &'a str)>);
 
 impl<'a> Header<'a> {
-    fn read(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<Self, Fault> {
-        let mut entries = Vec::with_capacity(HEADER_LINES);
-        for (number, line) in lines.take(HEADER_LINES) {
-            let Some((key, value)) = line.split_once(':') else {
-                let expected = format!("{HEADER_LINES} header lines `KEY: value`, {} so far", entries.len());
-                return Err(Fault::excerpt(
-                    number,
-                    expected,
-                    line,
-                    "check that this is an ESM or ITACA file",
-                ));
-            };
-            entries.push((number, key.trim(), value.trim()));
+    /// Reads the lines `KEY: value` that precede the samples, below a title if there is one.
+    fn read(lines: &mut Peekable<impl Iterator<Item = Line<'a>>>) -> Result<Self, Fault> {
+        let mut entries = Vec::new();
+        let mut titles = 0;
+        while let Some(&(number, line)) = lines.peek() {
+            match line.split_once(':') {
+                Some((key, value)) if entries.len() < HEADER_LINES => {
+                    entries.push((number, key.trim(), value.trim()));
+                }
+                None if entries.is_empty() && titles < TITLE_LINES && real(line).is_none() => titles += 1,
+                _ => break,
+            }
+            lines.next();
         }
-        if entries.len() < HEADER_LINES {
-            let line = entries.last().map_or(1, |(number, ..)| *number);
-            let expected = format!("{HEADER_LINES} header lines `KEY: value`");
-            let found =
-                if entries.is_empty() { "an empty file".to_owned() } else { entries.len().to_string() };
-            return Err(Fault::new(line, expected, found, "check that this is a whole ESM or ITACA file"));
+        if entries.is_empty() {
+            let (line, found) = match lines.peek() {
+                Some(&(number, line)) => (number, excerpt(line)),
+                None => (1, "none up to the end".to_owned()),
+            };
+            let remedy = "check that this is an ESM or ITACA file";
+            return Err(Fault::new(line, "header lines `KEY: value`", found, remedy));
         }
         Ok(Self(entries))
     }
@@ -67,7 +76,8 @@ impl<'a> Header<'a> {
 
     fn get(&self, key: &str) -> Result<(usize, &'a str), Fault> {
         self.optional(key).ok_or_else(|| {
-            let line = self.0.iter().find(|(_, name, _)| *name == key).map_or(HEADER_LINES, |entry| entry.0);
+            let last = self.0.last().map_or(1, |entry| entry.0);
+            let line = self.0.iter().find(|(_, name, _)| *name == key).map_or(last, |entry| entry.0);
             Fault::new(line, format!("a value for {key}"), "none", "complete the header")
         })
     }
@@ -83,10 +93,14 @@ impl<'a> Header<'a> {
 
 /// Reads the text of an ESM or ITACA file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
-    let mut rest = lines(text);
+    let mut rest = lines(text).peekable();
     let header = Header::read(&mut rest)?;
-    let quantity =
-        header.optional("DATA_TYPE").filter(|(_, value)| !value.eq_ignore_ascii_case("ACCELERATION"));
+    // before DYNA 1.0: `UNPROCESSED ACCELERATION`
+    let is_acceleration = |value: &str| {
+        let quantity = value.rsplit_once("PROCESSED ").map_or(value, |(_, quantity)| quantity);
+        quantity.eq_ignore_ascii_case("ACCELERATION")
+    };
+    let quantity = header.optional("DATA_TYPE").filter(|(_, value)| !is_acceleration(value));
     if let Some((line, value)) = quantity {
         let remedy = "use the acceleration file of this record";
         return Err(Fault::excerpt(line, "an acceleration record", value, remedy));
@@ -105,9 +119,11 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         parsed.push(real(line), number, line, "one finite number")?;
     }
     parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
-    // the last letter of a stream is its direction: HNZ
-    parsed.is_vertical = header.optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
-    let described = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM"];
+    // the last letter of a stream is its direction, HNZ; before DYNA 1.0 it is a component, UP
+    let stream = header.optional("STREAM").is_some_and(|(_, stream)| stream.ends_with(['Z', 'z']));
+    parsed.is_vertical =
+        stream || header.optional("COMPONENT").is_some_and(|(_, component)| is_vertical(component));
+    let described = ["EVENT_NAME", "EVENT_DATE_YYYYMMDD", "STATION_NAME", "STREAM", "COMPONENT"];
     parsed.keep_header(described.iter().filter_map(|key| Some(header.optional(key)?.1)));
     if header.optional("PGA_CM/S^2").is_some() {
         let (line, peak) = header.number("PGA_CM/S^2", |_| true)?;

@@ -3,13 +3,22 @@
 //! A reader is a module with `parse(text, options)` and, if its format can be recognised by the content,
 //! `recognises(head)`.
 
+mod afad;
 mod at2;
+mod components;
 mod cosmos;
 mod csmip;
 mod csv;
+mod cwb;
 mod esm;
+mod geonet;
 mod knet;
+mod knet_csv;
+mod numbers;
 mod smc;
+mod unam;
+mod unread;
+mod volume_1;
 mod volume_2;
 
 pub use csv::CSV_HEADER;
@@ -27,14 +36,22 @@ const HEAD_LINES: usize = 80;
 type Recognises = fn(&[&str]) -> bool;
 
 impl Format {
-    /// Finds the format of a text by its content, or else by the ending of the file's name.
-    pub(crate) fn of(name: &str, text: &str) -> Self {
+    /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that
+    /// is known and not read.
+    pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
-        // CSMIP comes after COSMOS and SMC, whose first lines may have the same words; AT2, known by two
-        // words anywhere in its header, comes last: the title of a table may have them too.
-        let known: [(Self, Recognises); 7] = [
+        unread::refuse(&head)?;
+        // CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose first lines may have the same words; AT2,
+        // known by two words anywhere in its header, comes after tables, whose title may have them too.
+        let known: [(Self, Recognises); 13] = [
             (Self::Esm, esm::recognises),
+            (Self::Geonet, geonet::recognises),
+            (Self::Volume1, volume_1::recognises),
             (Self::Knet, knet::recognises),
+            (Self::KnetCsv, knet_csv::recognises),
+            (Self::Afad, afad::recognises),
+            (Self::Cwa, cwb::recognises),
+            (Self::Unam, unam::recognises),
             (Self::Cosmos, cosmos::recognises),
             (Self::Smc, smc::recognises),
             (Self::Csmip, csmip::recognises),
@@ -43,7 +60,9 @@ impl Format {
         ];
         let by_content =
             known.into_iter().find(|(_, recognises)| recognises(&head)).map(|(format, _)| format);
-        by_content.or_else(|| Self::by_ending(name)).unwrap_or(Self::Csv)
+        let has_step = options.step.is_some();
+        let numbers = || numbers::recognises(&head, has_step).then_some(Self::Numbers);
+        Ok(by_content.or_else(numbers).or_else(|| Self::by_ending(name)).unwrap_or(Self::Csv))
     }
 
     /// Reads every channel of a text in this format.
@@ -54,6 +73,13 @@ impl Format {
             Self::Knet => knet::parse,
             Self::Smc => smc::parse,
             Self::Csv => csv::parse,
+            Self::Numbers => numbers::parse,
+            Self::Geonet => return geonet::parse(text, options),
+            Self::Volume1 => return volume_1::parse(text, options),
+            Self::KnetCsv => return knet_csv::parse(text, options),
+            Self::Afad => return afad::parse(text, options),
+            Self::Cwa => return cwb::parse(text, options),
+            Self::Unam => return unam::parse(text, options),
             Self::Cosmos => return cosmos::parse(text, options),
             Self::Csmip => return csmip::parse(text, options),
         };

@@ -14,11 +14,12 @@
 //! Integer 16 is the number of comment lines, integer 17 that of samples, real 2 the samples a second, reals
 //! 30 and 32 the largest and the smallest sample.
 
-use crate::error::{DAMAGED, Fault};
+use crate::error::{DAMAGED, Fault, UNEVEN};
 use crate::fields::{Layout, Line, after, find, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
-use crate::parsed::{Parsed, is_vertical};
+use crate::parsed::Parsed;
+use crate::vertical::is_vertical;
 
 const TEXT_LINES: usize = 11;
 const INTEGERS: (usize, Layout) = (48, Layout { per_line: 8, width: 10 });
@@ -63,6 +64,10 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let (reals, _) = layout.numbers(&mut rest, count, text_end)?;
     let frequency = reals.get(1).copied().filter(|frequency| *frequency > 0.0 && *frequency < UNKNOWN);
     let Some(frequency) = frequency else {
+        if find(first, "UNCORRECTED").is_some() {
+            let expected = "evenly spaced samples and their number a second as real 2 of the header";
+            return Err(Fault::new(reals_line, expected, "pairs of times and accelerations", UNEVEN));
+        }
         let expected = "the samples a second as real 2 of the header";
         return Err(Fault::new(reals_line, expected, "none", "complete the header"));
     };

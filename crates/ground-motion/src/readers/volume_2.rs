@@ -3,11 +3,13 @@
 
 use std::iter::Peekable;
 
+use crate::check::Warning;
 use crate::error::{CUT_SHORT, DAMAGED, Fault, excerpt};
 use crate::fields::{Layout, Line, after, find, leading_number, leading_real, untrimmed_lines};
 use crate::options::RecordOptions;
-use crate::parsed::{Parsed, is_vertical};
+use crate::parsed::Parsed;
 use crate::unit::Unit;
+use crate::vertical::is_vertical;
 
 /// Longest name of a channel: enough for every name, short enough for a list of them.
 const NAME_CHARACTERS: usize = 40;
@@ -29,6 +31,8 @@ pub(super) struct Dialect {
     pub(super) name: fn(&str) -> Option<&str>,
     /// Start of the line that closes a channel, and that line for messages.
     pub(super) closing: [&'static str; 2],
+    /// Whether a file without that line is refused, although it has all stated numbers.
+    pub(super) needs_closing: bool,
     /// What is missing from a file without accelerations, and the remedy.
     pub(super) data: [&'static str; 2],
 }
@@ -63,15 +67,17 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
     let mut channels: Vec<Parsed> = Vec::new();
     let mut channel = Channel::default();
     let mut last = (1, "");
-    let (mut other, mut open) = (None, false);
+    let (mut other, mut open) = (None, None);
+    // version 1.20 of COSMOS may close a channel as CSMIP does
+    let is_closing = |line| [dialect.closing[0], "/&"].iter().any(|start| find(line, start) == Some(0));
     while let Some((number, line)) = rest.next() {
         last = (number, line);
-        if line.starts_with('|') {
+        if line.trim_start().starts_with('|') {
             // a comment
         } else if find(line, REALS).is_some() {
             channel.read_reals(last, &mut rest)?;
         } else if (dialect.is_heading)(line) {
-            open = true;
+            open = Some(layout_of(last, dialect)?.width);
             match channel.read_block(last, &mut rest, options, dialect)? {
                 Some(mut parsed) => {
                     parsed.channel = Some(channel.label(channels.len()));
@@ -79,9 +85,9 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
                 }
                 None => other = Some(last),
             }
-        } else if find(line, dialect.closing[0]) == Some(0) {
+        } else if is_closing(line) {
             channel = Channel::default();
-            open = false;
+            open = None;
         } else {
             channel.read_text(line.trim(), dialect);
         }
@@ -95,9 +101,14 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
         };
         return Err(Fault::new(number, dialect.data[0], found, dialect.data[1]));
     }
-    if open {
-        let expected = format!("the closing line {} of the last channel", dialect.closing[1]);
-        return Err(Fault::new(last.0, expected, "the end of the file", CUT_SHORT));
+    if let (Some(width), Some(channel)) = (open, channels.last_mut()) {
+        // the count is stated, so that nothing but the end of the last number may be missing
+        let is_whole = untrimmed_lines(text).last().is_some_and(|(_, line)| line.len() % width == 0);
+        if dialect.needs_closing || !is_whole {
+            let expected = format!("the closing line {} of the last channel", dialect.closing[1]);
+            return Err(Fault::new(last.0, expected, "the end of the file", CUT_SHORT));
+        }
+        channel.warnings.push(Warning::Unclosed);
     }
     Ok(channels)
 }
@@ -137,8 +148,7 @@ impl<'a> Channel<'a> {
     ) -> Result<Option<Parsed>, Fault> {
         let (number, line) = heading;
         let count = leading_number(line).0.parse().map_err(|_| in_heading(heading, "a number of points"))?;
-        let layout = Layout::stated_in(line).or(dialect.layout);
-        let layout = layout.ok_or_else(|| in_heading(heading, "a format such as `Format=(8F10.6)`"))?;
+        let layout = layout_of(heading, dialect)?;
         if find(line, dialect.acceleration).is_none() {
             layout.numbers(rest, count, number)?;
             layout.check_ended(rest.peek().copied(), count, number)?;
@@ -164,6 +174,12 @@ impl<'a> Channel<'a> {
             _ => label,
         }
     }
+}
+
+/// Finds the format of the numbers below a heading.
+fn layout_of(heading: Line<'_>, dialect: &Dialect) -> Result<Layout, Fault> {
+    let layout = Layout::stated_in(heading.1).or(dialect.layout);
+    layout.ok_or_else(|| in_heading(heading, "a format such as `Format=(8F10.6)`"))
 }
 
 /// Makes a fault in a heading.

@@ -12,6 +12,7 @@ mod damaged_records;
 mod inputs;
 mod motion;
 mod pulse;
+mod record_agencies;
 mod record_at2;
 mod record_csv;
 mod record_file;

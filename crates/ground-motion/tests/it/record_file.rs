@@ -3,7 +3,9 @@
 use std::fs::{self, File};
 use std::path::PathBuf;
 
-use ground_motion::{Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, parse, read};
+use ground_motion::{
+    Format, MAX_FILE_BYTES, RecordOptions, SyntheticMotion, Unit, Warning, is_companion, parse, read,
+};
 use proptest::prelude::*;
 
 use crate::assert_mentions;
@@ -68,8 +70,8 @@ fn refuses_noise_at_its_first_byte() {
 #[test]
 fn refuses_two_gigabytes_without_reading_them() {
     // sparse files: they take no space and are not read
-    for name in ["large.csv", "large.AT2", "large.ASC", "large.EW", "large.V2c", "large.V2", "large.smc"] {
-        let path = file(name);
+    for ending in ["csv", "AT2", "ASC", "EW", "V2c", "V2", "smc", "V1A", "V2A", "v1", "dat"] {
+        let path = file(&format!("large.{ending}"));
         File::create(&path).unwrap().set_len(2 << 30).unwrap();
         assert_refused(&path, &["at most 67108864 bytes", "found 2147483648"]);
         fs::remove_file(&path).unwrap();
@@ -132,10 +134,71 @@ fn headers_state_vertical_directions() {
         (Format::Cosmos, specimen::cosmos, "90 Deg", "Up"),
         (Format::Csmip, specimen::csmip, "90 Deg", "Down"),
         (Format::Smc, specimen::smc, "*\n", "a hill component=   UP\n"),
+        (Format::Esm, specimen::itaca, "COMPONENT: WE", "COMPONENT: UP"),
+        (Format::Geonet, specimen::geonet, "Component N10E", "Component Up"),
+        (Format::Afad, specimen::afad, "       N-S\n", "       U-D\n"),
+        (Format::Cwa, specimen::cwa, "Time N(+)", "Time U(+)"),
+        (Format::Unam, specimen::unam, ": /N00E", ": /V"),
+        (Format::Volume1, specimen::renadic, "1: L  ", "1: V  "),
+        (Format::Volume1, specimen::bhrc, "COMP L1", "COMP V2"),
+        (Format::KnetCsv, specimen::knet_csv, "N-S(gal)", "U-D(gal)"),
     ] {
         let text = write(&SAMPLES);
         assert!(!is_vertical(&text), "{format:?}");
         let text = text.replacen(level, vertical, 1);
         assert!(is_vertical(&text), "{format:?}: {text:.300}");
     }
+}
+
+/// AT2, tables and plain numbers may leave the direction to the name of the file or of the column.
+#[test]
+fn names_state_vertical_directions() {
+    let named = |name: &str, text: &str, column: Option<&str>| {
+        let options = RecordOptions { column: column.map(str::to_owned), ..stated() };
+        let record = parse(name, text.as_bytes().to_vec(), &options).unwrap();
+        let is_found = record.check().warnings.contains(&Warning::Vertical);
+        assert_eq!(record.is_vertical, is_found, "{name}");
+        is_found
+    };
+    let at2 = "UNITS OF G\nNPTS= 2, DT= .01 SEC\n0.1 0.2\n";
+    for name in ["a/RSN6_IMPVALL.I_I-ELC-UP.AT2", "CHY035-V.at2", "NAS_DWN.AT2", "X.ABC..HNZ.AT2", "U-D.AT2"]
+    {
+        assert!(named(name, at2, None), "{name}");
+    }
+    for name in ["UP/RSN6_IMPVALL.I_I-ELC180.AT2", "GROUP.AT2", "HNE.AT2", "CHAZ.AT2", "x"] {
+        assert!(!named(name, at2, None), "{name}");
+    }
+    let column = "0.1\n0.2\n";
+    assert!(named("station_UD.csv", column, None) && named("IV.X.HNZ.txt", column, None));
+    // a scaled record, a velocity
+    assert!(!named("scaled-up.csv", column, None) && !named("record_v.csv", column, None));
+    let table = "time,N-S,U-D\n0,0.1,0.2\n0.01,0.3,0.4\n";
+    assert!(named("x.csv", table, Some("U-D")) && !named("x.csv", table, Some("N-S")));
+}
+
+/// The folders of OQ-VMTK have the times of `acc_3.csv` in `dts_3.csv`, beside it or in a folder beside.
+#[test]
+fn times_beside_a_record_give_its_step() {
+    let folder = file("oq_vmtk");
+    for inner in ["acc", "dts", "both"] {
+        fs::create_dir_all(folder.join(inner)).unwrap();
+    }
+    let stated = RecordOptions { unit: Some(Unit::StandardGravity), ..RecordOptions::default() };
+    let times = "0.02\n0.039999999999999994\n0.06\n0.07999999999999999\n";
+    for [record, step] in [["acc/acc_3.csv", "dts/dts_3.csv"], ["both/acc_3.csv", "both/dts_3.csv"]] {
+        let [record, step] = [record, step].map(|name| folder.join(name));
+        fs::write(&record, "0.1\n-0.2\n0.3\n0.1\n").unwrap();
+        fs::write(&step, times).unwrap();
+        assert!(is_companion(&step) && !is_companion(&record));
+        assert_eq!(read(&record, &stated).unwrap().motion.step(), 0.02);
+        // a stated step counts
+        let other = RecordOptions { step: Some(0.01), ..stated.clone() };
+        assert_eq!(read(&record, &other).unwrap().motion.step(), 0.01);
+        fs::write(&step, "0.005\n").unwrap();
+        assert_eq!(read(&record, &stated).unwrap().motion.step(), 0.005);
+        fs::write(&step, "0.00\n0.01\n0.04\n").unwrap();
+        let error = read(&record, &stated).unwrap_err().to_string();
+        assert_mentions(&error, &["dts_3.csv, line 2", "uniform times, here 0.02 s", "--record-step"]);
+    }
+    assert!(!is_companion(&folder.join("dts/dts_4.csv")));
 }

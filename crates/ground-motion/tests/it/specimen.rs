@@ -17,7 +17,7 @@ pub(crate) const STEP: f64 = 0.01;
 pub(crate) type Writer = fn(&[f64]) -> String;
 
 /// Every format with its writers.
-pub(crate) const ALL: [(Format, Writer); 11] = [
+pub(crate) const ALL: [(Format, Writer); 20] = [
     (Format::At2, at2),
     (Format::Esm, esm),
     (Format::Knet, knet),
@@ -29,12 +29,31 @@ pub(crate) const ALL: [(Format, Writer); 11] = [
     (Format::Csv, tabs),
     (Format::Csv, semicolons),
     (Format::Csv, with_units),
+    (Format::Esm, itaca),
+    (Format::Geonet, geonet_raw),
+    (Format::Geonet, geonet),
+    (Format::Afad, afad),
+    (Format::Cwa, cwa),
+    (Format::Unam, unam),
+    (Format::Volume1, renadic),
+    (Format::Volume1, bhrc),
+    (Format::KnetCsv, knet_csv),
 ];
 
 /// What has to be stated to read a format.
 pub(crate) fn options(format: Format) -> RecordOptions {
     let unit = (format == Format::Csv).then_some(Unit::CentimetrePerSecondSquared);
     RecordOptions { unit, ..RecordOptions::default() }
+}
+
+/// The unit in which the specimens of a format are written.
+pub(crate) fn unit(format: Format) -> Unit {
+    match format {
+        Format::Geonet => Unit::MillimetrePerSecondSquared,
+        // a tenth of it
+        Format::Volume1 => Unit::StandardGravity,
+        _ => Unit::CentimetrePerSecondSquared,
+    }
 }
 
 /// Numbers in fixed columns, so many a line.
@@ -199,6 +218,145 @@ pub(crate) fn semicolons(samples: &[f64]) -> String {
 /// A table whose header line states the units.
 pub(crate) fn with_units(samples: &[f64]) -> String {
     "t [s],a [cm/s2]\n".to_owned() + &rows(samples, |time, a| format!("{time:.3},{a}"))
+}
+
+/// ITACA before DYNA 1.0, below a title: 43 lines, and a component in place of a stream.
+pub(crate) fn itaca(samples: &[f64]) -> String {
+    let text = esm(samples).replace("STREAM: HNE", "COMPONENT: WE");
+    let text = text.replace("DATA_TYPE: ACC", "DATA_TYPE: UNPROCESSED ACC");
+    let (filler, whole) = ("USER", text.lines());
+    let kept = whole.filter(|line| !line.starts_with(filler) || line[filler.len()..] < *"43");
+    "A title of its own\n".to_owned() + &kept.map(|line| line.to_owned() + "\n").collect::<String>()
+}
+
+/// A component in mm/s², with as many velocities and displacements if it is corrected.
+fn geonet_component(samples: &[f64], is_raw: bool) -> String {
+    let count = samples.len() as f64;
+    let (mut integers, mut reals) = ([0.0; 40], [0.0; 60]);
+    reals[25] = STEP;
+    let rows = |unit: f64| columns(samples, 10, |a| format!("{:8.2}", a * unit));
+    let (title, blocks) = if is_raw {
+        (integers[30], reals[30]) = (count, 10.0 * peak(samples));
+        ("Unc", rows(10.0))
+    } else {
+        for place in [33, 34, 35] {
+            integers[place] = count;
+        }
+        reals[35] = 10.0 * peak(samples);
+        ("C", rows(10.0) + &rows(0.1) + &rows(0.01))
+    };
+    format!(
+        "{title}orrected accelerogram A_TEST_20 GNS Science\nA test on a hill\n\n\
+         Component N10E  An axis\n{}{}{}",
+        columns(&integers, 10, |value| format!("{value:8.0}")),
+        columns(&reals, 10, |value| format!("{value:8.2}")),
+        blocks
+    )
+}
+
+pub(crate) fn geonet(samples: &[f64]) -> String {
+    geonet_component(samples, false)
+}
+
+pub(crate) fn geonet_raw(samples: &[f64]) -> String {
+    geonet_component(samples, true)
+}
+
+pub(crate) fn afad(samples: &[f64]) -> String {
+    format!(
+        "STRONG GROUND MOTION RECORDS OF TURKIYE\nPLACE                   : A TEST\n\
+         NUMBER OF DATA          : {}\nSAMPLING INTERVAL (sec) : 0.01\n\
+         RAW PGA VALUES (gal)    : (N-S) {:.3}\nCopyright NOBODY\n       N-S\n{}",
+        samples.len(),
+        peak(samples).abs(),
+        columns(samples, 1, |a| format!("{a:15.6}"))
+    )
+}
+
+pub(crate) fn cwa(samples: &[f64]) -> String {
+    let largest = samples.iter().copied().fold(0.0, f64::max);
+    let smallest = samples.iter().copied().fold(0.0, f64::min);
+    format!(
+        "#StationCode: TST\n#RecordLength(sec):  {:.3}\n#SampleRate(Hz): 100\n\
+         #AmplitudeUnit:  gal. DCoffset(corr)\n#AmplitudeMAX. N:    {largest:.3}~   {smallest:.3}\n\
+         #DataSequence: Time N(+)\n#Data: 2F10.3\n{}",
+        samples.len() as f64 * STEP,
+        rows(samples, |time, a| format!("{time:10.3}{a:10.3}"))
+    )
+}
+
+pub(crate) fn unam(samples: &[f64]) -> String {
+    format!(
+        "*****\n  INSTITUTO DE INGENIERIA, UNAM\nARCHIVO ESTANDAR DE ACELERACION:\n\
+         NOMBRE DE LA ESTACION                  : A TEST: THE HILL\n\
+         ORIENTACION C1-C6 (rumbo;orientacion)  : /N00E\n\
+         ORIENTACION C7-C12 (rumbo;orientacion) : \n\
+         INTERVALO DE MUESTREO, C1-C6 (s)       : /0.01\n\
+         NUM. TOTAL DE MUESTRAS, C1-C6          : /{}\n\
+         ACEL. MAX.(Gal), C1-C6                 : /{:.2}\n\
+         ACEL. MAX., C1-C6, EN LA MUESTRA       : /4\n\
+         UNIDADES DE LOS DATOS                  : Gal (cm/s/s)\n\
+         FORMATO DATOS (FORTRAN,10 campos/dato) : 1F10.4\n\n\
+         DATOS DE ACELERACION:\n{RULER}   CANAL-1\n      N00E\n{RULER}{}",
+        samples.len(),
+        peak(samples),
+        columns(samples, 1, |a| format!("{a:10.4}"))
+    )
+}
+
+const RULER: &str = "---------+---------+---------+\n";
+
+/// 100 integers, 50 reals and what follows them, up to the closing line; `digits` of a number in g/10.
+fn volume_1(text: &str, numbers: &[f64], digits: impl Fn(f64) -> String) -> String {
+    format!(
+        "{text}{}{}{}/&  ----------  END OF DATA FOR CHANNEL 1  ----------\n",
+        columns(&[0.0; 100], 16, |value| format!("{value:5.0}")),
+        columns(&[0.0; 50], 8, |value| format!("{value:10.3}")),
+        columns(numbers, 10, digits)
+    )
+}
+
+/// The scale of cm/s² in g/10.
+const TENTHS: f64 = 98.0665;
+
+/// Times and accelerations in pairs.
+pub(crate) fn renadic(samples: &[f64]) -> String {
+    let text = format!(
+        "UNCORRECTED ACCELEROGRAM DATA\nA TEST\nCHAN  1: L        (STA CHN:  1)\n\
+         UNIVERSIDAD DE CHILE - RENADIC\nNO. OF POINTS = {:6}  RECORD LENGTH = {:.3} SEC\n\
+         UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  =  {:.9} G, AT  0.030 SEC\n",
+        samples.len(),
+        samples.len() as f64 * STEP,
+        peak(samples).abs() / TENTHS / 10.0
+    );
+    let pairs: Vec<f64> =
+        samples.iter().enumerate().flat_map(|(index, a)| [index as f64 * STEP, a / TENTHS]).collect();
+    volume_1(&text, &pairs, |value| format!("{value:17.12}"))
+}
+
+/// Accelerations alone.
+pub(crate) fn bhrc(samples: &[f64]) -> String {
+    let text = format!(
+        "* VOL1DS FILE:  9999/01\nL\nCOMP L1\nNO. OF POINTS = {:6}      DURATION = {:.3}\n\
+         UNITS ARE SECONDS AND G/10\n",
+        samples.len(),
+        samples.len() as f64 * STEP
+    );
+    volume_1(&text, samples, |value| format!("{:20.12E}", value / TENTHS))
+}
+
+pub(crate) fn knet_csv(samples: &[f64]) -> String {
+    let rows = rows(samples, |time, a| format!("2001/01/01 00:00:{:05.2},{time:.2},{a:.3}", 15.0 + time));
+    format!(
+        "#K-NET CSV\n#SamplingFrequency(Hz)\n#100\n#DurationTime(s)\n#{:.2}\n\
+         #Time,RelativeTime(s),N-S(gal)\n{rows}",
+        samples.len() as f64 * STEP
+    )
+}
+
+/// Five numbers a line and nothing else.
+pub(crate) fn numbers(samples: &[f64]) -> String {
+    columns(samples, 5, |a| format!(" {a:.3}"))
 }
 
 fn rows(samples: &[f64], row: impl Fn(f64, f64) -> String) -> String {

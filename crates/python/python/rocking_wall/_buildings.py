@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._records import Record, motion_of
+from ._records import Record, motion_of, scaled
 from ._responses import Instant
 from ._tables import Table
 
@@ -164,7 +164,7 @@ class Building:
         Raises `ValueError` for a tail or tolerance out of range, and `RuntimeError` where no step is short
         enough.
         """
-        ground = _native.scaled(motion_of(record), scale)
+        ground = scaled(motion_of(record), scale, "scale")
         values: dict[str, Any] = self._native.run(ground, tail, tolerance)
         floors = {name: FloorResponse(**floor) for name, floor in values.pop("floors").items()}
         walls = {name: BuildingWallResponse(**wall) for name, wall in values.pop("walls").items()}

@@ -86,6 +86,36 @@ class Record:
         for attribute, value in (("dt", dt), ("a", a), ("name", name), ("warnings", tuple(warnings))):
             object.__setattr__(self, attribute, value)
 
+    @classmethod
+    def from_trace(cls, trace: Any, unit: Unit | None = None, *, name: str | None = None) -> Record:
+        """Makes a record of an ObsPy trace, or of anything with `data` and `stats.delta` [s].
+
+        A trace states no `unit`: give that of its data, once the response of the instrument is removed. A
+        vertical channel (`HNZ`) is warned of.
+
+        >>> from types import SimpleNamespace
+        >>> trace = SimpleNamespace(data=[0.0, 12.5, -3.0], stats=SimpleNamespace(delta=0.01, channel="HNE"))
+        >>> Record.from_trace(trace, "cm/s2")
+        Record('HNE', 3 samples of 0.01 s, PGA 0.125 m/s²)
+        """
+        data, stats = getattr(trace, "data", None), getattr(trace, "stats", None)
+        delta = getattr(stats, "delta", None)
+        if data is None or delta is None:
+            raise TypeError(
+                f"expected a trace with data and stats.delta, found a value of the type "
+                f"{type(trace).__name__}; of a stream take one trace, stream[0]"
+            )
+        if unit is None:
+            raise ValueError("a trace states no unit of its data; give unit: m/s2, cm/s2, mm/s2 or g")
+        if np.ma.is_masked(data):
+            raise ValueError("the trace has gaps; merge it with a fill_value, or cut a part without gaps")
+        channel = str(getattr(stats, "channel", ""))
+        warnings = tuple(_native.warnings_of_channel(channel))
+        name = name or str(getattr(trace, "id", "") or channel or "trace")
+        for warning in warnings:
+            warn(f"{name}: {warning}", stacklevel=2)
+        return cls(float(delta), data, unit=unit, name=name, warnings=warnings)
+
     def __repr__(self) -> str:
         return f"Record({self.name!r}, {len(self.a)} samples of {self.dt:g} s, PGA {self.pga:.4g} m/s²)"
 
@@ -159,7 +189,7 @@ class Record:
 
     def scaled(self, factor: float) -> Record:
         """Returns the record with every sample multiplied by `factor`."""
-        return self._with(_native.scaled(self._motion, factor))
+        return self._with(scaled(self._motion, factor, "factor"))
 
     def scaled_to(self, pga: float) -> Record:
         """Returns the record scaled to a peak ground acceleration [m/s²]."""
@@ -209,8 +239,23 @@ def motion_of(record: object, name: str = "record") -> tuple[float, NDArray[np.f
     if isinstance(record, (str, PathLike)):
         remedy = f"read it with rw.read_record({fspath(record)!r})"
     else:
-        remedy = "make one with rw.Record(dt, samples) or rw.read_record(path)"
+        of_trace = ", or rw.Record.from_trace(trace, unit)" if hasattr(record, "stats") else ""
+        remedy = f"make one with rw.Record(dt, samples) or rw.read_record(path){of_trace}"
     raise TypeError(f"{name} must be a Record, found a value of the type {type(record).__name__}: {remedy}")
+
+
+def scaled(
+    motion: tuple[float, NDArray[np.float64]], factor: float, name: str
+) -> tuple[float, NDArray[np.float64]]:
+    """Returns a motion multiplied by a factor; `name` stands for the factor in messages."""
+    if not isinstance(factor, NUMBERS):
+        raise TypeError(f"{name} = {factor!r} must be a finite number")
+    if not np.isfinite(factor):
+        raise ValueError(f"{name} = {factor} must be a finite number")
+    try:
+        return _native.scaled(motion, float(factor))
+    except ValueError as error:
+        raise ValueError(f"{name} = {factor}: {error}") from None
 
 
 def at_samples(maxima: Maxima) -> bool:
@@ -246,7 +291,8 @@ def read_record(
     channel: str | None = None,
     format: str | None = None,
 ) -> Record:
-    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV or text.
+    """Reads a record: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA,
+    UNAM, RENADIC/BHRC, CSV or text.
 
     The format is found from the content. State `unit` or `dt` [s] where the file does not, the `column` of
     a table with several, and the `channel` of a file with several. Warns of what a quick check finds.

@@ -84,8 +84,9 @@ class Study:
         """Reads a study file, or makes a study of its parts.
 
         :param walls: A DataFrame or other table with a column for each parameter, a row for each wall, and
-            their names in a column `name`; or walls, or dictionaries of parameters, in a list or by their
-            names. What is missing has its default. Damping and impact are those of the models.
+            their names in a column `name` or an index of that name; or walls, or dictionaries of parameters,
+            in a list or by their names. What is missing has its default. Damping and impact are those of the
+            models.
         :param records: Records, or paths of records, in a list or by their names.
         :param models: Damping models by the names of study files, such as CR, "CR rigid", CDC and CDR.
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in g.
@@ -104,6 +105,9 @@ class Study:
             missing = [name for name, part in parts.items() if part is None]
             if missing:
                 raise TypeError(f"a study needs a path, or its parts: {', '.join(missing)} missing")
+            if not isinstance(levels, Mapping):
+                remedy = 'such as {"method": "grid", "values": [0.1, 0.2]}, in g'
+                raise TypeError(f"levels = {levels!r} must be a dictionary, {remedy}")
             options = {"models": models, "levels": levels, **options}
             given = {name: option for name, option in options.items() if option is not None}
             text = "".join(f"{name} = {toml(option)}\n" for name, option in given.items())
@@ -178,23 +182,34 @@ def named_walls(walls: Any) -> list[tuple[str, Any]]:
     """Returns names, and walls or dictionaries of their parameters."""
     if isinstance(walls, Wall):
         walls = [walls]
+    elif hasattr(walls, "to_pylist"):
+        # a table of pyarrow
+        walls = with_content(walls.to_pylist())
     elif hasattr(walls, "to_dict") and hasattr(walls, "columns"):
         walls = rows_of(walls)
     elif isinstance(walls, Mapping):
         if not all(isinstance(wall, Wall | Mapping) for wall in walls.values()):
-            walls = with_content(Table(walls).rows())
+            walls = rows_of_columns(walls)
         else:
             return [(str(name), one_wall(wall)) for name, wall in walls.items()]
     return [(name_of(wall, number), one_wall(wall)) for number, wall in enumerate(walls, 1)]
 
 
 def rows_of(frame: Any) -> list[dict[str, Any]]:
-    """Returns the rows of a DataFrame that have content."""
+    """Returns the rows of a DataFrame that have content; names may be an index called `name`."""
+    if "name" in getattr(getattr(frame, "index", None), "names", ()) and "name" not in frame.columns:
+        frame = frame.reset_index()
     names = [str(name) for name in frame.columns]
     twins = sorted({name for name in names if names.count(name) > 1})
     if twins:
         raise ValueError(f"the table of walls has two columns {twins[0]!r}; give each column its own name")
-    return with_content(Table({str(name): list(frame[name]) for name in frame.columns}).rows())
+    return rows_of_columns({str(name): frame[name] for name in frame.columns})
+
+
+def rows_of_columns(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Returns the rows of columns by their names that have content; each cell keeps its type."""
+    cells = (each.to_pylist() if hasattr(each, "to_pylist") else list(each) for each in columns.values())
+    return with_content(dict(zip(columns, row)) for row in zip(*cells))
 
 
 def with_content(rows: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:

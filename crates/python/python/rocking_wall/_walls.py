@@ -17,8 +17,9 @@ from . import _native
 from ._calibration import Calibration
 from ._checks import Check, CheckedSide
 from ._codes import Place, Site, Statements, Verdict, verdict
+from ._given import Given
 from ._parameters import Calculated, Parameters
-from ._records import Record, motion_of
+from ._records import Record, motion_of, scaled
 from ._responses import Peaks, Response
 from ._spectra import RockingSpectrum
 from ._tables import Table, shown, toml
@@ -66,8 +67,20 @@ class Storey:
     """Damping ratio [-]; by default 0.05."""
 
 
-class Wall(Calculated):
-    def __init__(self, **parameters: Unpack[Parameters]) -> None:
+class Wall(Given, Calculated):
+    def __init__(
+        self,
+        height: float | None = None,
+        thickness: float | None = None,
+        /,
+        **parameters: Unpack[Parameters],
+    ) -> None:
+        sizes = {"height": height, "thickness": thickness}
+        for name, value in sizes.items():
+            if value is not None and name in parameters:
+                raise TypeError(f"{name} is given twice, by place and by name; leave one out")
+        places = {name: value for name, value in sizes.items() if value is not None}
+        parameters = {**places, **parameters}  # type: ignore[typeddict-item]
         object.__setattr__(self, "_native", _native.Wall(dict(parameters)))
 
     @classmethod
@@ -186,8 +199,8 @@ class Wall(Calculated):
             if record is None and given:
                 raise ValueError(f"{name} needs a record beside it")
         values = self._native.simulate(
-            None if record is None else _native.scaled(motion_of(record), scale),
-            top=None if top is None else _native.scaled(motion_of(top, "top"), scale),
+            None if record is None else scaled(motion_of(record), scale, "scale"),
+            top=None if top is None else scaled(motion_of(top, "top"), scale, "scale"),
             tail=tail,
             stop_time=stop_time,
             output_step=output_step,
@@ -420,7 +433,7 @@ class Wall(Calculated):
         given = [records] if isinstance(records, Record) else records
         if scale != 1.0 and len(given) == 0:
             raise ValueError("scale needs records beside it")
-        motions = [_native.scaled(motion_of(record), scale) for record in given]
+        motions = [scaled(motion_of(record), scale, "scale") for record in given]
         values, table, picture, is_alike = _native.tie_of_wall(
             self._native, motions, stiffness, both_polarities, threads
         )
@@ -512,8 +525,11 @@ def calculated_lines() -> str:
 
 Wall.__doc__ = f"""A wall: a parapet, or a vertical spanning strip.
 
-Parameters are given by their names; what is not given has its default. A wall that exists is valid and
-never changes.
+Parameters are given by their names, height and thickness also by their places: `Wall(3, 0.25)`. What is not
+given has its default. A wall that exists is valid and never changes; its parameters can be read.
+
+>>> Wall(3, 0.25).thickness
+0.25
 
 >>> Wall(height=3, thickness=0.25, damping_model="none", impact="restitution")
 Wall(mechanism='parapet', height=3.0, thickness=0.25, force_law='bilinear', damping_model='none', \

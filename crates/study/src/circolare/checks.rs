@@ -1,7 +1,7 @@
 //! The static checks of a wall, side by side, and what governs.
 
 use rocking_wall::scene::Floors;
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::{Parameters, Wall, Warning};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
@@ -45,8 +45,22 @@ fn period_factor(state: LimitState) -> f64 {
 ///
 /// # Errors
 /// [`CheckError`] of a statement that is missing or does not go with the wall, of a wall that the code does
-/// not cover, of a spectrum that ends too early, or of a run.
+/// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they may
+/// be the cause.
 pub fn check(
+    parameters: &Parameters,
+    floors: Option<&Floors>,
+    statement: &Statement,
+    records: &Records,
+) -> Result<Verdict, CheckError> {
+    let doubts = || {
+        let of_wall = Warning::unusual(parameters);
+        of_wall.chain(super::warnings::improbable(statement, floors)).collect()
+    };
+    checked(parameters, floors, statement, records).map_err(|error| error.with_doubts(doubts))
+}
+
+fn checked(
     parameters: &Parameters,
     floors: Option<&Floors>,
     statement: &Statement,
@@ -82,7 +96,7 @@ pub fn check(
 ///
 /// ```
 /// use rocking_wall::scene::Place;
-/// use rocking_wall::wall::{Parameters, Wall};
+/// use rocking_wall::wall::{Parameters, Wall, Warning};
 /// use study::circolare::{LimitState, Records, demands, read_table};
 ///
 /// let text = r#"

@@ -2,7 +2,7 @@
 
 use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
-use rocking_wall::wall::ParameterError;
+use rocking_wall::wall::{ParameterError, Warning};
 
 use super::LimitState;
 
@@ -44,6 +44,9 @@ pub enum CheckError {
     /// A spectrum of another damping.
     #[error("{state} needs the spectrum at {needed} % damping; the given one is at {given} %")]
     Damping { state: LimitState, needed: f64, given: f64 },
+    /// A check that is impossible and has numbers that are improbable: they may be the cause.
+    #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Improbable { doubts: Vec<Warning>, error: Box<CheckError> },
     /// A record.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
@@ -67,7 +70,19 @@ impl CheckError {
             Self::LocalInstability { .. } | Self::Order { .. } => Some(vec!["SLC", "displacement"]),
             Self::Period { state, .. } => Some(vec![state.key(), "spectrum"]),
             Self::Damping { state, .. } => Some(vec![state.key(), "spectrum_damping"]),
+            Self::Improbable { error, .. } => error.keys(),
             _ => None,
+        }
+    }
+
+    /// Adds the numbers that may be the cause; a wall that is refused has named its own.
+    pub(super) fn with_doubts(self, doubts: impl FnOnce() -> Vec<Warning>) -> Self {
+        if matches!(self, Self::Parameters(_) | Self::Scene(_) | Self::Motion(_)) {
+            return self;
+        }
+        match doubts() {
+            doubts if doubts.is_empty() => self,
+            doubts => Self::Improbable { doubts, error: Box::new(self) },
         }
     }
 

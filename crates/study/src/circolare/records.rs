@@ -50,6 +50,7 @@ impl Records {
         let mut warnings = Vec::new();
         let records = all_records(&entry, &files, place.name(), &mut warnings)?;
         let records = Self::new(records).map_err(|error| super::in_table(error, place))?;
+        let files = files.into_iter().map(|file| file.path).collect();
         Ok(Self { files, warnings, ..records })
     }
 

@@ -121,7 +121,7 @@ pub enum KnowledgeLevel {
 
 /// Topography: a category of Tab. 3.2.V or `S_T`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected \"T1\" to \"T4\", or S_T from 1 to 1.4")]
 pub enum Topography {
     /// `S_T` \[-\].
     Factor(f64),

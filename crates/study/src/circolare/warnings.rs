@@ -2,7 +2,7 @@
 
 use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Parameters, Wall, Warning};
+use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 
 use super::LimitState;
 use super::curve::Curve;
@@ -13,8 +13,6 @@ use super::verdict::SideVerdicts;
 
 /// Longest period for which NTC 3.2.3.2 admits its spectra \[s\].
 const LONGEST_PERIOD: f64 = 4.0;
-/// `T_C`* above which a typing error is likely \[s\].
-const LONGEST_TC: f64 = 1.0;
 
 pub(super) fn of_statement(
     statement: &Statement,
@@ -30,15 +28,6 @@ pub(super) fn of_statement(
                 .push(format!("a_g does not rise from {state} to {}: {ag} and {} g", given.state, given.ag));
         }
         below = Some((given.state, given.ag));
-        if let Source::Code(ground) = &given.source {
-            let tc = ground.t_c / ground.period_factor;
-            if tc > LONGEST_TC {
-                warnings.push(format!(
-                    "{}: T_C* = {tc} s is above 1 s; check that it is given in seconds",
-                    given.state
-                ));
-            }
-        }
     }
     let on_ground = floors.is_none() && !statement.has_building;
     for given in statement.states.iter().flatten().filter(|_| on_ground) {
@@ -60,7 +49,8 @@ pub(super) fn of_statement(
                 .into(),
         );
     }
-    warnings.extend(Warning::unusual(parameters).map(|warning| warning.to_string()));
+    let of_wall = Warning::unusual(parameters);
+    warnings.extend(of_wall.chain(improbable(statement, floors)).map(|warning| warning.to_string()));
     if statement.confidence_factor > LARGEST_CONFIDENCE_FACTOR {
         warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));
     }
@@ -72,10 +62,42 @@ pub(super) fn of_statement(
     }
     warnings.extend(
         floors
-            .and_then(|floors| floors.warning(wall))
+            .and_then(|floors| floors.heavy(wall))
             .map(|warning| format!("{warning}; the check is then on the safe side (C8.7.1.2.1.4)")),
     );
     warnings
+}
+
+/// Usual E of masonry: 1e8 to 5e10 Pa. NTC Tab. C8.5.I has 0.69e9 to 3.36e9 Pa.
+const YOUNG_MODULUS: Usual = Usual {
+    name: "young_modulus",
+    unit: "Pa",
+    range: [1e8, 5e10],
+    others: &[("in MPa", 1e6), ("in GPa", 1e9)],
+};
+/// Usual F0: from the least of NTC 3.2.3.2.1 on; the hazard of Italy stays well below 4.
+const F0: Usual =
+    Usual { name: "F0", unit: "", range: [2.2, 4.0], others: &[("without its decimal point", 0.1)] };
+/// Usual `T_C`*: the hazard of Italy has 0.15 to 0.9 s.
+const TC: Usual = Usual { name: "TC", unit: "s", range: [0.1, 1.0], others: &[("in ms", 1e-3)] };
+
+/// Finds what the engineer states that is improbable, and what may be meant.
+pub(super) fn improbable(statement: &Statement, floors: Option<&Floors>) -> Vec<Warning> {
+    let mut found: Vec<_> =
+        statement.young_modulus.and_then(|e| YOUNG_MODULUS.warning(e)).into_iter().collect();
+    for given in statement.states.iter().flatten() {
+        if let Source::Code(ground) = &given.source {
+            let tc = ground.t_c / ground.period_factor;
+            found.extend(F0.warning(ground.f0).into_iter().chain(TC.warning(tc)));
+        }
+        let (name, period) = match given.building_period {
+            Some(period) => ("building_period", Some(period)),
+            None => ("period of the building", given.modes.first().map(|mode| mode.period)),
+        };
+        found.extend(period.and_then(|period| Usual::period(name).warning(period)));
+    }
+    found.extend(floors.into_iter().flat_map(Floors::improbable));
+    found
 }
 
 pub(super) fn of_demand(state: LimitState, demand: &Demand) -> Option<String> {

@@ -57,7 +57,7 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         (open(""), "before_activation is missing: state \"rigid\""),
         (open("before_activation = \"beam\""), "beam needs young_modulus, E in Pa"),
         (with("young_modulus = 1e9"), "young_modulus counts only with before_activation = \"beam\""),
-        (with("record_scale = \"g\""), "unknown variant `g`"),
+        (with("record_scale = \"g\""), "record_scale = \"g\" is not one of \"ag\", \"none\""),
         (with("soll = 1"), "did you mean \"soil\"?"),
         (with("records = { synthetic = { count = 2 } }"), "found 2; at least 3 records (NTC 7.3.5)"),
     ];
@@ -65,6 +65,24 @@ fn what_cannot_be_used_is_refused_with_the_remedy() {
         let error = refuses(&format!("{PARAPET}{text}"), message);
         assert!(error.starts_with("scene.toml, line"), "{error}");
     }
+}
+
+/// E in MPa makes a wall so soft that it does not rock: the unit is the cause.
+#[test]
+fn a_refusal_begins_with_the_numbers_that_may_be_its_cause() {
+    let beam = open("before_activation = \"beam\"\nyoung_modulus = 1500");
+    let error = refuses(
+        &format!("{PARAPET}{beam}"),
+        "young_modulus = 1500 Pa is unusual: 100000000 to 5e10 Pa is usual; if it is in MPa, give 1.5e9 Pa; \
+         as given, the elastic branch reaches d_SLV",
+    );
+    assert!(error.starts_with("scene.toml: young_modulus"), "{error}");
+    let beam = beam.replace("1500", "1.5");
+    refuses(&format!("{PARAPET}{beam}"), "if it is in GPa, give 1.5e9 Pa");
+    // a limit that a key of the table sets keeps its line
+    let local = table(&format!("SLV = {SITE}\nSLC = {SITE}")).replace("SLC = {", "SLC = { displacement = 9,");
+    let error = refuses(&format!("{PARAPET}{}", local.replace("2.45", "24")), "F0 = 24 is unusual");
+    assert!(error.contains("line ") && error.contains("as given, SLC.displacement = 9 m"), "{error}");
 }
 
 /// Walls that the check cannot take: what their scenes add to the parapet, and their tables.
@@ -138,9 +156,37 @@ fn what_the_engineer_should_know_is_warned_of() {
         .replace("TC = 0.32 }", "TC = 0.32, building_damping = 0.1 }");
     for (text, message) in [
         (slv(&state("SLC", "")), "a_g does not rise from SLV to SLC: 0.15 and 0.15 g"),
-        (slv("").replace("0.32", "1.2"), "T_C* = 1.2 s is above 1 s; check that it is given in seconds"),
+        (slv("").replace("0.32", "1.2"), "TC = 1.2 s is unusual: 0.1 to 1 s is usual; check value and unit"),
         (slv("use_class = \"IV\""), "use class IV is checked for SLD too"),
         (damped(low), "SLV: a_Z = "),
+        (
+            slv("").replace("0.32", "320"),
+            "TC = 320 s is unusual: 0.1 to 1 s is usual; if it is in ms, give 0.32 s",
+        ),
+        (
+            slv("").replace("2.45", "24"),
+            "F0 = 24 is unusual: 2.2 to 4 is usual; if it is without its decimal point, give 2.4",
+        ),
+        (
+            damped(&roof.replace("0.3,", "320,")),
+            "period of the building = 320 s is unusual: 0.02 to 5 s is usual; if it is in ms, give 0.32 s",
+        ),
+        (
+            damped(roof).replace("= 0.1 }", "= 0.1, building_period = 400 }"),
+            "building_period = 400 s is unusual: 0.02 to 5 s is usual; if it is in ms, give 0.4 s",
+        ),
+        (
+            format!("{}[[storeys]]\nperiod = 250\n", damped("")),
+            "period of a storey = 250 s is unusual: 0.02 to 5 s is usual; if it is in ms, give 0.25 s",
+        ),
+        (
+            format!("{}{}", tie.replace("2e4", "20e3\ntie_strength = 75"), slv("")),
+            "tie_strength = 75 N is unusual: 1000 to 2000000 N is usual; if it is in kN, give 75000 N",
+        ),
+        (
+            format!("overburden = 5\n{}", slv("overburden_mass = 1")),
+            "overburden = 5 N is unusual: 100 to 1000000 N is usual; if it is in kN, give 5000 N",
+        ),
         (records(3), "3 records: the least favourable one counts"),
         (records(7), "7 records: the mean counts"),
         (format!("{tie}{}", damped(roof)), "the tie has no tie_strength: it never breaks"),

@@ -6,6 +6,8 @@
 use std::path::Path;
 
 mod accuracy;
+#[path = "../../../../tests/it/broken.rs"]
+mod broken;
 mod calibration;
 mod circolare;
 mod circolare_cases;
@@ -19,6 +21,8 @@ mod figure_15;
 mod fragility;
 mod ida;
 mod linearisation;
+mod messages;
+mod record_files;
 #[path = "../../../ground-motion/tests/it/records.rs"]
 mod records;
 mod reproduce;

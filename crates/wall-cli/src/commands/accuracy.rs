@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
     /// Write a page with work-precision plots
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the work-precision plots as SVG or PNG, by the file's ending; with --peers the plots of the
+    /// Write the work-precision plots as SVG; with --peers the plots of the
     /// other tools instead
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,

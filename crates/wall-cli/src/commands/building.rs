@@ -8,7 +8,7 @@ mod run;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use building::trial::{Trial, trial};
 use building::{Building, Parts};
 use clap::Args;
@@ -60,7 +60,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         let trial = trial(&building, &parts)?;
         let step = trial.step(&building);
         let archive = parts.archive(&building, step, &arguments.wall_fmu, &arguments.floor_fmu)?;
-        output::to_file(path, &archive.to_bytes()?)?;
+        let bytes = archive.to_bytes()?;
+        if let (None, Some(folder)) = (&arguments.output, path.parent()) {
+            let unmade = || format!("{}: cannot be made", folder.display());
+            std::fs::create_dir_all(folder).with_context(unmade)?;
+        }
+        output::to_file(path, &bytes)?;
         let (units, connections) = parts.counts();
         let _ = writeln!(
             text,

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// passes
     #[arg(long, value_name = "PARAMETER", value_parser = sought)]
     find: Option<Sought>,
-    /// With --find: write `zeta_E` over the parameter as a chart (SVG or PNG)
+    /// With --find: write `zeta_E` over the parameter as a chart (SVG)
     #[arg(long, value_name = "FILE", requires = "find")]
     plot: Option<PathBuf>,
     /// With a study: write one row for each wall, the worst first, as CSV

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     /// Write the corners and limit states of the capacity curve as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw the capacity curve with its secants, as SVG or PNG by the file's ending
+    /// Draw the capacity curve with its secants, as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Print JSON

@@ -77,7 +77,7 @@ const FILES: [&str; 8] = [
 pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let loaded = LoadedStudy::read(&arguments.study)?;
     let path = match (&arguments.output, arguments.study.file_stem()) {
-        (Some(path), _) => path.clone(),
+        (Some(path), _) => checked(path)?.clone(),
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
@@ -117,7 +117,7 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
         folder.expect(folders[0].contents())?;
     }
     let target = match (&arguments.output, folders.len()) {
-        (Some(path), _) => Folder::like(path, folders[0].manifest())?,
+        (Some(path), _) => Folder::like(checked(path)?, folders[0].manifest())?,
         (None, 1) => folders.remove(0),
         (None, _) => bail!("merging several folders needs an output folder; give -o FOLDER"),
     };
@@ -135,6 +135,14 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
         return Err(target.incomplete(&missing).into());
     }
     finish(&target, parallel::threads(None).get())
+}
+
+/// Refuses standard output as a folder.
+fn checked(path: &PathBuf) -> Result<&PathBuf> {
+    if path.as_os_str() == "-" {
+        bail!("-o -: the results are a folder of files, which standard output cannot take; give a folder");
+    }
+    Ok(path)
 }
 
 /// Exit code of a program that Ctrl-C has ended, 128 and the number of the signal.

@@ -25,9 +25,12 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::output;
 
+/// The version with commit and profile, which `build.rs` states.
+const VERSION: &str = env!("PROGRAM_VERSION");
+
 /// Out-of-plane rocking of masonry walls under earthquakes.
 #[derive(Debug, Parser)]
-#[command(name = "wall", version, arg_required_else_help = true, max_term_width = 100)]
+#[command(name = "wall", version = VERSION, arg_required_else_help = true, max_term_width = 100)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -1,5 +1,7 @@
 //! `wall record`: what record files hold, their intensity, and a quick check.
 
+mod listing;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -8,17 +10,18 @@ use clap::Args;
 use figures::plot::Picture;
 use figures::records;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
-use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum, read_channels};
+use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum};
 use serde_json::{Value, json};
 
-use crate::args::RecordOptionsArguments;
+use crate::args::{self, RecordOptionsArguments};
 use crate::output;
 use study_folder::csv::quoted;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, CSV or text
-    #[arg(group = "recorded", required = true, value_name = "FILE")]
+    /// Records: PEER AT2, ESM/ITACA, K-NET/KiK-net, COSMOS V2, CSMIP V2, USGS SMC, GeoNet, AFAD, CWA, UNAM,
+    /// RENADIC/BHRC, CSV or text; a folder is listed, one row a file; `-` is standard input
+    #[arg(group = "recorded", required = true, value_name = "FILES")]
     files: Vec<PathBuf>,
     #[command(flatten)]
     options: RecordOptionsArguments,
@@ -40,13 +43,14 @@ pub(crate) struct Arguments {
     /// Write the table as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw the histories and the spectra, as SVG or PNG by the file's ending
+    /// Draw the histories and the spectra, as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }
 
 /// One channel of a file, and what is printed about it.
 struct Row {
+    path: PathBuf,
     file: String,
     record: Record,
     /// AvgSA (g).
@@ -60,10 +64,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
-    output::check_distinct(&arguments.files, arguments.csv.iter().chain(&arguments.plot))?;
+    let is_listing = arguments.files.iter().any(|path| path.is_dir());
+    let mut files = Vec::new();
+    for path in &arguments.files {
+        if path.is_dir() { files.extend(listing::files(path)?) } else { files.push(path.clone()) }
+    }
+    output::check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
     let mut rows = Vec::new();
     let mut failures = Vec::new();
-    for path in &arguments.files {
+    for path in &files {
         match read(path, &options, arguments, spectrum) {
             Ok(found) => rows.extend(found),
             Err(error) => failures.push(output::message(&error)),
@@ -72,29 +81,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if let ([failure], true) = (&failures[..], rows.is_empty()) {
         bail!("{failure}");
     }
+    if is_listing && !rows.is_empty() {
+        return show(&rows, &failures, arguments, spectrum);
+    }
+    if files.is_empty() {
+        bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());
+    }
     let count = failures.len();
     output::report_all(failures);
     if !rows.is_empty() {
-        show(&rows, arguments, spectrum)?;
+        show(&rows, &[], arguments, spectrum)?;
     }
     if count > 0 {
-        bail!("{} of {} files could not be read", count, arguments.files.len());
+        bail!("{} of {} files could not be read", count, files.len());
     }
     Ok(())
 }
 
 fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: Spectrum) -> Result<Vec<Row>> {
     let in_g = |acceleration: f64| acceleration / STANDARD_GRAVITY;
-    let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut rows = Vec::new();
-    for record in read_channels(path, options)? {
+    for record in args::read_channels(path, options)? {
         let in_file = || path.display().to_string();
         let average = spectrum.average(&record.motion, &arguments.average).with_context(in_file)?;
         let accelerations =
             spectrum.accelerations(&record.motion, &arguments.periods).with_context(in_file)?;
         let check = record.check();
         rows.push(Row {
-            file: file.clone(),
+            path: path.to_owned(),
+            file: args::short_name(path),
             average: in_g(average),
             accelerations: accelerations.into_iter().map(in_g).collect(),
             check,
@@ -104,7 +119,8 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
     Ok(rows)
 }
 
-fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
+/// Shows what was read; of a folder, also the `unread` files.
+fn show(rows: &[Row], unread: &[String], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
     output::picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
     output::save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
     if arguments.json {
@@ -114,11 +130,14 @@ fn show(rows: &[Row], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
             "average_periods_s": arguments.average,
             "periods_s": arguments.periods,
             "records": rows.iter().map(Row::json).collect::<Vec<_>>(),
+            "unread": unread,
         });
         return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
     let written = output::written("written  ", arguments.plot.iter().chain(&arguments.csv));
-    output::to_stdout(&(table(rows, arguments) + &written))
+    let is_listing = arguments.files.iter().any(|path| path.is_dir());
+    let table = if is_listing { listing::table(rows, unread) } else { table(rows, arguments) };
+    output::to_stdout(&(table + &written))
 }
 
 impl Row {

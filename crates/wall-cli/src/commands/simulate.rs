@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
     wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
     let response = arguments.scene.named(Response::of(&scene))?;
-    if let Some(warning) = scene.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
+    for warning in scene.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
         output::warn(&warning);
     }
     if response.summary.put_to_rest {

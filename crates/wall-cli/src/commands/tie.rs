@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     /// Write the table as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw force and displacement over the stiffness, as SVG or PNG by the file's ending
+    /// Draw force and displacement over the stiffness, as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }

@@ -16,7 +16,7 @@ use crate::output;
 pub(crate) struct Arguments {
     /// A test (TOML), such as those of `tests/data/validation`
     test: PathBuf,
-    /// Write the points and the model as SVG or PNG, by the file's ending
+    /// Write the points and the model as SVG
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 }

@@ -40,7 +40,7 @@ fn identity(path: &Path) -> Option<Identity> {
 /// Name of the output that goes to standard output.
 pub(super) const STDOUT: &str = "-";
 
-/// Refuses outputs that would overwrite an input, another output or the file that takes stdout. If
+/// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF. If
 /// one of them is `-`, all messages from here on go to stderr.
 pub(crate) fn check_distinct<'a>(
     inputs: impl IntoIterator<Item = &'a PathBuf>,
@@ -53,6 +53,13 @@ pub(crate) fn check_distinct<'a>(
     }
     let mut file = None;
     for path in outputs {
+        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
+            bail!(
+                "{}: no output is a PDF; give a page that ends in .html and print it from a browser, or a \
+                 picture that ends in .svg",
+                path.display()
+            );
+        }
         if path.as_os_str() == STDOUT {
             if file.is_some() {
                 bail!("two outputs are -, standard output; give one of them a file");

@@ -8,7 +8,7 @@ mod terminal;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 use figures::plot::Picture;
 
 pub(crate) use distinct::check_distinct;
@@ -58,15 +58,12 @@ pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
     }
 }
 
-/// Writes a picture to the file that an option names, if it is given, as SVG or PNG by the file's ending.
-/// Draws it only if the ending is one of them.
+/// Writes a picture to the file that an option names, if it is given. Draws it only if the file ends in .svg.
 pub(crate) fn picture(path: Option<&PathBuf>, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
     let Some(path) = path else { return Ok(()) };
     let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let bytes = match ending.as_str() {
-        "svg" => draw()?.svg().into_bytes(),
-        "png" => draw()?.png().map_err(|reason| anyhow!("{}: {reason}", path.display()))?,
-        _ => bail!("{}: a plot is SVG or PNG; give a file that ends in .svg or .png", path.display()),
-    };
-    to_file(path, &bytes)
+    if ending != "svg" {
+        bail!("{}: a plot is SVG; give a file that ends in .svg", path.display());
+    }
+    to_file(path, draw()?.svg().as_bytes())
 }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use fmu_export_build::archive::Archive;
+
 use crate::command_line::{args, content, folder, json, printed, refused};
 
 const FLOOR: &str = "[[floor]]\nname = \"low\"\n";
@@ -91,4 +93,23 @@ fn the_program_prints_peaks_and_writes_histories() {
     assert!(json["walls"][0]["overturn_time"].is_null() && json["walls"][1]["overturn_time"].is_f64());
     refused(&folder, &["building", "b.toml", "--csv", "x.csv"], &["--record", "--synthetic"]);
     refused(&folder, &["building", "b.toml", "--synthetic", "--tolerance", "0"], &["--tolerance"]);
+}
+
+/// The default output lies in a folder that need not exist.
+#[test]
+fn the_default_folder_is_made() {
+    let folder = folder("building_folder");
+    fs::write(folder.join("b.toml"), FLOOR).unwrap();
+    // a general FMU without its libraries
+    let mut general = Archive::default();
+    let description =
+        fs::read_to_string(crate::root().join("crates/floor/modelDescription/modelDescription.xml"));
+    general.insert("modelDescription.xml", description.unwrap());
+    fs::write(folder.join("floor.fmu"), general.to_bytes().unwrap()).unwrap();
+    let told = printed(&folder, &["building", "b.toml", "--floor-fmu", "floor.fmu"]);
+    assert!(told.starts_with("fmu_out/building.ssp: b, 1 unit"), "{told}");
+    assert!(folder.join("fmu_out/building.ssp").is_file());
+    // a folder that the user names has to exist
+    let named = ["building", "b.toml", "--floor-fmu", "floor.fmu", "-o", "none/b.ssp"];
+    refused(&folder, &named, &["none/b.ssp"]);
 }

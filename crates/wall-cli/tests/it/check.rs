@@ -208,6 +208,18 @@ fn many_walls_are_checked() {
     assert!(rows[2].starts_with("\"tall, thin\",no,") && rows[3].starts_with("low,yes,"), "{rows:?}");
     let page = content(&folder, "out.html");
     assert!(page.contains("1 of 3 walls pass") && page.contains("tall, thin"));
+    // warnings come by wall, its name first
+    let centimetres = "name,height,thickness\na,200,30\nb,2,0.3\nc,150,0.4\n";
+    std::fs::write(folder.join("walls.csv"), centimetres).unwrap();
+    let warned = text(&succeed(&folder, &["check", "walls.toml"]).stderr);
+    let lines: Vec<&str> = warned.lines().collect();
+    assert_eq!(lines.len(), 2, "{warned}");
+    let of =
+        |name: &str| lines.iter().find(|line| line.starts_with(&format!("wall: warning: wall {name:?}: ")));
+    let thick = "thickness = 30 m is unusual: 0.03 to 3 m is usual; if it is in cm, give 0.3 m";
+    let tall = "height = 200 m is unusual: 0.2 to 30 m is usual; if it is in cm, give 2 m";
+    assert_has(of("a").unwrap(), &[tall, thick]);
+    assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);
     refused(&folder, &["check", "walls.toml", "--find", "height"], &["take one wall"]);

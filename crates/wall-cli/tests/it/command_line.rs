@@ -194,7 +194,7 @@ fn wrong_types_are_told_in_the_words_of_toml() {
         ("simulate", "[motion]\nsynthetic = { seed = \"a\" }\n", "expected a whole number from 0 on"),
         ("simulate", "[motion]\nrecord = 3\n", "expected a path in quotes"),
         ("ida", "intensity = \"PGA\"\n", "expected a table"),
-        ("building", "floor = 3\n", "expected a list"),
+        ("building", "floor = 3\n", "floor = 3: expected a list"),
     ] {
         std::fs::write(folder.join("wrong.toml"), text).unwrap();
         refused(&folder, &[command, "wrong.toml"], &["line", words]);
@@ -215,7 +215,9 @@ fn bad_scenes() {
     }
     refused(&folder, &["simulate", "missing.toml"], &["missing.toml"]);
     std::fs::write(folder.join("noise.toml"), [0xff_u8, 0xfe, 0x00, 0x80]).unwrap();
-    refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "UTF-8"]);
+    refused(&folder, &["simulate", "noise.toml"], &["noise.toml", "as UTF-8"]);
+    std::fs::write(folder.join("cp1252.toml"), b"title = \"Mauer\"\n# M\xfcller\n").unwrap();
+    refused(&folder, &["simulate", "cp1252.toml"], &["cp1252.toml, line 2", "as UTF-8"]);
 }
 
 /// A record, its arguments, and words that the message must contain. The readers have tests of their own.
@@ -250,6 +252,15 @@ fn bad_arguments() {
     let given = "restitution counts where it is given: leave restitution_source out";
     refused(&folder, &["simulate", "--set", "restitution_source=given"], &[given]);
     refused(&folder, &["simulate", "--set", "xi=much"], &["xi = \"much\" is not a number"]);
+    refused(
+        &folder,
+        &["simulate", "--set", "xi=0,03"],
+        &["xi = 0,03: a number has a decimal point", "xi = 0.03"],
+    );
+    // what Rust says of numbers
+    let decimal = "expected a number with a decimal point, such as 0.3";
+    fails(&folder, &["simulate", "--synthetic", "--scale", "0,3"], &["--scale", "0,3", decimal]);
+    fails(&folder, &["ida", "s.toml", "--threads", "0"], &["--threads", "expected a number from 1 on"]);
     refused(&folder, &["simulate", "--hold"], &["--hold", "motion"]);
     refused(&folder, &["accuracy", "--budget", "-1"], &["--budget -1", "3600 s"]);
     refused(&folder, &["accuracy", "--synthetic", "scene.toml"], &["--synthetic", "[motion]"]);

@@ -25,9 +25,14 @@ fn an_output_is_no_input_and_no_other_output() {
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
     write("r.csv", RECORD);
     write("shaken.toml", "[motion]\nrecord = \"r.csv\"\nunit = \"g\"\n");
+    let checked = crate::root().join("scenes/checked_parapet.toml");
+    fs::copy(checked, folder.join("checked.toml")).unwrap();
     fs::hard_link(folder.join("r.csv"), folder.join("same.csv")).unwrap();
     let record = ["--record", "r.csv", "--unit", "g"];
-    let cases: [(&[&str], &[&str]); 8] = [
+    let pdf = ["no output is a PDF", "ends in .html", "from a browser"];
+    let cases: [(&[&str], &[&str]); 10] = [
+        (&["check", "checked.toml", "--report", "a.pdf"], &pdf),
+        (&["simulate", "s.toml", "--html", "a.PDF"], &pdf),
         (&["simulate", "s.toml", "--csv", "s.toml"], &["s.toml", "the input s.toml"]),
         (&["simulate", "s.toml", "--csv", "x", "--html", "./x"], &["./x", "the output x"]),
         (&["simulate", "shaken.toml", "--csv", "r.csv"], &["the input", "r.csv"]),

@@ -282,6 +282,13 @@ fn other_studies_and_bad_ones_are_refused() {
     refused(&folder, &["ida", "wall.toml", "-o", "out"], &other);
     fs::write(folder.join("records/beat.csv"), "time,a_g\n0,0\n0.01,0.1\n0.02,0\n").unwrap();
     refused(&folder, &["ida", "study.toml", "-o", "out"], &["another study", "fingerprint"]);
+    for command in [["ida", "study.toml"], ["merge", "out"]] {
+        refused(
+            &folder,
+            &[&command[..], &["-o", "-"]].concat(),
+            &["-o -", "a folder of files", "give a folder"],
+        );
+    }
     refused(&folder, &["merge", "records"], &["study.json", "`wall ida`"]);
     refused(&folder, &["ida", "none.toml"], &["none.toml"]);
     fails(&folder, &["ida", "study.toml", "--shard", "9/8"], &["9/8", "I/N"]);

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::command_line::{assert_has, content, fails, folder, json, printed, refused, succeed, text};
+use crate::command_line::{
+    assert_has, content, fails, folder, json, printed, program, refused, succeed, text,
+};
 use crate::specimen::{self, SAMPLES};
 
 /// A folder with two channels in CSMIP, one record in AT2 and one column of numbers.
@@ -63,13 +65,10 @@ fn json_and_csv_hold_the_same_numbers() {
 }
 
 #[test]
-fn plots_are_svg_or_png() {
+fn plots_are_svg() {
     let folder = records("record_plot");
-    for (name, start) in [("plot.svg", &b"<svg"[..]), ("plot.PNG", b"\x89PNG")] {
-        let table = printed(&folder, &["record", "two.V2", "one.AT2", "--plot", name]);
-        assert!(fs::read(folder.join(name)).unwrap().starts_with(start), "{name}");
-        assert!(table.contains(&format!("written  {name}")));
-    }
+    let table = printed(&folder, &["record", "two.V2", "one.AT2", "--plot", "plot.svg"]);
+    assert!(table.contains("written  plot.svg"));
     let svg = content(&folder, "plot.svg");
     assert_has(&svg, &["two.V2 [1: 90 Deg]", "one.AT2", "time (s)", "period T (s)", "Sa (g)"]);
     // With more records than colours, the plot shows the median of those that are not vertical.
@@ -104,15 +103,69 @@ fn bad_requests_are_refused() {
     let cases: [(&[&str], &[&str]); 9] = [
         (&["record", "column.csv", "--record-step", "0.01"], &["column.csv, line 1", "no unit", "cm/s2"]),
         (&["record", "column.csv", "--record-step", "0.01", "--unit", "feet"], &["`feet`", "cm/s2"]),
-        (&["record", "one.AT2", "--format", "sac"], &["`sac`", "at2, esm, knet, cosmos, csmip, smc, csv"]),
+        (
+            &["record", "one.AT2", "--format", "sac"],
+            &["`sac`", "at2, esm, knet, knet-csv, cosmos, csmip, smc, geonet"],
+        ),
         (&["record", "one.AT2", "--format", "smc"], &["one.AT2, line 1", "CORRECTED ACCELEROGRAM"]),
         (&["record", "two.V2", "--channel", "3"], &["`3`", "`1: 90 Deg`, `2: Up`"]),
         (&["record", "one.AT2", "--periods", "0.2,1000"], &["1000", "0.001 to 100 s"]),
         (&["record", "one.AT2", "--damping", "5"], &["damping ratio", "5", "below 1"]),
-        (&["record", "one.AT2", "--plot", "plot.jpg"], &["plot.jpg", ".svg or .png"]),
+        (&["record", "one.AT2", "--plot", "plot.jpg"], &["plot.jpg", "ends in .svg"]),
         (&["motion", "--record", "two.V2", "--csv", "out.csv"], &["expected one channel", "`2: Up`"]),
     ];
     for (arguments, words) in cases {
         refused(&folder, arguments, words);
+    }
+}
+
+/// One row a file, below it the files that are no record and why.
+#[test]
+fn a_folder_is_listed() {
+    let folder = records("record_folder");
+    fs::create_dir(folder.join("inner")).unwrap();
+    fs::write(folder.join(".hidden"), "x").unwrap();
+    fs::write(folder.join("notes.md"), "These are records.\n").unwrap();
+    fs::write(folder.join("up.AT2"), specimen::at2(&SAMPLES).replace(", 90\n", ", UP\n")).unwrap();
+    let table = printed(&folder, &["record", "."]);
+    let lines: Vec<_> = table.lines().collect();
+    for (line, words) in [
+        (0, &["file", "format", "channels", "points", "step [s]", "PGA [g]", "findings"][..]),
+        (1, &["one.AT2", "PEER AT2", "  1  ", " 11 ", " 0.01 ", " 0.10529"]),
+        (2, &["two.V2", "CSMIP V2", "  2  ", " 11 ", "vertical (1)", "tail"]),
+        (3, &["up.AT2", "vertical"]),
+        (4, &["not read  ", "column.csv, line 3: expected a stated step"]),
+        (5, &["not read  ", "notes.md, line 1: expected "]),
+    ] {
+        assert_has(lines[line], words);
+    }
+    assert_eq!(lines.len(), 6, "{table}");
+    let value = json(&folder, &["record", ".", "--json"]);
+    assert_eq!(
+        (value["records"].as_array().unwrap().len(), value["unread"].as_array().unwrap().len()),
+        (4, 2)
+    );
+    refused(&folder, &["record", "inner"], &["inner", "a folder without files"]);
+}
+
+#[test]
+fn standard_input_is_a_record() {
+    let folder = records("record_stdin");
+    let given = |arguments: &[&str], name: &str| {
+        let file = fs::File::open(folder.join(name)).unwrap();
+        program(&folder, arguments).stdin(file).output().unwrap()
+    };
+    let table = given(&["record", "-"], "one.AT2");
+    assert_has(&text(&table.stdout), &["standard input", "PEER AT2", " 0.10529 "]);
+    let run = given(&["simulate", "--record", "-", "--unit", "g", "--record-step", "0.01"], "column.csv");
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    assert_has(&text(&run.stdout), &["record standard input (CSV)"]);
+    let error = given(&["simulate", "--record", "-"], "column.csv");
+    assert_has(&text(&error.stderr), &["standard input, line 3: expected a stated step"]);
+    #[cfg(unix)]
+    {
+        let endless = fs::File::open("/dev/zero").unwrap();
+        let error = program(&folder, &["record", "-"]).stdin(endless).output().unwrap();
+        assert_has(&text(&error.stderr), &["standard input: expected a record of at most 67108864 bytes"]);
     }
 }

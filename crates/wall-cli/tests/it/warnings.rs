@@ -163,7 +163,8 @@ fn a_number_that_is_given_counts() {
 #[test]
 fn a_start_beyond_u_ins_is_refused() {
     let folder = folder("start_beyond");
-    let remedy = "u_start = 0.18 m is beyond u_ins = 0.125000 m: for a wall at rest set u_start = 0";
+    let remedy =
+        "u_start = 0.18 m, its default where no motion is given, is beyond u_ins = 0.125000 m: give a";
     fails(&folder, &["simulate", "--set", "thickness=0.25"], &[remedy]);
     // what does not move has no start
     assert_eq!(warned(&["describe", "--set", "thickness=0.25"]), "");
@@ -275,4 +276,17 @@ fn a_study_says_that_it_ignores_a_motion() {
     let message = text(&succeed(&folder, &["ida", "study.toml"]).stderr);
     let shaken = "wall \"shaken\": the study ignores the motion of its scene";
     assert_has(&message, &[shaken, "wall \"light\": density = 1.8 kg/m3 is unusual"]);
+}
+
+/// A run warns of a vertical record, from the command line or a scene.
+#[test]
+fn vertical_records_are_warned_of() {
+    let folder = folder("vertical_record");
+    let up = crate::specimen::at2(&crate::specimen::SAMPLES).replace(", 90\n", ", UP\n");
+    std::fs::write(folder.join("a.AT2"), up).unwrap();
+    std::fs::write(folder.join("s.toml"), "[motion]\nrecord = \"a.AT2\"\n").unwrap();
+    for arguments in [&["simulate", "--record", "a.AT2"][..], &["simulate", "s.toml"]] {
+        let told = text(&succeed(&folder, arguments).stderr);
+        assert_has(&told, &["warning: ", "vertical: this component is vertical", "use a horizontal one"]);
+    }
 }

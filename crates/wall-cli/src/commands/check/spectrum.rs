@@ -136,7 +136,7 @@ impl Source {
         let count = motions.len();
         let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
         if let Some(floors) = floors {
-            floors.warning(wall).iter().for_each(|warning| output::warn(warning));
+            floors.warnings(wall).for_each(|warning| output::warn(&warning));
             let _ = write!(name, " {}", floors.note());
         }
         Ok(Self { name, damping, demand: Demand::of_records(motions, floors, wall, damping)? })

@@ -23,10 +23,8 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     let verdicts = walls.check(parallel::threads(None).get());
     output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
     output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
-    let warned =
-        verdicts.iter().filter(|wall| wall.verdict.as_ref().is_ok_and(|v| !v.warnings.is_empty())).count();
-    if warned > 0 && !arguments.json {
-        output::warn(&format!("{warned} walls have warnings; see --csv or --json"));
+    if !arguments.json {
+        output::report_all(warnings(&verdicts));
     }
     walls.record_warnings().iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {
@@ -40,6 +38,14 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
         bail!("{refused} of {} walls could not be checked; the first rows say why", verdicts.len());
     }
     Ok(())
+}
+
+/// The warnings of each wall in a line with its name, in the order of the table.
+fn warnings(verdicts: &[WallVerdict]) -> impl Iterator<Item = String> {
+    verdicts.iter().filter_map(|wall| {
+        let own = &wall.verdict.as_ref().ok()?.warnings;
+        (!own.is_empty()).then(|| format!("warning: wall {:?}: {}", wall.name, own.join("; ")))
+    })
 }
 
 /// The smallest `ζ_E` of each limit state: SLD, SLV with q, SLV, SLC.

@@ -11,6 +11,7 @@ use serde_json::json;
 use study::{counted, parallel};
 
 use super::arguments::Arguments;
+use crate::args::short_name;
 use crate::output::progress::{self, Progress};
 use crate::output::{self, demands};
 use study::polarity::Polarities;
@@ -45,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
     wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
-    if let Some(warning) = first.floors.as_ref().and_then(|floors| floors.warning(&wall)) {
+    for warning in first.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
         output::warn(&warning);
     }
     let runs = signs.len() * motions.len();
@@ -82,7 +83,7 @@ fn motions(arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
         let (motion, note) = arguments.record.read(path)?;
         let motion = arguments.record.scaled(motion)?;
-        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };
     arguments.table().iter().map(shaking).collect()

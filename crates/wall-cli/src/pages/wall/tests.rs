@@ -90,7 +90,7 @@ fn an_empty_response_is_refused() {
     assert!(render(&scene, &wall, &response).unwrap_err().to_string().contains("empty"));
 }
 
-/// The cursor's place is computed from the margins given to kuva: the first and last points of a line must
+/// The cursor's place is computed from the margins of the plot: the first and last points of a line must
 /// lie there.
 #[test]
 fn the_cursor_lines_up_with_the_time_axis() {
@@ -107,7 +107,7 @@ fn the_cursor_lines_up_with_the_time_axis() {
     let [_, _, low, high] = figure.ranges();
     let height = 250.0;
     let expected_y = |value: f64| height * (bottom - (bottom - top) * (value - low) / (high - low));
-    // kuva writes hundredths of a pixel
+    // the path has hundredths of a pixel
     let near = |found: f64, expected: f64| assert!((found - expected).abs() < 0.02, "{found} for {expected}");
     near(numbers[0], left * WIDTH);
     near(numbers[1], expected_y(0.0));

@@ -1,0 +1,110 @@
+//! Plain numbers, any number of them on a line and nothing else: the samples of one record in their order, as
+//! OpenSees reads them (`timeSeries Path -dt … -filePath …`). Step and unit have to be stated.
+//!
+//! ```text
+//! 0.00012 0.00034 -0.00021 0.00056 0.00103
+//! 0.00110 0.00098
+//! ```
+//!
+//! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
+//! table.
+
+use super::at2::Touching;
+use crate::error::Fault;
+use crate::fields::{lines, real};
+use crate::options::{RecordOptions, STATE_THE_UNIT};
+use crate::parsed::Parsed;
+
+const COMMENTS: [char; 2] = ['#', '%'];
+
+/// Returns whether the first lines are numbers only, several on some of them, and not a table that starts
+/// with times. Two numbers a line are taken for times and accelerations unless a step is stated.
+pub(super) fn recognises(head: &[&str], has_step: bool) -> bool {
+    let rows = head.iter().map(|line| line.trim()).filter(|line| !line.starts_with(COMMENTS));
+    let rows: Option<Vec<Vec<f64>>> = rows.map(values).collect();
+    let fewest = if has_step { 2 } else { 3 };
+    rows.is_some_and(|rows| rows.iter().any(|row| row.len() >= fewest) && !starts_with_times(&rows))
+}
+
+/// Reads the numbers of a line; `None` if there is something else, or a comma that may stand before decimals.
+fn values(line: &str) -> Option<Vec<f64>> {
+    let has_points = !line.contains(',') || words(line).all(|word| word.contains('.'));
+    let value = |word| real(word).filter(|value| value.is_finite());
+    if has_points { words(line).map(value).collect() } else { None }
+}
+
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    let separated = line.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
+    separated.flat_map(|word| Touching { rest: word })
+}
+
+/// Returns whether the first column of a table never falls, as times do not, even if they are rounded.
+fn starts_with_times(rows: &[Vec<f64>]) -> bool {
+    const FEWEST: usize = 3;
+    let is_table = |rows: &[Vec<f64>]| {
+        let columns = rows.first().map_or(0, Vec::len);
+        let rises = rows.windows(2).all(|pair| pair[0].first() <= pair[1].first());
+        let moves = rows.first().and_then(|row| row.first()) < rows.last().and_then(|row| row.first());
+        rows.len() >= FEWEST && columns > 1 && rises && moves && rows.iter().all(|row| row.len() == columns)
+    };
+    // what precedes a table, such as its number of rows, does not count
+    is_table(rows) || rows.get(1..).is_some_and(is_table)
+}
+
+/// Reads the text of such a file.
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+    let content = || lines(text).filter(|(_, line)| !line.starts_with(COMMENTS));
+    let Some((first_line, first)) = content().next() else {
+        return Err(Fault::new(1, "numbers", "none", "check that this is the right file"));
+    };
+    let Some(step) = options.step else {
+        let expected = "two columns, times and accelerations, or a stated step";
+        let remedy = "if these are the samples of one record in their order, state the step in seconds as \
+                      `step` (on the command line --record-step, in Python dt); otherwise name the columns \
+                      in a header line that starts with `time`, or write one sample a line";
+        let found = format!("{} numbers a line and no step", words(first).count());
+        return Err(Fault::new(first_line, expected, found, remedy));
+    };
+    let Some(unit) = options.unit else {
+        return Err(Fault::new(
+            first_line,
+            "a stated unit (plain numbers have none)",
+            "no unit",
+            STATE_THE_UNIT,
+        ));
+    };
+    let mut parsed = Parsed::new(step, unit, first_line);
+    // the number of columns, if all lines but the last have as many
+    let (mut columns, mut previous) = (None, None);
+    for (number, line) in content() {
+        let before = parsed.samples.len();
+        for word in words(line) {
+            parsed.push(real(word), number, word, "a finite number")?;
+        }
+        let is_alike = previous.is_none_or(|previous| columns == Some(previous));
+        previous = Some(parsed.samples.len() - before);
+        columns = if is_alike { columns.or(previous) } else { Some(0) };
+    }
+    check_order(&parsed, columns.unwrap_or(0), first_line)?;
+    parsed.keep_header(lines(text).map(|(_, line)| line));
+    Ok(parsed)
+}
+
+/// Refuses columns that are records of their own: neighbours in a column are then much closer than
+/// neighbours in a row.
+fn check_order(parsed: &Parsed, columns: usize, line: usize) -> Result<(), Fault> {
+    const CLOSER: f64 = 0.25;
+    let samples = &parsed.samples;
+    let change = |lag: usize| -> f64 {
+        let squares = samples.iter().zip(samples.iter().skip(lag)).map(|(a, b)| (b - a) * (b - a));
+        squares.sum::<f64>() / samples.len().saturating_sub(lag).max(1) as f64
+    };
+    // few rows say nothing
+    if columns < 2 || samples.len() < 20 * columns || change(columns) >= CLOSER * change(1) {
+        return Ok(());
+    }
+    let found = format!("{columns} columns that change more slowly than the rows, as components do");
+    let remedy = "name the columns in a header line that starts with `time` and state one, or write one \
+                  sample a line";
+    Err(Fault::new(line, "the samples of one record in their order", found, remedy))
+}

@@ -1,0 +1,164 @@
+//! Reads TOML into tables. The words of the reader do not reach users: what is wrong is said here, with key,
+//! line and what is expected.
+
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Place, SceneError};
+use super::nearest::suggestion;
+use super::parameter::belongs_in;
+use super::syntax::{explained, number_meant, shown};
+
+/// Reads a TOML text: a scene, a study, a building, a table of them.
+///
+/// ```
+/// use rocking_wall::scene::{Document, Place, parse_toml};
+///
+/// let place = Place::new("scene.toml", "[geometry]\nthickness = 0,30\n");
+/// let error = parse_toml::<Document>(&place).unwrap_err().to_string();
+/// assert!(error.starts_with("scene.toml, line 2: thickness = 0,30: a number has a decimal point"));
+/// ```
+///
+/// # Errors
+/// [`SceneError::Line`] where the text is not such a document: key, line and what is expected.
+pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
+    toml::from_str(place.text()).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        if let Ok(document) = DeTable::parse(place.text()) {
+            let found = Found::at(document.get_ref(), place.text(), &span);
+            place.error(span, found.explained(error.message()))
+        } else {
+            let is_twice = error.message().starts_with("duplicate key");
+            let (line, message) = explained(place, span.start, is_twice);
+            SceneError::Line { file: place.name().to_owned(), line, message }
+        }
+    })
+}
+
+/// What stands where a value cannot be used.
+struct Found<'a> {
+    /// The keys that lead there, the value's own last; none for the whole document.
+    keys: Vec<String>,
+    /// The value as it is written.
+    value: &'a str,
+}
+
+impl<'a> Found<'a> {
+    fn at(document: &DeTable<'_>, text: &'a str, span: &Range<usize>) -> Self {
+        let mut keys = Vec::new();
+        in_table(document, span, &mut keys);
+        Self { keys, value: text.get(span.clone()).unwrap_or_default() }
+    }
+
+    /// Translates a message of the reader. Those of this project's own types pass.
+    fn explained(&self, message: &str) -> String {
+        let names: Vec<_> = message.split('`').skip(1).step_by(2).collect();
+        let after = |start: &str| message.strip_prefix(start);
+        if after("unknown field").is_some() {
+            return self.unknown_key(names[0], &names[1..]);
+        }
+        if after("missing field").is_some() {
+            let name = names.first().copied().unwrap_or_default();
+            return match self.keys.join(".").as_str() {
+                "" => format!("{name} is missing; add it"),
+                table => format!("{table} needs {name}; add it"),
+            };
+        }
+        if after("unknown variant").is_some() {
+            let quoted: Vec<_> = names[1..].iter().map(|name| format!("{name:?}")).collect();
+            let meant = suggestion(names[0], names[1..].iter().copied());
+            return format!("{} is not one of {}{meant}", self.given(), quoted.join(", "));
+        }
+        let expected = if after("wanted string or table").is_some() {
+            "a name in quotes".to_owned()
+        } else if message.contains("overflowed") || message.contains("too large") {
+            "a smaller number".to_owned()
+        } else if after("data did not match").is_some() || after("wanted exactly").is_some() {
+            "another kind of value".to_owned()
+        } else if let Some((_, expected)) =
+            message.strip_prefix("invalid ").and_then(|rest| rest.rsplit_once(", expected "))
+        {
+            in_toml_words(expected)
+        } else {
+            return format!("{}: {message}", self.given());
+        };
+        let number = expected == "a number" || expected.starts_with("a whole number");
+        let key = self.keys.last().map_or("", String::as_str);
+        let meant = number.then(|| number_meant(key, self.value.trim_matches(['"', '\'']))).flatten();
+        meant.unwrap_or_else(|| format!("{}: expected {expected}", self.given()))
+    }
+
+    /// The value with its key.
+    fn given(&self) -> String {
+        // the name of a table in brackets says no more
+        let value = shown(self.value.lines().next().unwrap_or_default());
+        match self.keys.last() {
+            Some(key) if value.is_empty() || is_header(&value) => key.clone(),
+            Some(key) => format!("{key} = {value}"),
+            None => format!("`{value}`"),
+        }
+    }
+
+    fn unknown_key(&self, name: &str, known: &[&str]) -> String {
+        // the last key is the unknown one
+        let table = self.keys[..self.keys.len().saturating_sub(1)].join(".");
+        if let (true, Some(group)) = (table.is_empty(), belongs_in(name)) {
+            return format!("{name:?} belongs in [{group}]");
+        }
+        let meant = suggestion(name, known.iter().copied());
+        let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
+        match known {
+            [] => format!("unknown key {name:?}{place}: it holds no keys"),
+            _ => format!("unknown key {name:?}{place}{meant}; it holds {}", known.join(", ")),
+        }
+    }
+}
+
+fn is_header(value: &str) -> bool {
+    value.starts_with('[') && value.trim_start_matches('[').starts_with(|c: char| c.is_alphabetic())
+}
+
+/// Adds the keys that lead to a span, and returns whether there is such a key or value. Of tables that begin
+/// at one place, such as those of `[check.building]`, it is the innermost.
+fn in_table(table: &DeTable<'_>, span: &Range<usize>, keys: &mut Vec<String>) -> bool {
+    for (key, value) in table {
+        keys.push(key.get_ref().to_string());
+        let inside = in_value(value.get_ref(), span, keys);
+        if inside || key.span() == *span || value.span() == *span {
+            return true;
+        }
+        keys.pop();
+    }
+    false
+}
+
+fn in_value(value: &DeValue<'_>, span: &Range<usize>, keys: &mut Vec<String>) -> bool {
+    match value {
+        DeValue::Table(table) => in_table(table, span, keys),
+        DeValue::Array(items) => {
+            items.iter().any(|item| in_value(item.get_ref(), span, keys) || item.span() == *span)
+        }
+        _ => false,
+    }
+}
+
+/// Replaces the Rust type that the reader expects with TOML's own word.
+fn in_toml_words(expected: &str) -> String {
+    let counted = |rest: &str| rest.split(' ').find_map(|word| word.parse::<usize>().ok());
+    match expected {
+        "a map" => "a table".to_owned(),
+        "a sequence" => "a list".to_owned(),
+        "path string" => "a path in quotes".to_owned(),
+        "a string" | "str" | "string" => "a text in quotes".to_owned(),
+        "f64" => "a number".to_owned(),
+        "u32" | "u64" | "usize" => "a whole number from 0 on".to_owned(),
+        "a boolean" | "bool" => "true or false".to_owned(),
+        name if name.starts_with("struct ") => "a table".to_owned(),
+        name if name.starts_with("an array of ") || name.starts_with("a tuple of ") => {
+            counted(name).map_or_else(|| "a list".to_owned(), |count| format!("a list of {count} values"))
+        }
+        other => other.to_owned(),
+    }
+}
