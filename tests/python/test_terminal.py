@@ -11,6 +11,7 @@ STUDY = """
 models = ["CR", "CDC"]
 levels = { method = "grid", step = 0.01, top = 3 }
 records = { synthetic = { count = 40 } }
+report = { resamples = 100 }
 walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 """
 

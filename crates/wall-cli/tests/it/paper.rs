@@ -61,15 +61,23 @@ fn record(path: &Path) {
     std::fs::write(path, content).unwrap();
 }
 
+/// One run shows the page and the words, which say which number deviates most, and why: it takes seconds.
 #[test]
-fn reproduce_writes_one_page_of_everything() {
+fn reproduce_writes_one_page_of_everything_and_explains_deviations() {
     let folder = folder("reproduce");
     std::fs::create_dir(folder.join("records")).unwrap();
     record(&folder.join("records/a.AT2"));
     std::fs::write(folder.join("records/notes.md"), "# no record\n").unwrap();
     let output = succeed(&folder, &["reproduce", "--records", "records", "-o", "paper.html"]);
     assert_has(&text(&output.stderr), &["left out", "notes.md"]);
-    assert_has(&text(&output.stdout), &["Table 1", "Table 5", "Equations (20) to (23)", "Medians"]);
+    let told = text(&output.stdout);
+    assert_has(&told, &["Table 1", "Table 5", "Equations (20) to (23)", "Medians"]);
+    let (told, _) = told.split_once("Figures 2, ").unwrap();
+    let tables: Vec<_> = told.lines().filter(|line| line.contains("round to print")).collect();
+    assert!(tables.len() == 7 && tables.iter().all(|line| line.contains(": printed ")), "{told}");
+    let table_1 = told.lines().skip_while(|line| !line.starts_with("Table 1")).nth(1).unwrap();
+    assert!(table_1.starts_with("    "), "{told}");
+    assert!(told.lines().all(|line| line.chars().count() <= 160), "{told}");
     let page = content(&folder, "paper.html");
     assert!(page.len() < 3 << 20, "{} bytes", page.len());
     assert!(!page.contains("{{") && !page.contains("NaN") && !page.contains("inf"), "a place left open");

@@ -111,18 +111,6 @@ fn the_acceleration_of_a_floor_is_not_called_that_of_the_ground() {
     assert!(told.contains(", peak acceleration") && html.contains("Acceleration of the support"), "{told}");
 }
 
-/// `wall reproduce` says which number deviates most, and why.
-#[test]
-fn deviations_from_print_are_explained() {
-    let folder = folder("reproduce_words");
-    let told = printed(&folder, &["reproduce", "-o", "p.html"]);
-    let tables: Vec<_> = told.lines().filter(|line| line.contains("round to print")).collect();
-    assert!(tables.len() == 7 && tables.iter().all(|line| line.contains(": printed ")), "{told}");
-    let table_1 = told.lines().skip_while(|line| !line.starts_with("Table 1")).nth(1).unwrap();
-    assert!(table_1.starts_with("    "), "{told}");
-    assert!(told.lines().all(|line| line.chars().count() <= 160), "{told}");
-}
-
 /// Ctrl-C ends a study with the words that the same command resumes; what is there is complete.
 #[cfg(unix)]
 #[test]
