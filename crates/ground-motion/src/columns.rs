@@ -18,6 +18,7 @@ pub use heading::Name;
 
 use crate::error::excerpt;
 use crate::fields::{Line, lines};
+pub(crate) use cells::Thousands;
 use cells::{Cells, Separator};
 
 /// What starts a comment.

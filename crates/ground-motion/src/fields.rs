@@ -68,7 +68,9 @@ pub(crate) fn unit_word(line: &str) -> Option<&str> {
     let words: Vec<&str> = words.take(MOST_WORDS).collect();
     let start = start_of(words.first()?);
     let until = |word: &&str| text[start..start_of(word) + word.len()].trim_matches(is_edge);
-    let unit = words.iter().rev().map(until).find(|unit| Quantity::of(unit).is_some());
+    let quantities = || words.iter().rev().map(|word| (until(word), Quantity::of(until(word))));
+    let known = quantities().find(|(_, of)| of.is_some_and(|of| of != Quantity::Other));
+    let unit = known.or_else(|| quantities().find(|(_, of)| of.is_some())).map(|(unit, _)| unit);
     unit.or_else(|| words.first().map(until))
 }
 

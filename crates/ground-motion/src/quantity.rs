@@ -15,6 +15,8 @@ pub(crate) enum Quantity {
     /// A time: how many seconds the unit has.
     Time(f64),
     Frequency,
+    /// Anything else that is a unit, or a unit times a factor.
+    Other,
 }
 
 /// Units of length: names, and their lengths in m.
@@ -83,8 +85,10 @@ impl Quantity {
         let part =
             word.strip_prefix("g/").and_then(|parts| parts.parse::<f64>().ok()).map(|parts| 1.0 / parts);
         let part = part.or_else(|| word.strip_suffix('g')?.parse::<f64>().ok());
-        let part = part.or_else(|| size_of(word, &PARTS_OF_G))?;
-        Some(Self::OtherAcceleration(part, Unit::StandardGravity))
+        if let Some(part) = part.or_else(|| size_of(word, &PARTS_OF_G)) {
+            return Some(Self::OtherAcceleration(part, Unit::StandardGravity));
+        }
+        is_other_unit(word).then_some(Self::Other)
     }
 
     /// Makes the fault of a unit other than one that is read, which `word` states on a line.
@@ -98,7 +102,7 @@ impl Quantity {
                      acceleration"
                 )
             }
-            Self::Acceleration(_) | Self::Time(_) | Self::Frequency => {
+            Self::Acceleration(_) | Self::Time(_) | Self::Frequency | Self::Other => {
                 "correct the unit, or use another column".to_owned()
             }
         };
@@ -108,6 +112,22 @@ impl Quantity {
         );
         Fault::excerpt(line, "a unit of acceleration", word, remedy)
     }
+}
+
+/// Units that are neither of motion nor of time, in small letters.
+const OTHERS: [&str; 14] =
+    ["-", "kg", "kn", "pa", "kpa", "mpa", "rad", "rad/s2", "rads-2", "deg", "°", "°c", "m2", "m3"];
+
+/// Returns whether a plain text is another unit, such as `kg` and `m/s3`, or a factor and a unit, such as
+/// `10^-3 m/s2`. Directions, such as `N/S`, and words, such as `counts`, are none.
+fn is_other_unit(word: &str) -> bool {
+    let is_factor = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'x' | '×');
+    let unit = word.trim_start_matches(is_factor);
+    let has_factor = unit.len() < word.len() && (parts(unit).is_some() || ["g", "gal"].contains(&unit));
+    let above = word.split('/').next().filter(|above| above.len() < word.len());
+    let above = above.or_else(|| word.split_once("s-").map(|(above, _)| above));
+    let is_ratio = above.is_some_and(|above| size_of(above, &LENGTHS).is_some() || above == "g");
+    has_factor || is_ratio || OTHERS.contains(&word)
 }
 
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
@@ -127,9 +147,26 @@ pub(crate) fn plain(text: &str) -> String {
     }
 }
 
-/// Splits a plain unit such as `cm/s2` into its length and the power of the time below it.
+/// Splits a plain unit such as `cm/s2` into its length and the power of the time below it. Names of columns
+/// have `cm_s2` and `cms2`.
 pub(crate) fn parts(plain: &str) -> Option<(&str, u8)> {
-    let below = [("/s2", 2), ("/s/s", 2), ("/ss", 2), ("s-2", 2), ("/s", 1), ("s-1", 1)];
+    let below = [
+        ("/s2", 2),
+        ("/s/s", 2),
+        ("/ss", 2),
+        ("s-2", 2),
+        ("_s2", 2),
+        ("_s_2", 2),
+        ("_s_s", 2),
+        ("_s-2", 2),
+        ("ps2", 2),
+        ("s2", 2),
+        ("ss", 2),
+        ("/s", 1),
+        ("s-1", 1),
+        ("_s", 1),
+        ("s", 1),
+    ];
     let found = below.iter().find_map(|(time, power)| Some((plain.strip_suffix(time)?, *power)));
     let (length, power) = found.unwrap_or((plain, 0));
     size_of(length, &LENGTHS).map(|_| (length, power))

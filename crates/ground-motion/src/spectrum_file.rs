@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::columns::{Columns, Name, Numbers};
+use crate::columns::{Columns, Name, Numbers, Thousands};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
 use crate::options::stated_unit;
@@ -82,14 +82,17 @@ impl SpectrumFile {
             return Err(Fault::excerpt(columns.line(), "a unit of Sa", columns.heading(), remedy));
         };
         let (mut points, mut lines) = (Vec::new(), Vec::new());
-        let mut numbers = Numbers::new(&columns);
+        let (mut numbers, mut thousands) = (Numbers::new(&columns), Thousands::default());
         for row in columns.rows() {
             let row = row?;
             let mut cells = row.cells();
-            let mut next = |skipped| numbers.real(&cells.nth(skipped).unwrap_or_default(), row.line);
-            points.push((next(0)?, unit.to_si(next(column - 1)?)));
+            let period = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
+            let cell = cells.nth(column - 1).unwrap_or_default();
+            points.push((period, unit.to_si(numbers.real(&cell, row.line)?)));
+            thousands.push(&cell, row.line);
             lines.push(row.line);
         }
+        thousands.check()?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
         Ok(Self { points, lines, unit, column })
     }

@@ -171,6 +171,52 @@ pub(super) fn unquoted(cell: &str) -> Cow<'_, str> {
     }
 }
 
+/// Finds whole numbers with marks between thousands, as Germans write them: `931` above `1.053`.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Thousands {
+    /// The first number with a mark, and its line.
+    marked: Option<(String, usize)>,
+    /// How many numbers are whole, and whether one of them has three digits.
+    whole: usize,
+    has_hundreds: bool,
+    /// Whether a number cannot be one of these, such as `0.125` and `1.5`.
+    has_decimals: bool,
+}
+
+impl Thousands {
+    /// Takes the next number of a column.
+    pub(crate) fn push(&mut self, cell: &str, line: usize) {
+        let digits = cell.trim_start_matches(['+', '-']);
+        let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        match digits.split_once(['.', ',']) {
+            None => {
+                self.whole += 1;
+                self.has_hundreds |= digits.len() == 3;
+                self.has_decimals |= digits.len() > 3 || !is_digits(digits);
+            }
+            Some((whole, rest)) => {
+                let is_one = is_digits(whole) && whole.len() <= 3 && !whole.starts_with('0');
+                self.has_decimals |= !(is_one && rest.len() == 3 && is_digits(rest));
+                self.marked.get_or_insert_with(|| (cell.to_owned(), line));
+            }
+        }
+    }
+
+    /// Refuses a column in which every mark can stand between thousands, beside whole numbers, some of three
+    /// digits: `1.053` after `931`. One or two whole numbers can have zeros as decimals.
+    pub(crate) fn check(self) -> Result<(), Fault> {
+        match self.marked {
+            Some((cell, line)) if self.whole > 2 && self.has_hundreds && !self.has_decimals => {
+                let expected = "numbers without marks between thousands";
+                let remedy = "beside whole numbers of three digits this may be one above 999: write no marks \
+                              between thousands, or all numbers with decimals";
+                Err(Fault::excerpt(line, expected, &cell, remedy))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 /// Reads numbers whose decimals are all written alike.
 #[derive(Clone, Debug)]
 pub struct Numbers {

@@ -2,6 +2,7 @@
 
 use super::cells::{Cells, Separator, unquoted};
 use crate::quantity::Quantity;
+use crate::unit::Unit;
 
 /// The name of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,12 +67,21 @@ impl Name {
     }
 }
 
-/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`. The g
-/// of `a_g` is none: it may mean the ground.
+/// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`,
+/// `a_cm_s2`. The g of `a_g` is none: it may mean the ground. Neither is a number before it, as in `x_0.3g`.
 fn behind(name: &str) -> Option<(usize, &str)> {
-    let at = name.rfind(',').or_else(|| name.rfind(['_', ' ']).filter(|at| name[*at..].contains('/')))?;
-    let unit = name[at + 1..].trim();
-    Quantity::of(unit).map(|_| (at, unit))
+    if let Some(at) = name.rfind(',') {
+        let unit = name[at + 1..].trim();
+        return Quantity::of(unit).map(|_| (at, unit));
+    }
+    let is_unit = |unit: &str| match Quantity::of(unit) {
+        _ if unit.starts_with(|c: char| c.is_ascii_digit() || c == '.') => false,
+        Some(Quantity::Acceleration(Unit::StandardGravity)) | None => false,
+        Some(Quantity::Acceleration(_) | Quantity::OtherAcceleration(..) | Quantity::Velocity) => true,
+        Some(_) => unit.contains('/'),
+    };
+    let starts = std::iter::once((0, 0)).chain(name.match_indices(['_', ' ']).map(|(at, _)| (at, at + 1)));
+    starts.map(|(at, start)| (at, name[start..].trim())).find(|(_, unit)| is_unit(unit))
 }
 
 /// Finds the bracket that closes one which is open at the start of a text.

@@ -18,7 +18,7 @@
 
 mod times;
 
-use crate::columns::{Columns, Name, Numbers};
+use crate::columns::{Columns, Name, Numbers, Thousands};
 use crate::error::{Fault, excerpt};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -171,7 +171,7 @@ fn read_samples(
     parsed: &mut Parsed,
     mut take_time: impl FnMut(f64, usize) -> Result<(), Fault>,
 ) -> Result<(), Fault> {
-    let mut numbers = Numbers::new(columns);
+    let (mut numbers, mut thousands) = (Numbers::new(columns), Thousands::default());
     for row in columns.rows() {
         let row = row?;
         let mut cells = row.cells();
@@ -182,12 +182,13 @@ fn read_samples(
         }
         let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
         let sample = Some(parsed.unit.to_si(numbers.real(&cell, row.line)?));
+        thousands.push(&cell, row.line);
         parsed.samples.push(sample.filter(|sample| sample.is_finite()).ok_or_else(|| {
             Fault::excerpt(row.line, "a finite acceleration", &cell, "check the value and the unit")
         })?);
         parsed.last_line = row.line;
     }
-    Ok(())
+    thousands.check()
 }
 
 /// Refuses dates and times of the day.

@@ -84,6 +84,12 @@ fn tables_of_records_are_read() {
         (table("Time (s),Acceleration (m / s ^ 2)\n", ",", "", "."), &none),
         (table("Time (s);Acceleration, m/s2\n", ";", "", "."), &none),
         (table("time_s,acc\n", ",", "", "."), &si()),
+        (table("time_s,acc_m_s2\n", ",", "", "."), &none),
+        (table("time_s,acc_mps2\n", ",", "", "."), &none),
+        (table("time,m/s2\n", ",", "", "."), &none),
+        (table("t [s],a [counts]\n", ",", "", "."), &si()),
+        (table("t [s],a (N/S)\n", ",", "", "."), &si()),
+        (table("t [s],shake_0.3g\n", ",", "", "."), &si()),
         (table("% by MATLAB\n% t [s], a [g]\n", ",", "", "."), &si()),
         (table("#Time [sec] \tAcceleration [m/s2]\n", "    ", "", "."), &si()),
         (table("sep=;\ntime;a_g\n", ";", "", ","), &si()),
@@ -130,8 +136,13 @@ fn tables_of_records_are_refused() {
         (comma("time [s],a [m/s2],a [m/s2]\n"), &["line 1", "two columns `a [m/s2]`"]),
         (comma("t [s],a [m/s2]\n").replace("\n1.00,", "\n1.00,nan #"), &["line 102", "a finite number"]),
         (comma(header).replace("\n1.00", "\n1.005"), &["line 102", "step"]),
+        (
+            "t [s],a [mm/s2]\n0,-931\n0.01,1.053\n0.02,1.163\n0.03,12\n0.04,7\n".to_owned(),
+            &["line 3", "`1.053`", "marks between thousands"],
+        ),
     ] {
-        assert_mentions(&crate::read("x.csv", &text, &si()).expect_err(&text[..40]), words);
+        let options = if text.contains("[mm/s2]") { RecordOptions::default() } else { si() };
+        assert_mentions(&crate::read("x.csv", &text, &options).expect_err(&text[..40]), words);
     }
     for (count, words) in [
         ("NPTS= 401, DT= 10.0 (ms)", "must be in seconds"),
@@ -145,6 +156,16 @@ fn tables_of_records_are_refused() {
         let error = crate::read("x.AT2", &at2(IN_G, count), &RecordOptions::default()).unwrap_err();
         assert_mentions(&error, &["x.AT2, line", words]);
     }
+}
+
+/// Decimals beside whole numbers are no thousands if one of them is below 1, or has another number of digits.
+#[test]
+fn whole_numbers_beside_decimals_are_read() {
+    for samples in ["931\n0.125\n1.053\n", "931\n1.05\n1.053\n", "31\n3\n1.053\n", "931\n1.053\n"] {
+        assert!(crate::read("x.txt", samples, &with_step(0.01)).is_ok(), "{samples}");
+    }
+    let error = crate::read("x.txt", "931\n1.053\n12\n7\n", &with_step(0.01)).unwrap_err();
+    assert_mentions(&error, &["line 2", "`1.053`", "marks between thousands"]);
 }
 
 /// An unknown unit that the file states is not overridden.
@@ -169,21 +190,37 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
         ("in/s", "this is a velocity: convert it"),
         ("kine", "this is a velocity: convert it"),
         ("cm", "this is a displacement: convert it"),
+        ("m/s3", "correct the unit"),
+        ("m/s^3", "correct the unit"),
+        ("kg", "correct the unit"),
+        ("-", "correct the unit"),
+        ("10^-3 m/s2", "correct the unit"),
+        ("x 10^-2 g", "correct the unit"),
     ] {
         for options in [RecordOptions::default(), si()] {
             let text = table(&format!("t [s],x [{unit}]\n"), ",", "", ".");
             let error = crate::read("x.csv", &text, &options).unwrap_err();
-            assert_mentions(&error, &["x.csv, line 1", words, "convert", "does not override"]);
-            if !unit.contains(' ') {
+            assert_mentions(&error, &["x.csv, line 1", words, "does not override"]);
+            if !unit.contains([' ', '-']) {
                 let text = at2(&IN_G.replace("OF G", &format!("OF {unit}")), COUNT);
                 let error = crate::read("x.AT2", &text, &options).unwrap_err();
-                assert_mentions(&error, &["x.AT2, line 3", words, "convert"]);
+                assert_mentions(&error, &["x.AT2, line 3", words]);
             }
         }
     }
     for (name, words) in [
         ("velocity", "this is a velocity"),
         ("a_ft/s2", "1 ft/s2 is 0.3048 m/s2"),
+        ("acc_ft_s2", "1 ft_s2 is 0.3048 m/s2"),
+        ("acc ft s-2", "1 ft s-2 is 0.3048 m/s2"),
+        ("a_mg", "1 mg is 0.001 g"),
+        ("mg", "1 mg is 0.001 g"),
+        ("acc_cms", "this is a velocity"),
+        ("vel_cm_s", "this is a velocity"),
+        ("acc_cm_s2", "the stated unit m/s2, found cm/s2"),
+        ("acc_cms2", "the stated unit m/s2, found cm/s2"),
+        ("acc_mm_s_2", "the stated unit m/s2, found mm/s2"),
+        ("acc_gal", "the stated unit m/s2, found cm/s2"),
         ("Acceleration, ft/s2", "1 ft/s2 is 0.3048 m/s2"),
         ("Acceleration, cm/s2", "the stated unit m/s2, found cm/s2"),
     ] {
