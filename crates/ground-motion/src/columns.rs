@@ -15,6 +15,7 @@ mod heading;
 pub use crate::error::Fault;
 pub use cells::{Numbers, Row};
 pub use heading::Name;
+pub(crate) use heading::Said;
 
 use crate::error::excerpt;
 use crate::fields::{Line, lines};
@@ -160,6 +161,11 @@ impl<'a> Columns<'a> {
     /// Returns the name of the first column, or else what a comment above the rows calls it.
     pub fn first(&self) -> Option<&Name> {
         self.names.first().or_else(|| self.remark.first())
+    }
+
+    /// Returns the name of a column, or else what a comment above the rows calls it.
+    pub(crate) fn named(&self, column: usize) -> Option<&Name> {
+        if self.names.is_empty() { self.remark.get(column) } else { self.names.get(column) }
     }
 
     /// Returns the line of the names, or else of the first row.

@@ -91,15 +91,27 @@ impl Quantity {
         is_other_unit(word).then_some(Self::Other)
     }
 
+    /// Returns what the quantity is called.
+    pub(crate) fn noun(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Displacement => "displacement",
+            Self::Acceleration(_) | Self::OtherAcceleration(..) => "acceleration",
+            Self::Time(_) => "time",
+            Self::Frequency => "frequency",
+            Self::Other => "another quantity",
+        }
+    }
+
     /// Makes the fault of a unit other than one that is read, which `word` states on a line.
     pub(crate) fn refused(self, word: &str, line: usize) -> Fault {
         let remedy = match self {
             Self::OtherAcceleration(size, unit) => format!("convert the samples: 1 {word} is {size} {unit}"),
             Self::Velocity | Self::Displacement => {
-                let what = if self == Self::Velocity { "velocity" } else { "displacement" };
                 format!(
-                    "this is a {what}: convert it to an acceleration, or use the file or column of the \
-                     acceleration"
+                    "this is a {}: convert it to an acceleration, or use the file or column of the \
+                     acceleration",
+                    self.noun()
                 )
             }
             Self::Acceleration(_) | Self::Time(_) | Self::Frequency | Self::Other => {

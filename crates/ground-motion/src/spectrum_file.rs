@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::columns::{Columns, Name, Numbers, Thousands};
+use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
 use crate::options::stated_unit;
@@ -74,8 +74,15 @@ impl SpectrumFile {
         }
         check_periods(&columns)?;
         let column = columns.beside_the_first(wanted, "T")?;
+        refuse_record(&columns, column)?;
         let name = columns.names().get(column);
-        let stated = name.and_then(Name::unit).map(|word| stated_unit(given, word, columns.line()));
+        name.map_or(Ok(()), |name| name.refuse_other_quantity(columns.line()))?;
+        let unit = match name {
+            Some(name) => name.unit(),
+            // what is in the brackets of a comment need not be a unit
+            None => columns.named(column).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some()),
+        };
+        let stated = unit.map(|word| stated_unit(given, word, columns.line()));
         let Some(unit) = stated.transpose()?.or(given) else {
             let remedy =
                 "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";
@@ -121,6 +128,23 @@ impl Abscissa {
 fn is_abscissa(name: &Name) -> bool {
     let quantity = name.unit().and_then(Quantity::of);
     matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
+}
+
+/// Refuses accelerations at times, which are a record.
+fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
+    let (Some(first), Some(name)) = (columns.first(), columns.named(column)) else { return Ok(()) };
+    let is_of_record = |name: &Name| {
+        name.words()
+            .first()
+            .is_some_and(|word| word.starts_with("acc") || ["a", "ag", "ax", "ay"].contains(&word.as_str()))
+    };
+    let is_time = first.words().first().is_some_and(|word| word == "time") || first.text() == "t";
+    if !is_time || name.says() == Some(Said::Spectrum) || !is_of_record(name) {
+        return Ok(());
+    }
+    let remedy = "this is a record: give the spectrum of its response, or the record as such; name periods \
+                  `T [s]`";
+    Err(Fault::excerpt(columns.line(), "a response spectrum", columns.heading(), remedy))
 }
 
 /// Refuses a first column that is not the period in seconds.

@@ -43,7 +43,7 @@ pub(crate) fn by_name(name: &str, format: Format, options: &RecordOptions) -> bo
     };
     let last = stem.rsplit(['-', '_', '.', ' ']).next().unwrap_or_default();
     is_direction(last)
-        || stem.to_ascii_uppercase().ends_with("U-D")
+        || ["U-D", "DWN"].iter().any(|end| stem.to_ascii_uppercase().ends_with(end))
         || stem.split(['-', '_', '.', ' ']).any(is_channel)
 }
 

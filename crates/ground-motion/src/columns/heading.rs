@@ -1,8 +1,10 @@
 //! The names of columns, and the units that they state.
 
 use super::cells::{Cells, Separator, unquoted};
+use crate::error::Fault;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
+use crate::vertical::is_vertical_channel;
 
 /// The name of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +57,40 @@ impl Name {
         words.map(str::to_lowercase).collect()
     }
 
+    /// Returns the quantity other than an acceleration of the ground that its words say.
+    pub(crate) fn says(&self) -> Option<Said> {
+        self.words().iter().enumerate().find_map(|(at, word)| match word.as_str() {
+            "sa" | "psa" | "spectral" => Some(Said::Spectrum),
+            "sv" | "psv" | "vg" => Some(Said::Is(Quantity::Velocity)),
+            "sd" | "dg" => Some(Said::Is(Quantity::Displacement)),
+            word if word.starts_with("vel") => Some(Said::Is(Quantity::Velocity)),
+            word if word.starts_with("disp") => Some(Said::Is(Quantity::Displacement)),
+            "period" | "periods" | "tn" if at == 0 => Some(Said::Spectrum),
+            _ => None,
+        })
+    }
+
+    /// Refuses the name of a velocity or a displacement on a line.
+    pub(crate) fn refuse_other_quantity(&self, line: usize) -> Result<(), Fault> {
+        match self.says() {
+            Some(Said::Is(quantity)) if self.is_acceleration() => {
+                let remedy = "name and unit contradict each other: correct the wrong one, or use the column \
+                              of the acceleration";
+                let expected = format!("the name of an acceleration, or a unit of a {}", quantity.noun());
+                Err(Fault::excerpt(line, expected, &self.written, remedy))
+            }
+            Some(Said::Is(quantity)) => Err(quantity.refused(&self.written, line)),
+            Some(Said::Spectrum) | None => Ok(()),
+        }
+    }
+
+    /// Returns whether one of its words, aside from the unit, means vertical.
+    pub(crate) fn is_vertical(&self) -> bool {
+        let unit = self.unit.as_deref().unwrap_or_default();
+        let is_plain_v = self.text.eq_ignore_ascii_case("v");
+        !is_plain_v && self.written.replacen(unit, " ", 1).split(['_', ' ']).any(is_vertical_channel)
+    }
+
     /// Returns whether it states a unit of acceleration that is read.
     pub(crate) fn is_acceleration(&self) -> bool {
         matches!(self.unit.as_deref().and_then(Quantity::of), Some(Quantity::Acceleration(_)))
@@ -65,6 +101,15 @@ impl Name {
         let quantity = self.unit.as_deref().and_then(Quantity::of);
         quantity.is_some_and(|of| !matches!(of, Quantity::Acceleration(_) | Quantity::OtherAcceleration(..)))
     }
+}
+
+/// What the words of a name say.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Said {
+    /// A response spectrum.
+    Spectrum,
+    /// A velocity or a displacement.
+    Is(Quantity),
 }
 
 /// Finds a unit without brackets at the end of a name, and where it is set off: `a, m/s2`, `a_ft/s2`,

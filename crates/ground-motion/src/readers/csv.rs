@@ -18,7 +18,7 @@
 
 mod times;
 
-use crate::columns::{Columns, Name, Numbers, Thousands};
+use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, excerpt};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -56,13 +56,16 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let column = if columns.width() == 1 {
         0
     } else {
+        refuse_spectrum(&columns, 1)?;
         check_times(&columns)?;
         columns.beside_the_first(options.column.as_deref(), "`time`")?
     };
+    refuse_spectrum(&columns, column)?;
     let stated = stated_unit(&columns, column, options)?.or(options.unit);
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
     let mut parsed = Parsed::new(f64::NAN, stated.unwrap_or(Unit::MetrePerSecondSquared), columns.line());
     parsed.keep_header(columns.header());
+    parsed.is_vertical = columns.named(column).is_some_and(Name::is_vertical);
     if columns.width() == 1 {
         read_column(&columns, options, &mut parsed)?;
     } else {
@@ -103,26 +106,36 @@ fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
 
 /// Finds the unit that the names state for a column.
 fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
-    let Some(name) = columns.names().get(column) else { return Ok(None) };
-    let of_first = columns.names()[0].unit().and_then(|unit| unit.split_once(" in ")).map(|(_, unit)| unit);
+    let Some(name) = columns.named(column) else { return Ok(None) };
+    let is_comment = columns.names().is_empty();
+    if columns.width() > 1 && !is_comment {
+        name.refuse_other_quantity(columns.line())?;
+    }
+    let of_first =
+        columns.first().and_then(Name::unit).and_then(|unit| unit.split_once(" in ")).map(|(_, unit)| unit);
     let unit = match columns.width() {
         // what is in the brackets of a title need not be a unit
         1 => name.unit().filter(|unit| Quantity::of(unit).is_some()),
+        // nor what is in those of a comment
+        _ if is_comment => name.unit().filter(|unit| Quantity::of(unit).is_some()),
         _ => name.unit().or(of_first),
     };
     if let Some(unit) = unit {
         return options.unit_of(unit, columns.line()).map(Some);
     }
-    let words = name.words();
-    let quantity = words.iter().find_map(|word| match word.get(..3) {
-        Some("vel") => Some(Quantity::Velocity),
-        Some("dis") => Some(Quantity::Displacement),
-        _ => None,
-    });
-    match quantity {
-        Some(quantity) if columns.width() > 1 => Err(quantity.refused(name.written(), columns.line())),
-        _ => Ok(None),
-    }
+    Ok(None)
+}
+
+/// Refuses a response spectrum: periods, or a column such as `Sa`.
+fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
+    let names = [columns.names().first(), columns.names().get(column)].into_iter().flatten();
+    let is_period = |name: &Name| column > 0 && name.text() == "T";
+    let mut spectral = names.filter(|name| name.says() == Some(Said::Spectrum) || is_period(name));
+    let Some(name) = spectral.next() else { return Ok(()) };
+    let expected = "accelerations of the ground at times";
+    let remedy = "this is a response spectrum: use the record itself; if it is a record, name its columns \
+                  `time` and `a`";
+    Err(Fault::excerpt(columns.line(), expected, name.written(), remedy))
 }
 
 /// Reads one column of samples.

@@ -23,6 +23,7 @@ use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
+use crate::vertical::is_vertical;
 
 const HEADER_LINES: usize = 17;
 
@@ -62,7 +63,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let sample = |count: i32| unit.to_si((f64::from(count) - mean) * numerator / denominator);
     parsed.samples = counts.into_iter().map(sample).collect();
     // 3 and 6 are the vertical directions of KiK-net
-    parsed.is_vertical = field(&header, "Dir.").is_ok_and(|(_, text)| matches!(text, "U-D" | "3" | "6"));
+    parsed.is_vertical =
+        field(&header, "Dir.").is_ok_and(|(_, text)| is_vertical(text) || matches!(text, "3" | "6"));
     parsed.keep_header(header.iter().map(|(_, line)| *line));
     parsed.stated_peak =
         number(&header, "Max. Acc. (gal)").ok().map(|(_, peak)| Unit::CentimetrePerSecondSquared.to_si(peak));

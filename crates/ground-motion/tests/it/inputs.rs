@@ -1,8 +1,8 @@
-//! Records, tables and spectra as people have them: what is read, and what is refused with a remedy.
+//! Records as people have them: what is read, and what is refused with a remedy.
 
 use std::fmt::Write;
 
-use ground_motion::{Record, RecordOptions, SpectrumFile, Unit, Warning};
+use ground_motion::{Record, RecordOptions, Unit, Warning};
 
 use crate::assert_mentions;
 
@@ -90,7 +90,8 @@ fn tables_of_records_are_read() {
         (table("t [s],a [counts]\n", ",", "", "."), &si()),
         (table("t [s],a (N/S)\n", ",", "", "."), &si()),
         (table("t [s],shake_0.3g\n", ",", "", "."), &si()),
-        (table("% by MATLAB\n% t [s], a [g]\n", ",", "", "."), &si()),
+        (table("% by MATLAB\n% t [s], a [m/s2]\n", ",", "", "."), &none),
+        (table("% by MATLAB\n% t [s], a [raw]\n", ",", "", "."), &si()),
         (table("#Time [sec] \tAcceleration [m/s2]\n", "    ", "", "."), &si()),
         (table("sep=;\ntime;a_g\n", ";", "", ","), &si()),
         (table("", "  ", "", ".").replace('\n', "D+00\n"), &si()),
@@ -123,6 +124,15 @@ fn tables_of_records_are_refused() {
         (comma("time (ms),acc\n"), &["line 1", "times in s", "`ms`"]),
         (comma("time_ms,acc\n"), &["line 1", "times in s", "`ms`"]),
         (comma("# t [ms], a [m/s2]\n"), &["times in s", "`ms`"]),
+        (comma("# t [s], a [g]\n"), &["line 2", "the stated unit m/s2, found g"]),
+        (comma("T [s],Sa [m/s2]\n"), &["line 1", "this is a response spectrum"]),
+        (comma("t,pSa\n"), &["line 1", "this is a response spectrum"]),
+        (comma("time,SA(g)\n"), &["line 1", "`SA(g)`", "this is a response spectrum"]),
+        (comma("Period (s),a [m/s2]\n"), &["line 1", "this is a response spectrum"]),
+        (comma("T,a\n"), &["line 1", "this is a response spectrum", "`time`"]),
+        (comma("t [s],vel [m/s2]\n"), &["line 1", "`vel [m/s2]`", "contradict each other"]),
+        (comma("t [s],vg [m/s2]\n"), &["line 1", "a unit of a velocity", "contradict"]),
+        (comma("t [s],Displacement (m/s2)\n"), &["line 1", "a unit of a displacement", "contradict"]),
         (comma("time,acc\nms,m/s2\n"), &["times in s", "`ms`"]),
         (
             table("time,a_g\n", ".00,", "", ".").replace('\n', "\n2023/05/18 "),
@@ -240,6 +250,29 @@ fn units_that_are_not_read_are_refused_with_their_factor() {
 }
 
 #[test]
+fn vertical_columns_and_files_are_known() {
+    let none = RecordOptions::default();
+    for (header, is_vertical) in [
+        ("t [s],DOWN [m/s2]", true),
+        ("t [s],a [m/s2] vertical", true),
+        ("t [s],acc_UP [m/s2]", true),
+        ("t [s],HNZ [m/s2]", true),
+        ("t [s],a [m/s2]", false),
+        ("t [s],N-S [m/s2]", false),
+    ] {
+        let record = crate::read("x.csv", &table(&format!("{header}\n"), ",", "", "."), &none).unwrap();
+        assert_eq!(record.is_vertical, is_vertical, "{header}");
+    }
+    assert!(crate::read("RSN1_ABCDWN.AT2", &at2(IN_G, COUNT), &none).unwrap().is_vertical);
+    let knet = crate::specimen::knet(&crate::specimen::SAMPLES);
+    for (direction, is_vertical) in [("UD", true), ("U-D", true), ("Down", true), ("N-S", false)] {
+        let line = knet.lines().find(|line| line.starts_with("Dir.")).unwrap();
+        let text = knet.replace(line, &format!("Dir.              {direction}"));
+        assert_eq!(crate::read("x", &text, &none).unwrap().is_vertical, is_vertical, "{direction}");
+    }
+}
+
+#[test]
 fn long_time_steps_are_warned_of_and_refused() {
     let rows =
         |step: f64| (0..50).fold(String::new(), |rows, i| rows + &format!("{} 0.5\n", f64::from(i) * step));
@@ -263,81 +296,6 @@ fn long_time_steps_are_warned_of_and_refused() {
     let slow = smc.replacen(" 1.0000000E2", "1.0000000E-1", 1);
     assert!(smc != slow);
     assert_mentions(&crate::read("x.smc", &slow, &RecordOptions::default()).unwrap_err(), &["found 10 s"]);
-}
-
-fn spectrum(text: &str, unit: Option<Unit>, column: Option<&str>) -> Result<SpectrumFile, String> {
-    SpectrumFile::parse("s.csv", text.as_bytes().to_vec(), unit, column).map_err(|error| error.to_string())
-}
-
-#[test]
-fn spectra_are_read() {
-    let g = Some(Unit::StandardGravity);
-    for (text, unit, column) in [
-        ("T [s],Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
-        ("0,0.25\n0.5,0.75\n2,0.125\n", g, None),
-        ("# a site\n# of mine\nT [s],Sa [g]\n0,0.25\n0.5,0.75\n2,0.125\n", None, None),
-        ("T [s];Sa [g]\n0;0,25\n0,5;0,75\n2;0,125\n", None, None),
-        ("T[s] Se[g]\n0 0.25\n0.5 0.75\n2 0.125\n", None, None),
-        ("Period (s)\tSa (g)\n0\t0.25\n0.5\t0.75\n2\t0.125\n", None, None),
-        ("\"T\",\"Sa (5 %) [g]\"\r\"0\",\"0.25\"\r\"0.5\",\"0.75\"\r\"2\",\"0.125\"\r", None, None),
-        ("Period,Sa\nsec,g\n0,0.25\n0.5,0.75\n2,0.125\n,\n", None, None),
-        ("T,Sa (5 %)\n0,2.5D-1\n0.5,0.75\n2,0.125\n", g, None),
-        (
-            "Period (sec),Acceleration (g),Velocity (cm/sec),Displacement (cm)\n0,0.25,1,1\n0.5,0.75,1,1\n\
-          2,0.125,1,1\n",
-            None,
-            Some("Acceleration (g)"),
-        ),
-        ("T [s],Sd [m],Sa [g]\n0,1,0.25\n0.5,1,0.75\n2,1,0.125\n", None, Some("Sa [g]")),
-    ] {
-        let read = spectrum(text, unit, None).unwrap_or_else(|error| panic!("{text}: {error}"));
-        let points: Vec<_> = read.points.iter().map(|(period, sa)| (*period, sa / 9.806_65)).collect();
-        assert_eq!(points, [(0.0, 0.25), (0.5, 0.75), (2.0, 0.125)], "{text}");
-        assert_eq!((read.unit, read.column.as_deref()), (Unit::StandardGravity, column), "{text}");
-    }
-    let several = "T [s],Sa 2% [g],Sa 5% [g]\n0,1,0.25\n0.5,1,0.75\n";
-    let read = spectrum(several, None, Some("Sa 5%")).unwrap();
-    assert_eq!((read.points[1].1, &*read.lines), (0.75 * 9.806_65, &[2, 3][..]));
-    assert_mentions(
-        &spectrum(several, None, None).unwrap_err(),
-        &["line 1", "one column beside T", "--column"],
-    );
-}
-
-#[test]
-fn spectra_are_refused() {
-    let body = "0,0.25\n0.5,0.75\n2,0.125\n";
-    for (header, words) in [
-        ("f [Hz],Sa [g]", &["line 1", "periods in s", "`f [Hz]`", "T = 1/f"][..]),
-        ("f,Sa [g]", &["periods in s", "T = 1/f"]),
-        ("Frequency (Hz),Sa [g]", &["periods in s", "T = 1/f"]),
-        ("x [Hz],Sa [g]", &["periods in s", "T = 1/f"]),
-        ("omega [rad/s],Sa [g]", &["periods in s", "T = 2π/ω"]),
-        ("ω,Sa [g]", &["periods in s", "T = 2π/ω"]),
-        ("T [ms],Sa [g]", &["periods in s", "1 ms is 0.001 s"]),
-        ("T_ms,Sa [g]", &["periods in s", "1 ms is 0.001 s"]),
-        ("T [min],Sa [g]", &["periods in s", "1 min is 60 s"]),
-        ("# f [Hz], Sa [g]", &["periods in s", "T = 1/f"]),
-        ("x,Sa [g]", &["periods in s", "name it `T [s]`"]),
-        ("Sa [g],T [s]", &["periods in s", "name it `T [s]`"]),
-        ("T [s],Sa [m/s]", &["this is a velocity: convert"]),
-        ("T [s],Sa [%g]", &["1 %g is 0.01 g"]),
-        ("T [s],Sa [m/s2]", &["the stated unit g, found m/s2", "leave out --unit"]),
-        ("// T, Sa", &["comments start with # or %"]),
-    ] {
-        let error =
-            spectrum(&format!("{header}\n{body}"), Some(Unit::StandardGravity), None).expect_err(header);
-        assert_mentions(&error, words);
-    }
-    assert_mentions(&spectrum(body, None, None).unwrap_err(), &["line 1", "a unit of Sa", "--unit"]);
-    let index = ",T [s],Sa [g]\n0,0,0.25\n1,0.5,0.75\n";
-    assert_mentions(
-        &spectrum(index, None, None).unwrap_err(),
-        &["line 1", "delete the first column", "`,T [s],Sa [g]`"],
-    );
-    let cp1252 = SpectrumFile::parse("s.csv", b"T [s];Sa [m/s\xb2]\n0;1\n1;1\n".to_vec(), None, None);
-    let error = cp1252.unwrap_err().to_string();
-    assert_mentions(&error, &["line 1", "0xb2", "Windows-1252", "save the file as UTF-8"]);
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod record_real;
 mod records;
 mod specimen;
 mod spectrum;
+mod spectrum_file;
 mod storeys;
 mod synthetic;
 
