@@ -77,8 +77,8 @@ pub enum Warning {
         /// Units that would give a credible peak.
         others: Vec<Unit>,
     },
-    /// The peak of a motion is above that of any record, so its scale or a unit may be wrong.
-    Strong {
+    /// The peak of a motion is above or below that of any record, so its scale or a unit may be wrong.
+    Strength {
         /// Peak acceleration (m/s²).
         peak: f64,
     },
@@ -134,13 +134,23 @@ impl fmt::Display for Warning {
                 }
                 Ok(())
             }
-            Self::Strong { peak } => write!(
-                f,
-                "motion: a peak of {peak:.1} m/s² is {:.1} g, and few records have more than {} g; check its \
-                 scale, and the unit of its PGA or amplitude",
-                peak / STANDARD_GRAVITY,
-                CREDIBLE_PEAK[1]
-            ),
+            Self::Strength { peak } => {
+                let [low, high] = CREDIBLE_PEAK;
+                let in_g = peak / STANDARD_GRAVITY;
+                if in_g > high {
+                    write!(
+                        f,
+                        "motion: a peak of {peak:.1} m/s² is {in_g:.1} g, and few records have more than {high} g"
+                    )?;
+                } else {
+                    write!(
+                        f,
+                        "motion: a peak of {peak:.1e} m/s² is {in_g:.1e} g, and no strong motion has less than \
+                         {low} g"
+                    )?;
+                }
+                write!(f, "; check its scale, and the unit of its PGA or amplitude")
+            }
             Self::MissingStart { part } => {
                 let percent = 100.0 * part;
                 write!(f, "start: the first sample has {percent:.0} % of the peak; is the onset missing?")
@@ -167,13 +177,14 @@ impl fmt::Display for Warning {
 }
 
 impl GroundMotion {
-    /// Warns about a peak above 3 g. A PGA in gal that is read as if it were in m/s² has such a peak.
+    /// Warns about a peak above 3 g, or below 1e-4 g unless it is 0. A PGA in gal that is read as if it were in m/s² has such a peak.
     ///
     /// ```
     /// use ground_motion::SyntheticMotion;
     ///
     /// let motion = SyntheticMotion::default().motion()?;
     /// assert_eq!(motion.scaled_to_peak(3.0)?.warning(), None);
+    /// assert!(motion.scaled_to_peak(3e-5)?.warning().is_some());
     /// let warning = motion.scaled_to_peak(300.0)?.warning().unwrap();
     /// assert!(warning.to_string().contains("300.0 m/s² is 30.6 g"));
     /// # Ok::<(), ground_motion::GroundMotionError>(())
@@ -186,7 +197,18 @@ impl GroundMotion {
 impl Warning {
     /// Warns about the peak of a scaled motion (m/s²), as [`GroundMotion::warning`] does.
     pub fn of_peak(peak: f64) -> Option<Self> {
-        (peak > CREDIBLE_PEAK[1] * STANDARD_GRAVITY).then_some(Self::Strong { peak })
+        (peak != 0.0 && !is_credible(peak, CREDIBLE_PEAK)).then_some(Self::Strength { peak })
+    }
+
+    /// Warns about a peak (m/s²), read in a unit, that is outside a range (g).
+    pub(crate) fn of_unit(peak: f64, unit: Unit, range: [f64; 2]) -> Option<Self> {
+        if is_credible(peak, range) {
+            return None;
+        }
+        let raw = peak / unit.to_si(1.0);
+        let others = Unit::ALL.into_iter().filter(|other| *other != unit);
+        let others = others.filter(|other| is_credible(other.to_si(raw), range)).collect();
+        Some(Self::Unit { peak: peak / STANDARD_GRAVITY, unit, others })
     }
 }
 
@@ -219,13 +241,7 @@ impl Record {
         if let Some(stated) = self.stated_peak.filter(is_other) {
             warnings.push(Warning::StatedPeak { peak, stated });
         }
-        if !is_credible(peak) {
-            let raw = peak / self.unit.to_si(1.0);
-            let others =
-                Unit::ALL.into_iter().filter(|unit| *unit != self.unit && is_credible(unit.to_si(raw)));
-            let peak = peak / STANDARD_GRAVITY;
-            warnings.push(Warning::Unit { peak, unit: self.unit, others: others.collect() });
-        }
+        warnings.extend(Warning::of_unit(peak, self.unit, CREDIBLE_PEAK));
         let start = samples[0].abs() / peak;
         if start > AT_THE_ENDS {
             warnings.push(Warning::MissingStart { part: start });
@@ -238,8 +254,7 @@ impl Record {
     }
 }
 
-fn is_credible(peak: f64) -> bool {
-    let [low, high] = CREDIBLE_PEAK;
+fn is_credible(peak: f64, [low, high]: [f64; 2]) -> bool {
     (low..=high).contains(&(peak / STANDARD_GRAVITY))
 }
 

@@ -74,6 +74,8 @@ impl<'a> Columns<'a> {
         let titles: Vec<Line<'a>> =
             content(text).take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES).collect();
         refuse_other_comments(content(text).take(titles.len() + 1))?;
+        let bars = |line: &str| starts_a_number(line.trim_start_matches('|'));
+        refuse_bars(content(text).take(titles.len() + 1).filter(|(_, line)| bars(line)))?;
         let row = content(text).nth(titles.len()).filter(|(_, line)| starts_a_number(line));
         let of_row = row.map_or(Separator::None, |(_, line)| Separator::of_row(line));
         let width = row.map_or(0, |(_, line)| filled(of_row, line));
@@ -136,9 +138,13 @@ impl<'a> Columns<'a> {
     /// [`Fault`] if there is no such line, or if two columns have one name.
     pub fn of_texts(text: &'a str, forms: &str) -> Result<Self, Fault> {
         refuse_other_comments(content(text).take(1))?;
+        refuse_bars(content(text).take(1))?;
         let heading = first_line(text, forms)?;
         let separator = Separator::of_names(heading.1, true);
         let names = heading::names(heading.1, separator);
+        if names.first().is_some_and(|name| name.written().is_empty()) {
+            return Err(index_column(heading));
+        }
         let twin = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
         if let Some((_, name)) = twin {
             let found = format!("two columns {}", excerpt(name.text()));
@@ -227,6 +233,10 @@ impl<'a> Columns<'a> {
         let mut matches = (1..self.names.len()).filter(|&column| is_wanted(&self.names[column]));
         match (matches.next(), matches.next()) {
             (Some(column), None) => Ok(column),
+            (None, _) if is_wanted(&self.names[0]) => {
+                let expected = format!("a column beside the first, {first}");
+                Err(Fault::excerpt(line, expected, wanted, "state the name of another column"))
+            }
             (None, _) => {
                 let expected = format!("a column {}", excerpt(wanted));
                 Err(Fault::excerpt(line, expected, text, "state one of these columns"))
@@ -242,10 +252,7 @@ impl<'a> Columns<'a> {
     /// one above rows of numbers: that column is an index.
     pub(crate) fn checked_first(&self) -> Result<Option<&Name>, Fault> {
         match self.first() {
-            Some(name) if name.written().is_empty() => {
-                let remedy = "delete the first column, an index without a name (pandas: index=False)";
-                Err(Fault::excerpt(self.heading.0, "a name for the first column", self.heading.1, remedy))
-            }
+            Some(name) if name.written().is_empty() => Err(index_column(self.heading)),
             first => Ok(first),
         }
     }
@@ -297,6 +304,19 @@ impl<'a> Columns<'a> {
     }
 }
 
+/// Makes the fault of a first column without a name.
+fn index_column((line, heading): Line<'_>) -> Fault {
+    let remedy = "delete the first column, an index without a name (pandas: index=False)";
+    Fault::excerpt(line, "a name for the first column", heading, remedy)
+}
+
+/// Refuses columns between bars.
+fn refuse_bars<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
+    let Some((number, line)) = lines.find(|(_, line)| line.contains('|')) else { return Ok(()) };
+    let expected = "columns between commas, semicolons, tabs or blanks";
+    Err(Fault::excerpt(number, expected, line, "`|` separates no columns: write one of these instead"))
+}
+
 /// Refuses two columns of one name.
 fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
     let mut named = names.iter().enumerate().filter(|(_, name)| !name.written().is_empty());
@@ -306,9 +326,11 @@ fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
     Err(Fault::new(line, "columns with names of their own", found, remedy))
 }
 
-/// Returns the lines that are no comments. `sep=;`, by which Excel knows the separator, counts as one.
+/// Returns the lines that are no comments, from the first one with content on. `sep=;`, by which Excel knows
+/// the separator, counts as a comment.
 fn content(text: &str) -> impl Iterator<Item = Line<'_>> + Clone {
-    lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)))
+    let content = lines(text).filter(|(_, line)| !(line.starts_with(COMMENTS) || is_separator_line(line)));
+    content.skip_while(|(_, line)| line.chars().all(|c| c.is_whitespace() || matches!(c, ',' | ';' | '"')))
 }
 
 fn is_separator_line(line: &str) -> bool {

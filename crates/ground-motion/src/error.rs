@@ -138,9 +138,19 @@ impl Fault {
 /// Quotes the start of a piece of a file, made printable for a message.
 pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 40;
-    let shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    let shown: String = text.chars().take(LONGEST).map(shown).collect();
     let more = if text.chars().nth(LONGEST).is_some() { "…" } else { "" };
     format!("`{shown}{more}`")
+}
+
+/// Writes a character so that it can be seen: one that has no shape by its number, `U+202F`.
+fn shown(c: char) -> String {
+    match c {
+        '\t' => " ".to_owned(),
+        '"' | '\'' | '\\' => c.to_string(),
+        _ if c.escape_debug().len() > 1 => format!("U+{:04X}", u32::from(c)),
+        _ => c.to_string(),
+    }
 }
 
 /// The remedy for a file whose numbers are not where they should be.

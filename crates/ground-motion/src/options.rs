@@ -32,16 +32,20 @@ impl RecordOptions {
 
     /// Refuses a stated step that is not the file's own.
     pub(crate) fn check_step(&self, step: f64, line: usize) -> Result<(), Fault> {
-        // Either may be rounded in the fourth digit: 0.0029 for 1/350.
-        const TOLERANCE: f64 = 1e-3;
         match self.step {
-            Some(stated) if (stated - step).abs() > TOLERANCE * step => {
+            Some(stated) if !is_close(stated, step) => {
                 let expected = format!("the stated step of {stated} s");
                 Err(Fault::new(line, expected, format!("{step} s"), "state no step: the file has its own"))
             }
             _ => Ok(()),
         }
     }
+}
+
+/// Returns whether two steps are the same. Either may be rounded in the fourth digit: 0.0029 for 1/350.
+pub(crate) fn is_close(stated: f64, step: f64) -> bool {
+    const TOLERANCE: f64 = 1e-3;
+    (stated - step).abs() <= TOLERANCE * step
 }
 
 /// Finds the unit of a file that writes `word` on `line`. Where the word is no unit, the unit that the user

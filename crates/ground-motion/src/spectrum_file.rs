@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::check::Warning;
 use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
@@ -11,6 +12,12 @@ use crate::unit::Unit;
 
 /// Largest file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// Longest period (s) that a spectrum may have without stating the unit.
+const LONGEST_PERIOD: f64 = 20.0;
+
+/// Range of the largest Sa (g) without a warning about the unit: demands on walls have 0.05 g to 5 g.
+const CREDIBLE_LARGEST: [f64; 2] = [0.01, 10.0];
 
 const FORMS: &str = "rows of periods in s and Sa, below a header line such as `T [s],Sa [g]`";
 
@@ -23,6 +30,8 @@ pub struct SpectrumFile {
     pub lines: Vec<usize>,
     /// Unit of the file.
     pub unit: Unit,
+    /// Damping ratio that the name of the column states, `Sa (5 %)`.
+    pub damping: Option<f64>,
     /// Name of the column that Sa was read from, in a file with several beside the periods.
     pub column: Option<String>,
 }
@@ -73,14 +82,16 @@ impl SpectrumFile {
             return Err(Fault::excerpt(columns.line(), FORMS, columns.heading(), remedy));
         }
         check_periods(&columns)?;
-        let column = columns.beside_the_first(wanted, "T")?;
-        refuse_record(&columns, column)?;
-        let name = columns.names().get(column);
+        let column_number = columns.beside_the_first(wanted, "T")?;
+        refuse_record(&columns, column_number)?;
+        let name = columns.names().get(column_number);
         name.map_or(Ok(()), |name| name.refuse_other_quantity(columns.line()))?;
         let unit = match name {
             Some(name) => name.unit(),
             // what is in the brackets of a comment need not be a unit
-            None => columns.named(column).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some()),
+            None => {
+                columns.named(column_number).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some())
+            }
         };
         let stated = unit.map(|word| stated_unit(given, word, columns.line()));
         let Some(unit) = stated.transpose()?.or(given) else {
@@ -94,14 +105,30 @@ impl SpectrumFile {
             let row = row?;
             let mut cells = row.cells();
             let period = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
-            let cell = cells.nth(column - 1).unwrap_or_default();
+            let cell = cells.nth(column_number - 1).unwrap_or_default();
             points.push((period, unit.to_si(numbers.real(&cell, row.line)?)));
             thousands.push(&cell, row.line);
             lines.push(row.line);
         }
         thousands.check()?;
+        refuse_milliseconds(&columns, &points, &lines)?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
-        Ok(Self { points, lines, unit, column })
+        let damping = columns.named(column_number).and_then(|name| percentage(name.written()));
+        Ok(Self { points, lines, unit, damping, column })
+    }
+
+    /// Warns about a largest Sa below 0.01 g or above 10 g: its unit may be wrong.
+    ///
+    /// ```
+    /// use ground_motion::SpectrumFile;
+    ///
+    /// let spectrum = SpectrumFile::parse("s.csv", "T [s],Sa [g]\n0,1.9\n0.5,49\n".into(), None, None)?;
+    /// assert!(spectrum.warning().unwrap().to_string().contains("49.00 g is not credible"));
+    /// # Ok::<(), ground_motion::GroundMotionError>(())
+    /// ```
+    pub fn warning(&self) -> Option<Warning> {
+        let largest = self.points.iter().fold(0.0, |largest, (_, sa)| sa.max(largest));
+        Warning::of_unit(largest, self.unit, CREDIBLE_LARGEST)
     }
 }
 
@@ -128,6 +155,33 @@ impl Abscissa {
 fn is_abscissa(name: &Name) -> bool {
     let quantity = name.unit().and_then(Quantity::of);
     matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
+}
+
+/// Finds the percentage in a name, `Sa (5 %)` or `Sa_2.5%`, as a ratio. That of `%g` is none.
+fn percentage(name: &str) -> Option<f64> {
+    let (before, after) = name.split_once('%')?;
+    let before = before.trim_end();
+    let start = before
+        .rfind(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',')))
+        .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+    let percent: f64 = before[start..].replace(',', ".").parse().ok()?;
+    (!after.trim_start().starts_with(['g', 'G'])).then_some(percent / 100.0)
+}
+
+/// Refuses long periods under a name without a unit.
+fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[usize]) -> Result<(), Fault> {
+    let is_seconds = |name: &Name| {
+        let words = name.words();
+        name.unit().or(words.last().map(String::as_str)).and_then(Quantity::of) == Some(Quantity::Time(1.0))
+    };
+    if columns.first().is_some_and(is_seconds) {
+        return Ok(());
+    }
+    let Some(at) = points.iter().position(|(period, _)| *period > LONGEST_PERIOD) else { return Ok(()) };
+    let expected = format!("periods of at most {LONGEST_PERIOD} s");
+    let remedy =
+        "they may be in milliseconds: write seconds; if they are in s, name the first column `T [s]`";
+    Err(Fault::new(lines[at], expected, format!("{} s", points[at].0), remedy))
 }
 
 /// Refuses accelerations at times, which are a record.

@@ -53,8 +53,8 @@ pub enum CheckError {
     #[error("the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period")]
     Period { period: f64, from: f64, to: f64 },
     /// A point of a spectrum, the first with the number 1.
-    #[error("point {number} of the spectrum, T = {period} s and Sa = {acceleration} m/s²: expected {POINTS}")]
-    Point { number: usize, period: f64, acceleration: f64 },
+    #[error("point {number} of the spectrum: expected {expected}, found {found}")]
+    Point { number: usize, expected: String, found: String },
     /// A spectrum without its first point.
     #[error("the spectrum has no T = 0, the peak acceleration; give it with that point")]
     NoPeak,
@@ -68,9 +68,6 @@ pub enum CheckError {
     #[error(transparent)]
     Floors(#[from] SceneError),
 }
-
-/// What the points of a spectrum are.
-pub const POINTS: &str = "periods from 0 on that rise, and Sa above 0";
 
 /// The demand of a check.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,16 +84,24 @@ impl Demand {
     /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
     ///
     /// # Errors
-    /// [`CheckError::Point`] of the first that is not one of [`POINTS`], and [`CheckError::NoPeak`] if the
-    /// first is not that of T = 0.
+    /// [`CheckError::Point`] of the first whose period does not rise or whose `S_a` is not above 0, and
+    /// [`CheckError::NoPeak`] if the first is not that of T = 0.
     pub fn of_points(points: Vec<(f64, f64)>) -> Result<Self, CheckError> {
-        let mut least = 0.0;
+        let mut before: Option<f64> = None;
         for (index, &(period, acceleration)) in points.iter().enumerate() {
-            let rises = period >= least && (index == 0 || period > least);
-            if !(rises && period.is_finite() && acceleration.is_finite() && acceleration > 0.0) {
-                return Err(CheckError::Point { number: index + 1, period, acceleration });
+            let fault = |expected, found| Err(CheckError::Point { number: index + 1, expected, found });
+            let rises = before.map_or(period >= 0.0, |before| period > before);
+            if !(rises && period.is_finite()) {
+                let expected = before.map_or_else(
+                    || "a finite period from 0 on".to_owned(),
+                    |before| format!("periods that rise: a finite one above T = {before} s"),
+                );
+                return fault(expected, format!("T = {period} s"));
             }
-            least = period;
+            if !(acceleration.is_finite() && acceleration > 0.0) {
+                return fault("a finite Sa above 0".to_owned(), format!("Sa = {acceleration} m/s²"));
+            }
+            before = Some(period);
         }
         match points.first() {
             Some(first) if first.0 == 0.0 => Ok(Self(Of::Points(points))),

@@ -17,7 +17,7 @@ const MAX_FILE_BYTES: u64 = 256 << 20;
 const NAME: &str = "name";
 
 /// Reads the walls of a table. An empty cell leaves its parameter at the default, a row without any content
-/// is skipped.
+/// is skipped, and one with a name and no value refused.
 pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
     let file = path.display().to_string();
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
@@ -35,11 +35,14 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
         scene.parameters = Parameters::default();
-        let mut wall = None;
+        let (mut wall, mut is_default) = (None, names.len() > 1);
         for (&column, cell) in names.iter().zip(row.cells()).filter(|(_, cell)| !cell.is_empty()) {
             if column == NAME {
                 wall = Some(cell.into_owned());
-            } else if cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | ',')) {
+                continue;
+            }
+            is_default = false;
+            if cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '−' | '.' | ',')) {
                 let number = numbers.real(&cell, row.line);
                 let number = number.map_err(|fault| fail(row.line, format!("{column}: {fault}")))?;
                 scene.set(column, &number.to_string()).map_err(|error| fail(row.line, error.to_string()))?;
@@ -52,7 +55,17 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
             let message = "the wall has no name; write one in the column `name`, or delete the row";
             return Err(fail(row.line, message.to_owned()));
         };
+        if is_default {
+            let message = "the wall has a name and no value; write one in a column, or delete the row";
+            return Err(fail(row.line, message.to_owned()));
+        }
         walls.push(NamedWall::new(wall, scene.parameters.clone()));
+    }
+    if walls.is_empty() {
+        return Err(fail(
+            columns.line(),
+            "the table has no walls; write a row for each below this line".to_owned(),
+        ));
     }
     Ok(walls)
 }
@@ -82,11 +95,14 @@ mod tests {
 
     #[test]
     fn walls_of_a_table() {
-        let text = "name, height,force_law\n\"a, \"\"b\"\"\",3.5,trilinear\n\nc,,\n";
+        let text = "name, height,force_law\n\"a, \"\"b\"\"\",3.5,trilinear\n\nc,3.6,\n";
         let walls = parse("walls.csv", text).unwrap();
         assert_eq!((walls.len(), walls[0].name.as_str()), (2, "a, \"b\""));
         assert_eq!(walls[0].parameters.height, 3.5);
-        assert_eq!(walls[1].parameters, rocking_wall::wall::Parameters::default());
+        let default = rocking_wall::wall::Parameters::default();
+        assert_eq!(walls[1].parameters, rocking_wall::wall::Parameters { height: 3.6, ..default.clone() });
+        // a table of names only has walls of the default
+        assert_eq!(parse("walls.csv", "name\na\n").unwrap()[0].parameters, default);
     }
 
     #[test]
@@ -109,6 +125,7 @@ mod tests {
             "name,height,thickness\ra,2.0,0.3\rb,3.0,0.25\r",
             "\"name\",\"height\",\"thickness\"\n\"a\",\"2,0\",\"0,3\"\n\"b\",\"3,0\",\"0,25\"\n",
             "sep=;\n# of the north side\nname;height;thickness;\na;2;3D-1;\n;;\n\n% half\nb;3;0.25;\n;;;\n",
+            ",,\n\n , ,\nname,height,thickness\na,2.0,0.3\nb,3.0,0.25\n",
             "name,height,thickness\na,2.0,0.3\n\n,,\nb,3.0,0.25\n , ,\n",
         ] {
             assert_eq!(of(text), expected, "{text}");
@@ -122,6 +139,15 @@ mod tests {
         for (text, words) in [
             ("", "a column `name`"),
             ("height\n3", "needs a column"),
+            ("name,height\n", "line 1: the table has no walls"),
+            ("name,height\n,\n", "line 1: the table has no walls"),
+            ("name,height,thickness\na,3,\nb,,\n", "line 3: the wall has a name and no value"),
+            (
+                ",name,height\n0,a,3\n",
+                "delete the first column, an index without a name (pandas: index=False)",
+            ),
+            ("name|height\na|3\n", "line 1: expected columns between commas, semicolons, tabs or blanks"),
+            ("name,height\na,\u{2212}3\n", "write minus signs as `-`; this one is U+2212"),
             ("name,xi\na,0.1", "line 1: \"xi\" is not a parameter"),
             ("name,height\na,3\nb,-3", "line 3: height"),
             ("name,height\na", "line 2: expected 2 values, one for each column, found 1"),

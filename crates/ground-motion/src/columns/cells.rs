@@ -254,6 +254,7 @@ impl Numbers {
         let value = real(&plain).filter(|value| value.is_finite());
         value.ok_or_else(|| {
             let remedy = match self.separator {
+                _ if cell.contains('−') => "write minus signs as `-`; this one is U+2212",
                 Separator::None => "correct the value; in one column decimals have a point",
                 Separator::Comma => {
                     "correct the value; commas separate columns here, so decimals have a point"

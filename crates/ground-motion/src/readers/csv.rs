@@ -20,7 +20,7 @@ mod times;
 
 use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, excerpt};
-use crate::options::RecordOptions;
+use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
@@ -172,6 +172,12 @@ fn read_table(
         let remedy = "check that the file is complete";
         return Err(Fault::new(parsed.last_line, "at least two rows", found, remedy));
     };
+    // numbers of samples, and milliseconds
+    let is_other = |stated: f64| stated < 1.0 && (step == 1.0 || step > 1.0 && is_close(step, 1e3 * stated));
+    if let Some(stated) = options.step.filter(|stated| is_other(*stated)) {
+        (parsed.first_time, parsed.step) = (first_time * stated / step, stated);
+        return Ok(());
+    }
     options.check_step(step, columns.line())?;
     (parsed.first_time, parsed.step) = (first_time, step);
     Ok(())

@@ -124,6 +124,9 @@ fn tables_of_records_are_refused() {
         (comma("time (ms),acc\n"), &["line 1", "times in s", "`ms`"]),
         (comma("time_ms,acc\n"), &["line 1", "times in s", "`ms`"]),
         (comma("# t [ms], a [m/s2]\n"), &["times in s", "`ms`"]),
+        (comma("t [s],a [m/s2]\n").replace(',', "|"), &["line 2", "`|` separates no columns"]),
+        (comma("t [s],a\n").replace(",-", ",\u{2212}"), &["write minus signs as `-`; this one is U+2212"]),
+        (comma("t [s],a\n").replace("\n1.00,", "\n1.00,it's \"\u{202f}"), &["found `it's \"U+202F-"]),
         (comma("# t [s], a [g]\n"), &["line 2", "the stated unit m/s2, found g"]),
         (comma("T [s],Sa [m/s2]\n"), &["line 1", "this is a response spectrum"]),
         (comma("t,pSa\n"), &["line 1", "this is a response spectrum"]),
@@ -290,6 +293,12 @@ fn long_time_steps_are_warned_of_and_refused() {
     }
     let error = crate::read("x.txt", &rows(10.0), &si()).unwrap_err();
     assert_mentions(&error, &["x.txt", "at most 1 s", "found 10 s", "milliseconds", "--record-step"]);
+    // the stated step counts beside milliseconds and numbers of samples, and no other
+    for (rows, step) in [(rows(5.0), 0.005), (rows(1.0), 0.01)] {
+        assert_eq!(crate::read("x.txt", &rows, &with_step(step)).unwrap().motion.step(), step);
+    }
+    let error = crate::read("x.txt", &rows(5.0), &with_step(0.01)).unwrap_err();
+    assert_mentions(&error, &["the stated step of 0.01 s, found 5 s"]);
     assert!(warns(&rows(10.0), &with_step(10.0)).is_some());
     assert!(warns("1\n2\n", &with_step(2.0)).is_some());
     let smc = crate::specimen::smc(&crate::specimen::SAMPLES);

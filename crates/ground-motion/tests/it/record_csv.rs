@@ -54,7 +54,7 @@ fn chooses_a_column_by_name() {
     assert_eq!(read(table, &with_column("drift")).unwrap().motion.samples(), [10.0, 20.0]);
     assert_refused(table, &si(), &["line 1", "one column beside `time`", "time,a_g,drift", "state the name"]);
     assert_refused(table, &with_column("a_x"), &["line 1", "a column `a_x`", "time,a_g,drift"]);
-    assert_refused(table, &with_column("time"), &["line 1", "a column `time`"]);
+    assert_refused(table, &with_column("time"), &["line 1", "a column beside the first", "another column"]);
     assert_refused("time,a,a\n0,1,2\n1,2,3\n", &with_column("a"), &["line 1", "one column `a`"]);
     assert_refused(
         "a\n1\n2\n",

@@ -44,6 +44,23 @@ fn spectra_are_read() {
 }
 
 #[test]
+fn spectra_state_their_damping_and_are_warned_of() {
+    for (name, damping) in [
+        ("Sa (5 %) [g]", Some(0.05)),
+        ("Sa_2.5% [g]", Some(0.025)),
+        ("Sa(10%) [g]", Some(0.1)),
+        ("Sa [g]", None),
+    ] {
+        let read = spectrum(&format!("T [s];{name}\n0;0.25\n30;0.75\n"), None, None).unwrap();
+        assert_eq!((read.damping, read.warning()), (damping, None), "{name}");
+    }
+    for (largest, others) in [("75", "Credible would be m/s2"), ("0.001", "is not credible")] {
+        let read = spectrum(&format!("T [s],Sa [g]\n0,{largest}\n1,{largest}\n"), None, None).unwrap();
+        assert_mentions(&read.warning().unwrap().to_string(), &["not credible", "in g?", others]);
+    }
+}
+
+#[test]
 fn spectra_are_refused() {
     let body = "0,0.25\n0.5,0.75\n2,0.125\n";
     for (header, words) in [
@@ -80,6 +97,8 @@ fn spectra_are_refused() {
         &spectrum(index, None, None).unwrap_err(),
         &["line 1", "delete the first column", "`,T [s],Sa [g]`"],
     );
+    let error = spectrum("T,Sa [g]\n0,0.25\n500,0.75\n", None, None).unwrap_err();
+    assert_mentions(&error, &["line 3", "at most 20 s", "found 500 s", "milliseconds", "`T [s]`"]);
     let cp1252 = SpectrumFile::parse("s.csv", b"T [s];Sa [m/s\xb2]\n0;1\n1;1\n".to_vec(), None, None);
     let error = cp1252.unwrap_err().to_string();
     assert_mentions(&error, &["line 1", "0xb2", "Windows-1252", "save the file as UTF-8"]);

@@ -61,6 +61,11 @@ fn a_spectrum_states_its_unit() {
     refused(&folder, &check, &["s.csv, line 1", "one column beside T", "--column"]);
     let text = printed(&folder, &[&check[..], &["--column", "Sa 5%"]].concat());
     assert_has(&text, &["s.csv, column Sa 5% [g], Sa in g", "1.96133"]);
+    // and so is its damping
+    let two = [&check[..], &["--column", "Sa 2%"]].concat();
+    assert_has(&printed(&folder, &two), &["2 % damping"]);
+    let words = ["s.csv: expected the damping ratio", "0.02, found --damping 0.05"];
+    refused(&folder, &[&two[..], &["--damping", "0.05"]].concat(), &words);
 }
 
 #[test]
@@ -71,7 +76,11 @@ fn a_check_refuses_what_it_cannot_use() {
         refused(&folder, &["check", "--spectrum", "spectrum.csv", "--unit", "g"], &[words]);
     };
     refuses("T,Sa\n0.1,1\n2,0.5\n", "no T = 0");
-    refuses("0,1\n1,0.5\n0.5,0.3\n", "line 3: expected periods from 0 on that rise");
+    refuses(
+        "0,1\n1,0.5\n0.5,0.3\n",
+        "line 3: expected periods that rise: a finite one above T = 1 s, found T = 0.5 s",
+    );
+    refuses("0,1\n1,-0.5\n", "line 2: expected a finite Sa above 0, found Sa = -");
     refuses("0,1\n1,0.5\n", "has no T = 1.4");
     refuses("0,1.0\n1\n", "line 2: expected 2 values");
 }

@@ -13,7 +13,7 @@ use ground_motion::{RecordOptions, SpectrumFile, Unit};
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
-use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, POINTS, SideCheck, check, governing};
+use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, SideCheck, check, governing};
 use study::circolare::Side;
 
 use crate::args::{read_record, refuse};
@@ -35,7 +35,7 @@ pub(super) struct SpectrumArguments {
     /// Name of the column with Sa, for a spectrum with several
     #[arg(long, value_name = "NAME", requires = "spectrum")]
     column: Option<String>,
-    /// Damping ratio of the spectrum [default: 0.05]
+    /// Damping ratio of the spectrum [default: that of the column's name, `Sa (5 %)`, or 0.05]
     #[arg(long, value_name = "RATIO")]
     damping: Option<f64>,
     /// Displacement capacity over the displacement at which the force of the wall vanishes [default: 0.4]
@@ -60,10 +60,6 @@ impl SpectrumArguments {
         ];
         let why = "is for a scene without a table [check]; leave it out";
         refuse(given, why).with_context(|| name.to_owned())
-    }
-
-    fn damping(&self) -> f64 {
-        self.damping.unwrap_or(DAMPING)
     }
 
     fn fractions(&self) -> Fractions {
@@ -120,16 +116,29 @@ struct Source {
 impl Source {
     fn read(arguments: &SpectrumArguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
-        let damping = arguments.damping();
         if let Some(path) = &arguments.spectrum {
             if floors.is_some() {
                 output::warn(
                     "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
                 );
             }
-            let (note, demand) = points(path, unit, arguments.column.as_deref())?;
+            let file = SpectrumFile::read(path, unit, arguments.column.as_deref())?;
+            if let Some(warning) = file.warning() {
+                output::warn(&format!("{}: {warning}", path.display()));
+            }
+            let damping = match (arguments.damping, file.damping) {
+                // a file may round it: 0.9 % for 0.0087
+                (Some(given), Some(stated)) if (given - stated).abs() > 0.05 * stated => bail!(
+                    "{}: expected the damping ratio that the column of Sa states, {stated}, found --damping \
+                     {given}; leave out --damping, or use the spectrum of that damping",
+                    path.display()
+                ),
+                (given, stated) => given.or(stated).unwrap_or(DAMPING),
+            };
+            let (note, demand) = points(path, file)?;
             return Ok(Self { name: format!("{}, {note}", path.display()), damping, demand });
         }
+        let damping = arguments.damping.unwrap_or(DAMPING);
         let options = RecordOptions { unit, ..RecordOptions::default() };
         let motion = |path: &PathBuf| Ok(read_record(path, &options)?.motion);
         let motions = arguments.records.iter().map(motion).collect::<Result<Vec<_>>>()?;
@@ -143,12 +152,12 @@ impl Source {
     }
 }
 
-/// Reads a spectrum: a note on its column and unit, and the demand.
-fn points(path: &Path, given: Option<Unit>, column: Option<&str>) -> Result<(String, Demand)> {
-    let SpectrumFile { points, lines, unit, column } = SpectrumFile::read(path, given, column)?;
+/// Makes a note on the column and unit of a spectrum, and the demand.
+fn points(path: &Path, file: SpectrumFile) -> Result<(String, Demand)> {
+    let SpectrumFile { points, lines, unit, column, .. } = file;
     let demand = Demand::of_points(points).map_err(|error| match error {
-        CheckError::Point { number, .. } => {
-            anyhow!("{}, line {}: expected {POINTS}", path.display(), lines[number - 1])
+        CheckError::Point { number, expected, found } => {
+            anyhow!("{}, line {}: expected {expected}, found {found}", path.display(), lines[number - 1])
         }
         other => anyhow!("{}: {other}", path.display()),
     })?;
