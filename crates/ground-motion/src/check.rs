@@ -138,16 +138,11 @@ impl fmt::Display for Warning {
                 let [low, high] = CREDIBLE_PEAK;
                 let in_g = peak / STANDARD_GRAVITY;
                 if in_g > high {
-                    write!(
-                        f,
-                        "motion: a peak of {peak:.1} m/s² is {in_g:.1} g, and few records have more than {high} g"
-                    )?;
+                    write!(f, "motion: a peak of {peak:.1} m/s² is {in_g:.1} g, ")?;
+                    write!(f, "and few records have more than {high} g")?;
                 } else {
-                    write!(
-                        f,
-                        "motion: a peak of {peak:.1e} m/s² is {in_g:.1e} g, and no strong motion has less than \
-                         {low} g"
-                    )?;
+                    write!(f, "motion: a peak of {peak:.1e} m/s² is {in_g:.1e} g, ")?;
+                    write!(f, "and records of strong motion have more than {low} g")?;
                 }
                 write!(f, "; check its scale, and the unit of its PGA or amplitude")
             }
@@ -177,7 +172,8 @@ impl fmt::Display for Warning {
 }
 
 impl GroundMotion {
-    /// Warns about a peak above 3 g, or below 1e-4 g unless it is 0. A PGA in gal that is read as if it were in m/s² has such a peak.
+    /// Warns about a peak above 3 g, or below 1e-4 g unless it is 0. A PGA in gal that is read as if it were
+    /// in m/s² has a peak that is too large.
     ///
     /// ```
     /// use ground_motion::SyntheticMotion;

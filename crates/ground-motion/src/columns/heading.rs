@@ -59,15 +59,17 @@ impl Name {
 
     /// Returns the quantity other than an acceleration of the ground that its words say.
     pub(crate) fn says(&self) -> Option<Said> {
-        self.words().iter().enumerate().find_map(|(at, word)| match word.as_str() {
-            "sa" | "psa" | "spectral" => Some(Said::Spectrum),
+        let words = self.words();
+        let quantity = words.iter().find_map(|word| match word.as_str() {
             "sv" | "psv" | "vg" => Some(Said::Is(Quantity::Velocity)),
             "sd" | "dg" => Some(Said::Is(Quantity::Displacement)),
             word if word.starts_with("vel") => Some(Said::Is(Quantity::Velocity)),
-            word if word.starts_with("disp") => Some(Said::Is(Quantity::Displacement)),
-            "period" | "periods" | "tn" if at == 0 => Some(Said::Spectrum),
+            word if word.starts_with("dis") => Some(Said::Is(Quantity::Displacement)),
             _ => None,
-        })
+        });
+        let is_period = words.first().is_some_and(|word| word.starts_with("period") || word == "tn");
+        let is_spectrum = is_period || words.iter().any(|word| ["sa", "psa", "spectral"].contains(&&**word));
+        quantity.or(is_spectrum.then_some(Said::Spectrum))
     }
 
     /// Refuses the name of a velocity or a displacement on a line.

@@ -82,6 +82,7 @@ fn spectra_are_refused() {
         ("t [s],a [g]", &["line 1", "a response spectrum", "this is a record"]),
         ("time [s],acc", &["line 1", "this is a record"]),
         ("T [s],Sv [g]", &["line 1", "a unit of a velocity", "contradict"]),
+        ("T [s],Spectral velocity [g]", &["line 1", "a unit of a velocity", "contradict"]),
         ("T [s],PSV", &["line 1", "this is a velocity"]),
         ("T [s],Sd (g)", &["line 1", "a unit of a displacement", "contradict"]),
         ("# T [s], Sa [m/s2]", &["line 2", "the stated unit g, found m/s2"]),

@@ -147,7 +147,7 @@ fn the_animated_picture_of_a_wall_is_one_small_file() {
         assert!(svg.contains(said) && svg.contains("<animateTransform"), "{said}");
         assert!(svg.len() < 40_000 && !svg.contains("<script") && !svg.contains("NaN"), "{}", svg.len());
     }
-    let still = ["simulate", "--synthetic", "--scale", "1e-4", "--svg", "still.svg"];
+    let still = ["simulate", "--synthetic", "--scale", "1e-3", "--svg", "still.svg"];
     refused(&folder, &still, &["--svg", "hardly moves"]);
 }
 
