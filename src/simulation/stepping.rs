@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::choices::Mechanism;
 use crate::solver::{Demands, Memo, Method, Motion, Segment, SolverError, State, Work};
-use crate::wall::{Ends, ParameterError, Parameters, Support, Wall};
+use crate::wall::{Ends, ParameterError, Parameters, Support, Wall, Warning};
 
 /// A wall in time.
 #[derive(Clone, Debug)]
@@ -74,7 +74,8 @@ impl Simulation {
     ) -> Result<Self, ParameterError> {
         let tolerance = tolerance.map_or(parameters.tolerance, |given| given.min(parameters.tolerance));
         let motion = Motion::of(parameters, tolerance)?;
-        motion.wall().check_start(parameters.u_start)?;
+        let doubts = |error: ParameterError| error.with_doubts(Warning::unusual(parameters).collect());
+        motion.wall().check_start(parameters.u_start).map_err(doubts)?;
         let state = motion.start(parameters.u_start, parameters.u_dot_start, support);
         let overturn_time = state.overturned.then_some(time);
         let drift = support.drift != 0.0;

@@ -28,8 +28,8 @@ pub(super) struct Series<'a> {
 /// The equation of motion on a branch with secant damping, under a forcing p₀ + p₁ t.
 ///
 /// u(t) is singular where C is: at u₃ and at u = 0. From close to one of them a step may go further than the
-/// series converges, because its terms are small there in u and in u̇. Those in ü, n/t times as large as in
-/// u̇, are not.
+/// series converges, because its terms are small there in u and in u̇. The terms of ü are about n/t times
+/// those of u̇, and need not be small.
 #[derive(Clone, Copy, Debug)]
 struct Law<'a> {
     branch: &'a Branch,
@@ -41,7 +41,8 @@ impl Law<'_> {
         self.forcing[0] + self.forcing[1] * time
     }
 
-    /// Bounds the second derivative of ü between two times with their motions:
+    /// Bounds the second derivative of ü of the exact motion between two times with their motions, which the
+    /// piece follows within the tolerance of u and u̇:
     /// ```text
     /// ü = p − c u̇ − f,   u‴ = p₁ − c′ u̇² − c ü − k u̇,   u⁗ = −c″ u̇³ − 3c′ u̇ ü − c u‴ − k ü
     /// ```

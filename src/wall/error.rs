@@ -82,9 +82,9 @@ pub enum ParameterError {
     StartsOverturned { u_start: f64, u_ins: f64 },
     /// The start value of the model description, where the wall has overturned.
     #[error(
-        "u_start = {u_start} m, its default where no motion is given, is beyond u_ins = {u_ins:.6} m: give a \
-         motion ([motion] or --record), or set u_start: 0 for a wall at rest, or one that inputs of an FMU \
-         move"
+        "u_start = {u_start} m is beyond u_ins = {u_ins:.6} m; it is the default of a run without a motion. \
+         Give a motion ([motion] or --record), or set u_start = 0 if the wall is at rest or the inputs of an \
+         FMU move it"
     )]
     NothingMoves { u_start: f64, u_ins: f64 },
     /// Full rotations are those of rigid bodies with impacts only.
@@ -113,7 +113,7 @@ pub enum ParameterError {
 
 impl ParameterError {
     /// Adds the numbers that may be the cause.
-    pub(super) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
+    pub(crate) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
         if doubts.is_empty() { self } else { Self::Improbable { doubts, error: Box::new(self) } }
     }
 }

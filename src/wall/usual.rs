@@ -43,10 +43,13 @@ impl Usual {
     pub fn warning(&self, value: f64) -> Option<Warning> {
         let Self { name, unit, range: usual @ [least, most], others } = *self;
         let inside = |value: f64| (least..=most).contains(&value);
+        if inside(value) {
+            return None;
+        }
         let distance = |value: f64| (value.abs().ln() - 0.5 * (least * most).abs().ln()).abs();
         let meant = others.iter().map(|(unit, size)| (*unit, value * size)).filter(|(_, own)| inside(*own));
         let meant = meant.min_by(|(_, a), (_, b)| distance(*a).total_cmp(&distance(*b)));
-        (!inside(value)).then_some(Warning::Unusual { name, value, unit, usual, meant })
+        Some(Warning::Unusual { name, value, unit, usual, meant })
     }
 }
 

@@ -90,8 +90,9 @@ fn a_missing_motion_is_named() {
     let error = Response::of(&scene).unwrap_err().to_string();
     assert_eq!(
         error,
-        "u_start = 0.18 m, its default where no motion is given, is beyond u_ins = 0.100000 m: give a motion \
-         ([motion] or --record), or set u_start: 0 for a wall at rest, or one that inputs of an FMU move"
+        "u_start = 0.18 m is beyond u_ins = 0.100000 m; it is the default of a run without a motion. Give a \
+         motion ([motion] or --record), or set u_start = 0 if the wall is at rest or the inputs of an FMU \
+         move it"
     );
     scene.set("u_start", "0.19").unwrap();
     let error = Response::of(&scene).unwrap_err().to_string();

@@ -186,7 +186,7 @@ def test_the_check_follows_the_thickness(browser, page, record_property):
     assert zetas == sorted(set(zetas)) and zetas[0] < 1 < zetas[-1]
     assert len({check["svg"] for check in shown}) == 15
     assert text_of(browser, "check_headline") == shown[-1]["headline"]
-    assert browser.find_elements(By.CSS_SELECTOR, "#plane svg circle")
+    assert browser.find_elements(By.CSS_SELECTOR, "#plane svg .marks path")
     # what the check adds to a step: its own request without a motion
     spent = browser.execute_script(
         "const asked = { ...inputs(600), motion: { kind: 'none' } }, spent = [[], []];"
@@ -306,7 +306,7 @@ def test_the_fragility_comes_from_twenty_motions(browser, page, record_property)
     assert 0.05 < medians[0] < medians[1] < 5.0
     rows = browser.find_elements(By.CSS_SELECTOR, "#states tr")
     assert [row.text.split()[0] for row in rows] == ["moderate", "collapse"]
-    assert len(browser.find_elements(By.CSS_SELECTOR, "#fragility_chart circle")) >= 20
+    assert len(browser.find_elements(By.CSS_SELECTOR, "#fragility_chart .marks path")) >= 20
     # a change of the wall makes it one of another wall, until the wall is the same again
     stale = browser.find_element(By.ID, "fragility_stale")
     assert not stale.is_displayed()

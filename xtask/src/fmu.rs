@@ -121,7 +121,7 @@ pub(crate) fn library(unit: Unit, linker: Linker) -> Result<PathBuf> {
         }
         Linker::Zig(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
-    link(build.arg("--release").env("CARGO_TARGET_DIR", &folder), unit)?;
+    link(build.arg("--release").env("CARGO_TARGET_DIR", &folder), unit, "fmu")?;
     Ok(built.join("release").join(file_name(unit, names)))
 }
 
@@ -131,22 +131,14 @@ pub(crate) fn quick_library(unit: Unit) -> Result<PathBuf> {
     let mut build = cargo();
     let optimised = format!("profile.demo.package.{}.opt-level=3", unit.package);
     build.args(["rustc", "--profile", "demo", "--config", &optimised]);
-    link(&mut build, unit)?;
+    link(&mut build, unit, "fmu,shared")?;
     Ok(target().join("demo").join(file_name(unit, SYSTEM)))
 }
 
-/// Links the library of a unit by a prepared `cargo rustc`.
-fn link(build: &mut Command, unit: Unit) -> Result<()> {
-    build.args([
-        "--locked",
-        "--package",
-        unit.package,
-        "--lib",
-        "--crate-type",
-        "cdylib",
-        "--features",
-        "fmu",
-    ]);
+/// Links the library of a unit with some features by a prepared `cargo rustc`.
+fn link(build: &mut Command, unit: Unit, features: &str) -> Result<()> {
+    build.args(["--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
+    build.args(["--features", features]);
     succeed(build, "see the compiler's message above")
 }
 

@@ -16,7 +16,7 @@ use study::chart::{Axis, Chart, Look, Series};
 
 use crate::escaped;
 use crate::palette::{SERIES, sign};
-use crate::plot::{self, MARGINS, Picture, Plot};
+use crate::plot::{self, MARGINS, Picture, Plot, extremes};
 use crate::points::{simplified, within};
 
 /// Size \[px\].
@@ -61,7 +61,10 @@ fn is_marked(chart: &Chart, line: &Series) -> bool {
 fn plot(chart: &Chart, size: [f64; 2], is_named: bool) -> Plot {
     let of = |pick: fn(&(f64, f64)) -> f64| chart.series.iter().flat_map(move |s| s.points.iter().map(pick));
     let marks = chart.series.iter().any(|series| series.look == Look::Marks);
-    let ranges = [range(&chart.x, of(|point| point.0), marks), range(&chart.y, of(|point| point.1), true)];
+    let ranges = [
+        chart.x.range.unwrap_or_else(|| extremes(of(|point| point.0), marks)),
+        chart.y.range.unwrap_or_else(|| extremes(of(|point| point.1), true)),
+    ];
     let [left, right, top, bottom] = MARGINS;
     let area = [size[0] - left - right, size[1] - top - bottom];
     let scale = [0, 1].map(|axis| area[axis] / (ranges[axis][1] - ranges[axis][0]));
@@ -115,17 +118,4 @@ fn spread(points: &[(f64, f64)], scale: [f64; 2], part: f64) -> Vec<(f64, f64)> 
         gone += piece;
     }
     spread
-}
-
-/// The range of an axis: its own, or that of the data with room around it.
-fn range(axis: &Axis, values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
-    if let Some(range) = axis.range {
-        return range;
-    }
-    let (low, high) =
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    let room = if room { 0.06 * (high - low).max(1e-9) } else { 0.0 };
-    // an axis that starts near zero starts there
-    let low = if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - room };
-    [low, (high + room).max(low + 1e-9)]
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::axes::{number, ticks};
+use crate::axes::{number, ticks, write_text, write_upwards};
 use crate::escaped;
 use crate::plot::{Look, Scale, Series};
 
@@ -81,33 +81,29 @@ impl Frame<'_> {
             let [x, _] = self.place((value, self.ranges[1][0]));
             let _ = write!(grid, "M{x:.2} {top}V{bottom}");
             let _ = write!(notches, "M{x:.2} {bottom}v5");
-            let y = bottom + 4.0 + self.number_size;
-            let _ = write!(texts, "<text x=\"{x:.2}\" y=\"{y}\" text-anchor=\"middle\">{text}</text>");
+            write_text(&mut texts, [x, bottom + 4.0 + self.number_size], "middle", &text);
         }
         for (value, text) in up {
             let [_, y] = self.place((self.ranges[0][0], value));
             let _ = write!(grid, "M{left:.2} {y:.2}H{right}");
             let _ = write!(notches, "M{left:.2} {y:.2}h-5");
-            let (x, y) = (left - 8.0, y + 0.36 * self.number_size);
-            let _ = write!(texts, "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"end\">{text}</text>");
+            write_text(&mut texts, [left - 8.0, y + 0.36 * self.number_size], "end", &text);
         }
         // an area of one place and size has one name, so that several on a page may share it
         let name = format!("area-{left:.0}-{right:.0}-{top:.0}-{bottom:.0}");
-        let (middle, centre) = (0.5 * (left + right), 0.5 * (top + bottom));
+        let mut labels = String::new();
+        let [x_label, y_label] = self.labels.map(escaped);
+        write_text(&mut labels, [0.5 * (left + right), self.size[1] - 8.0], "middle", &x_label);
+        write_upwards(&mut labels, [17.0, 0.5 * (top + bottom)], &y_label);
         format!(
             "<clipPath id=\"{name}\"><rect x=\"{left:.2}\" y=\"{top}\" width=\"{:.2}\" height=\"{:.2}\"/>\
              </clipPath><path d=\"{grid}\" stroke=\"#ccc\" fill=\"none\"/>\
              <path d=\"M{left:.2} {top}V{bottom}H{right}{notches}\" stroke=\"#000\" fill=\"none\"/>\
-             <g font-size=\"{}\">{texts}</g>\
-             <g font-size=\"14\" text-anchor=\"middle\"><text x=\"{middle:.2}\" y=\"{}\">{}</text>\
-             <text transform=\"translate(17 {centre:.2}) rotate(-90)\">{}</text></g>\
+             <g font-size=\"{}\">{texts}</g><g font-size=\"14\">{labels}</g>\
              <g clip-path=\"url(#{name})\">{inside}</g>",
             right - left,
             bottom - top,
             self.number_size,
-            self.size[1] - 8.0,
-            escaped(self.labels[0]),
-            escaped(self.labels[1]),
         )
     }
 }

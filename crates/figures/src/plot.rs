@@ -85,7 +85,8 @@ impl Series {
             return;
         };
         let outline = mark.outline(self.width);
-        let _ = write!(svg, "<g stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
+        let _ =
+            write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
         for (index, [x, y]) in places.iter().enumerate() {
             let _ = write!(svg, "<path d=\"M{x:.2} {y:.2}{outline}\"");
             let _ = match self.titles.get(index) {
@@ -165,7 +166,7 @@ impl Plot {
         let of = |index: usize| {
             let pick = move |&(x, y): &(f64, f64)| if index == 0 { x } else { y };
             let values = self.series.iter().flat_map(move |series| series.points.iter().map(pick));
-            self.axes[index].range.unwrap_or_else(|| extremes(values))
+            self.axes[index].range.unwrap_or_else(|| extremes(values, true))
         };
         let labels = self.axes.each_ref().map(|axis| &*axis.label);
         Frame { size: self.size, margins, ranges: [of(0), of(1)], labels, scale: self.scale, number_size }
@@ -188,17 +189,19 @@ impl Plot {
     }
 }
 
-/// The range of an axis that takes it from the data: their extremes, with room around them.
-fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
+/// The range of an axis that takes it from the data: their extremes, with or without room around them.
+pub(crate) fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
-    let (low, high) = finite
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     if low > high {
         return [0.0, 1.0];
     }
-    let room = 0.06 * (high - low).max(1e-9 * high.abs().max(1.0));
+    let least = 1e-9 * high.abs().max(1.0);
+    let room = if room { 0.06 * (high - low).max(least) } else { 0.0 };
     // an axis that starts near zero starts there
-    [if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - room }, high + room]
+    let low = if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - room };
+    [low, (high + room).max(low + least)]
 }
 
 /// A drawing for a file of its own.

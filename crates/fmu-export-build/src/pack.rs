@@ -107,8 +107,8 @@ pub enum PackError {
     OtherVersion { path: PathBuf, version: u8 },
     /// The library was built from another description.
     #[error(
-        "{}: was built from another description, because it does not hold the guid {guid} of this one; build \
-         it again",
+        "{}: does not hold the guid {guid} of this description, so it was built from another one; build it \
+         again",
         path.display()
     )]
     OtherModel { path: PathBuf, guid: String },

@@ -33,7 +33,8 @@ pub fn state_version() {
 /// The profile of a folder `target/PROFILE/build/PACKAGE/out`; cargo calls the folder of `dev` debug.
 fn profile(output: &str) -> String {
     let name = Path::new(output).ancestors().nth(3).and_then(Path::file_name);
-    name.map_or_else(String::new, |name| name.to_string_lossy().replace("debug", "dev"))
+    let plain = |name: &std::ffi::OsStr| name.to_string_lossy().into_owned();
+    name.map_or_else(String::new, |name| if name == "debug" { "dev".to_owned() } else { plain(name) })
 }
 
 /// The commit of the repository that begins at the workspace, two folders above its crates. A repository

@@ -74,8 +74,9 @@
 //!   `fmi2FMUstate`, damaged bytes) leave an instance as it was.
 //! - Value references, causality, limits and items, NaN and infinity; an array with one bad value sets
 //!   nothing. A Boolean that is read as a Real is 0 or 1, with one warning per instance. A fixed parameter
-//!   after the start, or a discrete input outside Event Mode, can be set to the value that it has, and to no
-//!   other, by the setter of Reals too. The function of another type names the right one.
+//!   after the start, and a discrete input in Step Mode where Event Mode is used, can be set to the value
+//!   that they have, and to no other, by the setter of Reals too. The function of another type names the
+//!   right one.
 //! - Time: communication points are compared with a tolerance, and the step goes from the model's own time,
 //!   so that rounding is never lost or counted twice. A step shorter than 1e-30 s, or too small to reach
 //!   the model's time, changes nothing: input derivatives then hold for the step after it.

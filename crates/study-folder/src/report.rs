@@ -281,7 +281,7 @@ fn rows(manifest: &Manifest, wall: usize, results: &WallResults) -> String {
         let [ratio, ratio_low, ratio_high] = summary.median_ratio.texts(1.0, Some(3));
         let _ = writeln!(
             text,
-            "{:<wall_width$}{:<model_width$}{median:>12}{:>26}{theta:>14}{beta:>7}{:>10}{:>36}",
+            "{:<wall_width$}{:<model_width$}  {median:>10}  {:>24}  {theta:>12}{beta:>7}{:>10}{:>36}",
             contents.walls[wall].name,
             model.name,
             format!("{low} … {high}"),

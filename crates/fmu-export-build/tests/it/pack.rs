@@ -279,7 +279,7 @@ fn what_is_no_library_of_this_model_is_refused() {
         (library("riscv64-linux"), "2", "is for another processor, and not for the platform linux64"),
         (without("fmi2GetVersion"), "2", "does not export the functions of FMI 2.0; fmu_export::export_fmu!"),
         (without("fmi3GetVersion"), "3", "does not export the functions of FMI 3.0; fmu_export::export_fmu!"),
-        (without(&guid), "2", "was built from another description, because it does not hold the guid {"),
+        (without(&guid), "2", "does not hold the guid {"),
     ] {
         let (output, path) = (build.path("a.fmu"), build.path("libblock.so"));
         fs::write(&path, bytes).unwrap();

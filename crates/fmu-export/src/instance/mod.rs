@@ -195,7 +195,7 @@ impl<M: Model> Instance<M> {
             self.logger.filter = Filter::EVERYTHING;
             let known: Vec<_> = Category::ALL.iter().map(|category| category.name()).collect();
             self.logger.log().warning(format_args!(
-                "{}: there are no log categories {unknown:?}, they are left out; the categories are {}",
+                "{}: unknown log categories {unknown:?} are left out; the categories are {}",
                 Call::SetDebugLogging.name(self.purpose.version),
                 known.join(", ")
             ));

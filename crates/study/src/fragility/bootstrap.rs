@@ -102,9 +102,12 @@ impl Bootstrap {
 
 impl Resampled {
     /// Takes the sample median of exceedances, and those of its resamples.
-    pub(super) fn medians(exceedances: &[Exceedance], bootstrap: &Bootstrap) -> Self {
-        // a censored record exceeds at least above its levels
+    pub(super) fn medians(exceedances: &[Exceedance], kind: &ObservationKind, bootstrap: &Bootstrap) -> Self {
+        // a censored record exceeds at least above its levels, one that exceeds at the lowest of all levels
+        // anywhere below it
+        let lowest = kind.lowest_level();
         let least = |exceedance: &Exceedance| match *exceedance {
+            Exceedance::At(intensity) if intensity <= lowest => Exceedance::At(0.0),
             Exceedance::At(intensity) | Exceedance::Above(intensity) => Exceedance::At(intensity),
         };
         let least: Vec<_> = exceedances.iter().map(least).collect();

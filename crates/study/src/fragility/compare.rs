@@ -95,7 +95,7 @@ impl Fragility {
         let alone: Vec<_> = observations.iter().map(|state| fit(state)).collect();
         let contradicted = contradict_common_dispersion(&observations, &alone);
         let thetas = bootstrap.fitted_medians(states, kind);
-        let medians = states.iter().map(|state| Resampled::medians(state, bootstrap));
+        let medians = states.iter().map(|state| Resampled::medians(state, kind, bootstrap));
         let fits = fitted.into_iter().zip(alone);
         let fragility =
             |((median, theta), (fitted, alone))| Self { median, fitted, alone, contradicted, theta };

@@ -31,6 +31,14 @@ pub enum ObservationKind {
 }
 
 impl ObservationKind {
+    /// Returns the lowest level that all records share, or 0 where they share none.
+    pub(super) fn lowest_level(&self) -> f64 {
+        match self {
+            Self::Records => 0.0,
+            Self::Stripes(levels) => levels.iter().copied().reduce(f64::min).unwrap_or(0.0),
+        }
+    }
+
     /// Makes observations of the exceedances of some records.
     pub fn observations(&self, exceedances: &[Exceedance]) -> Vec<Observation> {
         let record = |exceedance: &Exceedance| match *exceedance {

@@ -311,4 +311,9 @@ fn open_numbers_have_their_bounds() {
     assert_eq!(texts(&summaries[0].median_ratio)[0], "open <0.60");
     assert_eq!(texts(&summaries[1].median_ratio)[0], "open");
     assert_eq!(texts(&summaries[2].median_ratio), ["1.00", "1.00", "1.00"]);
+    // at the lowest of the levels that all share, a record exceeds anywhere up to it
+    let lowest = [vec![vec![At(3.0); 5]], vec![vec![At(3.0), At(3.0), At(4.0), At(4.0), At(4.0)]]];
+    let summaries = compare(&lowest, 0, &ObservationKind::Stripes(vec![3.0, 4.0]), &bootstrap).remove(0);
+    assert_eq!(texts(&summaries[0].median), ["open <3.00", "open <3.00", "open <3.00"]);
+    assert_eq!(texts(&summaries[1].median), ["4.00", "open <3.00", "4.00"]);
 }

@@ -346,6 +346,7 @@ fn open_medians_have_their_bound() {
     let told = printed(&folder, &["ida", "study.toml", "-o", "out"]);
     let table = content(&folder, "out/fragilities.csv");
     let page = content(&folder, "out/study.html");
+    assert!(told.contains("  open >0.200  "), "{told}");
     for (text, bound) in [(&told, "open >0.200"), (&table, ",open >0.2"), (&page, "open &gt;0.200")] {
         assert!(text.contains(bound), "{text}");
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
