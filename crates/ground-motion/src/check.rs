@@ -110,12 +110,20 @@ pub enum Warning {
     },
     /// The line that closes the last channel is missing, with all its samples there.
     Unclosed,
+    /// A comment above the numbers names another unit than the one that the user has stated.
+    Comment {
+        /// The unit of the comment.
+        unit: Unit,
+    },
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoMotion => write!(f, "every sample is 0"),
+            Self::Comment { unit } => {
+                write!(f, "unit: a comment above the numbers says {unit}; the unit that you state counts")
+            }
             Self::Step { step } => write!(
                 f,
                 "step: {step} s between samples is longer than records have; are the times in milliseconds, \

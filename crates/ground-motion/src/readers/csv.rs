@@ -18,6 +18,7 @@
 
 mod times;
 
+use crate::check::Warning;
 use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close};
@@ -61,10 +62,13 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         columns.beside_the_first(options.column.as_deref(), "`time`")?
     };
     refuse_spectrum(&columns, column)?;
-    let stated = stated_unit(&columns, column, options)?.or(options.unit);
+    let commented = comment_unit(&columns, column);
+    let stated = stated_unit(&columns, column, options)?.or(options.unit).or(commented);
     // Without a unit the values stay as they are, and the file is refused once the rest is sound.
     let mut parsed = Parsed::new(f64::NAN, stated.unwrap_or(Unit::MetrePerSecondSquared), columns.line());
     parsed.keep_header(columns.header());
+    let other = commented.filter(|unit| stated != Some(*unit));
+    parsed.warnings.extend(other.map(|unit| Warning::Comment { unit }));
     parsed.is_vertical = columns.named(column).is_some_and(Name::is_vertical);
     if columns.width() == 1 {
         read_column(&columns, options, &mut parsed)?;
@@ -104,11 +108,17 @@ fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
     }
 }
 
+/// Finds the unit that a comment above the rows gives a column. Comments may be about something else, so that
+/// another unit which the user states counts.
+fn comment_unit(columns: &Columns<'_>, column: usize) -> Option<Unit> {
+    let name = columns.named(column).filter(|_| columns.names().is_empty())?;
+    RecordOptions::default().unit_of(name.unit()?, columns.line()).ok()
+}
+
 /// Finds the unit that the names state for a column.
 fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) -> Result<Option<Unit>, Fault> {
-    let Some(name) = columns.named(column) else { return Ok(None) };
-    let is_comment = columns.names().is_empty();
-    if columns.width() > 1 && !is_comment {
+    let Some(name) = columns.names().get(column) else { return Ok(None) };
+    if columns.width() > 1 {
         name.refuse_other_quantity(columns.line())?;
     }
     let of_first =
@@ -116,8 +126,6 @@ fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) ->
     let unit = match columns.width() {
         // what is in the brackets of a title need not be a unit
         1 => name.unit().filter(|unit| Quantity::of(unit).is_some()),
-        // nor what is in those of a comment
-        _ if is_comment => name.unit().filter(|unit| Quantity::of(unit).is_some()),
         _ => name.unit().or(of_first),
     };
     if let Some(unit) = unit {

@@ -127,7 +127,6 @@ fn tables_of_records_are_refused() {
         (comma("t [s],a [m/s2]\n").replace(',', "|"), &["line 2", "`|` separates no columns"]),
         (comma("t [s],a\n").replace(",-", ",\u{2212}"), &["write minus signs as `-`; this one is U+2212"]),
         (comma("t [s],a\n").replace("\n1.00,", "\n1.00,it's \"\u{202f}"), &["found `it's \"U+202F-"]),
-        (comma("# t [s], a [g]\n"), &["line 2", "the stated unit m/s2, found g"]),
         (comma("T [s],Sa [m/s2]\n"), &["line 1", "this is a response spectrum"]),
         (comma("t,pSa\n"), &["line 1", "this is a response spectrum"]),
         (comma("time,SA(g)\n"), &["line 1", "`SA(g)`", "this is a response spectrum"]),
@@ -321,4 +320,16 @@ fn encodings_are_named() {
     }
     let error = ground_motion::utf8_text(b"\x89PNG\r\n\x1a\n\0\0\0".to_vec(), "a table").unwrap_err();
     assert_mentions(&error.to_string(), &["a binary file", "give a table"]);
+}
+
+/// A comment may be about something else: the unit that the user states counts, and the difference is said.
+#[test]
+fn the_stated_unit_counts_beside_a_comment() {
+    let text = table("% t [s], a [g]\n", ",", "", ".");
+    let warnings = |options: &RecordOptions| {
+        let record = ground_motion::parse("x.csv", text.clone().into_bytes(), options).unwrap();
+        (record.unit, record.check().warnings.iter().any(|found| matches!(found, Warning::Comment { .. })))
+    };
+    assert_eq!(warnings(&si()), (Unit::MetrePerSecondSquared, true));
+    assert_eq!(warnings(&RecordOptions::default()), (Unit::StandardGravity, false));
 }
