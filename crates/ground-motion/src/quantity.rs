@@ -54,9 +54,16 @@ fn size_of(word: &str, units: &[(&[&str], f64)]) -> Option<f64> {
     units.iter().find(|(names, _)| names.contains(&word)).map(|(_, size)| *size)
 }
 
+/// Longest unit \[bytes\].
+const LONGEST: usize = 64;
+
 impl Quantity {
     /// Finds the quantity of a unit; `None` if the text is no unit.
     pub(crate) fn of(text: &str) -> Option<Self> {
+        // no unit is as long, but a line without columns may be
+        if text.len() > LONGEST {
+            return None;
+        }
         if let Ok(unit) = text.parse::<Unit>() {
             return Some(Self::Acceleration(unit));
         }

@@ -6,6 +6,9 @@ use crate::quantity::Quantity;
 use crate::unit::Unit;
 use crate::vertical::is_vertical_channel;
 
+/// Longest word of a name, and most words \[-\].
+const LONGEST: usize = 64;
+
 /// The name of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
@@ -51,10 +54,11 @@ impl Name {
         self.unit.as_deref()
     }
 
-    /// Returns the words of the name, in small letters.
+    /// Returns the words of the name, in small letters; of a line that is no name, the first few.
     pub(crate) fn words(&self) -> Vec<String> {
-        let words = self.text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-        words.map(str::to_lowercase).collect()
+        let words = self.text.split(|c: char| !c.is_alphanumeric());
+        let words = words.filter(|word| (1..=LONGEST).contains(&word.len()));
+        words.take(LONGEST).map(str::to_lowercase).collect()
     }
 
     /// Returns the quantity other than an acceleration of the ground that its words say.
