@@ -81,7 +81,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             let stated = floor_index((duration / step).round());
             let stated_by = format!("{DURATION} on line {line}, {duration} s at steps of {step} s,");
             // some files have a sample at the end of the duration
-            (if found == stated + 1 { found } else { stated }, stated_by)
+            (if found.checked_sub(1) == Some(stated) { found } else { stated }, stated_by)
         }
         None => (found, String::new()),
     };

@@ -76,7 +76,7 @@ fn channel<'a>(
     };
     let unit = options.unit_of(Unit::StandardGravity.name(), unit_line)?;
     skip_headers(rest);
-    let total = if has_times { 2 * count } else { count };
+    let total = if has_times { count.saturating_mul(2) } else { count };
     // right-justified columns fill the first line
     let width = rest.peek().map_or(0, |(_, line)| line.len() / total.clamp(1, PER_LINE));
     let layout = Layout { per_line: PER_LINE, width: width.max(2) };
