@@ -20,6 +20,17 @@ pub fn is_companion(path: &Path) -> bool {
     beside(path, "dts", "acc").is_some_and(|record| record.is_file())
 }
 
+/// Returns whether a list of records has a file of a folder: a regular file that is neither hidden nor a
+/// [companion](is_companion).
+///
+/// ```
+/// assert!(!ground_motion::is_listed("records/.hidden".as_ref()));
+/// ```
+pub fn is_listed(path: &Path) -> bool {
+    let is_hidden = path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'));
+    path.is_file() && !is_hidden && !is_companion(path)
+}
+
 /// Adds the step of the times beside a record, if there are any and no step is stated.
 pub(crate) fn completed(path: &Path, options: &RecordOptions) -> Result<RecordOptions, GroundMotionError> {
     let times = beside(path, "acc", "dts").filter(|times| options.step.is_none() && times.is_file());

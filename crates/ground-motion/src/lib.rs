@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`read`], [`read_channels`], [`parse`] | a [`Record`] of a file, in any [`Format`] |
 //! | [`is_companion`] | whether a file has the times of a record beside it |
+//! | [`is_listed`] | whether a list of records has a file of a folder |
 //! | [`read_file`] | the content of any regular file of a limited size |
 //! | [`columns`] | columns of text, whatever separates them: tables of numbers and of words |
 //! | [`SpectrumFile`] | a response spectrum of a file |
@@ -44,7 +45,7 @@ mod unit;
 mod vertical;
 
 pub use check::{Check, Warning};
-pub use companion::is_companion;
+pub use companion::{is_companion, is_listed};
 pub use error::GroundMotionError;
 pub use file::{read_file, utf8_text};
 pub use format::Format;

@@ -204,10 +204,7 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 /// Refuses a first column that is not the period in seconds.
 fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
     let Some(name) = columns.checked_first()? else { return Ok(()) };
-    let words = name.words();
-    let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
-    let unit = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));
-    let remedy = match (unit, Abscissa::of(name)) {
+    let remedy = match (name.stated(), Abscissa::of(name)) {
         (Some((_, Quantity::Frequency)), _) | (_, Some(Abscissa::Frequency)) => {
             "write periods instead of frequencies: T = 1/f, and T = 2π/ω".to_owned()
         }

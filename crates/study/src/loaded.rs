@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ground_motion::{GroundMotion, GroundMotionError, is_companion, read};
+use ground_motion::{GroundMotion, GroundMotionError, is_listed, read};
 use rocking_wall::scene::{Scene, SceneError, read_text};
 use rocking_wall::wall::{COMPUTED, Parameters, Usual, Wall, Warning};
 
@@ -326,9 +326,6 @@ pub(crate) fn all_records(
 
 /// Lists the files of a folder, of a pattern, or the one file, in order of their names.
 fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
-    let visible = |path: &Path| {
-        path.is_file() && path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.'))
-    };
     let mut found: Vec<PathBuf> = if path.is_dir() {
         std::fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?
     } else if path.is_file() {
@@ -337,7 +334,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
         let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
         glob::glob(pattern)?.collect::<Result<_, _>>()?
     };
-    found.retain(|path| visible(path) && !is_companion(path));
+    found.retain(|path| is_listed(path));
     found.sort();
     if found.is_empty() {
         return Err(

@@ -61,6 +61,14 @@ impl Name {
         words.take(LONGEST).map(str::to_lowercase).collect()
     }
 
+    /// Returns the unit that its brackets state, or its last word behind others, with its quantity.
+    pub(crate) fn stated(&self) -> Option<(String, Quantity)> {
+        let words = self.words();
+        let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
+        let unit = self.unit().or(last)?;
+        Some((unit.to_owned(), Quantity::of(unit)?))
+    }
+
     /// Returns the quantity other than an acceleration of the ground that its words say.
     pub(crate) fn says(&self) -> Option<Said> {
         let words = self.words();

@@ -1,7 +1,7 @@
 //! What formats with one column for each component share.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, check_count, leading_number, positive, real};
+use crate::fields::{Line, check_count, leading_number, positive, real, rounding};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
 use crate::unit::Unit;
@@ -9,6 +9,11 @@ use crate::vertical::is_vertical;
 
 /// Most components of a file.
 pub(super) const MOST: usize = 24;
+
+/// Returns whether a time in a file is the one that is due, but for its last decimal.
+pub(super) fn is_due(field: &str, due: f64) -> bool {
+    real(field).is_some_and(|time| (time - due).abs() <= rounding(field) + 1e-9 * due.abs())
+}
 
 /// The components of a table, one column each.
 pub(super) struct Components {

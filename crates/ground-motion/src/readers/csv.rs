@@ -87,9 +87,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
 /// Refuses a first column that is not the time in seconds.
 fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
     let Some(name) = columns.checked_first()? else { return Ok(()) };
-    let words = name.words();
-    let last = words.last().filter(|_| words.len() > 1).map(String::as_str);
-    let stated = name.unit().or(last).and_then(|unit| Some((unit, Quantity::of(unit)?)));
+    let stated = name.stated();
     let is_comment = columns.names().is_empty();
     if !is_comment && !is_time(name) {
         let remedy = "the first column must be `time`, in seconds, with a header line that names the \
@@ -101,7 +99,8 @@ fn check_times(columns: &Columns<'_>) -> Result<(), Fault> {
         // `time (a_g in m/s2)`
         (None, Some(unit)) if is_comment || unit.contains(" in ") => Ok(()),
         (stated, unit) => {
-            let unit = unit.or(stated.map(|(unit, _)| unit)).unwrap_or_default();
+            let last = stated.map(|(unit, _)| unit).unwrap_or_default();
+            let unit = unit.unwrap_or(&last);
             let remedy = "write the times in seconds, and so in the header line";
             Err(Fault::excerpt(columns.line(), "times in s", unit, remedy))
         }

@@ -13,9 +13,9 @@
 //!      0.000     0.000     0.000     0.000
 //! ```
 
-use super::components::{Components, number, step, value};
+use super::components::{Components, is_due, number, step, value};
 use crate::error::{DAMAGED, Fault, excerpt};
-use crate::fields::{Layout, Line, leading_real, real, rounding, untrimmed_lines};
+use crate::fields::{Layout, Line, leading_real, real, untrimmed_lines};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -68,20 +68,14 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     }
     for (index, (line, row)) in rows.enumerate() {
         let mut fields = layout.fields(row);
-        check_time(fields.next().unwrap_or_default(), start + index as f64 * step, line)?;
+        let (time, due) = (fields.next().unwrap_or_default(), start + index as f64 * step);
+        if !is_due(time, due) {
+            return Err(Fault::new(line, format!("the time {due:.3} s"), excerpt(time), DAMAGED));
+        }
         components.push(fields, line)?;
     }
     let (length_line, length) = number(&header, "RecordLength(sec)")?;
     let stated_by = format!("RecordLength(sec) on line {length_line}, {length} s at {step} s,");
     let stated = floor_index((length / step).round());
     components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
-}
-
-/// Refuses a time that is not the one due, but for its last decimal.
-fn check_time(field: &str, due: f64, line: usize) -> Result<(), Fault> {
-    let is_due = |time: &f64| (time - due).abs() <= rounding(field) + 1e-9 * due.abs();
-    if real(field).is_some_and(|time| is_due(&time)) {
-        return Ok(());
-    }
-    Err(Fault::new(line, format!("the time {due:.3} s"), excerpt(field), DAMAGED))
 }

@@ -13,9 +13,9 @@
 //! 2011/03/11 14:48:19.00,0.00,0.12,-0.04,0.01
 //! ```
 
-use super::components::{Components, MOST};
+use super::components::{Components, MOST, is_due};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, find, lines, positive, real, rounding};
+use crate::fields::{Line, find, lines, positive, real};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -69,7 +69,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         let mut cells = line.split(',').map(str::trim).skip(1);
         let time = cells.next().unwrap_or_default();
         let due = index as f64 * step;
-        if !real(time).is_some_and(|found| (found - due).abs() <= rounding(time) + 1e-9 * due) {
+        if !is_due(time, due) {
             let expected = format!("{TIME} of {due:.3} s");
             return Err(Fault::excerpt(number, expected, time, DAMAGED));
         }

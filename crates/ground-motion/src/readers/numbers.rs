@@ -10,12 +10,11 @@
 //! table.
 
 use super::at2::Touching;
+use crate::columns::COMMENTS;
 use crate::error::Fault;
 use crate::fields::{lines, real};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
-
-const COMMENTS: [char; 2] = ['#', '%'];
 
 /// Returns whether the first lines are numbers only, several on some of them, and not a table that starts
 /// with times. Two numbers a line are taken for times and accelerations unless a step is stated.

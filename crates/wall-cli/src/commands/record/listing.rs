@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use ground_motion::is_companion;
+use ground_motion::is_listed;
 
 use super::Row;
 
@@ -14,10 +14,7 @@ pub(super) fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder).with_context(unread)?;
     let paths: std::io::Result<Vec<_>> = entries.map(|entry| Ok(entry?.path())).collect();
     let mut paths = paths.with_context(unread)?;
-    paths.retain(|path| {
-        let is_hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        path.is_file() && !is_hidden && !is_companion(path)
-    });
+    paths.retain(|path| is_listed(path));
     paths.sort();
     Ok(paths)
 }
