@@ -3,7 +3,6 @@
 mod args;
 mod commands;
 mod output;
-mod pages;
 
 use std::process::ExitCode;
 

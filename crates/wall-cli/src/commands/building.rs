@@ -12,7 +12,7 @@ use anyhow::{Context, Result, bail};
 use building::trial::{Trial, trial};
 use building::{Building, Parts};
 use clap::Args;
-use study::counted;
+use report::counted;
 
 use crate::args::RecordArguments;
 use crate::output;
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let fmus = output.iter().flat_map(|_| [&arguments.wall_fmu, &arguments.floor_fmu]);
     output::check_distinct(inputs.chain(fmus), output.iter().chain(arguments.run.outputs()))?;
     if motion.is_none() && arguments.run.outputs().next().is_some() {
-        bail!("--csv, --html and --svg show a run; give its motion with --record or --synthetic");
+        bail!("--csv and --html show a run; give its motion with --record or --synthetic");
     }
     let parts = Parts::read(&building)?;
     output::report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));

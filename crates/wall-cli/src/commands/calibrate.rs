@@ -6,17 +6,17 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use figures::calibration::{charts, printed};
-use figures::{chart, escaped};
+use report::{chart, escaped};
+use run::model::{Label, damping_models, label};
+use run::parallel::threads;
+use study::calibration::figure::{charts, printed};
 use study::calibration::{
     Calibration, Coefficient, Fit, Grid, REGRESSIONS, STEP, calibrate, calibrated_models, model_named,
 };
-use study::model::{Label, damping_models, label};
-use study::parallel::threads;
 
 use crate::args::SceneArguments;
 use crate::output;
-use figures::template;
+use report::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -121,7 +121,7 @@ fn page(title: &str, found: &[Calibration]) -> String {
     let figures: String = charts(found).iter().map(chart::figure).collect();
     let text: String = found.iter().map(table).collect();
     template::page(
-        include_str!("../pages/calibrate.html"),
+        include_str!("../../../study/src/calibration/page.html"),
         &[
             ("title", &format!("Calibration: {}", escaped(title))),
             ("table", &escaped(&text)),

@@ -8,9 +8,9 @@ mod walls;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use check::circolare::{Sought, read_table};
 use clap::Args;
 use rocking_wall::scene::{Place, read_text};
-use study::circolare::{Sought, read_table};
 
 use crate::args::{SceneArguments, refuse};
 

@@ -11,7 +11,8 @@ use rocking_wall::wall::{Fact, Wall};
 
 use crate::args::SceneArguments;
 use crate::output;
-use crate::output::capacity::{Capacity, significant};
+use crate::output::significant;
+use run::capacity::Capacity;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -43,8 +44,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
     // first, because its ending may be refused
-    output::picture(arguments.plot.as_ref(), || Ok(capacity.picture()))?;
-    output::save(arguments.csv.as_ref(), || capacity.csv())?;
+    output::picture(arguments.plot.as_ref(), || Ok(capacity.plot().picture()))?;
+    output::save(arguments.csv.as_ref(), || capacity.table().csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
@@ -79,7 +80,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for Fact { name, symbol, value, unit } in facts {
         let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
     }
-    text.push_str(&capacity.table());
+    text.push('\n');
+    text.push_str(&capacity.table().text());
     for warning in wall.warnings() {
         let _ = writeln!(text, "\nwarning: {warning}");
     }

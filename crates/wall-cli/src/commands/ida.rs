@@ -8,10 +8,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use report::counted;
+use run::parallel;
+use study::folder::Folder;
 use study::ida::Study;
 use study::loaded::LoadedStudy;
-use study::{counted, parallel};
-use study_folder::Folder;
 
 use crate::output;
 use crate::output::progress::{self, Progress};
@@ -181,7 +182,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
     progress::shown(|progress| {
-        study_folder::work(study, folder, missing, threads, |case, curve, time| {
+        study::folder::work(study, folder, missing, threads, |case, curve, time| {
             let runs = curve.runs().len();
             if let Ok(mut shares) = shares.lock() {
                 let share = &mut shares[case.model];
@@ -208,7 +209,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
 /// Makes the final results of a folder whose parts are complete.
 fn finish(folder: &Folder, threads: usize) -> Result<()> {
     let walls = folder.contents().walls.len();
-    let finished = |progress: &Progress| study_folder::finish(folder, threads, || progress.add(walls, 0));
+    let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls, 0));
     let report = progress::shown(finished)?;
     if let Some(warning) = &report.warning {
         output::warn(warning);

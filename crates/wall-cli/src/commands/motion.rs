@@ -8,7 +8,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use ground_motion::CSV_HEADER;
-use study::counted;
+use report::counted;
 
 use crate::args::RecordArguments;
 use crate::output;
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         "{}: {note}, {} of {} s, peak {:.4} m/s²\n",
         arguments.csv.display(),
         counted(motion.samples().len(), "sample"),
-        figures::number(motion.step(), 6),
+        report::number(motion.step(), 6),
         motion.peak()
     ))
 }

@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use figures::plot::Picture;
-use figures::records;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum};
+use report::plot::Picture;
+use run::records_figure;
 use serde_json::{Value, json};
 
 use crate::args::{self, RecordOptionsArguments};
 use crate::output;
-use study_folder::csv::quoted;
+use report::table::quoted;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -193,7 +193,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
             row.name(),
             row.record.format.description(),
             motion.samples().len(),
-            figures::number(motion.step(), 6),
+            report::number(motion.step(), 6),
             motion.duration(),
             row.peak(),
             row.average
@@ -204,7 +204,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
         text.push('\n');
     }
     let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let percent = figures::number(100.0 * arguments.damping, 6);
+    let percent = report::number(100.0 * arguments.damping, 6);
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
         for warning in &row.check.warnings {
@@ -221,7 +221,7 @@ const LONGEST: f64 = 4.0;
 
 /// The histories and the spectra.
 fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
-    let drawn = |row: &Row| -> Result<records::Record> {
+    let drawn = |row: &Row| -> Result<records_figure::Record> {
         let motion = &row.record.motion;
         let samples = motion.samples().iter().enumerate();
         let history =
@@ -235,9 +235,9 @@ fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
             points.push((period, acceleration / STANDARD_GRAVITY));
         }
         let is_vertical = row.record.is_vertical;
-        Ok(records::Record { name: row.name(), history, spectrum: points, is_vertical })
+        Ok(records_figure::Record { name: row.name(), history, spectrum: points, is_vertical })
     };
-    Ok(records::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
+    Ok(records_figure::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
 }
 
 fn csv(rows: &[Row], periods: &[f64]) -> String {

@@ -10,8 +10,8 @@ use evidence::reproduce::collapse::figure_15;
 use evidence::reproduce::page::page;
 use evidence::reproduce::{Cell, Reproduction, Table, Value, reproduce};
 use ground_motion::{RecordOptions, read};
-use study::ida::NamedRecord;
-use study::parallel::threads;
+use run::parallel::threads;
+use run::records::NamedRecord;
 
 use crate::output::{self, progress};
 

@@ -8,8 +8,8 @@ use rocking_floor::variables as floor;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, GROUPS, KINEMATICS, MOST_THRESHOLDS, POINTS, input_names};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::Kinematics;
+use run::model::{EnergyLoss, damping_models, label};
 use serde_json::{Map, Value, json};
-use study::model::{EnergyLoss, damping_models, label};
 
 use crate::output;
 
@@ -219,7 +219,7 @@ mod tests {
             ("CheckBuilding", "[check]\ncode = \"\"\nbuilding = { x = 1 }"),
             ("CheckMode", "[check]\ncode = \"\"\nbuilding = { modes = [{ x = 1 }] }"),
         ] {
-            let error = study::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
+            let error = check::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
             assert_keys(&scene().unwrap()["$defs"][table], &error);
         }
     }

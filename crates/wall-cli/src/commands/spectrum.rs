@@ -5,21 +5,21 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
-use figures::rocking_spectrum::{Shown, own_words, svg};
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
-use study::parallel;
+use run::parallel;
+use study::spectrum::figure::{Shown, own_words, svg};
 use study::spectrum::{
     Point, PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
 use crate::args::{RecordArguments, SceneArguments, refuse};
 use crate::output;
-use crate::pages::spectrum::page;
-use study_folder::csv::optional;
+use crate::output::optional;
+use study::spectrum::page::page;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

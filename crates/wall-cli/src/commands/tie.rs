@@ -6,19 +6,20 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
-use figures::tie::picture;
 use ground_motion::{GroundMotion, RecordOptions, Unit};
+use report::counted;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
+use run::parallel;
+use run::polarity::Polarities;
 use serde_json::{Value, json};
-use study::polarity::Polarities;
+use study::tie::figure::picture;
 use study::tie::{COLUMNS, Row, TieStudy};
-use study::{counted, parallel};
 
 use crate::args::{SceneArguments, read_record};
 use crate::output;
-use crate::output::capacity::significant;
+use crate::output::significant;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use evidence::validation::{Case, DecayComparison, Push, PushComparison, Test};
-use figures::chart::picture;
-use study::chart::{Axis, Chart, Series};
-use study::model::color;
+use report::chart::picture;
+use report::chart::{Axis, Chart, Series};
+use run::model::color;
 
 use crate::output;
 

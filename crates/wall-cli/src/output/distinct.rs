@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use study_folder::file::{behind_links, folder};
+use study::folder::file::{behind_links, folder};
 
 use super::terminal::give_stdout_to_a_file;
 

@@ -1,7 +1,5 @@
 //! What leaves the program: stdout, stderr, and files.
 
-pub(crate) mod capacity;
-pub(crate) mod demands;
 mod distinct;
 pub(crate) mod progress;
 mod terminal;
@@ -9,17 +7,27 @@ mod terminal;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use figures::plot::Picture;
+use report::plot::Picture;
 
 pub(crate) use distinct::check_distinct;
 pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
 
-/// Writes a file completely or not at all, see [`study_folder::file::to_file`]; `-` is standard output.
+/// Six significant figures, right-aligned.
+pub(crate) fn significant(value: f64) -> String {
+    format!("{:>13}", report::table::significant(value, 6))
+}
+
+/// Writes a number with all its digits, or nothing.
+pub(crate) fn optional(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |number| format!("{number:?}"))
+}
+
+/// Writes a file completely or not at all, see [`study::folder::file::to_file`]; `-` is standard output.
 pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
     if path.as_os_str() == distinct::STDOUT {
         return terminal::bytes_to_stdout(content);
     }
-    Ok(study_folder::file::to_file(path, content)?)
+    Ok(study::folder::file::to_file(path, content)?)
 }
 
 /// Writes a text to the file that an option names, if it is given.

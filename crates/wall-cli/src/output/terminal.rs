@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
-use figures::number;
+use report::number;
 
 /// Most lines and characters of a message, and most messages of one kind.
 const MOST_LINES: usize = 9;

@@ -146,7 +146,7 @@ fn damaged_files_are_computed_again() {
         fs::write(file, content).unwrap();
     }
     // values that cannot be, under their own checksum
-    let parts = study_folder::Folder::open(&out).unwrap();
+    let parts = study::folder::Folder::open(&out).unwrap();
     for (k, bad) in [f64::NAN, f64::INFINITY, -0.5].into_iter().enumerate() {
         let file = &runs[flipped + k];
         let demand = parts.part(flipped + k).unwrap()[0].runs()[0].demand;

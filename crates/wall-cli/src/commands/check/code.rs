@@ -4,16 +4,16 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Result;
-use rocking_wall::scene::{Place, Scene};
-use study::circolare::{
+use check::circolare::{
     CheckTable, DisplacementCheck, DynamicState, Method, Records, Side, SideVerdict, Statement, UseClass,
     Verdict, check, in_table,
 };
+use rocking_wall::scene::{Place, Scene};
 
 use super::Arguments;
 use crate::output;
-use crate::output::capacity::significant;
-use crate::pages::check_report::{Report, page};
+use crate::output::significant;
+use check::circolare::report::{Report, page};
 
 /// A scene and what its table `[check]` states.
 pub(super) struct Case {
@@ -42,7 +42,7 @@ impl Case {
     }
 
     /// Adds to an error the line of the table that it is about.
-    pub(super) fn located<T>(&self, outcome: Result<T, study::circolare::CheckError>) -> Result<T> {
+    pub(super) fn located<T>(&self, outcome: Result<T, check::circolare::CheckError>) -> Result<T> {
         outcome.map_err(|error| in_table(error, &Place::new(&self.name, &self.text)).into())
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use figures::check::over_parameter;
-use study::circolare::{Sought, find};
+use check::circolare::figure::over_parameter;
+use check::circolare::{Sought, find};
 
 use super::Arguments;
 use super::code::Case;

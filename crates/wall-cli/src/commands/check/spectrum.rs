@@ -4,22 +4,22 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
+use check::circolare::Side;
+use check::points::over_demand;
+use check::points::{CapacityOverDemand, CheckError, Demand, Fractions, SideCheck, check, governing};
 use clap::Args;
-use figures::capacity::over_demand;
-use figures::escaped;
-use figures::plot::Plot;
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{RecordOptions, SpectrumFile, Unit};
+use report::escaped;
+use report::plot::Plot;
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
-use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, SideCheck, check, governing};
-use study::circolare::Side;
 
 use crate::args::{read_record, refuse};
 use crate::output;
-use crate::output::capacity::significant;
-use figures::template;
+use crate::output::significant;
+use report::template;
 
 #[derive(Debug, Args)]
 pub(super) struct SpectrumArguments {
@@ -96,7 +96,10 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
         let [wide, narrow] = [wide.svg(), narrow.svg()];
         let title = format!("{}: capacity against demand", escaped(&scene.title));
         let parts = [("title", &*title), ("wide", &wide), ("narrow", &narrow), ("table", &table)];
-        output::to_file(path, template::page(include_str!("../../pages/check.html"), &parts).as_bytes())?;
+        output::to_file(
+            path,
+            template::page(include_str!("../../../../check/src/points.html"), &parts).as_bytes(),
+        )?;
     }
     let text = if all.json {
         serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"

@@ -4,11 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use figures::{escaped, template};
+use check::circolare::{Verdict, WallVerdict, Walls};
+use report::table::quoted;
+use report::{escaped, template};
+use run::parallel;
 use serde_json::{Value, json};
-use study::circolare::{Verdict, WallVerdict, Walls};
-use study::parallel;
-use study_folder::csv::quoted;
 
 use super::Arguments;
 use crate::output;
@@ -50,7 +50,7 @@ fn warnings(verdicts: &[WallVerdict]) -> impl Iterator<Item = String> {
 
 /// The smallest `ζ_E` of each limit state: SLD, SLV with q, SLV, SLC.
 fn zetas(verdict: &Verdict) -> [Option<f64>; 4] {
-    let least = |pick: &dyn Fn(&study::circolare::SideVerdict) -> Option<f64>| {
+    let least = |pick: &dyn Fn(&check::circolare::SideVerdict) -> Option<f64>| {
         verdict.sides.iter().filter_map(|(_, side)| pick(side)).min_by(f64::total_cmp)
     };
     [
@@ -110,9 +110,9 @@ fn csv(verdicts: &[WallVerdict]) -> String {
             Ok(cells) => {
                 let warnings =
                     wall.verdict.as_ref().map_or_else(|_| String::new(), |v| v.warnings.join("; "));
-                cells.map(|cell| quoted(&cell)).join(",") + ",," + &quoted(&warnings)
+                cells.map(|cell| quoted(&cell).into_owned()).join(",") + ",," + &quoted(&warnings)
             }
-            Err([name, reason]) => quoted(&name) + &",".repeat(9) + &quoted(&reason) + ",",
+            Err([name, reason]) => format!("{}{}{},", quoted(&name), ",".repeat(9), quoted(&reason)),
         };
         text.push_str(&row);
         text.push('\n');
@@ -147,5 +147,5 @@ fn page(path: &Path, verdicts: &[WallVerdict]) -> String {
     let title =
         format!("{}: {passed} of {} walls pass", escaped(&path.display().to_string()), verdicts.len());
     let parts = [("title", &*title), ("rows", &rows)];
-    template::page(include_str!("../../pages/check_walls.html"), &parts)
+    template::page(include_str!("../../../../check/src/circolare/walls.html"), &parts)
 }

@@ -46,9 +46,6 @@ pub(crate) struct Arguments {
     /// Write a page with the rocking wall and its history
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
-    /// Draw the rocking wall as one animated SVG without a script
-    #[arg(long, value_name = "FILE")]
-    pub(super) svg: Option<PathBuf>,
     /// Limit states as fractions of `u_ins` whose first crossings are reported, instead of the scene's
     /// [default: 0.1,0.4,0.6,1]
     #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]

@@ -5,17 +5,20 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
+use report::counted;
 use rocking_wall::response::{Response, Summary};
 use rocking_wall::wall::Wall;
+use run::parallel;
 use serde_json::json;
-use study::{counted, parallel};
 
 use super::arguments::Arguments;
 use crate::args::short_name;
+use crate::output;
+use crate::output::optional;
 use crate::output::progress::{self, Progress};
-use crate::output::{self, demands};
-use study::polarity::Polarities;
-use study_folder::csv::{optional, quoted};
+use report::table::quoted;
+use run::demands;
+use run::polarity::Polarities;
 
 /// A record, scaled.
 struct Shaking {
@@ -33,8 +36,8 @@ struct Row {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.html.is_some() || arguments.svg.is_some() {
-        bail!("--html and --svg show one run; give its record with --record, without --both-polarities");
+    if arguments.html.is_some() {
+        bail!("--html shows one run; give its record with --record, without --both-polarities");
     }
     let scene = arguments.scene.load()?;
     let inputs = arguments.scene.inputs(&scene).chain(arguments.table());
