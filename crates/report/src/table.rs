@@ -406,10 +406,10 @@ mod tests {
         let table = table();
         assert_eq!(
             table.text(),
-            "           PGA\n\
-             record     [g]  runs  change [%]\n\
+            "          PGA\n\
+             record    [g]  runs  change [%]\n\
              a, \"b\"  0.150    12         0.5\n\
-             c            -     3           -\n"
+             c           -     3           -\n"
         );
         assert_eq!(table.csv(), "record,pga_m_s2,runs,falls\n\"a, \"\"b\"\"\",1.5,12,true\nc,,3,false\n");
         let json = r#"[{"falls":true,"pga_m_s2":1.5,"record":"a, \"b\"","runs":12},"#.to_owned()

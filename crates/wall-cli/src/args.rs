@@ -12,7 +12,7 @@ use ground_motion::{
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 
-use crate::output;
+use crate::output::Console;
 
 /// A scene and what replaces parts of it.
 #[derive(Debug, Args)]
@@ -80,9 +80,9 @@ impl RecordOptionsArguments {
 
 impl SceneArguments {
     /// The scene with its parameters set.
-    pub(crate) fn load(&self) -> Result<Scene> {
+    pub(crate) fn load(&self, console: &Console<'_>) -> Result<Scene> {
         let scene = self.load_unshaken()?;
-        self.scene.iter().for_each(|path| warn_of_motion(path, &scene));
+        self.scene.iter().for_each(|path| warn_of_motion(console, path, &scene));
         Ok(scene)
     }
 
@@ -147,25 +147,25 @@ pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> R
 }
 
 /// Warns about a scene's own motion: accelerations that no record has, and a vertical record.
-pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
+pub(crate) fn warn_of_motion(console: &Console<'_>, path: &Path, scene: &Scene) {
     let vertical = Warning::Vertical.to_string();
     if scene.motion_notes.contains(&vertical) {
-        output::warn(&format!("{}: {vertical}", path.display()));
+        console.warn(&format!("{}: {vertical}", path.display()));
     }
     if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {
-        output::warn(&format!("{}: {warning}", path.display()));
+        console.warn(&format!("{}: {warning}", path.display()));
     }
 }
 
 /// Reads a record, and warns about what its check finds; `-` is standard input.
-pub(crate) fn read_record(path: &Path, options: &RecordOptions) -> Result<Record> {
+pub(crate) fn read_record(console: &Console<'_>, path: &Path, options: &RecordOptions) -> Result<Record> {
     let record = match standard_input(path)? {
         Some(bytes) => parse(STDIN, bytes, options)?,
         None => read(path, options)?,
     };
     let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
     for warning in &record.check().warnings {
-        output::warn(&format!("{name}: {warning}"));
+        console.warn(&format!("{name}: {warning}"));
     }
     Ok(record)
 }
@@ -204,9 +204,9 @@ pub(crate) fn short_name(path: &Path) -> String {
 
 impl RecordArguments {
     /// The motion given, scaled, and a note on it.
-    pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
+    pub(crate) fn load(&self, console: &Console<'_>) -> Result<Option<(GroundMotion, String)>> {
         let (motion, note) = match &self.record {
-            Some(path) => self.read(path)?,
+            Some(path) => self.read(console, path)?,
             None if self.synthetic => (SyntheticMotion::default().motion()?, "synthetic motion".to_owned()),
             None if self.scale.is_some() || self.pga.is_some() => {
                 bail!(
@@ -215,11 +215,11 @@ impl RecordArguments {
             }
             None => return Ok(None),
         };
-        Ok(Some((self.scaled(motion)?, note)))
+        Ok(Some((self.scaled(console, motion)?, note)))
     }
 
     /// Scales a motion as the arguments say, and warns about accelerations that no record has.
-    pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
+    pub(crate) fn scaled(&self, console: &Console<'_>, motion: GroundMotion) -> Result<GroundMotion> {
         let scaled = match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
             (None, Some(pga)) => motion.scaled_to_peak(pga.0)?,
@@ -227,14 +227,14 @@ impl RecordArguments {
             (None, None) => return Ok(motion),
         };
         if let Some(warning) = scaled.warning() {
-            output::warn(&warning.to_string());
+            console.warn(&warning.to_string());
         }
         Ok(scaled)
     }
 
     /// Reads a record and describes it.
-    pub(crate) fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
-        let record = read_record(path, &self.options.options()?)?;
+    pub(crate) fn read(&self, console: &Console<'_>, path: &Path) -> Result<(GroundMotion, String)> {
+        let record = read_record(console, path, &self.options.options()?)?;
         let name = short_name(path);
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }

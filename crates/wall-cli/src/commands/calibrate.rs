@@ -15,7 +15,7 @@ use study::calibration::{
 };
 
 use crate::args::SceneArguments;
-use crate::output;
+use crate::output::Console;
 use report::template;
 
 #[derive(Debug, Args)]
@@ -48,10 +48,10 @@ pub(crate) struct Arguments {
     threads: Option<NonZeroUsize>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mut scene = arguments.scene.load()?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
-    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
+    console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
     let grid = Grid {
         restitution: arguments.restitution.clone(),
         a1: arguments.a1.clone(),
@@ -66,11 +66,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for model in models {
         let calibration =
             arguments.scene.named(calibrate(&scene.parameters, model, &grid, threads(arguments.threads)))?;
-        output::to_stdout(&table(&calibration))?;
+        console.print(&table(&calibration))?;
         found.push(calibration);
     }
-    output::save(arguments.csv.as_ref(), || csv(&found))?;
-    output::save(arguments.html.as_ref(), || page(&scene.title, &found))
+    console.save(arguments.csv.as_ref(), || csv(&found))?;
+    console.save(arguments.html.as_ref(), || page(&scene.title, &found))
 }
 
 fn help_of_models() -> String {

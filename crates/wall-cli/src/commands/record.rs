@@ -14,7 +14,7 @@ use run::records_figure;
 use serde_json::{Value, json};
 
 use crate::args::{self, RecordOptionsArguments};
-use crate::output;
+use crate::output::{self, Console};
 use report::table::quoted;
 
 #[derive(Debug, Args)]
@@ -60,7 +60,7 @@ struct Row {
     check: Check,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for path in &arguments.files {
         if path.is_dir() { files.extend(listing::files(path)?) } else { files.push(path.clone()) }
     }
-    output::check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
+    console.check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
     let mut rows = Vec::new();
     let mut failures = Vec::new();
     for path in &files {
@@ -82,15 +82,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         bail!("{failure}");
     }
     if is_listing && !rows.is_empty() {
-        return show(&rows, &failures, arguments, spectrum);
+        return show(console, &rows, &failures, arguments, spectrum);
     }
     if files.is_empty() {
         bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());
     }
     let count = failures.len();
-    output::report_all(failures);
+    console.report_all(failures);
     if !rows.is_empty() {
-        show(&rows, &[], arguments, spectrum)?;
+        show(console, &rows, &[], arguments, spectrum)?;
     }
     if count > 0 {
         bail!("{} of {} files could not be read", count, files.len());
@@ -120,9 +120,15 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
 }
 
 /// Shows what was read; of a folder, also the `unread` files.
-fn show(rows: &[Row], unread: &[String], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
-    output::picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
-    output::save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
+fn show(
+    console: &Console<'_>,
+    rows: &[Row],
+    unread: &[String],
+    arguments: &Arguments,
+    spectrum: Spectrum,
+) -> Result<()> {
+    console.picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
+    console.save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
     if arguments.json {
         let value = json!({
             "damping": arguments.damping,
@@ -132,12 +138,12 @@ fn show(rows: &[Row], unread: &[String], arguments: &Arguments, spectrum: Spectr
             "records": rows.iter().map(Row::json).collect::<Vec<_>>(),
             "unread": unread,
         });
-        return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
     let written = output::written("written  ", arguments.plot.iter().chain(&arguments.csv));
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
     let table = if is_listing { listing::table(rows, unread) } else { table(rows, arguments) };
-    output::to_stdout(&(table + &written))
+    console.print(&(table + &written))
 }
 
 impl Row {

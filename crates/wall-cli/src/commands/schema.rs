@@ -11,7 +11,7 @@ use rocking_wall::wall::Kinematics;
 use run::model::{EnergyLoss, damping_models, label};
 use serde_json::{Map, Value, json};
 
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -30,13 +30,13 @@ enum File {
     Building,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let schema = match arguments.file {
         File::Scene => scene()?,
         File::Study => study()?,
         File::Building => building()?,
     };
-    output::to_stdout(&(serde_json::to_string_pretty(&schema)? + "\n"))
+    console.print(&(serde_json::to_string_pretty(&schema)? + "\n"))
 }
 
 /// Makes the schema of scenes. What they hold besides parameters is in the file, as for the others; tests

@@ -15,38 +15,38 @@ use rocking_wall::wall::Wall;
 
 use run::demands;
 
-use crate::output;
+use crate::output::{self, Console};
 
 pub(crate) use arguments::Arguments;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if !arguments.table().is_empty() {
-        return records::run(arguments);
+        return records::run(console, arguments);
     }
-    let scene = arguments.scene()?;
+    let scene = arguments.scene(console)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     let outputs = [&arguments.csv, &arguments.html];
-    output::check_distinct(inputs, outputs.into_iter().flatten())?;
+    console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
+    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
     let response = arguments.scene.named(Response::of(&scene))?;
     for warning in scene.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
-        output::warn(&warning);
+        console.warn(&warning);
     }
     if response.summary.put_to_rest {
-        output::warn("the limit on impacts in one step was reached: the wall was put to rest");
+        console.warn("the limit on impacts in one step was reached: the wall was put to rest");
     }
-    output::save(arguments.csv.as_ref(), || response.csv())?;
+    console.save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {
         let page = run::page::render(&scene, &wall, &response)?;
-        output::to_file(path, page.as_bytes())?;
+        console.write(path, page.as_bytes())?;
     }
     let text = if arguments.json {
         json(&scene, &response)?
     } else {
         table(&scene, &response) + &output::written("written        ", outputs.into_iter().flatten())
     };
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 fn json(scene: &Scene, response: &Response) -> Result<String> {

@@ -253,7 +253,7 @@ fn tables_and_page_hold_the_runs() {
     // overturned runs are those whose demand is above 1
     for line in levels.lines().skip(1) {
         let cells: Vec<_> = line.rsplit(',').collect();
-        let (overturned, demand) = (cells[1] == "1", cells[2].parse::<f64>().unwrap());
+        let (overturned, demand) = (cells[1] == "true", cells[2].parse::<f64>().unwrap());
         assert_eq!((overturned, demand >= 1.0), (!cells[0].is_empty(), overturned), "{line}");
     }
     let page = read("study.html");

@@ -11,7 +11,7 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::DEFAULT_TAIL;
 use serde_json::json;
 
-use crate::output;
+use crate::output::{self, Console};
 use building::page::render;
 use run::demands;
 
@@ -43,6 +43,7 @@ impl Options {
 
 /// Runs a building, writes what was asked for and returns the text to print.
 pub(super) fn run(
+    console: &Console<'_>,
     building: &Building,
     parts: &Parts,
     ground: &GroundMotion,
@@ -52,8 +53,8 @@ pub(super) fn run(
     let &Options { tail, tolerance, .. } = options;
     let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
     let run = Coupled::run(building, parts, ground, settings)?;
-    output::save(options.csv.as_ref(), || csv(building, &run))?;
-    output::save(options.html.as_ref(), || render(building, parts, &run, note))?;
+    console.save(options.csv.as_ref(), || csv(building, &run))?;
+    console.save(options.html.as_ref(), || render(building, parts, &run, note))?;
     if options.json {
         return Ok(serde_json::to_string_pretty(&json(building, parts, &run))? + "\n");
     }

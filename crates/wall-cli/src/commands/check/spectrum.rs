@@ -17,8 +17,8 @@ use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
 
 use crate::args::{read_record, refuse};
-use crate::output;
 use crate::output::significant;
+use crate::output::{self, Console};
 use report::template;
 
 #[derive(Debug, Args)]
@@ -71,7 +71,7 @@ impl SpectrumArguments {
     }
 }
 
-pub(super) fn run(all: &super::Arguments) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, all: &super::Arguments) -> Result<()> {
     let arguments = &all.spectrum;
     if arguments.spectrum.is_none() && arguments.records.is_empty() {
         bail!(
@@ -82,9 +82,9 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
     let mut scene = all.scene.load_unshaken()?;
     all.scene.apply(&mut scene)?;
     let inputs = all.scene.inputs(&scene).chain(&arguments.spectrum).chain(&arguments.records);
-    output::check_distinct(inputs, &all.html)?;
+    console.check_distinct(inputs, &all.html)?;
     let wall = all.scene.named(Wall::new(&scene.parameters))?;
-    let source = Source::read(arguments, scene.floors.as_ref(), &wall)?;
+    let source = Source::read(console, arguments, scene.floors.as_ref(), &wall)?;
     let sides = check(&wall, arguments.fractions(), |period| source.demand.at(period))?;
     let alike = wall.has_equal_sides();
     if let Some(path) = &all.html {
@@ -96,7 +96,7 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
         let [wide, narrow] = [wide.svg(), narrow.svg()];
         let title = format!("{}: capacity against demand", escaped(&scene.title));
         let parts = [("title", &*title), ("wide", &wide), ("narrow", &narrow), ("table", &table)];
-        output::to_file(
+        console.write(
             path,
             template::page(include_str!("../../../../check/src/points.html"), &parts).as_bytes(),
         )?;
@@ -106,7 +106,7 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
     } else {
         table(&scene.title, &source, arguments, &sides, alike) + &output::written("\nwritten  ", &all.html)
     };
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 /// Where the demand comes from.
@@ -117,17 +117,22 @@ struct Source {
 }
 
 impl Source {
-    fn read(arguments: &SpectrumArguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
+    fn read(
+        console: &Console<'_>,
+        arguments: &SpectrumArguments,
+        floors: Option<&Floors>,
+        wall: &Wall,
+    ) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
         if let Some(path) = &arguments.spectrum {
             if floors.is_some() {
-                output::warn(
+                console.warn(
                     "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
                 );
             }
             let file = SpectrumFile::read(path, unit, arguments.column.as_deref())?;
             if let Some(warning) = file.warning() {
-                output::warn(&format!("{}: {warning}", path.display()));
+                console.warn(&format!("{}: {warning}", path.display()));
             }
             let damping = match (arguments.damping, file.damping) {
                 // a file may round it: 0.9 % for 0.0087
@@ -143,12 +148,12 @@ impl Source {
         }
         let damping = arguments.damping.unwrap_or(DAMPING);
         let options = RecordOptions { unit, ..RecordOptions::default() };
-        let motion = |path: &PathBuf| Ok(read_record(path, &options)?.motion);
+        let motion = |path: &PathBuf| Ok(read_record(console, path, &options)?.motion);
         let motions = arguments.records.iter().map(motion).collect::<Result<Vec<_>>>()?;
         let count = motions.len();
         let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
         if let Some(floors) = floors {
-            floors.warnings(wall).for_each(|warning| output::warn(&warning));
+            floors.warnings(wall).for_each(|warning| console.warn(&warning));
             let _ = write!(name, " {}", floors.note());
         }
         Ok(Self { name, damping, demand: Demand::of_records(motions, floors, wall, damping)? })

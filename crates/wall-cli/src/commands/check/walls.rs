@@ -11,28 +11,28 @@ use run::parallel;
 use serde_json::{Value, json};
 
 use super::Arguments;
-use crate::output;
+use crate::output::{self, Console};
 
-pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, arguments: &Arguments, path: &Path, text: &str) -> Result<()> {
     arguments.spectrum.refuse(&path.display().to_string())?;
     if arguments.find.is_some() || arguments.report.is_some() || !arguments.scene.set.is_empty() {
         bail!("{}: --find, --report and --set take one wall; give a scene", path.display());
     }
     let walls = Walls::parse(path, text)?;
-    output::check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;
+    console.check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;
     let verdicts = walls.check(parallel::threads(None).get());
-    output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
-    output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
+    console.save(arguments.csv.as_ref(), || csv(&verdicts))?;
+    console.save(arguments.html.as_ref(), || page(path, &verdicts))?;
     if !arguments.json {
-        output::report_all(warnings(&verdicts));
+        console.report_all(warnings(&verdicts));
     }
-    walls.record_warnings().iter().for_each(|warning| output::warn(warning));
+    walls.record_warnings().iter().for_each(|warning| console.warn(warning));
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {
         table(&verdicts) + &output::written("written  ", arguments.csv.iter().chain(&arguments.html))
     };
-    output::to_stdout(&text)?;
+    console.print(&text)?;
     let refused = verdicts.iter().filter(|wall| wall.verdict.is_err()).count();
     if refused > 0 {
         bail!("{refused} of {} walls could not be checked; the first rows say why", verdicts.len());

@@ -11,6 +11,7 @@ use rocking_wall::scene::{
 use rocking_wall::simulation::Excitation;
 
 use crate::args::{RecordArguments, SceneArguments};
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -65,8 +66,8 @@ impl Arguments {
     }
 
     /// The scene to run.
-    pub(super) fn scene(&self) -> Result<Scene> {
-        self.shaken(self.scene.load()?, self.record.load()?)
+    pub(super) fn scene(&self, console: &Console<'_>) -> Result<Scene> {
+        self.shaken(self.scene.load(console)?, self.record.load(console)?)
     }
 
     /// The scene to run, under a motion with a note on it.
