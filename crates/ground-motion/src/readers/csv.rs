@@ -133,12 +133,15 @@ fn stated_unit(columns: &Columns<'_>, column: usize, options: &RecordOptions) ->
     Ok(None)
 }
 
-/// Refuses a response spectrum: periods, or a column such as `Sa`.
+/// Refuses a response spectrum: periods in the first column, or a column such as `Sa`. A column `T` beside
+/// times is a transverse component.
 fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
     let names = [columns.names().first(), columns.names().get(column)].into_iter().flatten();
-    let is_period = |name: &Name| column > 0 && name.text() == "T";
-    let mut spectral = names.filter(|name| name.says() == Some(Said::Spectrum) || is_period(name));
-    let Some(name) = spectral.next() else { return Ok(()) };
+    let is_first_of_several = |index: usize| index == 0 && columns.width() > 1;
+    let mut spectral = names.enumerate().filter(|(index, name)| {
+        name.says() == Some(Said::Spectrum) || is_first_of_several(*index) && name.text() == "T"
+    });
+    let Some((_, name)) = spectral.next() else { return Ok(()) };
     let expected = "accelerations of the ground at times";
     let remedy = "this is a response spectrum: use the record itself; if it is a record, name its columns \
                   `time` and `a`";

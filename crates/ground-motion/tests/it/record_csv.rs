@@ -169,6 +169,14 @@ fn only_a_count_and_a_step_make_an_at2() {
     }
 }
 
+#[test]
+fn a_column_t_beside_times_is_a_transverse_component() {
+    for text in ["time [s],T [m/s2]\n0,1\n0.1,2\n", "time [s],L [m/s2],T [m/s2]\n0,3,1\n0.1,4,2\n"] {
+        let options = if text.contains('L') { with_column("T") } else { si() };
+        assert_eq!(read(text, &options).unwrap().motion.samples(), [1.0, 2.0], "{text}");
+    }
+}
+
 /// What could be read in two ways is not read.
 #[test]
 fn ambiguous_tables_are_refused_with_the_remedy() {
