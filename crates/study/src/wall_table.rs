@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use ground_motion::columns::{Columns, Fault, Name, Numbers};
+use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
 use rocking_wall::scene::{KINEMATICS, Scene, SceneError, read_text, suggestion};
 use rocking_wall::wall::Parameters;
 
@@ -27,16 +27,19 @@ pub(crate) fn read(path: &Path) -> Result<Vec<NamedWall>, SceneError> {
 fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
     let fail = |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, message };
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
+    let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
     let forms = "a table of walls: a line of names with a column `name`, and a row for each wall";
     let columns = Columns::of_texts(text.trim_start_matches('\u{feff}'), forms).map_err(in_file)?;
     let names: Vec<&str> = columns.names().iter().map(Name::written).collect();
     check_names(&names).map_err(|message| fail(columns.line(), message))?;
     let (mut walls, mut scene, mut numbers) = (Vec::new(), Scene::default(), Numbers::new(&columns));
+    let mut thousands = vec![Thousands::default(); names.len()];
     for row in columns.rows() {
         let row = row.map_err(in_file)?;
         scene.parameters = Parameters::default();
         let (mut wall, mut is_default) = (None, names.len() > 1);
-        for (&column, cell) in names.iter().zip(row.cells()).filter(|(_, cell)| !cell.is_empty()) {
+        let cells = names.iter().zip(&mut thousands).zip(row.cells()).filter(|(_, cell)| !cell.is_empty());
+        for ((&column, thousands), cell) in cells {
             if column == NAME {
                 wall = Some(cell.into_owned());
                 continue;
@@ -44,7 +47,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
             is_default = false;
             if cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '−' | '.' | ',')) {
                 let number = numbers.real(&cell, row.line);
-                let number = number.map_err(|fault| fail(row.line, format!("{column}: {fault}")))?;
+                let number = number.map_err(|fault| in_column(column, &fault))?;
+                thousands.push(&cell, row.line);
                 scene.set(column, &number.to_string()).map_err(|error| fail(row.line, error.to_string()))?;
             } else {
                 scene.set(column, &cell).map_err(|error| fail(row.line, error.to_string()))?;
@@ -60,6 +64,9 @@ fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, SceneError> {
             return Err(fail(row.line, message.to_owned()));
         }
         walls.push(NamedWall::new(wall, scene.parameters.clone()));
+    }
+    for (column, thousands) in names.iter().zip(thousands) {
+        thousands.check().map_err(|fault| in_column(column, &fault))?;
     }
     if walls.is_empty() {
         return Err(fail(
@@ -164,6 +171,10 @@ mod tests {
             ("name,height\na,nan", "line 2: height"),
             ("name,height\na,3 m", "line 2: height: expected a finite number, found `3 m`"),
             ("name;height\na;1,2\nb;1.2", "line 3: height: expected `,` before the decimals, as on line 2"),
+            (
+                "name;overburden\na;931\nb;1.053\nc;850\nd;900\n",
+                "line 3: overburden: expected numbers without marks between thousands, found `1.053`",
+            ),
             ("// walls\nname,height\na,3", "comments start with # or %"),
             ("name,height\n#1,3", "line 2: expected a row or a comment, found `#1,3`"),
         ] {

@@ -183,6 +183,9 @@ fn ambiguous_tables_are_refused_with_the_remedy() {
     for (text, fragments) in [
         ("0,5\n-0,1\n0,25\n", &["line 1", "commas that either", "`0,5`", "semicolons"][..]),
         ("0,1\n1,2\n2,4\n", &["line 1", "commas that either", "decimal points"]),
+        ("acc. [m/s2]\n0,5\n-0,1\n0,25\n", &["line 2", "commas that either", "`0,5`", "decimal points"]),
+        ("acc EW\n0,5\n-0,1\n0,25\n", &["line 2", "commas that either", "`0,5`", "decimal points"]),
+        ("El Centro, 1940\nacc\n0,5\n-0,1\n0,25\n", &["line 3", "commas that either", "`0,5`"]),
         ("time,a_g\n0,000,0,5\n0,005,0,1\n", &["line 2", "2 values", "found 4", "semicolons"]),
         ("0,000,0,5\n0,005,0,1\n", &["line 1", "two columns", "found 4", "semicolons"]),
         ("0,000, 0,5\n0,005, 0,1\n", &["line 1", "two columns", "found 4", "semicolons"]),
