@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use ground_motion::{
-    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, parse,
-    parse_channels, read,
+    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, is_listed,
+    parse, parse_channels, read,
 };
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
@@ -164,10 +164,57 @@ pub(crate) fn read_record(path: &Path, options: &RecordOptions) -> Result<Record
         None => read(path, options)?,
     };
     let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
+    warn_of(&name, &record);
+    Ok(record)
+}
+
+fn warn_of(name: &str, record: &Record) {
     for warning in &record.check().warnings {
         output::warn(&format!("{name}: {warning}"));
     }
-    Ok(record)
+}
+
+/// Lists record files; in place of a folder its files in the order of their names, but for hidden ones and
+/// the times beside records.
+pub(crate) fn record_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let unread = || format!("{}: cannot be read", path.display());
+        let entries = std::fs::read_dir(path).with_context(unread)?;
+        let found: std::io::Result<Vec<_>> = entries.map(|entry| Ok(entry?.path())).collect();
+        let mut found = found.with_context(unread)?;
+        found.retain(|path| is_listed(path));
+        found.sort();
+        files.extend(found);
+    }
+    Ok(files)
+}
+
+/// Reads the records of files and folders, and warns about what their checks find. Vertical ones of a folder
+/// are left out, with a warning.
+pub(crate) fn read_records(paths: &[PathBuf], options: &RecordOptions) -> Result<Vec<Record>> {
+    let mut records = Vec::new();
+    for path in record_files(paths)? {
+        if paths.contains(&path) {
+            records.push(read_record(&path, options)?);
+            continue;
+        }
+        let (record, name) = (read(&path, options)?, path.display().to_string());
+        if record.is_vertical {
+            output::warn(&format!("{name}: vertical, left out; name the file itself to use it"));
+            continue;
+        }
+        warn_of(&name, &record);
+        records.push(record);
+    }
+    if let ([], [folder, ..]) = (&records[..], paths) {
+        bail!("{}: a folder without horizontal records; name a folder with records", folder.display());
+    }
+    Ok(records)
 }
 
 /// Reads every channel of a record, or the one that is asked for; `-` is standard input.

@@ -6,7 +6,7 @@ use ground_motion::{Spectrum, SyntheticMotion};
 use rocking_wall::scene::Scene;
 
 use crate::command_line::{
-    assert_has, content, fails, folder, json, printed, refused, setting, succeed, text, wall,
+    assert_has, content, fails, folder, json, printed, program, refused, setting, succeed, text, wall,
 };
 
 /// The hand calculations of docs/model.md, to the last printed digit.
@@ -83,6 +83,25 @@ fn a_check_refuses_what_it_cannot_use() {
     refuses("0,1\n1,-0.5\n", "line 2: expected a finite Sa above 0, found Sa = -");
     refuses("0,1\n1,0.5\n", "has no T = 1.4");
     refuses("0,1.0\n1\n", "line 2: expected 2 values");
+}
+
+/// A folder stands for the records in it, without vertical ones.
+#[test]
+fn a_check_reads_the_records_of_a_folder() {
+    let folder = folder("check_folder");
+    std::fs::create_dir(folder.join("records")).unwrap();
+    succeed(&folder, &["motion", "--synthetic", "--csv", "records/a.csv"]);
+    let record = content(&folder, "records/a.csv");
+    std::fs::write(folder.join("records/b.csv"), &record).unwrap();
+    let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
+    std::fs::write(folder.join("records/c.csv"), vertical).unwrap();
+    let output = program(&folder, &["check", "--records", "records", "--json"]).output().unwrap();
+    assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
+    assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
+    let over = ["check", "--records", "records", "--html", "records/a.csv"];
+    refused(&folder, &over, &["the input records/a.csv"]);
+    std::fs::create_dir(folder.join("empty")).unwrap();
+    refused(&folder, &["check", "--records", "empty"], &["empty: a folder without horizontal records"]);
 }
 
 /// On storeys the demand is the floor's: its peak, and S_d of its spectrum.
