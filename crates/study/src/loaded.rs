@@ -58,7 +58,7 @@ impl LoadedStudy {
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
         let mut walls = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            walls.extend(wall(entry, folder, &name, &mut inputs, &mut ignored)?);
+            walls.extend(wall(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
         }
         warn(&walls, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
@@ -138,33 +138,39 @@ impl LoadedStudy {
 }
 
 /// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
-/// looked up beside its file. Returns them and the files that were read.
+/// looked up beside its file. Adds the files that are read, and warnings about tables.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
-pub(crate) fn read_walls(text: &str, path: &Path) -> Result<(Vec<NamedWall>, Vec<PathBuf>), SceneError> {
+pub(crate) fn read_walls(
+    text: &str,
+    path: &Path,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<NamedWall>, SceneError> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new("."));
-    let (mut walls, mut inputs) = (Vec::new(), vec![path.to_owned()]);
+    let mut walls = Vec::new();
+    inputs.push(path.to_owned());
     for entry in walls_of(&name, text)? {
         // a check uses neither the motion nor the damping of a scene
-        walls.extend(wall(entry, folder, &name, &mut inputs, &mut Vec::new())?);
+        walls.extend(wall(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?);
     }
     check_unique("walls", walls.iter().map(|wall| &wall.name))
         .map_err(|reason| SceneError::File { file: name, reason })?;
-    Ok((walls, inputs))
+    Ok(walls)
 }
 
 /// The name of a wall, and what the study ignores of its scene.
 type Ignored = (String, &'static str);
 
-/// Reads the walls of an entry.
+/// Reads the walls of an entry. Adds what the study ignores of scenes, and warnings about tables.
 fn wall(
     entry: WallEntry,
     folder: &Path,
     study: &str,
     inputs: &mut Vec<PathBuf>,
-    ignored: &mut Vec<Ignored>,
+    (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
 ) -> Result<Vec<NamedWall>, SceneError> {
     let at = |line, what: &str, error: SceneError| SceneError::Line {
         file: study.to_owned(),
@@ -178,7 +184,9 @@ fn wall(
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
-            let walls = wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            let (walls, found) =
+                wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            warnings.extend(found);
             inputs.push(path);
             Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
         }

@@ -96,7 +96,7 @@ fn checked(
 ///
 /// ```
 /// use rocking_wall::scene::Place;
-/// use rocking_wall::wall::{Parameters, Wall, Warning};
+/// use rocking_wall::wall::{Parameters, Wall};
 /// use study::circolare::{LimitState, Records, demands, read_table};
 ///
 /// let text = r#"

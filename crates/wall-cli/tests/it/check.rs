@@ -248,6 +248,9 @@ fn many_walls_are_checked() {
     let tall = "height = 200 m is unusual: 0.2 to 30 m is usual; if it is in cm, give 2 m";
     assert_has(of("a").unwrap(), &[tall, thick]);
     assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
+    std::fs::write(folder.join("walls.csv"), "name,height\na,1\nb,0.9\n").unwrap();
+    let warned = text(&program(&folder, &["check", "walls.toml"]).output().unwrap().stderr);
+    assert_has(&warned, &["walls.csv: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);
     refused(&folder, &["check", "walls.toml", "--find", "height"], &["take one wall"]);

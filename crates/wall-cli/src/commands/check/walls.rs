@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> 
     if !arguments.json {
         output::report_all(warnings(&verdicts));
     }
-    walls.record_warnings().iter().for_each(|warning| output::warn(warning));
+    walls.warnings.iter().for_each(|warning| output::warn(warning));
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {
