@@ -12,9 +12,11 @@ use std::error::Error;
 use ground_motion::SyntheticMotion;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::Parameters;
+use run::model::{EnergyLoss, Model};
+use run::records::NamedRecord;
+use run::walls::NamedWall;
 use study::fragility::{ObservationKind, fit};
-use study::ida::{IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
-use study::model::{EnergyLoss, Model};
+use study::ida::{IntensityMeasure, Levels, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let parameters = Parameters { height: 3.0, thickness: 0.3, a1: 0.01, ..Parameters::default() };

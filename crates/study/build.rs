@@ -8,17 +8,18 @@ use std::{fs, io};
 
 /// The solvers and what they use, the levels and models of a study, and the versions of the crates of others.
 /// A module or crate that a run comes to depend on belongs here.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "../../Cargo.lock",
     "../../modelDescription/modelDescription.xml",
     "../../src",
     "../ground-motion/src",
     "../oscillator/src",
     "../record/src",
-    "src/free_motion.rs",
+    "../run/src/free_motion.rs",
+    "../run/src/model.rs",
+    "../run/src/parallel.rs",
+    "../run/src/shaking.rs",
     "src/ida",
-    "src/model.rs",
-    "src/parallel.rs",
 ];
 
 fn main() -> io::Result<()> {

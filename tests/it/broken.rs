@@ -61,7 +61,7 @@ const VALUES: [&str; 26] = [
 ];
 
 /// Returns the text with each of its lines broken in each way.
-pub(crate) fn broken(text: &str) -> Vec<String> {
+fn broken(text: &str) -> Vec<String> {
     let lines: Vec<&str> = text.lines().collect();
     let mut texts = vec![text.replace('\n', "\r"), text.replacen('\n', "\n// a comment\n", 1)];
     for (index, line) in lines.iter().enumerate() {
@@ -89,8 +89,24 @@ pub(crate) fn broken(text: &str) -> Vec<String> {
 }
 
 /// Checks that a message names its line and has no word of a reader.
-pub(crate) fn assert_plain(message: &str, text: &str) {
+fn assert_plain(message: &str, text: &str) {
     let foreign = FOREIGN.iter().find(|word| message.contains(**word));
     assert_eq!(foreign, None, "{message}\n\n{text}");
-    assert!(message.contains(", line ") || message.contains("is missing"), "{message}\n\n{text}");
+    let has_no_line = ["is missing", "at least one"].iter().any(|words| message.contains(words));
+    assert!(message.contains(", line ") || has_no_line, "{message}\n\n{text}");
+}
+
+/// Breaks every line of a text in every way: most are refused, in plain words.
+pub(crate) fn walk<T, E: std::fmt::Display>(text: &str, read: impl Fn(&str) -> Result<T, E>) {
+    assert!(read(text).is_ok(), "{text}");
+    let texts = broken(text);
+    let mut refusals = 0;
+    for text in &texts {
+        if let Err(error) = read(text) {
+            assert_plain(&error.to_string(), text);
+            refusals += 1;
+        }
+    }
+    // a few changes leave a text that reads, and some values are checked later
+    assert!(2 * refusals > texts.len(), "{refusals} of {}", texts.len());
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rocking_wall::scene::Scene;
 
-use crate::broken::{assert_plain, broken};
+use crate::broken::walk;
 
 /// Asserts that a text is refused with a line and some words.
 #[track_caller]
@@ -119,15 +119,5 @@ fn no_message_speaks_in_words_of_the_reader() {
                  height = 3.0\nmechanism = \"parapet\"\n[motion]\n\
                  ricker = { amplitude = 3, frequency = 1, centre = 1 }\npga = \"0.3g\"\n[[storeys]]\n\
                  period = 0.3\n[supports]\nbottom = 1\ndrift = false\n";
-    assert!(Scene::parse("scene.toml", scene, Path::new(".")).is_ok());
-    let texts = broken(scene);
-    let mut refusals = 0;
-    for text in &texts {
-        if let Err(error) = Scene::parse("scene.toml", text, Path::new(".")) {
-            assert_plain(&error.to_string(), text);
-            refusals += 1;
-        }
-    }
-    // a few changes leave a scene that reads
-    assert!(5 * refusals > 4 * texts.len(), "{refusals} of {}", texts.len());
+    walk(scene, |text| Scene::parse("scene.toml", text, Path::new(".")));
 }

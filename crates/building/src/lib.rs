@@ -13,11 +13,13 @@
 //! | [`document`] | the file of a building |
 //! | [`parts`] | its units and their connections, and the SSP |
 //! | [`coupled`] | the run under a record |
+//! | [`page`] | the page of a run |
 //! | [`mod@trial`] | the step that a master needs for 1 % |
 
 pub mod coupled;
 pub mod document;
 pub mod error;
+pub mod page;
 pub mod parts;
 mod ssd;
 pub mod trial;

@@ -1,9 +1,9 @@
 //! The charts of a run.
 
-use figures::plot::{Picture, Plot};
-use figures::response as plots;
+use report::plot::{Picture, Plot};
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::wall::Wall;
+use run::figure as plots;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use figures::check::governing_over_demand;
-use figures::number;
-use figures::plot::Plot;
-use rocking_wall::scene::{Place, SceneError};
-use rocking_wall::wall::{Parameters, Wall};
-use serde_json::{Value, json};
-use study::circolare::{
+use check::circolare::figure::governing_over_demand;
+use check::circolare::{
     ActivationCheck, CheckError, Deciding, DisplacementCheck, LimitState, Records, SideVerdict, Statement,
     Verdict, check, demands, read_table,
 };
+use report::number;
+use report::plot::Plot;
+use rocking_wall::scene::{Place, SceneError};
+use rocking_wall::wall::{Parameters, Wall};
+use serde_json::{Value, json};
 
 use crate::request::{Fields, fault_of, field_of};
 

@@ -1,15 +1,17 @@
 //! The fragility of a wall under twenty synthetic motions.
 
-use figures::number;
-use figures::palette::{AMBER, BLUE, GREY, Mark};
-use figures::plot::{Axis, Look, Plot, Series};
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
+use report::number;
+use report::palette::{AMBER, BLUE, GREY, Mark};
+use report::plot::{Axis, Look, Plot, Series};
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{Damping, Parameters};
+use run::model::{EnergyLoss, Model};
+use run::records::NamedRecord;
+use run::walls::NamedWall;
 use serde_json::{Value, json};
 use study::fragility::{Bootstrap, ObservationKind, Summary, compare, steps};
-use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
-use study::model::{EnergyLoss, Model};
+use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, Study};
 
 /// Synthetic motions, with the seeds 1, 2, …
 const MOTIONS: u32 = 20;

@@ -1,7 +1,7 @@
 //! What the page's fields need to know of the model description.
 
-use figures::number;
 use fmu_export::{Kind, VariableId};
+use report::number;
 use rocking_wall::scene::{GROUPS, Scene, parameter_text};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::{COMPUTABLE, Parameters, Wall, equivalence, usage};

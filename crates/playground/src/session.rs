@@ -45,7 +45,7 @@ impl Session {
             Ok(Request::NextMotion) => self.next_motion(),
             Ok(Request::Csv) => self.last().map(|(_, response)| response.csv().into()),
             Ok(Request::Svg) => self.last().map(|(prepared, response)| {
-                Charts::new(&prepared.wall, response, figures::response::WIDTH).file().into()
+                Charts::new(&prepared.wall, response, run::figure::WIDTH).file().into()
             }),
             // the page writes its requests itself
             Err(_) => Err(fault_of("request", "the page asks for what it cannot compute; load it again")),

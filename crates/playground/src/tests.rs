@@ -275,9 +275,9 @@ fn the_check_has_the_numbers_of_the_code() {
         let toml = answer["toml"].as_str().unwrap();
         let scene = Scene::parse("scene.toml", toml, "".as_ref()).unwrap();
         let place = rocking_wall::scene::Place::new("scene.toml", toml);
-        let statement = study::circolare::read_table(&place).unwrap().unwrap().statement().unwrap();
-        let records = study::circolare::Records::default();
-        let again = study::circolare::check(&scene.parameters, None, &statement, &records).unwrap();
+        let statement = check::circolare::read_table(&place).unwrap().unwrap().statement().unwrap();
+        let records = check::circolare::Records::default();
+        let again = check::circolare::check(&scene.parameters, None, &statement, &records).unwrap();
         assert_eq!(check["zeta_E"], again.governs.zeta);
     }
 }

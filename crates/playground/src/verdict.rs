@@ -1,6 +1,6 @@
 //! The result in a sentence, and its numbers.
 
-use figures::number;
+use report::number;
 use rocking_wall::response::{Fate, Response};
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, Impact};

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use building::coupled::{Coupled, History, Peak, Settings};
 use building::{BuildingError, Parts};
-use figures::palette::{DARK_GREY, SERIES};
-use figures::plot::Picture;
-use figures::response::{cut, histories};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
+use report::palette::{DARK_GREY, SERIES};
+use report::plot::Picture;
+use run::figure::{cut, histories};
 
 use crate::arrays::{Given, motion};
 use crate::errors::{failed, of_file, refused};

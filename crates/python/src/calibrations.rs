@@ -1,10 +1,10 @@
 //! Viscous damping that matches restitution.
 
-use figures::calibration::{charts, printed};
-use figures::chart;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use report::chart;
 use rocking_wall::variables::DampingModel;
+use study::calibration::figure::{charts, printed};
 use study::calibration::{
     Calibration, CalibrationError, Coefficient, Fit, Grid, calibrate, calibrated_models, model_named,
 };
@@ -79,7 +79,7 @@ fn tables<'py>(py: Python<'py>, found: &[Calibration]) -> PyResult<[Bound<'py, P
         found.iter().flat_map(|one| one.fits.iter().map(|fit| (one.model.name(), fit))).collect();
     let of = |value: fn(&Fit) -> f64| Numbers(fits.iter().map(|(_, fit)| value(fit)).collect());
     let fits = [
-        ("damping_model", Names(fits.iter().map(|(model, _)| *model).collect())),
+        ("damping_model", Names(fits.iter().map(|(model, _)| (*model).into()).collect())),
         ("a1", of(|fit| fit.a1)),
         ("u0_over_u_ins", of(|fit| fit.start)),
         ("restitution", of(|fit| fit.restitution)),
@@ -92,7 +92,7 @@ fn tables<'py>(py: Python<'py>, found: &[Calibration]) -> PyResult<[Bound<'py, P
     let of = |value: fn(&Coefficient) -> f64| Numbers(rows.iter().map(|(_, row)| value(row)).collect());
     let paper = rows.iter().map(|(model, row)| printed(*model, row.a1).unwrap_or(f64::NAN));
     let coefficients = [
-        ("damping_model", Names(rows.iter().map(|(model, _)| model.name()).collect())),
+        ("damping_model", Names(rows.iter().map(|(model, _)| model.name().into()).collect())),
         ("a1", of(|row| row.a1)),
         ("u0_over_u_ins", of(|row| row.start)),
         ("x", of(|row| row.x)),
@@ -100,7 +100,7 @@ fn tables<'py>(py: Python<'py>, found: &[Calibration]) -> PyResult<[Bound<'py, P
     ];
     let laws = || found.iter().flat_map(|one| one.laws.iter().map(|law| (one.model.name(), law)));
     let laws = [
-        ("damping_model", Names(laws().map(|(model, _)| model).collect())),
+        ("damping_model", Names(laws().map(|(model, _)| model.into()).collect())),
         ("u0_over_u_ins", Numbers(laws().map(|(_, (start, _))| *start).collect())),
         ("q", Numbers(laws().map(|(_, (_, law))| law.q).collect())),
         ("r", Numbers(laws().map(|(_, (_, law))| law.r).collect())),

@@ -1,13 +1,13 @@
 //! Capacity against demand.
 
-use figures::capacity::over_demand;
-use figures::check::governing_over_demand;
+use check::circolare::figure::governing_over_demand;
+use check::circolare::{self, CheckError, Records, demands, in_table, read_table};
+use check::points::over_demand;
+use check::points::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use rocking_wall::scene::{Place, SceneError};
-use study::check::{CapacityOverDemand, Demand, Fractions, SideCheck, check};
-use study::circolare::{self, CheckError, Records, demands, in_table, read_table};
-use study::ida::NamedRecord;
+use run::records::NamedRecord;
 
 use crate::arrays::{Given, motion, samples};
 use crate::errors::{failed, of_scene, refused};
@@ -44,7 +44,7 @@ pub(crate) fn check_wall<'py>(
             let drawn = CapacityOverDemand::new(&wall.equation, &demand, &sides)?;
             Ok((sides, drawn))
         })
-        .map_err(|error: study::check::CheckError| refused(error))?;
+        .map_err(|error: check::points::CheckError| refused(error))?;
     let values = sides.iter().map(|side| values(py, side)).collect::<PyResult<_>>()?;
     Ok((values, over_demand(&drawn).picture().svg()))
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use study_folder::FolderError;
+use study::folder::FolderError;
 
 use crate::errors::{failed, refused};
 use crate::studies::Study;
@@ -13,7 +13,7 @@ use crate::threads::{self, Threads};
 /// The folder of a study.
 #[pyclass(frozen, module = "rocking_wall._native")]
 pub(crate) struct Folder {
-    folder: study_folder::Folder,
+    folder: study::folder::Folder,
 }
 
 #[pymethods]
@@ -21,7 +21,7 @@ impl Folder {
     /// Opens or makes the folder of a study.
     #[new]
     fn new(py: Python<'_>, path: PathBuf, study: &Study) -> PyResult<Self> {
-        let opened = py.detach(|| study_folder::Folder::of_study(&path, &study.loaded));
+        let opened = py.detach(|| study::folder::Folder::of_study(&path, &study.loaded));
         Ok(Self { folder: opened.map_err(of_folder)? })
     }
 
@@ -42,7 +42,7 @@ impl Folder {
     /// Writes the results of a complete folder; returns the summary and what the fits warn of.
     fn finish(&self, py: Python<'_>, threads: Option<Threads>) -> PyResult<(String, Option<String>)> {
         let threads = threads::count(threads).get();
-        let report = py.detach(|| study_folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
+        let report = py.detach(|| study::folder::finish(&self.folder, threads, || ())).map_err(of_folder)?;
         Ok((report.summary, report.warning))
     }
 }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use figures::records;
 use ground_motion::{
     GroundMotion, GroundMotionError, Maxima, Pulse, Record, RecordOptions, STANDARD_GRAVITY, Shape, Spectrum,
     SyntheticMotion, Unit, Warning,
@@ -10,6 +9,7 @@ use ground_motion::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use run::records_figure;
 
 use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
 use crate::errors::{of_motion, refused};
@@ -177,6 +177,6 @@ pub(crate) fn picture<'py>(
     let times = (0..motion.samples().len()).map(|index| index as f64 * motion.step());
     let history = times.zip(motion.samples().iter().map(|a| in_g(*a))).collect();
     let spectrum = periods.into_iter().zip(accelerations.into_iter().map(in_g)).collect();
-    let record = records::Record { name, history, spectrum, is_vertical: false };
-    Ok(records::picture(&[record], ground_motion::spectrum::DAMPING).svg())
+    let record = records_figure::Record { name, history, spectrum, is_vertical: false };
+    Ok(records_figure::picture(&[record], ground_motion::spectrum::DAMPING).svg())
 }

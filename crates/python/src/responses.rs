@@ -1,11 +1,11 @@
 //! Results of a run.
 
-use figures::plot::Picture;
-use figures::response;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use report::plot::Picture;
 use rocking_wall::response::{Response, Sample};
+use run::figure;
 
 use crate::arrays::samples;
 use crate::errors::failed;
@@ -62,12 +62,12 @@ pub(crate) fn picture_of_response(
 ) -> PyResult<String> {
     let times = samples(time)?;
     let over_time = |values: Vec<f64>| times.iter().copied().zip(values).collect::<Vec<_>>();
-    let ratios = response::cut(over_time(samples(u_ratio)?));
+    let ratios = figure::cut(over_time(samples(u_ratio)?));
     let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
     let mut motion = over_time(samples(a_bottom)?);
     let end = if ratios.len() < motion.len() { last(&ratios) + AFTER_FALL } else { f64::INFINITY };
     motion.retain(|point| point.0 <= end);
     let end = last(&motion);
-    let (motion, history) = (response::motion(&motion, None, end), response::history(&ratios, end));
+    let (motion, history) = (figure::motion(&motion, None, end), figure::history(&ratios, end));
     Ok(Picture::stacked(&[motion, history]).svg())
 }

@@ -1,11 +1,11 @@
 //! Rocking spectra.
 
-use figures::rocking_spectrum::{Shown, svg};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::simulation::Excitation;
+use study::spectrum::figure::{Shown, svg};
 use study::spectrum::{
     MOST_POINTS, Point, PulseForm, RockingSpectrum, Size, Slenderness, SpectrumError, common_motion,
     over_pulses, over_walls,

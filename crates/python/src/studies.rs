@@ -10,12 +10,13 @@ use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking_wall::scene::SceneError;
-use study::ida::{Curve, IdaError, NamedRecord};
+use run::parallel;
+use run::records::NamedRecord;
+use study::folder::{Contents, encode};
+use study::ida::{Curve, IdaError};
 use study::loaded::{LoadedStudy, Sent};
-use study::parallel;
 use study::results::{Fitting, WallResults};
 use study::tables::{COLLAPSES, FRAGILITIES, LEVELS, Names, Table};
-use study_folder::{Contents, encode};
 
 use crate::arrays::{Given, motion};
 use crate::errors::{failed, of_scene, refused};

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 use rocking_wall::wall::Parameters;
-use study::document::wall_parameters;
-use study::ida::NamedWall;
+use run::walls::NamedWall;
+use run::walls::wall_parameters;
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};

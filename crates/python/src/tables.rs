@@ -1,13 +1,15 @@
 //! Tables for Python: columns by their names.
 
+use std::borrow::Cow;
+
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use study::tables::Cell;
+use report::table::Cell;
 
 /// A column of a table.
 pub(crate) enum Column<'a> {
-    Names(Vec<&'a str>),
+    Names(Vec<Cow<'a, str>>),
     Numbers(Vec<f64>),
     Counts(Vec<usize>),
     Flags(Vec<bool>),
@@ -17,8 +19,8 @@ impl<'a> Column<'a> {
     /// Makes a column for cells like this one.
     pub(crate) fn of(cell: &Cell<'a>) -> Self {
         match cell {
-            Cell::Name(_) => Self::Names(Vec::new()),
-            Cell::Number(_) | Cell::Between(_) => Self::Numbers(Vec::new()),
+            Cell::Text(_) => Self::Names(Vec::new()),
+            Cell::Empty | Cell::Number(_) | Cell::Between(_) => Self::Numbers(Vec::new()),
             Cell::Count(_) => Self::Counts(Vec::new()),
             Cell::Flag(_) => Self::Flags(Vec::new()),
         }
@@ -26,15 +28,16 @@ impl<'a> Column<'a> {
 
     /// Adds a cell: a number that is not known is NaN, and one that is above the levels infinite.
     pub(crate) fn push(&mut self, cell: &Cell<'a>) {
-        match (self, *cell) {
-            (Self::Names(names), Cell::Name(name)) => names.push(name),
-            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(number.unwrap_or(f64::NAN)),
+        match (self, cell) {
+            (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
+            (Self::Numbers(numbers), Cell::Number(number)) => numbers.push(*number),
+            (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {
-                let is_known = least == most || most == f64::INFINITY;
-                numbers.push(if is_known { most } else { f64::NAN });
+                let is_known = least == most || *most == f64::INFINITY;
+                numbers.push(if is_known { *most } else { f64::NAN });
             }
-            (Self::Counts(counts), Cell::Count(count)) => counts.push(count),
-            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(flag),
+            (Self::Counts(counts), Cell::Count(count)) => counts.push(*count),
+            (Self::Flags(flags), Cell::Flag(flag)) => flags.push(*flag),
             _ => unreachable!("the cells of a column are alike"),
         }
     }

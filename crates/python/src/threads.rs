@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use study::parallel;
+use run::parallel;
 
 use crate::errors::refused;
 

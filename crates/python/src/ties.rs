@@ -1,11 +1,11 @@
 //! Ties of any stiffness.
 
-use figures::tie::picture;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Fate;
-use study::polarity::Polarities;
+use run::polarity::Polarities;
+use study::tie::figure::picture;
 use study::tie::{COLUMNS, Outcome, Row, TieError, TieStudy};
 
 use crate::arrays::{Given, grid, motion, samples};

@@ -13,10 +13,10 @@ use crate::tables::table;
 pub(crate) fn verify_formulas(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let formulas = py.detach(|| verify(library)).map_err(failed)?;
     let rows = || formulas.iter().flat_map(|one| one.checks.iter().map(|check| (one.title.as_str(), check)));
-    let names = |name: fn(&Check) -> &str| Names(rows().map(|(_, check)| name(check)).collect());
+    let names = |name: fn(&Check) -> &str| Names(rows().map(|(_, check)| name(check).into()).collect());
     let numbers = |number: fn(&Check) -> f64| Numbers(rows().map(|(_, check)| number(check)).collect());
     let columns = [
-        ("formula", Names(rows().map(|(title, _)| title).collect())),
+        ("formula", Names(rows().map(|(title, _)| title.into()).collect())),
         ("case", names(|check| &check.case)),
         ("quantity", names(|check| &check.quantity)),
         ("unit", names(|check| check.unit)),

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use figures::capacity::{Curve, plot};
 use ground_motion::GroundMotion;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
@@ -18,8 +17,9 @@ use rocking_wall::scene::{
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::wall::Wall as Equation;
+use run::capacity::{Curve, plot};
+use run::shaking::Shaking;
 use scene_fmu::General;
-use study::ida::Shaking;
 
 use crate::arrays::{Given, Numbers, motion, of_motion_values, samples};
 use crate::errors::{failed, of_file, of_motion, of_scene, refused};
@@ -296,7 +296,7 @@ impl Wall {
         py.detach(|| {
             let unit = General::open(&base).and_then(|general| scene_fmu::of_scene(&self.scene, general));
             let unit = unit.map_err(|error| of_file(error, &base))?;
-            study_folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
+            study::folder::file::to_file(&path, &unit.archive.to_bytes().map_err(refused)?)
                 .map_err(refused)?;
             Ok(unit.variables)
         })

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use study::parallel::STACK;
+use run::parallel::STACK;
 
 /// Time between two looks at Ctrl-C and at the progress.
 const LOOK: Duration = Duration::from_millis(50);

@@ -1,18 +1,16 @@
 //! Studies read from files: a study file, and the scenes and records that it names.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ground_motion::{GroundMotion, GroundMotionError, is_listed, read};
-use rocking_wall::scene::{Scene, SceneError, read_text};
-use rocking_wall::wall::{COMPUTED, Parameters, Usual, Wall, Warning};
+use ground_motion::{GroundMotion, GroundMotionError};
+use rocking_wall::scene::{SceneError, read_text};
+use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
+use run::model::Model;
+use run::records::{NamedRecord, all_records, record_files};
+use run::walls::{Ignored, NamedWall, check_unique, wall_of_text, wall_text, walls};
 
-use crate::document::{
-    RecordsEntry, ReportOptions, StudyFile, WallEntry, WallSource, wall_of_text, wall_text, walls_of,
-};
-use crate::ida::{IntensityMeasure, NamedRecord, NamedWall, Study};
-use crate::model::Model;
-use crate::wall_table;
+use crate::document::{ReportOptions, StudyFile};
+use crate::ida::{IntensityMeasure, Study};
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;
@@ -56,15 +54,15 @@ impl LoadedStudy {
         let mut file = StudyFile::parse(&name, &text)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let (mut inputs, mut ignored, mut warnings) = (vec![path.to_owned()], Vec::new(), Vec::new());
-        let mut walls = Vec::with_capacity(file.walls.len());
+        let mut all = Vec::with_capacity(file.walls.len());
         for entry in std::mem::take(&mut file.walls) {
-            walls.extend(wall(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
+            all.extend(walls(entry, folder, &name, &mut inputs, (&mut ignored, &mut warnings))?);
         }
-        warn(&walls, &ignored, (&file.models, &file.measure), &mut warnings);
+        warn(&all, &ignored, (&file.models, &file.measure), &mut warnings);
         let paths = record_files(&file.records, folder, &name)?;
         let records = all_records(&file.records, &paths, &name, &mut warnings)?;
         inputs.extend(paths.into_iter().map(|file| file.path));
-        let study = Self::assemble(&name, text, file, walls, records)?;
+        let study = Self::assemble(&name, text, file, all, records)?;
         warnings.extend(study.study.warning().map(|warning| format!("{name}, levels: {warning}")));
         Ok(Self { inputs, warnings, ..study })
     }
@@ -137,80 +135,6 @@ impl LoadedStudy {
     }
 }
 
-/// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
-/// looked up beside its file. Adds the files that are read, and warnings about tables.
-///
-/// # Errors
-/// [`SceneError`], with file, line, value and remedy.
-pub(crate) fn read_walls(
-    text: &str,
-    path: &Path,
-    inputs: &mut Vec<PathBuf>,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<NamedWall>, SceneError> {
-    let name = path.display().to_string();
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut walls = Vec::new();
-    inputs.push(path.to_owned());
-    for entry in walls_of(&name, text)? {
-        // a check uses neither the motion nor the damping of a scene
-        walls.extend(wall(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?);
-    }
-    check_unique("walls", walls.iter().map(|wall| &wall.name))
-        .map_err(|reason| SceneError::File { file: name, reason })?;
-    Ok(walls)
-}
-
-/// The name of a wall, and what the study ignores of its scene.
-type Ignored = (String, &'static str);
-
-/// Reads the walls of an entry. Adds what the study ignores of scenes, and warnings about tables.
-fn wall(
-    entry: WallEntry,
-    folder: &Path,
-    study: &str,
-    inputs: &mut Vec<PathBuf>,
-    (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
-) -> Result<Vec<NamedWall>, SceneError> {
-    let at = |line, what: &str, error: SceneError| SceneError::Line {
-        file: study.to_owned(),
-        line,
-        message: format!("{what}: {error}"),
-    };
-    match entry.source {
-        WallSource::Inline(parameters) => {
-            let name = entry.name.unwrap_or_default();
-            Ok(vec![NamedWall { name, parameters: *parameters, floors: entry.floors }])
-        }
-        WallSource::Table(path, line) => {
-            let path = folder.join(path);
-            let (walls, found) =
-                wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
-            warnings.extend(found);
-            inputs.push(path);
-            Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
-        }
-        WallSource::Scene(path, line) => {
-            inputs.push(folder.join(&path));
-            let scene =
-                Scene::read(&folder.join(&path)).map_err(|error| at(line, "a wall's scene", error))?;
-            let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-            let name = entry.name.or_else(stem).unwrap_or_default();
-            if scene.excitation.is_some() {
-                let warning = "the study ignores the motion of its scene and uses its records";
-                ignored.push((name.clone(), warning));
-            }
-            let Parameters { xi, c_bar, .. } = scene.parameters;
-            if xi != COMPUTED || c_bar != COMPUTED {
-                let warning = "the study ignores the damping of its scene and uses its models";
-                ignored.push((name.clone(), warning));
-            }
-            let floors = entry.floors.or(scene.floors);
-            Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
-        }
-    }
-}
-
 /// Returns the parameters of a wall that are set and have no effect with any of the models.
 fn unused(parameters: &Parameters, models: &[Model]) -> Vec<Warning> {
     let of_model = |model: &Model| {
@@ -253,113 +177,4 @@ fn warn(
     for model in models {
         warnings.extend(model.unusual().map(|warning| format!("model {:?}: {warning}", model.name)));
     }
-}
-
-/// A record file of a study.
-pub(crate) struct RecordFile {
-    pub(crate) path: PathBuf,
-    /// Whether the study names the file itself, and not its folder or a pattern.
-    is_named: bool,
-}
-
-/// Lists the record files of a study, in the order of its patterns.
-pub(crate) fn record_files(
-    entry: &RecordsEntry,
-    folder: &Path,
-    study: &str,
-) -> Result<Vec<RecordFile>, SceneError> {
-    let mut listed: Vec<RecordFile> = Vec::new();
-    for (pattern, line) in &entry.files {
-        let place = folder.join(pattern);
-        let is_named = place.is_file();
-        let found = files(&place).map_err(|reason| SceneError::Line {
-            file: study.to_owned(),
-            line: *line,
-            message: format!("{pattern:?}: {reason}"),
-        })?;
-        for path in found {
-            // a file that two patterns match is one record
-            match listed.iter_mut().find(|file| file.path == path) {
-                Some(file) => file.is_named |= is_named,
-                None => listed.push(RecordFile { path, is_named }),
-            }
-        }
-    }
-    Ok(listed)
-}
-
-/// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
-pub(crate) fn all_records(
-    entry: &RecordsEntry,
-    files: &[RecordFile],
-    study: &str,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<NamedRecord>, SceneError> {
-    let short =
-        |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
-    for RecordFile { path, .. } in files {
-        *uses.entry(short(path)).or_default() += 1;
-    }
-    let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
-    for RecordFile { path, is_named } in files {
-        let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
-        let record = read(path, &entry.options).map_err(refused)?;
-        if record.is_vertical && !is_named {
-            let path = path.display();
-            warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
-            continue;
-        }
-        warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
-        let motion = record.motion;
-        let name = short(path);
-        // files with equal names go by their whole paths
-        let name = if uses[&name] > 1 { path.display().to_string() } else { name };
-        records.push(NamedRecord { name, motion });
-    }
-    if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
-        let reason =
-            "records: all are vertical, and records shake walls sideways; name horizontal ones".into();
-        return Err(SceneError::File { file: study.to_owned(), reason });
-    }
-    for recipe in &entry.synthetic {
-        let motion = recipe.motion().map_err(|error| SceneError::File {
-            file: study.to_owned(),
-            reason: format!("synthetic records: {error}"),
-        })?;
-        records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
-    }
-    Ok(records)
-}
-
-/// Lists the files of a folder, of a pattern, or the one file, in order of their names.
-fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
-    let mut found: Vec<PathBuf> = if path.is_dir() {
-        std::fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?
-    } else if path.is_file() {
-        return Ok(vec![path.to_owned()]);
-    } else {
-        let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
-        glob::glob(pattern)?.collect::<Result<_, _>>()?
-    };
-    found.retain(|path| is_listed(path));
-    found.sort();
-    if found.is_empty() {
-        return Err(
-            "no such file, no match, or a folder without files; name records beside the study file, \
-                    such as records/*.AT2"
-                .into(),
-        );
-    }
-    Ok(found)
-}
-
-fn check_unique<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Result<(), String> {
-    let mut seen = std::collections::BTreeSet::new();
-    for name in names {
-        if !seen.insert(name) {
-            return Err(format!("{what}: the name {name:?} occurs twice; give each its own"));
-        }
-    }
-    Ok(())
 }

@@ -7,25 +7,11 @@
 //! ```
 
 use ground_motion::STANDARD_GRAVITY;
+use report::table::Cell;
 
 use crate::fragility::Interval;
 use crate::ida::Exceedance;
 use crate::results::WallResults;
-
-/// A cell of a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell<'a> {
-    /// A name.
-    Name(&'a str),
-    /// A number, if it is known.
-    Number(Option<f64>),
-    /// A number of which the least and the most that it can be are known.
-    Between([f64; 2]),
-    /// A count.
-    Count(usize),
-    /// A flag.
-    Flag(bool),
-}
 
 /// Names of the parts of a study, and its limit states.
 #[derive(Clone, Debug)]
@@ -62,10 +48,10 @@ pub const LEVELS: Table = Table {
         for (index, curve) in results.all_curves().iter().enumerate() {
             let [wall, model, record] = names.of_curve(wall, index);
             for run in curve.runs() {
-                let (intensity, demand) =
-                    (Cell::Number(Some(in_g(run.intensity))), Cell::Number(Some(run.demand)));
+                let (intensity, demand) = (Cell::Number(in_g(run.intensity)), Cell::Number(run.demand));
                 let overturned = Cell::Flag(run.overturning.is_some());
-                row(&[wall, model, record, intensity, demand, overturned, Cell::Number(run.overturning)]);
+                let [wall, model, record] = [&wall, &model, &record].map(Clone::clone);
+                row(&[wall, model, record, intensity, demand, overturned, run.overturning.into()]);
             }
         }
     },
@@ -83,7 +69,7 @@ pub const COLLAPSES: Table = Table {
                 Exceedance::Above(_) => None,
             };
             let [below, top] = [curve.level_below_collapse(), curve.top()].map(|level| Some(in_g(level)));
-            let [collapse, below, top] = [collapse, below, top].map(Cell::Number);
+            let [collapse, below, top] = [collapse, below, top].map(Cell::from);
             let [runs, resurrections] = [curve.runs().len(), curve.resurrections()].map(Cell::Count);
             row(&[wall, model, record, collapse, below, top, runs, resurrections]);
         }
@@ -101,13 +87,13 @@ pub const FRAGILITIES: Table = Table {
         for (m, model) in names.models.iter().enumerate() {
             for (f, fraction) in names.fractions.iter().enumerate() {
                 let summary = &results.summaries(f)[m];
-                let mut cells = vec![Cell::Name(names.walls[wall]), Cell::Name(model)];
-                cells.push(Cell::Number(Some(*fraction)));
+                let mut cells = vec![Cell::from(names.walls[wall]), Cell::from(*model)];
+                cells.push(Cell::Number(*fraction));
                 cells.extend([summary.records, summary.censored].map(Cell::Count));
                 cells.extend(interval(&summary.median, STANDARD_GRAVITY));
                 cells.extend(interval(&summary.theta, STANDARD_GRAVITY));
                 let betas = [&summary.fitted, &summary.alone];
-                cells.extend(betas.map(|fit| Cell::Number(fit.as_ref().ok().map(|fit| fit.dispersion))));
+                cells.extend(betas.map(|fit| Cell::from(fit.as_ref().ok().map(|fit| fit.dispersion))));
                 cells.extend(interval(&summary.median_ratio, 1.0));
                 cells.extend(interval(&summary.theta_ratio, 1.0));
                 row(&cells);
@@ -120,7 +106,7 @@ impl<'a> Names<'a> {
     /// Returns the first cells of a row: wall, model and record of one of the wall's curves.
     fn of_curve(&self, wall: usize, curve: usize) -> [Cell<'a>; 3] {
         let (model, record) = (curve / self.records.len(), curve % self.records.len());
-        [self.walls[wall], self.models[model], self.records[record]].map(Cell::Name)
+        [self.walls[wall], self.models[model], self.records[record]].map(Cell::from)
     }
 }
 

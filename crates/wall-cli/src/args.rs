@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use ground_motion::{
-    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, is_listed,
-    parse, parse_channels, read,
+    Acceleration, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning, parse,
+    parse_channels, read,
 };
 use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use run::records::folder_files;
 
-use crate::output;
+use crate::output::Console;
 
 /// A scene and what replaces parts of it.
 #[derive(Debug, Args)]
@@ -80,9 +81,9 @@ impl RecordOptionsArguments {
 
 impl SceneArguments {
     /// The scene with its parameters set.
-    pub(crate) fn load(&self) -> Result<Scene> {
+    pub(crate) fn load(&self, console: &Console<'_>) -> Result<Scene> {
         let scene = self.load_unshaken()?;
-        self.scene.iter().for_each(|path| warn_of_motion(path, &scene));
+        self.scene.iter().for_each(|path| warn_of_motion(console, path, &scene));
         Ok(scene)
     }
 
@@ -147,68 +148,65 @@ pub(crate) fn refuse<const N: usize>(options: [(&str, bool); N], why: &str) -> R
 }
 
 /// Warns about a scene's own motion: accelerations that no record has, and a vertical record.
-pub(crate) fn warn_of_motion(path: &Path, scene: &Scene) {
+pub(crate) fn warn_of_motion(console: &Console<'_>, path: &Path, scene: &Scene) {
     let vertical = Warning::Vertical.to_string();
     if scene.motion_notes.contains(&vertical) {
-        output::warn(&format!("{}: {vertical}", path.display()));
+        console.warn(&format!("{}: {vertical}", path.display()));
     }
     if let Some(warning) = scene.excitation.as_ref().and_then(Excitation::warning) {
-        output::warn(&format!("{}: {warning}", path.display()));
+        console.warn(&format!("{}: {warning}", path.display()));
     }
 }
 
 /// Reads a record, and warns about what its check finds; `-` is standard input.
-pub(crate) fn read_record(path: &Path, options: &RecordOptions) -> Result<Record> {
+pub(crate) fn read_record(console: &Console<'_>, path: &Path, options: &RecordOptions) -> Result<Record> {
     let record = match standard_input(path)? {
         Some(bytes) => parse(STDIN, bytes, options)?,
         None => read(path, options)?,
     };
     let name = if path.as_os_str() == "-" { STDIN.into() } else { path.display().to_string() };
-    warn_of(&name, &record);
+    warn_of(console, &name, &record);
     Ok(record)
 }
 
-fn warn_of(name: &str, record: &Record) {
+fn warn_of(console: &Console<'_>, name: &str, record: &Record) {
     for warning in &record.check().warnings {
-        output::warn(&format!("{name}: {warning}"));
+        console.warn(&format!("{name}: {warning}"));
     }
 }
 
-/// Lists record files; in place of a folder its files in the order of their names, but for hidden ones and
-/// the times beside records.
+/// Lists record files; in place of a folder the files in it.
 pub(crate) fn record_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
-        if !path.is_dir() {
+        if path.is_dir() {
+            files.extend(folder_files(path).with_context(|| format!("{}: cannot be read", path.display()))?);
+        } else {
             files.push(path.clone());
-            continue;
         }
-        let unread = || format!("{}: cannot be read", path.display());
-        let entries = std::fs::read_dir(path).with_context(unread)?;
-        let found: std::io::Result<Vec<_>> = entries.map(|entry| Ok(entry?.path())).collect();
-        let mut found = found.with_context(unread)?;
-        found.retain(|path| is_listed(path));
-        found.sort();
-        files.extend(found);
     }
     Ok(files)
 }
 
 /// Reads the records of files and folders, and warns about what their checks find. Vertical ones of a folder
 /// are left out, with a warning.
-pub(crate) fn read_records(paths: &[PathBuf], options: &RecordOptions) -> Result<Vec<Record>> {
+pub(crate) fn read_records(
+    console: &Console<'_>,
+    paths: &[PathBuf],
+    options: &RecordOptions,
+) -> Result<Vec<Record>> {
     let mut records = Vec::new();
     for path in record_files(paths)? {
         if paths.contains(&path) {
-            records.push(read_record(&path, options)?);
+            records.push(read_record(console, &path, options)?);
             continue;
         }
         let (record, name) = (read(&path, options)?, path.display().to_string());
         if record.is_vertical {
-            output::warn(&format!("{name}: vertical, left out; name the file itself to use it"));
+            console.warn(&format!("{name}: vertical, left out; name the file itself to use it"));
             continue;
         }
-        warn_of(&name, &record);
+        warn_of(console, &name, &record);
         records.push(record);
     }
     if let ([], [folder, ..]) = (&records[..], paths) {
@@ -251,9 +249,9 @@ pub(crate) fn short_name(path: &Path) -> String {
 
 impl RecordArguments {
     /// The motion given, scaled, and a note on it.
-    pub(crate) fn load(&self) -> Result<Option<(GroundMotion, String)>> {
+    pub(crate) fn load(&self, console: &Console<'_>) -> Result<Option<(GroundMotion, String)>> {
         let (motion, note) = match &self.record {
-            Some(path) => self.read(path)?,
+            Some(path) => self.read(console, path)?,
             None if self.synthetic => (SyntheticMotion::default().motion()?, "synthetic motion".to_owned()),
             None if self.scale.is_some() || self.pga.is_some() => {
                 bail!(
@@ -262,11 +260,11 @@ impl RecordArguments {
             }
             None => return Ok(None),
         };
-        Ok(Some((self.scaled(motion)?, note)))
+        Ok(Some((self.scaled(console, motion)?, note)))
     }
 
     /// Scales a motion as the arguments say, and warns about accelerations that no record has.
-    pub(crate) fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion> {
+    pub(crate) fn scaled(&self, console: &Console<'_>, motion: GroundMotion) -> Result<GroundMotion> {
         let scaled = match (self.scale, self.pga) {
             (Some(factor), _) => motion.checked_scaled(factor)?,
             (None, Some(pga)) => motion.scaled_to_peak(pga.0)?,
@@ -274,14 +272,14 @@ impl RecordArguments {
             (None, None) => return Ok(motion),
         };
         if let Some(warning) = scaled.warning() {
-            output::warn(&warning.to_string());
+            console.warn(&warning.to_string());
         }
         Ok(scaled)
     }
 
     /// Reads a record and describes it.
-    pub(crate) fn read(&self, path: &Path) -> Result<(GroundMotion, String)> {
-        let record = read_record(path, &self.options.options()?)?;
+    pub(crate) fn read(&self, console: &Console<'_>, path: &Path) -> Result<(GroundMotion, String)> {
+        let record = read_record(console, path, &self.options.options()?)?;
         let name = short_name(path);
         Ok((record.motion, format!("record {name} ({})", record.format.description())))
     }

@@ -18,6 +18,9 @@ pub enum AccuracyError {
     /// The motion is invalid.
     #[error(transparent)]
     Motion(#[from] GroundMotionError),
+    /// A wall cannot be compared in both kinematics.
+    #[error(transparent)]
+    Rotations(#[from] run::rotations::RotationsError),
     /// A run failed.
     #[error("{name}: {source}")]
     Run { name: String, source: SolverError },

@@ -9,8 +9,8 @@
 //! assert!(plot(&[tool], Some(1e-12)).svg().contains("1e-9"));
 //! ```
 
-use figures::palette::{AMBER, BLUE, DARK_GREY, GREEN, GREY, Mark, PURPLE, RED};
-use figures::plot::{Axis, Look, Plot, Scale, Series};
+use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, GREY, Mark, PURPLE, RED};
+use report::plot::{Axis, Look, Plot, Scale, Series};
 
 /// Name, colour and mark of the solvers.
 pub const SOLVERS: [(&str, &str, Mark); 3] =

@@ -14,7 +14,6 @@
 //! # Ok::<(), evidence::accuracy::AccuracyError>(())
 //! ```
 
-pub mod counterpart;
 mod error;
 pub mod figure;
 pub mod linearisation;

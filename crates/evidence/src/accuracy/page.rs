@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use figures::escaped;
-use figures::palette::sign;
-use figures::plot::{Picture, Plot};
-use figures::template;
-use study::counted;
+use report::counted;
+use report::escaped;
+use report::palette::sign;
+use report::plot::{Picture, Plot};
+use report::template;
 
 use super::figure::{SOLVERS, TOOLS, Tool, plot};
 use super::linearisation::{self, BothRotations};

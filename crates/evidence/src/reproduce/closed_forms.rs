@@ -1,10 +1,10 @@
 //! Figures 4 and 13: force laws, and damping ratios over slenderness.
 
+use report::chart::{Axis, Chart, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning, calibration};
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
-use study::chart::{Axis, Chart, Series};
-use study::model::{RATIO_MODELS, label};
+use run::model::{RATIO_MODELS, label};
 
 use super::figure::{Figure, spaced};
 

@@ -3,14 +3,16 @@
 use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
+use report::chart::{Axis, Chart, Series};
+use report::counted;
 use rocking_wall::variables::RestitutionSource;
 use rocking_wall::wall::Parameters;
-use study::chart::{Axis, Chart, Series};
-use study::counted;
+use run::model::{Model, color};
+use run::parallel;
+use run::records::NamedRecord;
+use run::walls::NamedWall;
 use study::fragility::{Bootstrap, Interval, ObservationKind, Summary, compare, steps};
-use study::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
-use study::model::{Model, color};
-use study::parallel;
+use study::ida::{Case, Exceedance, IdaError, IntensityMeasure, Levels, Study};
 
 use super::figure::Figure;
 use super::printed::{TABLE_5, Table5};

@@ -1,10 +1,10 @@
 //! Figures as data, and what several of them need.
 
+use report::chart::Chart;
 use rocking_wall::response::{Response, Sample};
 use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Parameters;
-use study::chart::Chart;
 
 /// A figure of the paper, computed.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
+use report::chart::{Axis, Chart, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
+use run::free_motion::{with_damping, with_restitution};
+use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{Grid, calibrate};
-use study::chart::{Axis, Chart, Series};
-use study::free_motion::{with_damping, with_restitution};
-use study::model::{RATIO_MODELS as MODELS, color, label};
 
 use super::error::ReproductionError;
 use super::figure::{Figure, history, spaced};

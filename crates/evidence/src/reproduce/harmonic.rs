@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use ground_motion::GroundMotion;
+use report::chart::{Axis, Chart, Series};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{ParameterError, Parameters, Wall};
-use study::chart::{Axis, Chart, Series};
-use study::free_motion::{with_damping, with_restitution};
-use study::model::color;
+use run::free_motion::{with_damping, with_restitution};
+use run::model::color;
 
 use super::error::ReproductionError;
 use super::figure::{Figure, history};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use figures::{chart, escaped, template};
+use report::{chart, escaped, template};
 
 use super::collapse::Collapses;
 use super::{Cell, Figure, Reproduction, Table, Value};

@@ -1,10 +1,12 @@
 //! Figures 2 and 3: small rotations beside full ones.
 
 use crate::accuracy::AccuracyError;
-use crate::accuracy::linearisation::{Comparison, FreeMotion, figure_2, figure_2_wall, figure_3, period};
+use run::rotations::{FreeMotion, period};
+
+use crate::accuracy::linearisation::{Comparison, figure_2, figure_2_wall, figure_3};
+use report::chart::{Axis, Chart, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
-use study::chart::{Axis, Chart, Series};
 
 use super::figure::{Figure, spaced};
 use super::printed::START;

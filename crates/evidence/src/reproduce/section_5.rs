@@ -2,13 +2,13 @@
 
 use std::num::NonZeroUsize;
 
+use report::chart::{Axis, Chart, Series};
 use rocking_wall::variables::{DampingModel, ForceLaw};
 use rocking_wall::wall::{Parameters, equivalence};
+use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{
     Calibration, CalibrationError, Coefficient, FREE_STANDING, Fit, Grid, PowerLaw, REGRESSIONS, calibrate,
 };
-use study::chart::{Axis, Chart, Series};
-use study::model::{RATIO_MODELS as MODELS, color, label};
 
 use super::figure::{Figure, spaced};
 use super::printed::{FIGURE_WALL, START};

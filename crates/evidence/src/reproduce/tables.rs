@@ -3,7 +3,7 @@
 use rocking_wall::variables::{Mechanism, RestitutionSource};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 
-use study::model::label;
+use run::model::label;
 
 use super::printed::{
     TABLE_3, TABLE_3_A1, TABLE_3_RESTITUTION, TABLE_4, TABLE_5, TABLE_5_HINGE, Table4, Table5,

@@ -5,7 +5,7 @@ use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
-use study::halving::begins_at;
+use run::bisection::begins_at;
 
 /// Result of one extreme case.
 #[derive(Clone, Debug, PartialEq)]

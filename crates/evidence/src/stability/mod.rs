@@ -26,7 +26,7 @@ use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::Parameters;
 
-use study::model::damping_models;
+use run::model::damping_models;
 
 /// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
 /// adaptive solver's tolerance of 1e-8 on u allows ten times as much on the energy.

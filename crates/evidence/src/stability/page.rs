@@ -3,10 +3,10 @@
 
 use std::fmt::Write;
 
-use figures::escaped;
-use figures::heat_map::{self, HeatMap, scale};
-use figures::palette::mixed;
-use figures::template;
+use report::escaped;
+use report::heat_map::{self, HeatMap, scale};
+use report::palette::mixed;
+use report::template;
 
 use super::{Extreme, Map, MapCell, RowQuantity};
 

@@ -2,7 +2,7 @@
 
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Support};
-use study::free_motion::advance;
+use run::free_motion::advance;
 
 /// Why a run could not be made.
 #[derive(Debug, thiserror::Error)]

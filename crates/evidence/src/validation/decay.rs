@@ -3,12 +3,12 @@
 use rocking_wall::solver::{Memo, Motion, State};
 use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
-use study::model::{RATIO_MODELS, label};
+use run::model::{RATIO_MODELS, label};
 
 use super::difference::Difference;
 use super::error::ValidationError;
-use study::free_motion::{advance, with_damping, with_restitution};
-use study::halving::begins_at;
+use run::bisection::begins_at;
+use run::free_motion::{advance, with_damping, with_restitution};
 
 /// Step of the search for e, and its least value \[-\].
 const E_STEP: f64 = 0.001;

@@ -6,7 +6,7 @@ use rocking_wall::scene::{Place, Scene, SceneError};
 
 use super::error::VerificationError;
 use super::formula::{Check, Formula};
-use study::circolare::{
+use check::circolare::{
     GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
 };
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use figures::{escaped, template};
+use report::{escaped, template};
 
 use super::{Counts, Formula};
 

@@ -10,9 +10,9 @@ use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::error::VerificationError;
 use super::formula::{Check, Formula};
-use study::check::{Demand, Fractions, check};
+use check::points::{Demand, Fractions, check};
+use run::bisection::begins_at;
 use study::fragility::{FragilityFunction, Lognormal, Observation, fit};
-use study::halving::begins_at;
 use study::spectrum::{PulseForm, over_pulses};
 
 type Group = fn() -> Result<Formula, VerificationError>;

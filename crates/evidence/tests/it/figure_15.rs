@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 use evidence::reproduce::collapse::figure_15;
 use ground_motion::{RecordOptions, SyntheticMotion, read};
+use run::parallel::threads;
+use run::records::NamedRecord;
 use study::fragility::Summary;
-use study::ida::NamedRecord;
-use study::parallel::threads;
 
 use crate::records::folder;
 

@@ -1,8 +1,9 @@
 //! Tests full rotations beside small ones: Housner's block, Figures 2 and 3 of the paper.
 
-use evidence::accuracy::linearisation::{STARTS, figure_2, figure_2_wall, figure_3, period};
+use evidence::accuracy::linearisation::{STARTS, figure_2, figure_2_wall, figure_3};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
+use run::rotations::period;
 
 /// Integrates f over 0…1 by the tanh-sinh rule (Takahasi and Mori, 1974), which tolerates singular
 /// derivatives at the ends.

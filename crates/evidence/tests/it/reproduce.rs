@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use evidence::reproduce::tables::{table_3, table_4, table_5};
 use evidence::reproduce::{Cell, Figure, Reproduction, Table, Value, reproduce};
-use study::chart::Chart;
+use report::chart::Chart;
 
 const TWO: NonZeroUsize = NonZeroUsize::MIN.saturating_add(1);
 /// The whole reproduction, computed once: it takes seconds.

@@ -1,9 +1,9 @@
 //! Decay of a free vibration.
 
-use crate::free_motion::advance;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Motion, SolverError, State};
 use rocking_wall::wall::{ParameterError, Parameters};
+use run::free_motion::advance;
 
 /// Part of `u_ins` below which |u| stays once the decay has ended.
 pub(super) const DECAYED: f64 = 1e-3;

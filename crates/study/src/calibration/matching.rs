@@ -1,8 +1,8 @@
 //! Damping that matches one free vibration.
 
-use crate::free_motion::{with_damping, with_restitution};
 use rocking_wall::variables::{DampingModel, ForceLaw, Solver};
 use rocking_wall::wall::{Parameters, Wall};
+use run::free_motion::{with_damping, with_restitution};
 
 use super::decay::Decay;
 use super::error::CalibrationError;

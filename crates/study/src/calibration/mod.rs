@@ -22,15 +22,16 @@
 
 mod decay;
 mod error;
+pub mod figure;
 mod matching;
 mod minimum;
 
 use std::num::NonZeroUsize;
 
-use crate::model::damping_models;
-use crate::parallel;
 use rocking_wall::variables::ForceLaw;
 use rocking_wall::wall::Parameters;
+use run::model::damping_models;
+use run::parallel;
 
 // a chart of a calibration names its model
 pub use rocking_wall::variables::DampingModel;

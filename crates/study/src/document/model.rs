@@ -2,11 +2,11 @@
 
 use toml::{Spanned, Value};
 
-use crate::model::{EnergyLoss, Model};
 use fmu_export::VariableId;
 use rocking_wall::scene::{Place, SceneError, check_limits, suggestion};
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{COMPUTED, Damping};
+use run::model::{EnergyLoss, Model};
 
 /// Keys of a model that is a table.
 const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];

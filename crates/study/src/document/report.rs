@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::counted;
-use crate::model::Model;
+use report::counted;
 use rocking_wall::scene::{Place, SceneError, suggestion};
+use run::model::Model;
 
 /// Most resamples of the bootstrap.
 const MOST_RESAMPLES: u32 = 100_000;

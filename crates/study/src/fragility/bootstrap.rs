@@ -2,9 +2,12 @@
 
 use super::fit::{FitError, Lognormal, fit_from, open_bounds};
 use super::observation::{Observation, ObservationKind};
-use super::sample::{fractile, median, sample_median};
+use report::table::between;
+use run::sample::{fractile, sample_median};
+
+use super::sample::median;
 use crate::ida::Exceedance;
-use crate::random::Pcg;
+use run::random::Pcg;
 
 /// Resamples of the records of a study, the same for every model.
 ///
@@ -156,23 +159,10 @@ impl Interval {
 
     /// Formats the estimate and the ends of its interval in a unit, see [`between`].
     pub fn texts(&self, unit: f64, decimals: Option<usize>) -> [String; 3] {
-        self.bounds(unit).map(|bounds| between(bounds, decimals))
-    }
-}
-
-/// Formats a number by the least and the most that it can be, to some decimals or in full: `1.25`,
-/// `open >2.00` above the levels, `open <0.50` below, `–` where nothing is known.
-pub fn between([least, most]: [f64; 2], decimals: Option<usize>) -> String {
-    let number = |value: f64| match decimals {
-        Some(decimals) => format!("{value:.decimals$}"),
-        None => value.to_string(),
-    };
-    match (least > 0.0, most < f64::INFINITY) {
-        _ if most.is_nan() || least.is_nan() => "–".to_owned(),
-        _ if least == most => number(most),
-        (true, true) => format!("open {} to {}", number(least), number(most)),
-        (true, false) => format!("open >{}", number(least)),
-        (false, true) => format!("open <{}", number(most)),
-        (false, false) => "open".to_owned(),
+        let number = |value: f64| match decimals {
+            Some(decimals) => format!("{value:.decimals$}"),
+            None => value.to_string(),
+        };
+        self.bounds(unit).map(|bounds| between(bounds, number))
     }
 }

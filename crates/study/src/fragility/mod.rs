@@ -27,11 +27,10 @@ mod normal;
 mod observation;
 mod sample;
 
-pub use bootstrap::{Bootstrap, Interval, Resampled, between};
+pub use bootstrap::{Bootstrap, Interval, Resampled};
 pub use class::FragilityFunction;
 pub use compare::{CONFIDENCE, Summary, compare};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::cumulative;
 pub use observation::{Observation, ObservationKind};
-pub(crate) use sample::sample_median;
-pub use sample::{fractile, median, steps};
+pub use sample::{median, steps};

@@ -7,8 +7,10 @@
 //! ```
 //! use ground_motion::SyntheticMotion;
 //! use rocking_wall::wall::Parameters;
-//! use study::ida::{Exceedance, IntensityMeasure, Levels, NamedRecord, NamedWall, Study};
-//! use study::model::{EnergyLoss, Model};
+//! use study::ida::{Exceedance, IntensityMeasure, Levels, Study};
+//! use run::walls::NamedWall;
+//! use run::records::NamedRecord;
+//! use run::model::{EnergyLoss, Model};
 //!
 //! let walls = vec![NamedWall::new("parapet", Parameters::default())];
 //! let motion = SyntheticMotion { duration: 10.0, ..SyntheticMotion::default() }.motion()?;
@@ -26,55 +28,29 @@ mod error;
 mod levels;
 mod measure;
 mod parts;
-mod shaking;
 
 use std::borrow::Cow;
 
-use crate::model::Model;
-use crate::parallel;
 use ground_motion::{GroundMotion, Warning};
 use record::{Outcome, RecordSolver};
 pub use rocking_wall::scene::DEFAULT_TAIL;
-use rocking_wall::scene::{Floors, SceneError};
+use rocking_wall::scene::SceneError;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{Motion, SolverError};
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::Wall;
+use run::model::Model;
+use run::parallel;
+use run::records::NamedRecord;
+use run::shaking::Shaking;
+use run::walls::NamedWall;
 
 pub use curve::{Curve, Exceedance, Run};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::IntensityMeasure;
-pub use shaking::Shaking;
 
 /// Longest free vibration after a record of a study \[s\].
 pub const LONGEST_TAIL: f64 = 1000.0;
-
-/// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedWall {
-    /// Name in tables and messages.
-    pub name: String,
-    /// Parameters. The coefficient of restitution that they state or imply serves every model.
-    pub parameters: Parameters,
-    /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
-    pub floors: Option<Floors>,
-}
-
-impl NamedWall {
-    /// Makes a wall on the ground.
-    pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
-        Self { name: name.into(), parameters, floors: None }
-    }
-}
-
-/// A record of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedRecord {
-    /// Name in tables and messages.
-    pub name: String,
-    /// Motion, unscaled.
-    pub motion: GroundMotion,
-}
 
 /// A study ready to run: each wall is valid with each damping model, and each record can be scaled.
 #[derive(Clone, Debug)]

@@ -24,6 +24,8 @@
 //! ```
 
 mod axes;
+pub mod figure;
+pub mod page;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -36,8 +38,8 @@ use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};
 
-use crate::free_motion::{advance, peak_is_final};
-use crate::parallel;
+use run::free_motion::{advance, peak_is_final};
+use run::parallel;
 
 pub use axes::{MOST_POINTS, PulseForm, Size, Slenderness, SpectrumError};
 

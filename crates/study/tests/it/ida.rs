@@ -5,8 +5,10 @@ use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, Mechanism};
 use rocking_wall::wall::{Parameters, Support};
-use study::ida::{Curve, Exceedance, IdaError, IntensityMeasure, Levels, NamedRecord, NamedWall, Run, Study};
-use study::model::{EnergyLoss, Model};
+use run::model::{EnergyLoss, Model};
+use run::records::NamedRecord;
+use run::walls::NamedWall;
+use study::ida::{Curve, Exceedance, IdaError, IntensityMeasure, Levels, Run, Study};
 
 /// Two walls of Table 5 of the paper.
 fn walls() -> Vec<NamedWall> {

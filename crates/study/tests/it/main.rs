@@ -6,11 +6,6 @@
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;
 mod calibration;
-mod circolare;
-mod circolare_cases;
-mod circolare_dynamic;
-mod circolare_properties;
-mod circolare_refusals;
 #[path = "../../../../tests/it/configuration.rs"]
 mod configuration;
 mod fragility;

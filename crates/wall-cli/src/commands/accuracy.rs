@@ -13,7 +13,7 @@ use evidence::accuracy::{Measurement, Problem, WorkPrecision, defaults, measure}
 use rocking_wall::scene::Scene;
 
 use crate::args::RecordArguments;
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     budget: f64,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if !(0.0..=3600.0).contains(&arguments.budget) {
         bail!("--budget {}: must be between 0 and 3600 s", arguments.budget);
     }
@@ -57,12 +57,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     }
     let scenes = arguments.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
     let records = scenes.iter().flat_map(|scene| &scene.records).chain(&arguments.record.record);
-    output::check_distinct(
+    console.check_distinct(
         arguments.scenes.iter().chain(records).chain(&arguments.peers),
         [&arguments.csv, &arguments.linearisation, &arguments.html, &arguments.plot].into_iter().flatten(),
     )?;
     let problems = if scenes.is_empty() {
-        let record = arguments.record.load()?;
+        let record = arguments.record.load(console)?;
         defaults(record.as_ref().map(|(motion, _)| motion))?
     } else {
         scenes.iter().map(Problem::from_scene).collect::<Result<_, _>>()?
@@ -71,18 +71,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let mut studies = Vec::with_capacity(problems.len());
     for problem in &problems {
         let study = measure(problem, arguments.budget)?;
-        output::to_stdout(&table(&study))?;
+        console.print(&table(&study))?;
         studies.push(study);
     }
     let rotations = both_rotations()?;
     // its walls are not those of the scenes given
     if arguments.scenes.is_empty() || arguments.linearisation.is_some() {
-        output::to_stdout(&linearisation::table(&rotations))?;
+        console.print(&linearisation::table(&rotations))?;
     }
-    output::save(arguments.csv.as_ref(), || csv(&studies))?;
-    output::save(arguments.linearisation.as_ref(), || linearisation::csv(&rotations))?;
-    output::picture(arguments.plot.as_ref(), || Ok(picture(&studies, peers.as_ref())))?;
-    output::save(arguments.html.as_ref(), || page(&studies, &rotations, peers.as_ref()))
+    console.save(arguments.csv.as_ref(), || csv(&studies))?;
+    console.save(arguments.linearisation.as_ref(), || linearisation::csv(&rotations))?;
+    console.picture(arguments.plot.as_ref(), || Ok(picture(&studies, peers.as_ref())))?;
+    console.save(arguments.html.as_ref(), || page(&studies, &rotations, peers.as_ref()))
 }
 
 fn peers(path: &Path) -> Result<Peers> {

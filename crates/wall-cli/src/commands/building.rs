@@ -12,10 +12,10 @@ use anyhow::{Context, Result, bail};
 use building::trial::{Trial, trial};
 use building::{Building, Parts};
 use clap::Args;
-use study::counted;
+use report::counted;
 
 use crate::args::RecordArguments;
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -39,9 +39,9 @@ pub(crate) struct Arguments {
 /// Where the SSP goes by default.
 const OUTPUT: &str = "fmu_out/building.ssp";
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let building = Building::read(&arguments.building)?;
-    let motion = arguments.record.load()?;
+    let motion = arguments.record.load(console)?;
     let output = match (&arguments.output, &motion) {
         (None, None) => Some(PathBuf::from(OUTPUT)),
         (output, _) => output.clone(),
@@ -49,12 +49,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     let inputs = [&arguments.building].into_iter().chain(building.walls.iter().map(|wall| &wall.scene));
     let inputs = inputs.chain(&arguments.record.record);
     let fmus = output.iter().flat_map(|_| [&arguments.wall_fmu, &arguments.floor_fmu]);
-    output::check_distinct(inputs.chain(fmus), output.iter().chain(arguments.run.outputs()))?;
+    console.check_distinct(inputs.chain(fmus), output.iter().chain(arguments.run.outputs()))?;
     if motion.is_none() && arguments.run.outputs().next().is_some() {
-        bail!("--csv, --html and --svg show a run; give its motion with --record or --synthetic");
+        bail!("--csv and --html show a run; give its motion with --record or --synthetic");
     }
     let parts = Parts::read(&building)?;
-    output::report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));
+    console.report_all(parts.warnings.iter().map(|warning| format!("warning: {warning}")));
     let mut text = String::new();
     if let Some(path) = &output {
         let trial = trial(&building, &parts)?;
@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             let unmade = || format!("{}: cannot be made", folder.display());
             std::fs::create_dir_all(folder).with_context(unmade)?;
         }
-        output::to_file(path, &bytes)?;
+        console.write(path, &bytes)?;
         let (units, connections) = parts.counts();
         let _ = writeln!(
             text,
@@ -78,9 +78,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         text.push_str(&advice(&trial, step));
     }
     if let Some((motion, note)) = motion {
-        text.push_str(&run::run(&building, &parts, &motion, &note, &arguments.run)?);
+        text.push_str(&run::run(console, &building, &parts, &motion, &note, &arguments.run)?);
     }
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 /// Describes which steps the building needs, and which one the SSP states.

@@ -6,17 +6,17 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use figures::calibration::{charts, printed};
-use figures::{chart, escaped};
+use report::{chart, escaped};
+use run::model::{Label, damping_models, label};
+use run::parallel::threads;
+use study::calibration::figure::{charts, printed};
 use study::calibration::{
     Calibration, Coefficient, Fit, Grid, REGRESSIONS, STEP, calibrate, calibrated_models, model_named,
 };
-use study::model::{Label, damping_models, label};
-use study::parallel::threads;
 
 use crate::args::SceneArguments;
-use crate::output;
-use figures::template;
+use crate::output::Console;
+use report::template;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -48,10 +48,10 @@ pub(crate) struct Arguments {
     threads: Option<NonZeroUsize>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mut scene = arguments.scene.load()?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
-    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
+    console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.html))?;
     let grid = Grid {
         restitution: arguments.restitution.clone(),
         a1: arguments.a1.clone(),
@@ -66,11 +66,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for model in models {
         let calibration =
             arguments.scene.named(calibrate(&scene.parameters, model, &grid, threads(arguments.threads)))?;
-        output::to_stdout(&table(&calibration))?;
+        console.print(&table(&calibration))?;
         found.push(calibration);
     }
-    output::save(arguments.csv.as_ref(), || csv(&found))?;
-    output::save(arguments.html.as_ref(), || page(&scene.title, &found))
+    console.save(arguments.csv.as_ref(), || csv(&found))?;
+    console.save(arguments.html.as_ref(), || page(&scene.title, &found))
 }
 
 fn help_of_models() -> String {
@@ -121,7 +121,7 @@ fn page(title: &str, found: &[Calibration]) -> String {
     let figures: String = charts(found).iter().map(chart::figure).collect();
     let text: String = found.iter().map(table).collect();
     template::page(
-        include_str!("../pages/calibrate.html"),
+        include_str!("../../../study/src/calibration/page.html"),
         &[
             ("title", &format!("Calibration: {}", escaped(title))),
             ("table", &escaped(&text)),

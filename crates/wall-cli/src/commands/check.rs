@@ -8,11 +8,12 @@ mod walls;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use check::circolare::{Sought, read_table};
 use clap::Args;
 use rocking_wall::scene::{Place, read_text};
-use study::circolare::{Sought, read_table};
 
 use crate::args::{SceneArguments, refuse};
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -47,19 +48,19 @@ pub(crate) struct Arguments {
 /// Largest file that is looked into for its tables.
 const MAX_FILE_BYTES: u64 = 4 << 20;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Some(path) = &arguments.scene.scene else {
         arguments.refuse_those_of_the_code("the default wall")?;
-        return spectrum::run(arguments);
+        return spectrum::run(console, arguments);
     };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
     if is_study(&text) {
-        return walls::run(arguments, path, &text);
+        return walls::run(console, arguments, path, &text);
     }
     let place = Place::new(&name, &text);
     let Some(table) = read_table(&place)? else {
         arguments.refuse_those_of_the_code(&name)?;
-        return spectrum::run(arguments);
+        return spectrum::run(console, arguments);
     };
     arguments.spectrum.refuse(&name)?;
     if arguments.csv.is_some() {
@@ -68,13 +69,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     if arguments.html.is_some() {
         bail!("{name}: --html draws a spectrum, or the walls of a study; --report is the page of a check");
     }
-    let case = code::Case::read(arguments, &table, &place)?;
+    let case = code::Case::read(console, arguments, &table, &place)?;
     match arguments.find {
         Some(_) if arguments.report.is_some() => {
             bail!("{name}: --report covers the wall as given; leave out --find")
         }
-        Some(sought) => find::run(arguments, &case, sought),
-        None => code::run(arguments, &case),
+        Some(sought) => find::run(console, arguments, &case, sought),
+        None => code::run(console, arguments, &case),
     }
 }
 

@@ -10,8 +10,9 @@ use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, Wall};
 
 use crate::args::SceneArguments;
-use crate::output;
-use crate::output::capacity::{Capacity, significant};
+use crate::output::significant;
+use crate::output::{self, Console};
+use run::capacity::Capacity;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -32,10 +33,10 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mut scene = arguments.scene.load()?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
-    output::check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
+    console.check_distinct(arguments.scene.inputs(&scene), arguments.csv.iter().chain(&arguments.plot))?;
     let parameters = &scene.parameters;
     let wall = arguments.scene.named(Wall::new(parameters))?;
     let method = Method::new(parameters, &wall, parameters.tolerance)?;
@@ -43,8 +44,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     check_thresholds(&fractions)?;
     let capacity = Capacity::new(&wall, &fractions);
     // first, because its ending may be refused
-    output::picture(arguments.plot.as_ref(), || Ok(capacity.picture()))?;
-    output::save(arguments.csv.as_ref(), || capacity.csv())?;
+    console.picture(arguments.plot.as_ref(), || Ok(capacity.plot().picture()))?;
+    console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     let facts = wall.facts();
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [
@@ -69,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         object.insert("capacity".into(), capacity.json());
         let warnings: Vec<_> = wall.warnings().iter().map(ToString::to_string).collect();
         object.insert("warnings".into(), warnings.into());
-        return output::to_stdout(&(serde_json::to_string_pretty(&object)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&object)? + "\n"));
     }
     let mut text = String::new();
     for (name, value) in words {
@@ -79,12 +80,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     for Fact { name, symbol, value, unit } in facts {
         let _ = writeln!(text, "{name:<22}{symbol:<8}{} {unit}", significant(value));
     }
-    text.push_str(&capacity.table());
+    text.push('\n');
+    text.push_str(&capacity.table().text());
     for warning in wall.warnings() {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
     text += &output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 /// The solver in words.

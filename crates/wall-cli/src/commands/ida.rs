@@ -8,13 +8,14 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use report::counted;
+use run::parallel;
+use study::folder::Folder;
 use study::ida::Study;
 use study::loaded::LoadedStudy;
-use study::{counted, parallel};
-use study_folder::Folder;
 
-use crate::output;
 use crate::output::progress::{self, Progress};
+use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -74,43 +75,41 @@ const FILES: [&str; 8] = [
     "study.html",
 ];
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let loaded = LoadedStudy::read(&arguments.study)?;
     let path = match (&arguments.output, arguments.study.file_stem()) {
         (Some(path), _) => checked(path)?.clone(),
         (None, Some(stem)) => PathBuf::from(format!("{}_results", stem.to_string_lossy())),
         (None, None) => bail!("{}: not a file", arguments.study.display()),
     };
-    output::check_distinct(&loaded.inputs, &FILES.map(|name| path.join(name)))?;
+    console.check_distinct(&loaded.inputs, &FILES.map(|name| path.join(name)))?;
     let folder = Folder::of_study(&path, &loaded)?;
-    output::report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
+    console.report_all(loaded.warnings.iter().map(|warning| format!("warning: {warning}")));
     let threads = parallel::threads(arguments.threads).get();
     let [shard, shards] = arguments.shard.map_or([0, 1], |shard| [shard.number - 1, shard.of]);
     let contents = folder.contents();
     let mine: Vec<usize> = (shard..contents.parts()).step_by(shards).collect();
     let missing = folder.missing(mine.iter().copied());
-    warn_of_damage(&folder, &missing);
+    warn_of_damage(console, &folder, &missing);
     let cases = |parts: &[usize]| parts.iter().map(|&part| contents.part(part).len()).sum::<usize>();
     let found = cases(&mine) - cases(&missing);
     if found > 0 {
-        output::report(&format!("{found} of {} combinations are done already", cases(&mine)));
+        console.report(&format!("{found} of {} combinations are done already", cases(&mine)));
     }
     tell_of_resuming()?;
     let words = work(&loaded.study, &folder, &missing, cases(&missing), threads)?;
     drop(loaded);
     // a summary that cannot be printed must not prevent the results from being written
-    let told = output::to_stdout(&words);
+    let told = console.print(&words);
     if shards > 1 {
         let name = path.display();
-        return output::to_stdout(&format!(
-            "shard {} of {shards} is done; when all are: wall merge {name}\n",
-            shard + 1
-        ));
+        return console
+            .print(&format!("shard {} of {shards} is done; when all are: wall merge {name}\n", shard + 1));
     }
-    finish(&folder, threads).and(told)
+    finish(console, &folder, threads).and(told)
 }
 
-pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
+pub(crate) fn merge(console: &Console<'_>, arguments: &MergeArguments) -> Result<()> {
     let mut folders =
         arguments.folders.iter().map(|path| Folder::open(path)).collect::<Result<Vec<_>, _>>()?;
     for folder in &folders[1..] {
@@ -130,11 +129,11 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<()> {
     }
     if !missing.is_empty() {
         for folder in folders.iter().chain([&target]) {
-            warn_of_damage(folder, &missing);
+            warn_of_damage(console, folder, &missing);
         }
         return Err(target.incomplete(&missing).into());
     }
-    finish(&target, parallel::threads(None).get())
+    finish(console, &target, parallel::threads(None).get())
 }
 
 /// Refuses standard output as a folder.
@@ -152,17 +151,21 @@ const INTERRUPTED: i32 = 130;
 /// part is a complete file.
 fn tell_of_resuming() -> Result<()> {
     ctrlc::set_handler(|| {
+        let (mut sink, mut stderr) = (std::io::sink(), std::io::stderr());
+        let console = Console::new(&mut sink, &mut stderr);
         // ends the line of progress
-        output::to_stderr("\n");
-        output::report("interrupted; finished parts are kept, and the same command resumes");
+        console.to_stderr("\n");
+        console.report("interrupted; finished parts are kept, and the same command resumes");
         std::process::exit(INTERRUPTED);
     })
+    // a second study of the same process has one already
+    .or_else(|error| if matches!(error, ctrlc::Error::MultipleHandlers) { Ok(()) } else { Err(error) })
     .context("Ctrl-C")
 }
 
 /// Warns of parts whose files exist but are damaged, and which therefore count as missing.
-fn warn_of_damage(folder: &Folder, missing: &[usize]) {
-    folder.damage(missing).iter().for_each(|warning| output::warn(warning));
+fn warn_of_damage(console: &Console<'_>, folder: &Folder, missing: &[usize]) {
+    folder.damage(missing).iter().for_each(|warning| console.warn(warning));
 }
 
 /// Time spent on one model, and the work done in it.
@@ -181,7 +184,7 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
     let shares = Mutex::new(vec![Share::default(); study.models().len()]);
     let start = Instant::now();
     progress::shown(|progress| {
-        study_folder::work(study, folder, missing, threads, |case, curve, time| {
+        study::folder::work(study, folder, missing, threads, |case, curve, time| {
             let runs = curve.runs().len();
             if let Ok(mut shares) = shares.lock() {
                 let share = &mut shares[case.model];
@@ -206,12 +209,12 @@ fn work(study: &Study, folder: &Folder, missing: &[usize], cases: usize, threads
 }
 
 /// Makes the final results of a folder whose parts are complete.
-fn finish(folder: &Folder, threads: usize) -> Result<()> {
+fn finish(console: &Console<'_>, folder: &Folder, threads: usize) -> Result<()> {
     let walls = folder.contents().walls.len();
-    let finished = |progress: &Progress| study_folder::finish(folder, threads, || progress.add(walls, 0));
+    let finished = |progress: &Progress| study::folder::finish(folder, threads, || progress.add(walls, 0));
     let report = progress::shown(finished)?;
     if let Some(warning) = &report.warning {
-        output::warn(warning);
+        console.warn(warning);
     }
-    output::to_stdout(&(report.summary + &output::written("written  ", &report.files)))
+    console.print(&(report.summary + &output::written("written  ", &report.files)))
 }

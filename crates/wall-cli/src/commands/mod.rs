@@ -18,12 +18,10 @@ mod tie;
 mod validate;
 mod verify;
 
-use std::process::ExitCode;
-
 use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::output;
+use crate::output::Console;
 
 /// The version with commit and profile, which `build.rs` states.
 const VERSION: &str = env!("PROGRAM_VERSION");
@@ -87,32 +85,32 @@ enum Command {
 
 impl Arguments {
     /// Runs the command with its arguments.
-    pub(crate) fn run(&self) -> Result<ExitCode> {
+    pub(crate) fn run(&self, console: &Console<'_>) -> Result<u8> {
         match &self.command {
-            Command::Simulate(arguments) => simulate::run(arguments),
-            Command::Package(arguments) => package::run(arguments),
-            Command::Building(arguments) => building::run(arguments),
-            Command::Describe(arguments) => describe::run(arguments),
-            Command::Check(arguments) => check::run(arguments),
-            Command::Tie(arguments) => tie::run(arguments),
-            Command::Motion(arguments) => motion::run(arguments),
-            Command::Accuracy(arguments) => accuracy::run(arguments),
-            Command::Stability(arguments) => stability::run(arguments),
-            Command::Record(arguments) => record::run(arguments),
-            Command::Ida(arguments) => ida::run(arguments),
-            Command::Merge(arguments) => ida::merge(arguments),
-            Command::Spectrum(arguments) => spectrum::run(arguments),
-            Command::Calibrate(arguments) => calibrate::run(arguments),
-            Command::Reproduce(arguments) => reproduce::run(arguments),
-            Command::Validate(arguments) => validate::run(arguments),
-            Command::Verify(arguments) => return verify::run(arguments),
-            Command::Schema(arguments) => schema::run(arguments),
+            Command::Simulate(arguments) => simulate::run(console, arguments),
+            Command::Package(arguments) => package::run(console, arguments),
+            Command::Building(arguments) => building::run(console, arguments),
+            Command::Describe(arguments) => describe::run(console, arguments),
+            Command::Check(arguments) => check::run(console, arguments),
+            Command::Tie(arguments) => tie::run(console, arguments),
+            Command::Motion(arguments) => motion::run(console, arguments),
+            Command::Accuracy(arguments) => accuracy::run(console, arguments),
+            Command::Stability(arguments) => stability::run(console, arguments),
+            Command::Record(arguments) => record::run(console, arguments),
+            Command::Ida(arguments) => ida::run(console, arguments),
+            Command::Merge(arguments) => ida::merge(console, arguments),
+            Command::Spectrum(arguments) => spectrum::run(console, arguments),
+            Command::Calibrate(arguments) => calibrate::run(console, arguments),
+            Command::Reproduce(arguments) => reproduce::run(console, arguments),
+            Command::Validate(arguments) => validate::run(console, arguments),
+            Command::Verify(arguments) => return verify::run(console, arguments),
+            Command::Schema(arguments) => schema::run(console, arguments),
             Command::Completions { shell } => {
                 let mut script = Vec::new();
                 clap_complete::generate(*shell, &mut Self::command(), "wall", &mut script);
-                output::to_stdout(&String::from_utf8_lossy(&script))
+                console.print(&String::from_utf8_lossy(&script))
             }
         }
-        .map(|()| ExitCode::SUCCESS)
+        .map(|()| 0)
     }
 }

@@ -8,10 +8,10 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use ground_motion::CSV_HEADER;
-use study::counted;
+use report::counted;
 
 use crate::args::RecordArguments;
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -22,11 +22,11 @@ pub(crate) struct Arguments {
     csv: PathBuf,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let Some((motion, note)) = arguments.record.load()? else {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let Some((motion, note)) = arguments.record.load(console)? else {
         bail!("no motion is given; give --record FILE or --synthetic");
     };
-    output::check_distinct(&arguments.record.record, [&arguments.csv])?;
+    console.check_distinct(&arguments.record.record, [&arguments.csv])?;
     let mut csv = format!("{CSV_HEADER}\n");
     for (index, sample) in motion.samples().iter().enumerate() {
         #[allow(clippy::cast_precision_loss, reason = "far fewer than 2⁵³ samples")]
@@ -34,12 +34,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         // writing to a String cannot fail
         let _ = writeln!(csv, "{time:.9},{sample:?}");
     }
-    output::to_file(&arguments.csv, csv.as_bytes())?;
-    output::to_stdout(&format!(
+    console.write(&arguments.csv, csv.as_bytes())?;
+    console.print(&format!(
         "{}: {note}, {} of {} s, peak {:.4} m/s²\n",
         arguments.csv.display(),
         counted(motion.samples().len(), "sample"),
-        figures::number(motion.step(), 6),
+        report::number(motion.step(), 6),
         motion.peak()
     ))
 }

@@ -8,7 +8,7 @@ use rocking_wall::scene::Scene;
 use scene_fmu::{General, of_scene};
 
 use crate::args::warn_of_motion;
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -25,20 +25,21 @@ pub(crate) struct Arguments {
     base: Option<PathBuf>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let scene = Scene::read(&arguments.scene)?;
     let made = if arguments.fmi == "3" { "fmu_out/fmi3/wall.fmu" } else { "fmu_out/wall.fmu" };
     let base = arguments.base.clone().unwrap_or_else(|| made.into());
-    output::check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
+    console
+        .check_distinct([&arguments.scene, &base].into_iter().chain(&scene.records), [&arguments.output])?;
     let named = || arguments.scene.display().to_string();
     let wall = scene_fmu::check(&scene).with_context(named)?;
-    warn_of_motion(&arguments.scene, &scene);
-    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
+    warn_of_motion(console, &arguments.scene, &scene);
+    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
     let general = General::open(&base)
         .context("expected a general FMU; make it with `cargo xtask fmu`, or name it with --base")?;
     let unit = of_scene(&scene, general).with_context(named)?;
-    output::to_file(&arguments.output, &unit.archive.to_bytes()?)?;
-    output::to_stdout(&format!(
+    console.write(&arguments.output, &unit.archive.to_bytes()?)?;
+    console.print(&format!(
         "{}: {}, {} of {} variables\n",
         arguments.output.display(),
         scene.title,

@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use figures::plot::Picture;
-use figures::records;
 use ground_motion::spectrum::{AVERAGE_PERIODS, DAMPING};
 use ground_motion::{Check, Maxima, Record, RecordOptions, STANDARD_GRAVITY, Spectrum};
+use report::plot::Picture;
+use run::records_figure;
 use serde_json::{Value, json};
 
 use crate::args::{self, RecordOptionsArguments};
-use crate::output;
-use study_folder::csv::quoted;
+use crate::output::{self, Console};
+use report::table::quoted;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -60,13 +60,13 @@ struct Row {
     check: Check,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let maxima = if arguments.at_samples { Maxima::AtSamples } else { Maxima::Everywhere };
     let spectrum = Spectrum::new(arguments.damping, maxima)?;
     let options = arguments.options.options()?;
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
     let files = args::record_files(&arguments.files)?;
-    output::check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
+    console.check_distinct(&files, arguments.csv.iter().chain(&arguments.plot))?;
     let mut rows = Vec::new();
     let (mut failures, mut missing) = (Vec::new(), 0);
     for path in &files {
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         bail!("{failure}");
     }
     if is_listing && !rows.is_empty() {
-        show(&rows, &failures, arguments, spectrum)?;
+        show(console, &rows, &failures, arguments, spectrum)?;
         // a folder may have files that are no records
         if missing > 0 {
             bail!("{missing} of the files that are named could not be read; they are listed as not read");
@@ -93,9 +93,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
         bail!("{}: a folder without files; name a folder with records", arguments.files[0].display());
     }
     let count = failures.len();
-    output::report_all(failures);
+    console.report_all(failures);
     if !rows.is_empty() {
-        show(&rows, &[], arguments, spectrum)?;
+        show(console, &rows, &[], arguments, spectrum)?;
     }
     if count > 0 {
         bail!("{} of {} files could not be read", count, files.len());
@@ -125,9 +125,15 @@ fn read(path: &Path, options: &RecordOptions, arguments: &Arguments, spectrum: S
 }
 
 /// Shows what was read; of a folder, also the `unread` files.
-fn show(rows: &[Row], unread: &[String], arguments: &Arguments, spectrum: Spectrum) -> Result<()> {
-    output::picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
-    output::save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
+fn show(
+    console: &Console<'_>,
+    rows: &[Row],
+    unread: &[String],
+    arguments: &Arguments,
+    spectrum: Spectrum,
+) -> Result<()> {
+    console.picture(arguments.plot.as_ref(), || picture(rows, spectrum, arguments.damping))?;
+    console.save(arguments.csv.as_ref(), || csv(rows, &arguments.periods))?;
     if arguments.json {
         let value = json!({
             "damping": arguments.damping,
@@ -137,12 +143,12 @@ fn show(rows: &[Row], unread: &[String], arguments: &Arguments, spectrum: Spectr
             "records": rows.iter().map(Row::json).collect::<Vec<_>>(),
             "unread": unread,
         });
-        return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
     let written = output::written("written  ", arguments.plot.iter().chain(&arguments.csv));
     let is_listing = arguments.files.iter().any(|path| path.is_dir());
     let table = if is_listing { listing::table(rows, unread) } else { table(rows, arguments) };
-    output::to_stdout(&(table + &written))
+    console.print(&(table + &written))
 }
 
 impl Row {
@@ -198,7 +204,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
             row.name(),
             row.record.format.description(),
             motion.samples().len(),
-            figures::number(motion.step(), 6),
+            report::number(motion.step(), 6),
             motion.duration(),
             row.peak(),
             row.average
@@ -209,7 +215,7 @@ fn table(rows: &[Row], arguments: &Arguments) -> String {
         text.push('\n');
     }
     let periods = arguments.average.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    let percent = figures::number(100.0 * arguments.damping, 6);
+    let percent = report::number(100.0 * arguments.damping, 6);
     let _ = writeln!(text, "Sa in g at {percent} % damping; AvgSA: geometric mean at {periods} s");
     for row in rows {
         for warning in &row.check.warnings {
@@ -226,7 +232,7 @@ const LONGEST: f64 = 4.0;
 
 /// The histories and the spectra.
 fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
-    let drawn = |row: &Row| -> Result<records::Record> {
+    let drawn = |row: &Row| -> Result<records_figure::Record> {
         let motion = &row.record.motion;
         let samples = motion.samples().iter().enumerate();
         let history =
@@ -240,9 +246,9 @@ fn picture(rows: &[Row], spectrum: Spectrum, damping: f64) -> Result<Picture> {
             points.push((period, acceleration / STANDARD_GRAVITY));
         }
         let is_vertical = row.record.is_vertical;
-        Ok(records::Record { name: row.name(), history, spectrum: points, is_vertical })
+        Ok(records_figure::Record { name: row.name(), history, spectrum: points, is_vertical })
     };
-    Ok(records::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
+    Ok(records_figure::picture(&rows.iter().map(drawn).collect::<Result<Vec<_>>>()?, damping))
 }
 
 fn csv(rows: &[Row], periods: &[f64]) -> String {

@@ -10,10 +10,10 @@ use evidence::reproduce::collapse::figure_15;
 use evidence::reproduce::page::page;
 use evidence::reproduce::{Cell, Reproduction, Table, Value, reproduce};
 use ground_motion::{RecordOptions, read};
-use study::ida::NamedRecord;
-use study::parallel::threads;
+use run::parallel::threads;
+use run::records::NamedRecord;
 
-use crate::output::{self, progress};
+use crate::output::{self, Console, progress};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -28,31 +28,31 @@ pub(crate) struct Arguments {
     threads: Option<NonZeroUsize>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     // before anything is computed: a wrong folder should not cost a minute
     let records =
-        arguments.records.as_deref().map(|folder| records(folder, &arguments.output)).transpose()?;
+        arguments.records.as_deref().map(|folder| records(console, folder, &arguments.output)).transpose()?;
     let threads = threads(arguments.threads);
     let reproduction = progress::shown(|progress| reproduce(threads, |all| progress.add(all, 0)))?;
-    output::to_stdout(&summary(&reproduction))?;
+    console.print(&summary(&reproduction))?;
     let collapses = records
         .map(|records| progress::shown(|progress| figure_15(records, threads, |all| progress.add(all, 0))));
     let collapses = collapses.transpose()?;
     if let Some(collapses) = &collapses {
-        output::to_stdout(&plain(&collapses.table))?;
+        console.print(&plain(&collapses.table))?;
     }
-    output::to_file(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
+    console.write(&arguments.output, page(&reproduction, collapses.as_ref()).as_bytes())
 }
 
 /// Reads the records of a folder in the order of their names; warns of the files it leaves out. The page must
 /// not replace one of them.
-fn records(folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
+fn records(console: &Console<'_>, folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
     let entries =
         std::fs::read_dir(folder).with_context(|| format!("{}: cannot be read", folder.display()))?;
     let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
     paths.retain(|path| path.is_file());
     paths.sort();
-    output::check_distinct(&paths, [page])?;
+    console.check_distinct(&paths, [page])?;
     let (mut records, mut left_out) = (Vec::new(), Vec::new());
     for path in paths {
         match read(&path, &RecordOptions::default()) {
@@ -63,7 +63,7 @@ fn records(folder: &Path, page: &PathBuf) -> Result<Vec<NamedRecord>> {
             Err(error) => left_out.push(format!("warning: left out: {error}")),
         }
     }
-    output::report_all(left_out);
+    console.report_all(left_out);
     if records.is_empty() {
         bail!(
             "{}: no record to read; give a folder with records that state their unit, such as AT2",

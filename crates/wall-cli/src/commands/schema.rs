@@ -8,10 +8,10 @@ use rocking_floor::variables as floor;
 use rocking_wall::scene::{DEFAULT_THRESHOLDS, GROUPS, KINEMATICS, MOST_THRESHOLDS, POINTS, input_names};
 use rocking_wall::variables::{IntegerVariable, RealVariable};
 use rocking_wall::wall::Kinematics;
+use run::model::{EnergyLoss, damping_models, label};
 use serde_json::{Map, Value, json};
-use study::model::{EnergyLoss, damping_models, label};
 
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -30,13 +30,13 @@ enum File {
     Building,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let schema = match arguments.file {
         File::Scene => scene()?,
         File::Study => study()?,
         File::Building => building()?,
     };
-    output::to_stdout(&(serde_json::to_string_pretty(&schema)? + "\n"))
+    console.print(&(serde_json::to_string_pretty(&schema)? + "\n"))
 }
 
 /// Makes the schema of scenes. What they hold besides parameters is in the file, as for the others; tests
@@ -219,7 +219,7 @@ mod tests {
             ("CheckBuilding", "[check]\ncode = \"\"\nbuilding = { x = 1 }"),
             ("CheckMode", "[check]\ncode = \"\"\nbuilding = { modes = [{ x = 1 }] }"),
         ] {
-            let error = study::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
+            let error = check::circolare::read_table(&Place::new("scene", text)).unwrap_err().to_string();
             assert_keys(&scene().unwrap()["$defs"][table], &error);
         }
     }

@@ -6,51 +6,47 @@ mod records;
 use std::fmt::Write;
 
 use anyhow::Result;
+use report::counted;
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::solver::Work;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Wall;
-use study::counted;
 
-use crate::output::{self, demands};
-use crate::pages;
+use run::demands;
+
+use crate::output::{self, Console};
 
 pub(crate) use arguments::Arguments;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     if !arguments.table().is_empty() {
-        return records::run(arguments);
+        return records::run(console, arguments);
     }
-    let scene = arguments.scene()?;
+    let scene = arguments.scene(console)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
-    let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
-    output::check_distinct(inputs, outputs.into_iter().flatten())?;
-    // checked before the run, which may take long
-    output::expect_svg(arguments.svg.as_ref())?;
+    let outputs = [&arguments.csv, &arguments.html];
+    console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
+    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
     let response = arguments.scene.named(Response::of(&scene))?;
     for warning in scene.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
-        output::warn(&warning);
+        console.warn(&warning);
     }
     if response.summary.put_to_rest {
-        output::warn("the limit on impacts in one step was reached: the wall was put to rest");
+        console.warn("the limit on impacts in one step was reached: the wall was put to rest");
     }
-    output::save(arguments.csv.as_ref(), || response.csv())?;
+    console.save(arguments.csv.as_ref(), || response.csv())?;
     if let Some(path) = &arguments.html {
-        let page = pages::wall::render(&scene, &wall, &response)?;
-        output::to_file(path, page.as_bytes())?;
-    }
-    if let Some(path) = &arguments.svg {
-        output::to_file(path, pages::wall::animation::render(&scene, &wall, &response)?.as_bytes())?;
+        let page = run::page::render(&scene, &wall, &response)?;
+        console.write(path, page.as_bytes())?;
     }
     let text = if arguments.json {
         json(&scene, &response)?
     } else {
         table(&scene, &response) + &output::written("written        ", outputs.into_iter().flatten())
     };
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 fn json(scene: &Scene, response: &Response) -> Result<String> {
@@ -70,7 +66,7 @@ fn table(scene: &Scene, response: &Response) -> String {
     }
     line("largest |u|", demands::largest(summary, "m", 6));
     line("overturned", demands::overturned(summary.fate, 4));
-    line("run", format!("{} s", figures::number(summary.end_time, 6)));
+    line("run", format!("{} s", report::number(summary.end_time, 6)));
     let Work { pieces, corners, impacts } = summary.work;
     let [pieces, corners, impacts] = [(pieces, "piece"), (corners, "corner"), (impacts, "impact")]
         .map(|(count, noun)| counted(count, noun));

@@ -5,21 +5,21 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
-use figures::rocking_spectrum::{Shown, own_words, svg};
 use ground_motion::{GroundMotion, Pulse};
 use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
-use study::parallel;
+use run::parallel;
+use study::spectrum::figure::{Shown, own_words, svg};
 use study::spectrum::{
     Point, PulseForm, Size, Slenderness, common_motion, onset, over_pulses, over_walls, own_point,
 };
 
 use crate::args::{RecordArguments, SceneArguments, refuse};
-use crate::output;
-use crate::pages::spectrum::page;
-use study_folder::csv::optional;
+use crate::output::optional;
+use crate::output::{self, Console};
+use study::spectrum::page::page;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -73,35 +73,41 @@ pub(crate) struct Arguments {
 /// The most values along an axis.
 const MOST_VALUES: usize = 500;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mut scene = arguments.scene.load()?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.record.record);
     let outputs = [&arguments.csv, &arguments.html, &arguments.svg];
-    output::check_distinct(inputs, outputs.into_iter().flatten())?;
+    console.check_distinct(inputs, outputs.into_iter().flatten())?;
     output::expect_svg(arguments.svg.as_ref())?;
     let threads = parallel::threads(arguments.threads).get();
     let pulse = arguments.pulse.as_deref().map(form).transpose()?;
     let mut shown = match (pulse, arguments.frequency, arguments.amplitude) {
-        (Some(form), None, None) => pulses(arguments, &scene.parameters, form, threads)?,
+        (Some(form), None, None) => pulses(console, arguments, &scene.parameters, form, threads)?,
         (Some(form), Some(frequency), Some(amplitude)) => {
             let motion = Pulse { amplitude, ..form.pulse(frequency) }.motion(None)?;
             let note = format!("{} of {amplitude} m/s² at {frequency} Hz", words(form));
             walls(arguments, &scene.parameters, &motion, vec![note], threads)?
         }
         _ => {
-            let (motion, notes) = motion(arguments, &scene)?;
+            let (motion, notes) = motion(console, arguments, &scene)?;
             walls(arguments, &scene.parameters, &motion, notes, threads)?
         }
     };
     shown.notes.push(law(&scene.parameters));
-    output::save(arguments.csv.as_ref(), || table(&shown))?;
-    output::save(arguments.html.as_ref(), || page(&shown))?;
-    output::save(arguments.svg.as_ref(), || svg(&shown))?;
-    output::to_stdout(&(summary(&shown) + &output::written("written    ", outputs.into_iter().flatten())))
+    console.save(arguments.csv.as_ref(), || table(&shown))?;
+    console.save(arguments.html.as_ref(), || page(&shown))?;
+    console.save(arguments.svg.as_ref(), || svg(&shown))?;
+    console.print(&(summary(&shown) + &output::written("written    ", outputs.into_iter().flatten())))
 }
 
-fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threads: usize) -> Result<Shown> {
+fn pulses(
+    console: &Console<'_>,
+    arguments: &Arguments,
+    parameters: &Parameters,
+    form: PulseForm,
+    threads: usize,
+) -> Result<Shown> {
     let Arguments { heights, radii, ratios, angles, .. } = arguments;
     let given = [("--heights", heights), ("--radii", radii), ("--ratios", ratios), ("--angles", angles)];
     refuse(
@@ -109,7 +115,7 @@ fn pulses(arguments: &Arguments, parameters: &Parameters, form: PulseForm, threa
         "belongs to a spectrum over walls: give the pulse a --frequency and an --amplitude too",
     )?;
     // refuses --scale and --pga, which need a record
-    arguments.record.load()?;
+    arguments.record.load(console)?;
     let columns = values("--frequency-ratios", arguments.frequency_ratios.as_deref(), [0.5, 10.0], 39)?;
     let rows = values("--amplitude-ratios", arguments.amplitude_ratios.as_deref(), [0.5, 10.0], 39)?;
     let wall = arguments.scene.named(Wall::new(parameters))?;
@@ -169,9 +175,13 @@ fn walls(
 }
 
 /// The motion that the supports get from the one given, or from the scene's own.
-fn motion(arguments: &Arguments, scene: &Scene) -> Result<(GroundMotion, Vec<String>)> {
+fn motion(
+    console: &Console<'_>,
+    arguments: &Arguments,
+    scene: &Scene,
+) -> Result<(GroundMotion, Vec<String>)> {
     let mut scene = scene.clone();
-    if let Some((motion, note)) = arguments.record.load()? {
+    if let Some((motion, note)) = arguments.record.load(console)? {
         let peak = format!("peak acceleration {:.4} m/s²", motion.peak());
         scene.shake(Excitation::new(motion, None), DEFAULT_TAIL, vec![note, peak]);
     }

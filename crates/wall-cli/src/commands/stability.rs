@@ -8,7 +8,7 @@ use clap::{Args, value_parser};
 use evidence::stability::page::{axis_words, page, scientific};
 use evidence::stability::{Extreme, Map, RowQuantity, extremes, map, maps};
 
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -23,20 +23,20 @@ pub(crate) struct Arguments {
     html: Option<PathBuf>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    output::check_distinct([], arguments.csv.iter().chain(&arguments.html))?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    console.check_distinct([], arguments.csv.iter().chain(&arguments.html))?;
     let mut made = Vec::new();
     for quantity in [RowQuantity::Step, RowQuantity::DampingRatio] {
         for (solver, damping) in maps() {
             let map = map(solver, damping, quantity, arguments.columns)?;
-            output::to_stdout(&summary(&map))?;
+            console.print(&summary(&map))?;
             made.push(map);
         }
     }
     let extremes = extremes()?;
-    output::to_stdout(&table(&extremes))?;
-    output::save(arguments.csv.as_ref(), || csv(&made))?;
-    output::save(arguments.html.as_ref(), || page(&made, &extremes))
+    console.print(&table(&extremes))?;
+    console.save(arguments.csv.as_ref(), || csv(&made))?;
+    console.save(arguments.html.as_ref(), || page(&made, &extremes))
 }
 
 fn summary(map: &Map) -> String {

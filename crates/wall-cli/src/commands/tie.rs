@@ -6,19 +6,20 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
-use figures::tie::picture;
 use ground_motion::{GroundMotion, RecordOptions, Unit};
+use report::counted;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
+use run::parallel;
+use run::polarity::Polarities;
 use serde_json::{Value, json};
-use study::polarity::Polarities;
+use study::tie::figure::picture;
 use study::tie::{COLUMNS, Row, TieStudy};
-use study::{counted, parallel};
 
 use crate::args::{SceneArguments, read_record};
-use crate::output;
-use crate::output::capacity::significant;
+use crate::output::significant;
+use crate::output::{self, Console};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -54,36 +55,36 @@ pub(crate) struct Arguments {
     plot: Option<PathBuf>,
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
-    let mut scene = arguments.scene.load()?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    let mut scene = arguments.scene.load(console)?;
     arguments.scene.apply(&mut scene)?;
     let inputs = arguments.scene.inputs(&scene).chain(&arguments.records);
-    output::check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
-    let records = records(arguments)?;
+    console.check_distinct(inputs, arguments.csv.iter().chain(&arguments.plot))?;
+    let records = records(console, arguments)?;
     let study = arguments.scene.named(TieStudy::new(scene, records, arguments.both_polarities))?;
     let stiffnesses = study.stiffnesses(&arguments.stiffness)?;
     let rows = study.rows(&stiffnesses, parallel::threads(arguments.threads).get())?;
-    output::picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
-    output::save(arguments.csv.as_ref(), || csv(&rows))?;
+    console.picture(arguments.plot.as_ref(), || Ok(picture(&rows)))?;
+    console.save(arguments.csv.as_ref(), || csv(&rows))?;
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&study, &rows))? + "\n"
     } else {
         let written = output::written("\nwritten ", arguments.csv.iter().chain(&arguments.plot));
         table(study.scene(), &rows) + study.polarities().note() + &written
     };
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 /// The records asked for, scaled.
-fn records(arguments: &Arguments) -> Result<Vec<GroundMotion>> {
+fn records(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<GroundMotion>> {
     let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
     let options = RecordOptions { unit, ..RecordOptions::default() };
     let mut motions = Vec::new();
     for path in &arguments.records {
-        let motion = read_record(path, &options)?.motion.checked_scaled(arguments.scale)?;
+        let motion = read_record(console, path, &options)?.motion.checked_scaled(arguments.scale)?;
         // at a scale of 1 the reader has already warned
         if let Some(warning) = motion.warning().filter(|_| arguments.scale.abs() > 1.0) {
-            output::warn(&format!("{}: {warning}", path.display()));
+            console.warn(&format!("{}: {warning}", path.display()));
         }
         motions.push(motion);
     }

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use evidence::validation::{Case, DecayComparison, Push, PushComparison, Test};
-use figures::chart::picture;
-use study::chart::{Axis, Chart, Series};
-use study::model::color;
+use report::chart::picture;
+use report::chart::{Axis, Chart, Series};
+use run::model::color;
 
-use crate::output;
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -24,9 +24,9 @@ pub(crate) struct Arguments {
 /// Number of the colour and the mark of the measured points; no model here has the same one.
 const MEASURED: usize = 3;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let case = Case::read(&arguments.test)?;
-    output::check_distinct(&case.inputs, &arguments.plot)?;
+    console.check_distinct(&case.inputs, &arguments.plot)?;
     let mut text = format!("{}\nsource: {}\n", case.title, case.source.trim());
     let chart = match &case.test {
         Test::Push(push) => {
@@ -40,8 +40,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             decay_chart(&case.title, &comparison)
         }
     };
-    output::to_stdout(&text)?;
-    output::picture(arguments.plot.as_ref(), || Ok(picture(&chart)))
+    console.print(&text)?;
+    console.picture(arguments.plot.as_ref(), || Ok(picture(&chart)))
 }
 
 fn about_push(text: &mut String, push: &Push, comparison: &PushComparison) {

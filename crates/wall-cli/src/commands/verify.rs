@@ -4,7 +4,6 @@ mod importer;
 
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Args;
@@ -12,7 +11,7 @@ use evidence::verification::page::{number, page, short};
 use evidence::verification::{Check, Counts, Formula, library, verify, verify_scenes};
 use serde_json::{Value, json};
 
-use crate::output;
+use crate::output::{self, Console};
 use importer::Fmu;
 
 #[derive(Debug, Args)]
@@ -34,8 +33,8 @@ pub(crate) struct Arguments {
 /// Exit code where a number is outside its bound.
 const FAILED: u8 = 1;
 
-pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    output::check_distinct(&arguments.fmu, arguments.html.iter().chain(&arguments.markdown))?;
+pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<u8> {
+    console.check_distinct(&arguments.fmu, arguments.html.iter().chain(&arguments.markdown))?;
     let (subject, formulas) = match &arguments.fmu {
         Some(path) => {
             let fmu = Fmu::open(path)?;
@@ -45,16 +44,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode> {
         None => (format!("wall {}", env!("CARGO_PKG_VERSION")), verify(library)?),
     };
     let counts = Counts::of(&formulas);
-    output::save(arguments.html.as_ref(), || page(&subject, &formulas, &counts))?;
-    output::save(arguments.markdown.as_ref(), || markdown(&formulas))?;
+    console.save(arguments.html.as_ref(), || page(&subject, &formulas, &counts))?;
+    console.save(arguments.markdown.as_ref(), || markdown(&formulas))?;
     let text = if arguments.json {
         serde_json::to_string_pretty(&json(&subject, &formulas, &counts))? + "\n"
     } else {
         let written = output::written("written ", arguments.html.iter().chain(&arguments.markdown));
         format!("{subject}\n\n{}{}\n{written}", table(&formulas), counts.words())
     };
-    output::to_stdout(&text)?;
-    Ok(if counts.failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(FAILED) })
+    console.print(&text)?;
+    Ok(if counts.failed == 0 { 0 } else { FAILED })
 }
 
 fn table(formulas: &[Formula]) -> String {

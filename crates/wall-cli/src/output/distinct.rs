@@ -4,9 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use study_folder::file::{behind_links, folder};
+use study::folder::file::{behind_links, folder};
 
-use super::terminal::give_stdout_to_a_file;
+use super::Console;
 
 /// What identifies a file, whatever path leads to it: its device and number, or else its canonical path. A
 /// file that does not exist yet is identified by its folder and its name.
@@ -42,7 +42,8 @@ pub(super) const STDOUT: &str = "-";
 
 /// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF. If
 /// one of them is `-`, all messages from here on go to stderr.
-pub(crate) fn check_distinct<'a>(
+pub(super) fn check_distinct<'a>(
+    console: &Console<'_>,
     inputs: impl IntoIterator<Item = &'a PathBuf>,
     outputs: impl IntoIterator<Item = &'a PathBuf>,
 ) -> Result<()> {
@@ -65,7 +66,7 @@ pub(crate) fn check_distinct<'a>(
                 bail!("two outputs are -, standard output; give one of them a file");
             }
             file = Some(path);
-            give_stdout_to_a_file();
+            console.give_out_to_a_file();
             continue;
         }
         let Some(own) = identity(path) else { continue };

@@ -1,7 +1,5 @@
 //! What leaves the program: stdout, stderr, and files.
 
-pub(crate) mod capacity;
-pub(crate) mod demands;
 mod distinct;
 pub(crate) mod progress;
 mod terminal;
@@ -9,22 +7,58 @@ mod terminal;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use figures::plot::Picture;
+use report::plot::Picture;
 
-pub(crate) use distinct::check_distinct;
-pub(crate) use terminal::{message, report, report_all, to_stderr, to_stdout, warn};
+pub(crate) use terminal::{Console, message};
 
-/// Writes a file completely or not at all, see [`study_folder::file::to_file`]; `-` is standard output.
-pub(crate) fn to_file(path: &Path, content: &[u8]) -> Result<()> {
-    if path.as_os_str() == distinct::STDOUT {
-        return terminal::bytes_to_stdout(content);
-    }
-    Ok(study_folder::file::to_file(path, content)?)
+/// Six significant figures, right-aligned.
+pub(crate) fn significant(value: f64) -> String {
+    format!("{:>13}", report::table::significant(value, 6))
 }
 
-/// Writes a text to the file that an option names, if it is given.
-pub(crate) fn save(path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
-    path.map_or(Ok(()), |path| to_file(path, text().as_bytes()))
+/// Writes a number with all its digits, or nothing.
+pub(crate) fn optional(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |number| format!("{number:?}"))
+}
+
+impl Console<'_> {
+    /// Writes a file completely or not at all, see [`study::folder::file::to_file`]; `-` is standard output.
+    pub(crate) fn write(&self, path: &Path, content: &[u8]) -> Result<()> {
+        if path.as_os_str() == distinct::STDOUT {
+            return self.bytes(content);
+        }
+        Ok(study::folder::file::to_file(path, content)?)
+    }
+
+    /// Writes a text to the file that an option names, if it is given.
+    pub(crate) fn save(&self, path: Option<&PathBuf>, text: impl FnOnce() -> String) -> Result<()> {
+        path.map_or(Ok(()), |path| self.write(path, text().as_bytes()))
+    }
+
+    /// Writes a picture to the file that an option names, if it is given. Draws it only if the file ends in
+    /// .svg.
+    pub(crate) fn picture(
+        &self,
+        path: Option<&PathBuf>,
+        draw: impl FnOnce() -> Result<Picture>,
+    ) -> Result<()> {
+        let Some(path) = path else { return Ok(()) };
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        if ending != "svg" {
+            bail!("{}: a plot is SVG; give a file that ends in .svg", path.display());
+        }
+        self.write(path, draw()?.svg().as_bytes())
+    }
+
+    /// Refuses outputs that would overwrite an input, another output or the file that takes stdout, and PDF. If
+    /// one of them is `-`, all messages from here on go to stderr.
+    pub(crate) fn check_distinct<'a>(
+        &self,
+        inputs: impl IntoIterator<Item = &'a PathBuf>,
+        outputs: impl IntoIterator<Item = &'a PathBuf>,
+    ) -> Result<()> {
+        distinct::check_distinct(self, inputs, outputs)
+    }
 }
 
 /// Lists files that were written, a line for each after `label`; standard output is no file.
@@ -56,14 +90,4 @@ pub(crate) fn expect_svg(path: Option<&PathBuf>) -> Result<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// Writes a picture to the file that an option names, if it is given. Draws it only if the file ends in .svg.
-pub(crate) fn picture(path: Option<&PathBuf>, draw: impl FnOnce() -> Result<Picture>) -> Result<()> {
-    let Some(path) = path else { return Ok(()) };
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if ending != "svg" {
-        bail!("{}: a plot is SVG; give a file that ends in .svg", path.display());
-    }
-    to_file(path, draw()?.svg().as_bytes())
 }

@@ -1,10 +1,8 @@
 //! A line on the terminal: how much is done, how fast, and the time left.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
-
-use crate::output;
 
 const BAR: usize = 30;
 /// How often the line is written anew.
@@ -29,7 +27,7 @@ pub(crate) fn shown<T>(work: impl FnOnce(&Progress) -> T) -> T {
     let progress = Progress { start: now, state, shown: std::io::stderr().is_terminal() };
     let outcome = work(&progress);
     if progress.shown && progress.state.lock().is_ok_and(|state| state.done > 0) {
-        output::to_stderr("\n");
+        to_terminal("\n");
     }
     outcome
 }
@@ -50,7 +48,7 @@ impl Progress {
                 0 => String::new(),
                 runs => format!("  {:.0} runs/s", runs as f64 / seconds),
             };
-            output::to_stderr(&format!(
+            to_terminal(&format!(
                 "\r[{}{}] {}/{total}{rate}  {} left   ",
                 "#".repeat(full),
                 "-".repeat(BAR - full),
@@ -59,6 +57,12 @@ impl Progress {
             ));
         }
     }
+}
+
+/// Writes to the terminal; one that is lost is no reason to stop.
+fn to_terminal(text: &str) {
+    let mut stderr = std::io::stderr().lock();
+    let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
 /// A time in words.

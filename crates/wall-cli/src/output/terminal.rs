@@ -1,43 +1,79 @@
 //! Text for people: stdout and stderr.
 
+use std::cell::{Cell, RefCell};
 use std::fmt::Write as _;
-use std::io::{self, ErrorKind, Write as _};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io::{self, ErrorKind, Write};
 
 use anyhow::{Context, Result};
-use figures::number;
+use report::number;
 
 /// Most lines and characters of a message, and most messages of one kind.
 const MOST_LINES: usize = 9;
 const MOST_CHARACTERS: usize = 2000;
 const MOST_MESSAGES: usize = 7;
 
-/// Whether a file goes to stdout (`--csv -`); messages then go to stderr.
-static STDOUT_TAKES_A_FILE: AtomicBool = AtomicBool::new(false);
-
-/// Sends all messages to stderr from here on, since a file goes to stdout.
-pub(super) fn give_stdout_to_a_file() {
-    STDOUT_TAKES_A_FILE.store(true, Ordering::Relaxed);
+/// Where a command prints: results on `out`, unless a file goes there (`--csv -`), and messages on `err`.
+pub(crate) struct Console<'a> {
+    out: RefCell<&'a mut dyn Write>,
+    err: RefCell<&'a mut dyn Write>,
+    out_takes_a_file: Cell<bool>,
 }
 
-/// Prints results for the user: on stdout, unless a file goes there.
-pub(crate) fn to_stdout(text: &str) -> Result<()> {
-    let text = printable(text);
-    if STDOUT_TAKES_A_FILE.load(Ordering::Relaxed) {
-        to_stderr(&text);
-        return Ok(());
+impl<'a> Console<'a> {
+    pub(crate) fn new(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
+        Self { out: RefCell::new(out), err: RefCell::new(err), out_takes_a_file: Cell::new(false) }
     }
-    bytes_to_stdout(text.as_bytes())
-}
 
-/// Writes to stdout. A closed pipe or a lost terminal is no error, since nobody reads the output then.
-pub(super) fn bytes_to_stdout(bytes: &[u8]) -> Result<()> {
-    let mut stdout = io::stdout().lock();
-    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe && !is_lost_terminal(&error) => {
-            Err(error).context("stdout")
+    /// Sends all messages to `err` from here on, since a file goes to `out`.
+    pub(super) fn give_out_to_a_file(&self) {
+        self.out_takes_a_file.set(true);
+    }
+
+    /// Prints results for the user: on `out`, unless a file goes there.
+    pub(crate) fn print(&self, text: &str) -> Result<()> {
+        let text = printable(text);
+        if self.out_takes_a_file.get() {
+            self.to_stderr(&text);
+            return Ok(());
         }
-        _ => Ok(()),
+        self.bytes(text.as_bytes())
+    }
+
+    /// Writes to `out`. A closed pipe or a lost terminal is no error, since nobody reads the output then.
+    pub(super) fn bytes(&self, bytes: &[u8]) -> Result<()> {
+        let mut out = self.out.borrow_mut();
+        match out.write_all(bytes).and_then(|()| out.flush()) {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe && !is_lost_terminal(&error) => {
+                Err(error).context("stdout")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes to `err`; a closed pipe or a lost terminal is no reason to stop.
+    pub(crate) fn to_stderr(&self, text: &str) {
+        let mut err = self.err.borrow_mut();
+        let _ = err.write_all(text.as_bytes()).and_then(|()| err.flush());
+    }
+
+    /// Prints a message for the user, such as an error.
+    pub(crate) fn report(&self, message: &str) {
+        self.to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
+    }
+
+    /// Warns the user of something that does not stop the work.
+    pub(crate) fn warn(&self, message: &str) {
+        self.report(&format!("warning: {message}"));
+    }
+
+    /// Reports messages of one kind: the first ones, and the number of the others.
+    pub(crate) fn report_all(&self, messages: impl IntoIterator<Item = String>) {
+        let mut messages = messages.into_iter();
+        messages.by_ref().take(MOST_MESSAGES).for_each(|message| self.report(&message));
+        let more = messages.count();
+        if more > 0 {
+            self.report(&format!("{more} more messages like these"));
+        }
     }
 }
 
@@ -57,12 +93,6 @@ fn is_lost_terminal(error: &io::Error) -> bool {
 #[cfg(not(unix))]
 fn is_lost_terminal(_: &io::Error) -> bool {
     false
-}
-
-/// Writes to stderr; a closed pipe or a lost terminal is no reason to stop.
-pub(crate) fn to_stderr(text: &str) {
-    let mut stderr = io::stderr().lock();
-    let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
 /// Escapes, as JSON does, the characters that a terminal would obey: control characters other than line ends
@@ -127,24 +157,4 @@ fn bounded(message: &str) -> String {
     let (head, tail) = (MOST_CHARACTERS * 2 / 3, MOST_CHARACTERS / 3 - 3);
     let [head, tail] = [&characters[..head], &characters[characters.len() - tail..]];
     head.iter().chain(&[' ', '…', ' ']).chain(tail).collect()
-}
-
-/// Prints a message for the user, such as an error.
-pub(crate) fn report(message: &str) {
-    to_stderr(&(bounded(&printable(&with_short_numbers(&format!("wall: {message}")))) + "\n"));
-}
-
-/// Warns the user of something that does not stop the work.
-pub(crate) fn warn(message: &str) {
-    report(&format!("warning: {message}"));
-}
-
-/// Reports messages of one kind: the first ones, and the number of the others.
-pub(crate) fn report_all(messages: impl IntoIterator<Item = String>) {
-    let mut messages = messages.into_iter();
-    messages.by_ref().take(MOST_MESSAGES).for_each(|message| report(&message));
-    let more = messages.count();
-    if more > 0 {
-        report(&format!("{more} more messages like these"));
-    }
 }

@@ -64,8 +64,7 @@ fn the_program_prints_peaks_and_writes_histories() {
     fs::write(folder.join("light.toml"), PARAPET).unwrap();
     fs::write(folder.join("thin.toml"), PARAPET.replace("0.3", "0.06")).unwrap();
     fs::write(folder.join("b.toml"), BUILDING).unwrap();
-    let arguments =
-        args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html --svg b.svg");
+    let arguments = args("building b.toml --synthetic --scale 0.4 --csv h.csv --tail 2 --html p.html");
     let shown = printed(&folder, &arguments);
     let row = |name: &str| shown.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
     assert!(row("light").ends_with("no") && row("thin").contains(" at "), "{shown}");
@@ -76,15 +75,13 @@ fn the_program_prints_peaks_and_writes_histories() {
         &csv[..80]
     );
     assert!(!folder.join("fmu_out").exists(), "a run writes no SSP");
-    let svg = content(&folder, "b.svg");
     // the last time that |u| exceeds u_ins, from the history itself
     let place = csv.lines().next().unwrap().split(',').position(|name| name == "thin.u_ratio").unwrap();
     let cell = |line: &str, place: usize| line.split(',').nth(place).unwrap().parse::<f64>().unwrap();
     let within = csv.lines().skip(1).filter(|line| cell(line, place).abs() < 1.0);
     let falls = cell(within.last().unwrap(), 0);
     let said = format!("The thin exceeds u_ins at 8.4 s, comes back and falls at {falls:.1} s");
-    assert!(falls > 10.0 && svg.contains(&said) && svg.contains("skewX") && !svg.contains("<script"));
-    assert!(svg.len() < 100_000 && !svg.contains("NaN"), "{} bytes", svg.len());
+    assert!(falls > 10.0, "{falls}");
     let page = content(&folder, "p.html");
     assert!(page.contains(&format!("<p class=\"verdict falls\">{said}")));
     let links = page.replace("http://www.w3.org/2000/svg", "");

@@ -6,7 +6,7 @@ use ground_motion::{Spectrum, SyntheticMotion};
 use rocking_wall::scene::Scene;
 
 use crate::command_line::{
-    assert_has, content, fails, folder, json, printed, program, refused, setting, succeed, text, wall,
+    assert_has, content, fails, folder, json, printed, refused, setting, succeed, text, wall,
 };
 
 /// The hand calculations of docs/model.md, to the last printed digit.
@@ -95,7 +95,7 @@ fn a_check_reads_the_records_of_a_folder() {
     std::fs::write(folder.join("records/b.csv"), &record).unwrap();
     let vertical = record.replace("time (a_g in m/s2),a_g", "time [s],UP [m/s2]");
     std::fs::write(folder.join("records/c.csv"), vertical).unwrap();
-    let output = program(&folder, &["check", "--records", "records", "--json"]).output().unwrap();
+    let output = succeed(&folder, &["check", "--records", "records", "--json"]);
     assert_has(&text(&output.stderr), &["records/c.csv: vertical, left out"]);
     assert_has(&text(&output.stdout), &["\"median of 2 records\""]);
     let over = ["check", "--records", "records", "--html", "records/a.csv"];
@@ -249,7 +249,7 @@ fn many_walls_are_checked() {
     assert_has(of("a").unwrap(), &[tall, thick]);
     assert_has(of("c").unwrap(), &["height = 150 m is unusual"]);
     std::fs::write(folder.join("walls.csv"), "name,height\na,1\nb,0.9\n").unwrap();
-    let warned = text(&program(&folder, &["check", "walls.toml"]).output().unwrap().stderr);
+    let warned = text(&wall(&folder, &["check", "walls.toml"]).stderr);
     assert_has(&warned, &["walls.csv: 2 of 2 walls have no thickness; the default of"]);
     std::fs::write(folder.join("none.toml"), "walls = [{ table = \"walls.csv\" }]\n").unwrap();
     refused(&folder, &["check", "none.toml"], &["none.toml", "no table [check]"]);

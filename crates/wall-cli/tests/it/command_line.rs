@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use serde_json::Value;
@@ -17,15 +18,29 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The program with its arguments, in a folder.
+/// The program as a process of its own, for what only a process shows: pipes, signals, lost terminals.
 pub(crate) fn program(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_wall"));
     command.current_dir(folder).args(arguments);
     command
 }
 
-pub(crate) fn wall(folder: &Path, arguments: &[&str]) -> Output {
-    program(folder, arguments).output().unwrap()
+/// What the program returns and prints.
+pub(crate) struct Told {
+    pub(crate) code: u8,
+    pub(crate) stdout: Vec<u8>,
+    pub(crate) stderr: Vec<u8>,
+}
+
+/// Runs the program in this process, in a folder.
+pub(crate) fn wall(folder: &Path, arguments: &[&str]) -> Told {
+    // a process has one working folder
+    static FOLDER: Mutex<()> = Mutex::new(());
+    let _taken = FOLDER.lock().unwrap_or_else(PoisonError::into_inner);
+    std::env::set_current_dir(folder).unwrap();
+    let (mut stdout, mut stderr) = (Vec::new(), Vec::new());
+    let code = wall::run(["wall"].iter().chain(arguments), &mut stdout, &mut stderr);
+    Told { code, stdout, stderr }
 }
 
 /// Splits the arguments of a command.
@@ -56,9 +71,9 @@ pub(crate) fn rows(folder: &Path, name: &str) -> Vec<Vec<String>> {
 
 /// Runs a command that succeeds.
 #[track_caller]
-pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn succeed(folder: &Path, arguments: &[&str]) -> Told {
     let output = wall(folder, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    assert!(output.code == 0, "{arguments:?}: {}", text(&output.stderr));
     output
 }
 
@@ -82,10 +97,10 @@ pub(crate) fn assert_has(text: &str, words: &[&str]) {
 
 /// Runs `arguments`. Expects exit code 2 and a message that contains all `words`.
 #[track_caller]
-pub(crate) fn fails(folder: &Path, arguments: &[&str], words: &[&str]) -> Output {
+pub(crate) fn fails(folder: &Path, arguments: &[&str], words: &[&str]) -> Told {
     let output = wall(folder, arguments);
     let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert_eq!(output.code, 2, "{arguments:?}: {message}");
     assert_has(&message, words);
     output
 }
@@ -306,7 +321,7 @@ fn a_doubtful_record_is_noted() {
     std::fs::write(folder.join("record.csv"), record).unwrap();
     let output =
         wall(&folder, &["simulate", "--record", "record.csv", "--unit", "m/s2", "--html", "page.html"]);
-    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(output.code, 0);
     let (summary, message) = (text(&output.stdout), text(&output.stderr));
     assert_has(&message, &["record.csv: unit: a peak of", "cm/s2"]);
     assert_has(&summary, &["1.0000 u_ins, where the wall falls\n", "mm, fallen\n"]);

@@ -8,7 +8,7 @@ fn describe_writes_the_curve() {
     let arguments = ["describe", "--thresholds", "0.4,1", "--csv", "c.csv", "--plot", "c.svg"];
     let table = printed(&folder, &arguments);
     // 2π √(2/3) / 1.918 rad/s
-    assert_has(&table, &["capacity curve, u > 0", "T_sec [s]", "2.67476"]);
+    assert_has(&table, &["u > 0  limit_state", "T_sec [s]", "2.67476"]);
     let csv = content(&folder, "c.csv");
     let kinds: Vec<_> = csv.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
     assert_eq!(kinds, ["corner", "corner", "corner", "limit_state", "limit_state"]);

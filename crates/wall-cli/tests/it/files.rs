@@ -91,7 +91,7 @@ fn what_stands_at_the_path_of_an_output_stays() {
     assert!(reader.join().unwrap() == history && kind(&at("pipe")).is_fifo());
     run("/dev/null");
     assert!(kind(Path::new("/dev/null")).is_char_device());
-    let output = run("/dev/stdout");
+    let output = program(&folder, &["simulate", "s.toml", "--csv", "/dev/stdout"]).output().unwrap();
     assert!(output.stdout.starts_with(&history), "{}", text(&output.stdout));
 
     // a folder is no file, and a full device takes nothing

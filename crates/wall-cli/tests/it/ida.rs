@@ -146,7 +146,7 @@ fn damaged_files_are_computed_again() {
         fs::write(file, content).unwrap();
     }
     // values that cannot be, under their own checksum
-    let parts = study_folder::Folder::open(&out).unwrap();
+    let parts = study::folder::Folder::open(&out).unwrap();
     for (k, bad) in [f64::NAN, f64::INFINITY, -0.5].into_iter().enumerate() {
         let file = &runs[flipped + k];
         let demand = parts.part(flipped + k).unwrap()[0].runs()[0].demand;
@@ -253,7 +253,7 @@ fn tables_and_page_hold_the_runs() {
     // overturned runs are those whose demand is above 1
     for line in levels.lines().skip(1) {
         let cells: Vec<_> = line.rsplit(',').collect();
-        let (overturned, demand) = (cells[1] == "1", cells[2].parse::<f64>().unwrap());
+        let (overturned, demand) = (cells[1] == "true", cells[2].parse::<f64>().unwrap());
         assert_eq!((overturned, demand >= 1.0), (!cells[0].is_empty(), overturned), "{line}");
     }
     let page = read("study.html");

@@ -50,7 +50,7 @@ fn every_output_says_the_same_of_a_fall() {
     fs::write(folder.join("study.toml"), study).unwrap();
     run(&["ida", "study.toml", "-o", "r"]);
     let levels = content(&folder, "r/levels.csv");
-    let fallen: Vec<_> = levels.lines().filter(|line| line.contains(",1,1,")).collect();
+    let fallen: Vec<_> = levels.lines().filter(|line| line.contains(",1.0,true,")).collect();
     assert_eq!(fallen.len(), 1, "u/u_ins = 1 and overturned: {levels}");
 }
 

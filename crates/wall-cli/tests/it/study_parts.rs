@@ -19,10 +19,10 @@ fn parts_hold_what_the_csv_holds() {
         Field::Str(text) if text.contains(',') => format!("\"{text}\""),
         Field::Str(text) => text.clone(),
         Field::Double(number) if name == "intensity_m_s2" => {
-            (number / ::ground_motion::STANDARD_GRAVITY).to_string()
+            format!("{:?}", number / ::ground_motion::STANDARD_GRAVITY)
         }
-        Field::Double(number) => number.to_string(),
-        Field::Bool(flag) => u8::from(*flag).to_string(),
+        Field::Double(number) => format!("{number:?}"),
+        Field::Bool(flag) => flag.to_string(),
         Field::Null => String::new(),
         other => panic!("{other:?}"),
     };

@@ -190,7 +190,7 @@ fn two_motions_are_both_shown() {
     let page = content(&folder, "page.html");
     let motion = page.split("<figure>").find(|figure| figure.contains("id=\"motion\"")).unwrap();
     assert_has(motion, &["bottom (grey), top (amber)"]);
-    for color in [figures::palette::DARK_GREY, figures::palette::AMBER] {
+    for color in [report::palette::DARK_GREY, report::palette::AMBER] {
         assert!(motion.contains(&format!("stroke=\"{color}\"")), "no {color} in {motion}");
     }
 }

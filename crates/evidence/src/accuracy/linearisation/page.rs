@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use figures::palette::{BLUE, GREY, RED};
-use figures::plot::Plot;
-use figures::response::{both_rotations, period_ratios};
+use report::palette::{BLUE, GREY, RED};
+use report::plot::Plot;
+use run::figure::{both_rotations, period_ratios};
 
 use super::{BothRotations, Comparison, Period};
 

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use evidence::accuracy::linearisation::{BothRotations, SLENDERNESS, STARTS};
-use study_folder::csv::optional;
+use crate::output::optional;
+use evidence::accuracy::linearisation::{BothRotations, STARTS};
+use run::rotations::SLENDERNESS;
 
 pub(super) fn table(both: &[BothRotations]) -> String {
     let mut text =

@@ -11,8 +11,9 @@ use ground_motion::GroundMotion;
 use rocking_wall::scene::DEFAULT_TAIL;
 use serde_json::json;
 
-use crate::output::{self, demands};
-use crate::pages::building::{animation, render};
+use crate::output::{self, Console};
+use building::page::render;
+use run::demands;
 
 #[derive(Debug, Args)]
 pub(crate) struct Options {
@@ -28,9 +29,6 @@ pub(crate) struct Options {
     /// Write a page on which the storeys sway and the walls rock
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Draw the moving building as one animated SVG without a script
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
     /// Print the peaks as JSON
     #[arg(long)]
     json: bool,
@@ -39,12 +37,13 @@ pub(crate) struct Options {
 impl Options {
     /// Returns the files that a run writes.
     pub(super) fn outputs(&self) -> impl Iterator<Item = &PathBuf> {
-        self.csv.iter().chain(&self.html).chain(&self.svg)
+        self.csv.iter().chain(&self.html)
     }
 }
 
 /// Runs a building, writes what was asked for and returns the text to print.
 pub(super) fn run(
+    console: &Console<'_>,
     building: &Building,
     parts: &Parts,
     ground: &GroundMotion,
@@ -53,11 +52,9 @@ pub(super) fn run(
 ) -> Result<String> {
     let &Options { tail, tolerance, .. } = options;
     let settings = Settings::new(ground, tail, tolerance).context("--tail or --tolerance")?;
-    output::expect_svg(options.svg.as_ref())?;
     let run = Coupled::run(building, parts, ground, settings)?;
-    output::save(options.csv.as_ref(), || csv(building, &run))?;
-    output::save(options.html.as_ref(), || render(building, parts, &run, note))?;
-    output::save(options.svg.as_ref(), || animation::render(building, parts, &run))?;
+    console.save(options.csv.as_ref(), || csv(building, &run))?;
+    console.save(options.html.as_ref(), || render(building, parts, &run, note))?;
     if options.json {
         return Ok(serde_json::to_string_pretty(&json(building, parts, &run))? + "\n");
     }
@@ -72,7 +69,7 @@ fn table(building: &Building, parts: &Parts, run: &Coupled, note: &str) -> Strin
         "{}\n{note}, peak acceleration {:.4} m/s²; step {} ms, at which halving changed peaks by {:.2} %\n\n",
         building.title,
         run.ground.peak.value.abs(),
-        figures::number(1000.0 * run.step, 4),
+        report::number(1000.0 * run.step, 4),
         100.0 * run.change
     );
     let at = |Peak { value, time }: Peak, scale: f64, digits: usize| {

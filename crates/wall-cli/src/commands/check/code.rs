@@ -4,16 +4,16 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Result;
-use rocking_wall::scene::{Place, Scene};
-use study::circolare::{
+use check::circolare::{
     CheckTable, DisplacementCheck, DynamicState, Method, Records, Side, SideVerdict, Statement, UseClass,
     Verdict, check, in_table,
 };
+use rocking_wall::scene::{Place, Scene};
 
 use super::Arguments;
-use crate::output;
-use crate::output::capacity::significant;
-use crate::pages::check_report::{Report, page};
+use crate::output::significant;
+use crate::output::{self, Console};
+use check::circolare::report::{Report, page};
 
 /// A scene and what its table `[check]` states.
 pub(super) struct Case {
@@ -26,28 +26,31 @@ pub(super) struct Case {
 
 impl Case {
     /// Reads the scene, the statements and the records.
-    pub(super) fn read(arguments: &Arguments, table: &CheckTable, place: &Place<'_>) -> Result<Self> {
+    pub(super) fn read(
+        console: &Console<'_>,
+        arguments: &Arguments,
+        table: &CheckTable,
+        place: &Place<'_>,
+    ) -> Result<Self> {
         let folder = arguments.scene.scene.as_deref().and_then(Path::parent).unwrap_or(Path::new("."));
         let mut scene = Scene::parse(place.name(), place.text(), folder)?;
         arguments.scene.apply(&mut scene)?;
         let statement = table.statement().map_err(|error| in_table(error, place))?;
         let records = Records::read(table, place, folder)?;
-        records.warnings.iter().for_each(|warning| output::warn(warning));
+        records.warnings.iter().for_each(|warning| console.warn(warning));
         let inputs = arguments.scene.inputs(&scene).chain(&records.files);
-        output::check_distinct(
-            inputs,
-            arguments.html.iter().chain(&arguments.plot).chain(&arguments.report),
-        )?;
+        console
+            .check_distinct(inputs, arguments.html.iter().chain(&arguments.plot).chain(&arguments.report))?;
         Ok(Self { scene, statement, records, name: place.name().into(), text: place.text().into() })
     }
 
     /// Adds to an error the line of the table that it is about.
-    pub(super) fn located<T>(&self, outcome: Result<T, study::circolare::CheckError>) -> Result<T> {
+    pub(super) fn located<T>(&self, outcome: Result<T, check::circolare::CheckError>) -> Result<T> {
         outcome.map_err(|error| in_table(error, &Place::new(&self.name, &self.text)).into())
     }
 }
 
-pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, arguments: &Arguments, case: &Case) -> Result<()> {
     let Case { scene, statement, records, .. } = case;
     let verdict = case.located(check(&scene.parameters, scene.floors.as_ref(), statement, records))?;
     if let Some(path) = &arguments.report {
@@ -61,14 +64,14 @@ pub(super) fn run(arguments: &Arguments, case: &Case) -> Result<()> {
             headline: &headline(&verdict),
             date: arguments.date.as_deref(),
         };
-        output::to_file(path, page(&report)?.as_bytes())?;
+        console.write(path, page(&report)?.as_bytes())?;
     }
     if arguments.json {
-        return output::to_stdout(&(serde_json::to_string_pretty(&verdict)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&verdict)? + "\n"));
     }
-    verdict.warnings.iter().for_each(|warning| output::warn(warning));
+    verdict.warnings.iter().for_each(|warning| console.warn(warning));
     let text = text(&scene.title, statement, &verdict);
-    output::to_stdout(&(text + &output::written("\nwritten ", &arguments.report)))
+    console.print(&(text + &output::written("\nwritten ", &arguments.report)))
 }
 
 /// The verdict in one line.

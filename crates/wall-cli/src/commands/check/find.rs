@@ -3,17 +3,17 @@
 use std::fmt::Write;
 
 use anyhow::Result;
-use figures::check::over_parameter;
-use study::circolare::{Sought, find};
+use check::circolare::figure::over_parameter;
+use check::circolare::{Sought, find};
 
 use super::Arguments;
 use super::code::Case;
-use crate::output;
+use crate::output::{self, Console};
 
-pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, arguments: &Arguments, case: &Case, sought: Sought) -> Result<()> {
     let Case { scene, statement, records, .. } = case;
     let found = case.located(find(&scene.parameters, scene.floors.as_ref(), statement, records, sought))?;
-    output::picture(arguments.plot.as_ref(), || Ok(over_parameter(&found, sought).picture()))?;
+    console.picture(arguments.plot.as_ref(), || Ok(over_parameter(&found, sought).picture()))?;
     let (name, unit) = (sought.name(), sought.unit());
     if arguments.json {
         let value = serde_json::json!({
@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<
             "fails_beyond": found.fails_beyond,
             "curve": found.curve,
         });
-        return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
     let [from, to] = found.range.map(|end| format!("{end:.4}"));
     let extreme = if sought == Sought::Height { "largest" } else { "smallest" };
@@ -43,5 +43,5 @@ pub(super) fn run(arguments: &Arguments, case: &Case, sought: Sought) -> Result<
         let _ = writeln!(text, "some {beyond} values fail; look at the chart (--plot)");
     }
     text += &output::written("written  ", &arguments.plot);
-    output::to_stdout(&text)
+    console.print(&text)
 }

@@ -4,22 +4,22 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
+use check::circolare::Side;
+use check::points::over_demand;
+use check::points::{CapacityOverDemand, CheckError, Demand, Fractions, SideCheck, check, governing};
 use clap::Args;
-use figures::capacity::over_demand;
-use figures::escaped;
-use figures::plot::Plot;
 use ground_motion::spectrum::DAMPING;
 use ground_motion::{RecordOptions, SpectrumFile, Unit};
+use report::escaped;
+use report::plot::Plot;
 use rocking_wall::scene::Floors;
 use rocking_wall::wall::Wall;
 use serde_json::{Value, json};
-use study::check::{CapacityOverDemand, CheckError, Demand, Fractions, SideCheck, check, governing};
-use study::circolare::Side;
 
 use crate::args::{read_records, record_files, refuse};
-use crate::output;
-use crate::output::capacity::significant;
-use figures::template;
+use crate::output::significant;
+use crate::output::{self, Console};
+use report::template;
 
 #[derive(Debug, Args)]
 pub(super) struct SpectrumArguments {
@@ -72,7 +72,7 @@ impl SpectrumArguments {
     }
 }
 
-pub(super) fn run(all: &super::Arguments) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, all: &super::Arguments) -> Result<()> {
     let arguments = &all.spectrum;
     if arguments.spectrum.is_none() && arguments.records.is_empty() {
         bail!(
@@ -84,9 +84,9 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
     all.scene.apply(&mut scene)?;
     let records = record_files(&arguments.records)?;
     let inputs = all.scene.inputs(&scene).chain(&arguments.spectrum).chain(&records);
-    output::check_distinct(inputs, &all.html)?;
+    console.check_distinct(inputs, &all.html)?;
     let wall = all.scene.named(Wall::new(&scene.parameters))?;
-    let source = Source::read(arguments, scene.floors.as_ref(), &wall)?;
+    let source = Source::read(console, arguments, scene.floors.as_ref(), &wall)?;
     let sides = check(&wall, arguments.fractions(), |period| source.demand.at(period))?;
     let alike = wall.has_equal_sides();
     if let Some(path) = &all.html {
@@ -98,14 +98,17 @@ pub(super) fn run(all: &super::Arguments) -> Result<()> {
         let [wide, narrow] = [wide.svg(), narrow.svg()];
         let title = format!("{}: capacity against demand", escaped(&scene.title));
         let parts = [("title", &*title), ("wide", &wide), ("narrow", &narrow), ("table", &table)];
-        output::to_file(path, template::page(include_str!("../../pages/check.html"), &parts).as_bytes())?;
+        console.write(
+            path,
+            template::page(include_str!("../../../../check/src/points.html"), &parts).as_bytes(),
+        )?;
     }
     let text = if all.json {
         serde_json::to_string_pretty(&json(&scene.title, &source, arguments, &sides))? + "\n"
     } else {
         table(&scene.title, &source, arguments, &sides, alike) + &output::written("\nwritten  ", &all.html)
     };
-    output::to_stdout(&text)
+    console.print(&text)
 }
 
 /// Where the demand comes from.
@@ -116,17 +119,22 @@ struct Source {
 }
 
 impl Source {
-    fn read(arguments: &SpectrumArguments, floors: Option<&Floors>, wall: &Wall) -> Result<Self> {
+    fn read(
+        console: &Console<'_>,
+        arguments: &SpectrumArguments,
+        floors: Option<&Floors>,
+        wall: &Wall,
+    ) -> Result<Self> {
         let unit = arguments.unit.as_deref().map(str::parse::<Unit>).transpose()?;
         if let Some(path) = &arguments.spectrum {
             if floors.is_some() {
-                output::warn(
+                console.warn(
                     "the storeys are not applied to --spectrum; it must be the spectrum of the wall's floor",
                 );
             }
             let file = SpectrumFile::read(path, unit, arguments.column.as_deref())?;
             if let Some(warning) = file.warning() {
-                output::warn(&format!("{}: {warning}", path.display()));
+                console.warn(&format!("{}: {warning}", path.display()));
             }
             let damping = match (arguments.damping, file.damping) {
                 // a file may round it: 0.9 % for 0.0087
@@ -142,12 +150,12 @@ impl Source {
         }
         let damping = arguments.damping.unwrap_or(DAMPING);
         let options = RecordOptions { unit, ..RecordOptions::default() };
-        let records = read_records(&arguments.records, &options)?;
+        let records = read_records(console, &arguments.records, &options)?;
         let motions: Vec<_> = records.into_iter().map(|record| record.motion).collect();
         let count = motions.len();
         let mut name = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
         if let Some(floors) = floors {
-            floors.warnings(wall).for_each(|warning| output::warn(&warning));
+            floors.warnings(wall).for_each(|warning| console.warn(&warning));
             let _ = write!(name, " {}", floors.note());
         }
         Ok(Self { name, damping, demand: Demand::of_records(motions, floors, wall, damping)? })

@@ -4,35 +4,35 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use figures::{escaped, template};
+use check::circolare::{Verdict, WallVerdict, Walls};
+use report::table::quoted;
+use report::{escaped, template};
+use run::parallel;
 use serde_json::{Value, json};
-use study::circolare::{Verdict, WallVerdict, Walls};
-use study::parallel;
-use study_folder::csv::quoted;
 
 use super::Arguments;
-use crate::output;
+use crate::output::{self, Console};
 
-pub(super) fn run(arguments: &Arguments, path: &Path, text: &str) -> Result<()> {
+pub(super) fn run(console: &Console<'_>, arguments: &Arguments, path: &Path, text: &str) -> Result<()> {
     arguments.spectrum.refuse(&path.display().to_string())?;
     if arguments.find.is_some() || arguments.report.is_some() || !arguments.scene.set.is_empty() {
         bail!("{}: --find, --report and --set take one wall; give a scene", path.display());
     }
     let walls = Walls::parse(path, text)?;
-    output::check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;
+    console.check_distinct(&walls.inputs, arguments.html.iter().chain(&arguments.csv))?;
     let verdicts = walls.check(parallel::threads(None).get());
-    output::save(arguments.csv.as_ref(), || csv(&verdicts))?;
-    output::save(arguments.html.as_ref(), || page(path, &verdicts))?;
+    console.save(arguments.csv.as_ref(), || csv(&verdicts))?;
+    console.save(arguments.html.as_ref(), || page(path, &verdicts))?;
     if !arguments.json {
-        output::report_all(warnings(&verdicts));
+        console.report_all(warnings(&verdicts));
     }
-    walls.warnings.iter().for_each(|warning| output::warn(warning));
+    walls.warnings.iter().for_each(|warning| console.warn(warning));
     let text = if arguments.json {
         serde_json::to_string_pretty(&verdicts.iter().map(row).collect::<Vec<_>>())? + "\n"
     } else {
         table(&verdicts) + &output::written("written  ", arguments.csv.iter().chain(&arguments.html))
     };
-    output::to_stdout(&text)?;
+    console.print(&text)?;
     let refused = verdicts.iter().filter(|wall| wall.verdict.is_err()).count();
     if refused > 0 {
         bail!("{refused} of {} walls could not be checked; the first rows say why", verdicts.len());
@@ -50,7 +50,7 @@ fn warnings(verdicts: &[WallVerdict]) -> impl Iterator<Item = String> {
 
 /// The smallest `ζ_E` of each limit state: SLD, SLV with q, SLV, SLC.
 fn zetas(verdict: &Verdict) -> [Option<f64>; 4] {
-    let least = |pick: &dyn Fn(&study::circolare::SideVerdict) -> Option<f64>| {
+    let least = |pick: &dyn Fn(&check::circolare::SideVerdict) -> Option<f64>| {
         verdict.sides.iter().filter_map(|(_, side)| pick(side)).min_by(f64::total_cmp)
     };
     [
@@ -110,9 +110,9 @@ fn csv(verdicts: &[WallVerdict]) -> String {
             Ok(cells) => {
                 let warnings =
                     wall.verdict.as_ref().map_or_else(|_| String::new(), |v| v.warnings.join("; "));
-                cells.map(|cell| quoted(&cell)).join(",") + ",," + &quoted(&warnings)
+                cells.map(|cell| quoted(&cell).into_owned()).join(",") + ",," + &quoted(&warnings)
             }
-            Err([name, reason]) => quoted(&name) + &",".repeat(9) + &quoted(&reason) + ",",
+            Err([name, reason]) => format!("{}{}{},", quoted(&name), ",".repeat(9), quoted(&reason)),
         };
         text.push_str(&row);
         text.push('\n');
@@ -147,5 +147,5 @@ fn page(path: &Path, verdicts: &[WallVerdict]) -> String {
     let title =
         format!("{}: {passed} of {} walls pass", escaped(&path.display().to_string()), verdicts.len());
     let parts = [("title", &*title), ("rows", &rows)];
-    template::page(include_str!("../../pages/check_walls.html"), &parts)
+    template::page(include_str!("../../../../check/src/circolare/walls.html"), &parts)
 }

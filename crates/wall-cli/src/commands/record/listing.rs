@@ -23,7 +23,7 @@ pub(super) fn table(rows: &[Row], unread: &[String]) -> String {
             channels[0].file,
             channels[0].record.format.description(),
             channels.len(),
-            figures::number(step, 6),
+            report::number(step, 6),
             findings(channels)
         );
         // writing to a String cannot fail

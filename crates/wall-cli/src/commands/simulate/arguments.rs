@@ -11,6 +11,7 @@ use rocking_wall::scene::{
 use rocking_wall::simulation::Excitation;
 
 use crate::args::{RecordArguments, SceneArguments};
+use crate::output::Console;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -46,9 +47,6 @@ pub(crate) struct Arguments {
     /// Write a page with the rocking wall and its history
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
-    /// Draw the rocking wall as one animated SVG without a script
-    #[arg(long, value_name = "FILE")]
-    pub(super) svg: Option<PathBuf>,
     /// Limit states as fractions of `u_ins` whose first crossings are reported, instead of the scene's
     /// [default: 0.1,0.4,0.6,1]
     #[arg(long, value_name = "FRACTIONS", value_delimiter = ',')]
@@ -68,8 +66,8 @@ impl Arguments {
     }
 
     /// The scene to run.
-    pub(super) fn scene(&self) -> Result<Scene> {
-        self.shaken(self.scene.load()?, self.record.load()?)
+    pub(super) fn scene(&self, console: &Console<'_>) -> Result<Scene> {
+        self.shaken(self.scene.load(console)?, self.record.load(console)?)
     }
 
     /// The scene to run, under a motion with a note on it.

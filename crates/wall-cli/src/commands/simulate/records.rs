@@ -5,17 +5,20 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
+use report::counted;
 use rocking_wall::response::{Response, Summary};
 use rocking_wall::wall::Wall;
+use run::parallel;
 use serde_json::json;
-use study::{counted, parallel};
 
 use super::arguments::Arguments;
 use crate::args::short_name;
+use crate::output::optional;
 use crate::output::progress::{self, Progress};
-use crate::output::{self, demands};
-use study::polarity::Polarities;
-use study_folder::csv::{optional, quoted};
+use crate::output::{self, Console};
+use report::table::quoted;
+use run::demands;
+use run::polarity::Polarities;
 
 /// A record, scaled.
 struct Shaking {
@@ -32,22 +35,22 @@ struct Row {
     summary: Summary,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.html.is_some() || arguments.svg.is_some() {
-        bail!("--html and --svg show one run; give its record with --record, without --both-polarities");
+pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
+    if arguments.html.is_some() {
+        bail!("--html shows one run; give its record with --record, without --both-polarities");
     }
-    let scene = arguments.scene.load()?;
+    let scene = arguments.scene.load(console)?;
     let inputs = arguments.scene.inputs(&scene).chain(arguments.table());
-    output::check_distinct(inputs, &arguments.csv)?;
-    let motions = motions(arguments)?;
+    console.check_distinct(inputs, &arguments.csv)?;
+    let motions = motions(console, arguments)?;
     let first = motions.first().map(|first| (first.motion.clone(), first.note.clone()));
     let first = arguments.shaken(scene.clone(), first)?;
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
-    wall.warnings().iter().for_each(|warning| output::warn(&warning.to_string()));
+    wall.warnings().iter().for_each(|warning| console.warn(&warning.to_string()));
     for warning in first.floors.iter().flat_map(|floors| floors.warnings(&wall)) {
-        output::warn(&warning);
+        console.warn(&warning);
     }
     let runs = signs.len() * motions.len();
     let row = |index: usize, progress: &Progress| {
@@ -64,7 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
     };
     let threads = parallel::threads(None).get();
     let rows = progress::shown(|progress| parallel::map(runs, threads, |index| row(index, progress)))?;
-    output::save(arguments.csv.as_ref(), || csv(&rows))?;
+    console.save(arguments.csv.as_ref(), || csv(&rows))?;
     if arguments.json {
         let rows: Vec<_> = rows.iter().map(Row::json).collect();
         let value = json!({
@@ -72,17 +75,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<()> {
             "alike_on_both_sides": polarities == Polarities::Alike,
             "runs": rows,
         });
-        return output::to_stdout(&(serde_json::to_string_pretty(&value)? + "\n"));
+        return console.print(&(serde_json::to_string_pretty(&value)? + "\n"));
     }
     let text = format!("{}\n{}{}", first.title, table(&rows), polarities.note());
-    output::to_stdout(&(text + &output::written("written  ", &arguments.csv)))
+    console.print(&(text + &output::written("written  ", &arguments.csv)))
 }
 
 /// Reads the records and scales them.
-fn motions(arguments: &Arguments) -> Result<Vec<Shaking>> {
+fn motions(console: &Console<'_>, arguments: &Arguments) -> Result<Vec<Shaking>> {
     let shaking = |path: &PathBuf| {
-        let (motion, note) = arguments.record.read(path)?;
-        let motion = arguments.record.scaled(motion)?;
+        let (motion, note) = arguments.record.read(console, path)?;
+        let motion = arguments.record.scaled(console, motion)?;
         let name = short_name(path);
         Ok(Shaking { name, note, motion })
     };

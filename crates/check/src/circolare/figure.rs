@@ -1,0 +1,177 @@
+//! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
+//!
+//! ```
+//! use crate::circolare::figure::{Drawn, spectra};
+//! use crate::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
+//!
+//! let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
+//! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
+//! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
+//! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
+//! # Ok::<(), crate::circolare::CheckError>(())
+//! ```
+
+use crate::circolare::{
+    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, StateStatement, Statement,
+    Verdict,
+};
+
+use report::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
+use report::plot::{Axis, Look, Plot, Series};
+use report::points::{simplified, within};
+
+/// Draws `ζ_E` over the values that were tried up to three times the one found, the limit 1, and that value.
+pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
+    let [left, right] = found.range;
+    let right = found.value.map_or(right, |value| right.min(3.0 * value));
+    let shown = found.curve.iter().copied().filter(|point| point.1.is_finite() && point.0 <= right);
+    let points: Vec<(f64, f64)> = shown.collect();
+    // far beyond the demand nothing is to be seen
+    let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
+    let inside = points.into_iter().filter(|point| point.1 <= top).collect();
+    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
+    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
+    if let Some(value) = found.value {
+        let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
+        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
+        series.push(named(name, Look::Dashed, line));
+    }
+    let axes = [
+        Axis::over(&format!("{} ({})", sought.name(), sought.unit()), [left.min(right), right]),
+        Axis::over("ζ_E", [0.0, 1.05 * top]),
+    ];
+    Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
+}
+
+/// Size of spectra and of capacity over demand \[px\].
+const SIZE: [f64; 2] = [820.0, 400.0];
+/// Steps of a spectrum along the periods.
+const STEPS: u32 = 400;
+/// Mark of what a wall can take.
+pub const CAPACITY: Mark = Mark::Circle;
+/// Mark of what is demanded.
+pub const DEMAND: Mark = Mark::Triangle;
+
+/// The colour of a limit state.
+pub fn color(state: LimitState) -> &'static str {
+    match state {
+        LimitState::Sld => GREEN,
+        LimitState::Slv => BLUE,
+        LimitState::Slc => RED,
+    }
+}
+
+/// A demand as it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn<'a> {
+    /// Limit state.
+    pub state: LimitState,
+    /// Its demand.
+    pub demand: &'a Demand,
+    /// ξ \[-\].
+    pub damping: f64,
+    /// Period to mark; 0 for a rigid wall \[s\].
+    pub period: Option<f64>,
+}
+
+/// Periods of a spectrum from 0 to `last`.
+fn periods(last: f64) -> impl Iterator<Item = f64> {
+    (0..=STEPS).map(move |step| last * f64::from(step) / f64::from(STEPS))
+}
+
+/// Draws spectra over the period up to `last` \[s\], or where given points end.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, CheckError> {
+    let (mut lines, mut marks, mut top) = (Vec::new(), Vec::new(), 0.0_f64);
+    for Drawn { state, demand, damping, period } in demands {
+        let at = |period: f64| Ok((period, demand.acceleration(*state, period, *damping)?));
+        let end = last.min(demand.last_period());
+        let points = periods(end).map(at).collect::<Result<Vec<_>, CheckError>>()?;
+        top = points.iter().map(|point| point.1).fold(top, f64::max);
+        lines.push((color(*state), points));
+        if let Some(period) = period {
+            let place = vec![at(*period)?];
+            marks.push(Series { look: Look::Marks(DEMAND), ..Series::line(color(*state), 5.0, place) });
+        }
+    }
+    let axes = [Axis::over("T (s)", [0.0, last]), Axis::over(label, [0.0, 1.08 * top])];
+    let [width, height] = SIZE;
+    let scale = [width / last, height / top];
+    let lines = lines.into_iter().map(|(color, points)| Series::line(color, 1.8, simplified(&points, scale)));
+    Ok(Plot::new(SIZE, axes, lines.chain(marks).collect()))
+}
+
+/// Draws the curve a(d) of a side over the demands of SLV and SLC, in acceleration and displacement: the
+/// secants to `d_SLV` and `d_SLC` (dashed), the rays of `T_SLV` and `T_SLC` (dotted) and the demands on them.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+pub fn over_demand(
+    side: &SideVerdict,
+    statement: &Statement,
+    demands: &[Option<Demand>; 3],
+) -> Result<Plot, CheckError> {
+    let shown = [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)].into_iter();
+    let shown = shown.filter_map(|(state, check)| {
+        Some((statement.state(state)?, demands[state as usize].as_ref()?, check?))
+    });
+    let shown: Vec<(&StateStatement, &Demand, DisplacementCheck)> = shown.collect();
+    // the demand on the ray of its period
+    let place = |check: &DisplacementCheck| {
+        (check.demand, check.demand * (std::f64::consts::TAU / check.period).powi(2))
+    };
+    let ends = shown.iter().map(|(.., check)| place(check)).chain(side.corners.iter().copied());
+    let (right, top) = ends.fold((0.0_f64, 0.0_f64), |(d, a), end| (d.max(end.0), a.max(end.1)));
+    // the plateau of a spectrum is far above what the wall takes
+    let (right, top) = (1.1 * right, 1.35 * top);
+    let [width, height] = SIZE;
+    let scale = [width / right, height / top];
+    let (mut series, mut marks) = (Vec::new(), Vec::new());
+    let longest = shown.iter().map(|(.., check)| check.period).fold(0.0, f64::max);
+    for (given, demand, check) in shown {
+        let color = color(given.state);
+        let last = demand.last_period().min(2.0 * longest);
+        let at = |period: f64| {
+            let displacement = demand.spectral_displacement(given.state, period, given.damping)?;
+            let acceleration = displacement * (std::f64::consts::TAU / period).powi(2);
+            Ok((displacement, acceleration))
+        };
+        let points = periods(last).skip(1).map(at).collect::<Result<Vec<_>, CheckError>>()?;
+        for piece in within(&points, [[0.0, right], [0.0, top]]) {
+            series.push(Series::line(color, 1.3, simplified(&piece, scale)));
+        }
+        let ray = |look, to| Series { look, ..Series::line(color, 1.2, vec![(0.0, 0.0), to]) };
+        series.push(ray(Look::Dashed, (check.d, check.a)));
+        series.push(ray(Look::Dotted, place(&check)));
+        let mark = |mark, at| Series { look: Look::Marks(mark), ..Series::line(color, 5.0, vec![at]) };
+        marks.extend([mark(CAPACITY, (check.d, check.a)), mark(DEMAND, place(&check))]);
+    }
+    series.push(Series::line(BLACK, 2.2, side.corners.clone()));
+    series.extend(marks);
+    let in_mm = |(d, a): (f64, f64)| (1000.0 * d, a);
+    for line in &mut series {
+        line.points = line.points.iter().copied().map(in_mm).collect();
+    }
+    let axes = [Axis::over("d, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
+    Ok(Plot::new(SIZE, axes, series))
+}
+
+/// Draws the curve of the side that governs a verdict over the demands of SLV and SLC.
+///
+/// # Errors
+/// [`CheckError`] of a record, or of points with another damping.
+///
+/// # Panics
+/// If the side that governs is not one of the verdict.
+pub fn governing_over_demand(
+    statement: &Statement,
+    demands: &[Option<Demand>; 3],
+    verdict: &Verdict,
+) -> Result<Plot, CheckError> {
+    let mut sides = verdict.sides.iter();
+    let governing = sides.find(|(side, _)| *side == verdict.governs.side);
+    let (_, side) = governing.expect("a side governs");
+    over_demand(side, statement, demands)
+}

@@ -1,0 +1,161 @@
+//! Spectra at the height of a wall, C7.2.3.
+
+use std::f64::consts::TAU;
+
+use super::ground::{G, GroundSpectrum, damping_factor};
+
+/// a and b of C7.2.3: the spectrum has its largest value from a `T_k` to b `T_k`.
+const A: f64 = 0.8;
+const B: f64 = 1.1;
+
+/// A mode of the building at the place of a wall.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mode {
+    /// `T_k` \[s\].
+    pub period: f64,
+    /// `γ_k` `ψ_k(z)`: participation times shape there \[-\].
+    pub participation: f64,
+}
+
+impl Mode {
+    /// Makes the mode of uniform storeys whose shape is a straight line, γ₁ = 3n/(2n + 1) [C7.2.10] and
+    /// ψ₁ = z/H.
+    pub fn of_storeys(storeys: u32, period: f64, height_ratio: f64) -> Self {
+        let n = f64::from(storeys);
+        Self { period, participation: 3.0 * n / (2.0 * n + 1.0) * height_ratio }
+    }
+}
+
+/// The spectrum of a limit state at the height of a wall.
+///
+/// ```
+/// use crate::circolare::{FloorSpectrum, GroundSpectrum, Hazard, Mode, Soil};
+///
+/// let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
+/// let ground = GroundSpectrum::new(hazard, Soil::B, 1.0);
+/// let roof = FloorSpectrum::new(ground, vec![Mode::of_storeys(3, 0.3, 1.0)], 0.10);
+/// assert!((roof.acceleration(0.0, 0.08) - 4.63152).abs() < 5e-6);
+/// assert!((roof.acceleration(0.3, 0.08) - 14.1301).abs() < 5e-5);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloorSpectrum {
+    ground: GroundSpectrum,
+    modes: Vec<Mode>,
+    xi: f64,
+}
+
+impl FloorSpectrum {
+    /// Makes the spectrum of a building with modes, the first first, all of the damping `xi`, `ξ_k` \[-\].
+    ///
+    /// # Panics
+    /// Without a mode.
+    pub fn new(ground: GroundSpectrum, modes: Vec<Mode>, xi: f64) -> Self {
+        assert!(!modes.is_empty(), "a building has a mode");
+        Self { ground, modes, xi }
+    }
+
+    /// The spectrum of the ground.
+    pub fn ground(&self) -> &GroundSpectrum {
+        &self.ground
+    }
+
+    /// The modes.
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    /// `ξ_k`, the damping of the building \[-\].
+    pub fn damping(&self) -> f64 {
+        self.xi
+    }
+
+    /// T₁, the period of the first mode \[s\].
+    pub fn first_period(&self) -> f64 {
+        self.modes[0].period
+    }
+
+    /// `A_k` of [C7.2.9] for the damping ξ of the mechanism; `ξ_k`^−0.5 takes `ξ_k` as a fraction \[-\].
+    pub fn amplification(&self, xi: f64) -> f64 {
+        1.1 / self.xi.sqrt() * damping_factor(xi)
+    }
+
+    /// `a_Z` of [C7.2.8], the largest acceleration of the place \[m/s²\].
+    pub fn peak_acceleration(&self) -> f64 {
+        root_of_squares(self.modes.iter().map(|mode| self.mode_acceleration(mode)))
+    }
+
+    /// `S_eZ`(T, ξ, z) of [C7.2.5] \[m/s²\].
+    pub fn acceleration(&self, period: f64, xi: f64) -> f64 {
+        let amplified = self.amplified(period, xi);
+        if period > self.first_period() {
+            amplified.max(self.ground.pseudo_acceleration(period, xi))
+        } else {
+            amplified
+        }
+    }
+
+    /// Both terms of `S_d` in [C8.7.1.12] \[m\]: `S_eZ` T²/(4π²), and behind b T₁ the value that it does not
+    /// fall below, `S_eZ`(T₁) b² T₁²/(4π²).
+    pub fn displacement(&self, period: f64, xi: f64) -> (f64, Option<f64>) {
+        let at = |period: f64, reached: f64| self.acceleration(period, xi) * (reached / TAU).powi(2);
+        let first = self.first_period();
+        (at(period, period), (period > B * first).then(|| at(first, B * first)))
+    }
+
+    /// `a_Z`,k of a mode, [C7.2.7] \[m/s²\].
+    pub fn mode_acceleration(&self, mode: &Mode) -> f64 {
+        // 0.0004 ξ%² = 4 ξ²
+        self.ground.acceleration(mode.period, self.xi)
+            * mode.participation.abs()
+            * (1.0 + 4.0 * self.xi * self.xi).sqrt()
+    }
+
+    /// The root of the squares of `S_eZ`,k of [C7.2.6] \[m/s²\].
+    fn amplified(&self, period: f64, xi: f64) -> f64 {
+        let most = self.amplification(xi);
+        let shape = |mode: &Mode| {
+            let (from, to) = (A * mode.period, B * mode.period);
+            let beside = if period < from {
+                libm::pow(1.0 - period / from, 1.6)
+            } else if period < to {
+                0.0
+            } else {
+                libm::pow(period / to - 1.0, 1.2)
+            };
+            most / (1.0 + (most - 1.0) * beside)
+        };
+        root_of_squares(self.modes.iter().map(|mode| shape(mode) * self.mode_acceleration(mode)))
+    }
+}
+
+/// `S_a` of [C7.2.11] in units of g, for elements of period `T_a` in frame buildings of period T₁; it has no
+/// damping, and the check of masonry does not use it.
+///
+/// ```
+/// use crate::circolare::{GroundSpectrum, Hazard, Soil, frame_acceleration};
+///
+/// let ground = GroundSpectrum::new(Hazard { ag: 0.15, f0: 2.45, tc: 0.32 }, Soil::B, 1.0);
+/// // on the roof, in resonance with the frame
+/// assert!((frame_acceleration(&ground, 1.0, [0.3, 0.3]) - 1.8).abs() < 1e-12);
+/// ```
+pub fn frame_acceleration(ground: &GroundSpectrum, height_ratio: f64, [t1, ta]: [f64; 2]) -> f64 {
+    // Tab. C7.2.II
+    let (a, b, amplification) = match t1 {
+        ..0.5 => (0.8, 1.4, 5.0),
+        0.5..=1.0 => (0.3, 1.2, 4.0),
+        _ => (0.3, 1.0, 2.5),
+    };
+    let at_ground = ground.a_g / G * ground.s;
+    let beside = |end: f64| 1.0 + (amplification - 1.0) * (1.0 - ta / (end * t1)).powi(2);
+    let reduction = match ta / t1 {
+        ratio if ratio < a => beside(a),
+        ratio if ratio < b => 1.0,
+        _ => beside(b),
+    };
+    (at_ground * (1.0 + height_ratio) * amplification / reduction).max(at_ground)
+}
+
+fn root_of_squares(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(|value| value * value).sum::<f64>().sqrt()
+}

@@ -1,0 +1,183 @@
+//! Elastic spectra of the ground after NTC 2018, 3.2.3.2.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+/// g of NTC 3.2.3.2.1 \[m/s²\].
+pub const G: f64 = 9.81;
+
+/// `T_F` of Tab. 3.2.VII, for every soil \[s\].
+const T_F: f64 = 10.0;
+
+/// Soil of Tab. 3.2.II, for which the code has formulas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Soil {
+    /// Rock and very stiff soil.
+    A,
+    /// Soft rock, very dense soil.
+    B,
+    /// Dense soil.
+    C,
+    /// Loose or soft soil.
+    D,
+    /// C or D, at most 30 m thick.
+    E,
+}
+
+impl Soil {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::A, Self::B, Self::C, Self::D, Self::E];
+
+    /// Returns the letter of the soil.
+    pub fn name(self) -> &'static str {
+        ["A", "B", "C", "D", "E"][self as usize]
+    }
+
+    /// `S_S` of Tab. 3.2.IV for F0 `a_g`/g \[-\].
+    fn amplification(self, x: f64) -> f64 {
+        let (most, slope, low, high) = match self {
+            Self::A => return 1.0,
+            Self::B => (1.40, 0.40, 1.00, 1.20),
+            Self::C => (1.70, 0.60, 1.00, 1.50),
+            Self::D => (2.40, 1.50, 0.90, 1.80),
+            Self::E => (2.00, 1.10, 1.00, 1.60),
+        };
+        (most - slope * x).clamp(low, high)
+    }
+
+    /// `C_C` of Tab. 3.2.IV for `T_C`* \[s\].
+    fn period_factor(self, tc: f64) -> f64 {
+        let (factor, exponent) = match self {
+            Self::A => return 1.0,
+            Self::B => (1.10, -0.20),
+            Self::C => (1.05, -0.33),
+            Self::D => (1.25, -0.50),
+            Self::E => (1.15, -0.40),
+        };
+        factor * libm::pow(tc, exponent)
+    }
+
+    /// `T_E` of Tab. 3.2.VII \[s\].
+    fn long_period(self) -> f64 {
+        match self {
+            Self::A => 4.5,
+            Self::B => 5.0,
+            Self::C | Self::D | Self::E => 6.0,
+        }
+    }
+}
+
+/// Hazard of a limit state on rigid ground, NTC 3.2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hazard {
+    /// `a_g` \[g\].
+    pub ag: f64,
+    /// F0, the largest amplification \[-\].
+    pub f0: f64,
+    /// `T_C`* \[s\].
+    pub tc: f64,
+}
+
+/// The elastic spectrum of a limit state on the ground.
+///
+/// ```
+/// use crate::circolare::{GroundSpectrum, Hazard, Soil};
+///
+/// let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
+/// let ground = GroundSpectrum::new(hazard, Soil::B, 1.0);
+/// assert!((ground.acceleration(0.0, 0.05) - 1.7658).abs() < 1e-12);
+/// assert!((ground.acceleration(0.3, 0.05) - 4.32621).abs() < 5e-6);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct GroundSpectrum {
+    /// `a_g` \[m/s²\].
+    pub a_g: f64,
+    /// F0 \[-\].
+    #[serde(rename = "F0")]
+    pub f0: f64,
+    /// S = `S_S` `S_T` [3.2.3] \[-\].
+    #[serde(rename = "S")]
+    pub s: f64,
+    /// `S_S` of Tab. 3.2.IV \[-\].
+    #[serde(rename = "S_S")]
+    pub soil_factor: f64,
+    /// `C_C` of Tab. 3.2.IV \[-\].
+    #[serde(rename = "C_C")]
+    pub period_factor: f64,
+    /// `T_B` [3.2.6] \[s\].
+    #[serde(rename = "T_B")]
+    pub t_b: f64,
+    /// `T_C` [3.2.5] \[s\].
+    #[serde(rename = "T_C")]
+    pub t_c: f64,
+    /// `T_D` [3.2.7] \[s\].
+    #[serde(rename = "T_D")]
+    pub t_d: f64,
+    /// `T_E` of Tab. 3.2.VII \[s\].
+    #[serde(rename = "T_E")]
+    pub t_e: f64,
+}
+
+/// η of [3.2.4] for a damping ratio ξ as a fraction, √(10/(5 + ξ%)) ≥ 0.55 \[-\].
+pub fn damping_factor(xi: f64) -> f64 {
+    (10.0 / (5.0 + 100.0 * xi)).sqrt().max(0.55)
+}
+
+impl GroundSpectrum {
+    /// Makes the spectrum of a hazard on a soil; `topography` is `S_T` of Tab. 3.2.V \[-\].
+    pub fn new(hazard: Hazard, soil: Soil, topography: f64) -> Self {
+        let Hazard { ag, f0, tc } = hazard;
+        let (soil_factor, period_factor) = (soil.amplification(f0 * ag), soil.period_factor(tc));
+        let t_c = period_factor * tc;
+        Self {
+            a_g: ag * G,
+            f0,
+            s: soil_factor * topography,
+            soil_factor,
+            period_factor,
+            t_b: t_c / 3.0,
+            t_c,
+            t_d: 4.0 * ag + 1.6,
+            t_e: soil.long_period(),
+        }
+    }
+
+    /// `S_e`(T, ξ) of [3.2.2], for any T \[m/s²\].
+    pub fn acceleration(&self, period: f64, xi: f64) -> f64 {
+        let Self { a_g, f0, s, t_b, t_c, t_d, .. } = *self;
+        let eta = damping_factor(xi);
+        let plateau = a_g * s * eta * f0;
+        if period < t_b {
+            plateau * (period / t_b + (1.0 - period / t_b) / (eta * f0))
+        } else if period < t_c {
+            plateau
+        } else if period < t_d {
+            plateau * (t_c / period)
+        } else {
+            plateau * (t_c * t_d / (period * period))
+        }
+    }
+
+    /// `S_De`(T, ξ) of [3.2.10] to [3.2.12] \[m\].
+    pub fn displacement(&self, period: f64, xi: f64) -> f64 {
+        let Self { a_g, f0, s, t_c, t_d, t_e, .. } = *self;
+        if period <= t_e {
+            return self.acceleration(period, xi) * (period / TAU).powi(2);
+        }
+        // d_g of [3.2.12]
+        let ground = 0.025 * a_g * s * t_c * t_d;
+        let amplified = f0 * damping_factor(xi);
+        let share = ((period - t_e) / (T_F - t_e)).min(1.0);
+        ground * (amplified + (1.0 - amplified) * share)
+    }
+
+    /// `S_De`(T, ξ) as an acceleration, `S_De` 4π²/T²; it is `S_e` up to `T_E` \[m/s²\].
+    pub(super) fn pseudo_acceleration(&self, period: f64, xi: f64) -> f64 {
+        if period <= self.t_e {
+            self.acceleration(period, xi)
+        } else {
+            self.displacement(period, xi) * (TAU / period).powi(2)
+        }
+    }
+}

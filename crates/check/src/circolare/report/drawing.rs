@@ -1,0 +1,258 @@
+//! The wall to scale with its hinges, loads and tie.
+
+use std::fmt::Write;
+
+use rocking_wall::variables::{EccentricityMode, Mechanism};
+
+use super::Case;
+use super::markup::{formula, number};
+
+/// Width and height of the drawing, axis of the wall and its foot \[px\].
+const SIZE: [f64; 2] = [500.0, 410.0];
+const AXIS: f64 = 215.0;
+const FOOT: f64 = 335.0;
+/// Room for the wall: width and height \[px\].
+const ROOM: [f64; 2] = [110.0, 265.0];
+/// Half the width of supports, and places of dimensions \[px\].
+const SUPPORT: f64 = 95.0;
+const OUTER: f64 = 408.0;
+const INNER: f64 = 318.0;
+/// Lengths of the bar that shows the scale \[m\].
+const BARS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
+
+const BRICK: &str = "fill=\"#ecd9c9\" stroke=\"#6b4a33\"";
+const STONE: &str = "fill=\"#e4e1dc\" stroke=\"#777\"";
+
+/// The wall in pixels.
+struct Drawing<'a> {
+    case: &'a Case<'a>,
+    /// px for a metre.
+    scale: f64,
+    svg: String,
+}
+
+/// The figure, with what its marks mean.
+pub(super) fn figure(case: &Case<'_>) -> String {
+    let body = case.wall.body();
+    let thickness = case.report.scene.parameters.thickness;
+    let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
+    let mut drawing = Drawing { case, scale, svg: String::new() };
+    drawing.supports();
+    drawing.wall();
+    drawing.hinges();
+    drawing.loads();
+    drawing.tie();
+    drawing.dimensions();
+    let [width, height] = SIZE;
+    // without an overburden nothing stands above the wall
+    let from = if body.overburden > 0.0 { 0.0 } else { drawing.top() - 20.0 };
+    let height = height - from;
+    let mut said = String::from("The wall to scale.");
+    if case.wall.sides().any(|sign| sign > 0.0) {
+        said += " ● Hinges for u &gt; 0.";
+    }
+    if case.wall.sides().any(|sign| sign < 0.0) {
+        said += " ○ Hinges for u &lt; 0.";
+    }
+    if case.wall.free_side().is_some() {
+        said += " Grey beside the wall: transverse walls.";
+    }
+    let parameters = &case.report.scene.parameters;
+    if parameters.eccentricity_mode == EccentricityMode::FollowsPivot
+        && parameters.overburden_eccentricity != 0.0
+    {
+        said += " The overburden follows the hinge: it is drawn for u &gt; 0.";
+    }
+    if parameters.a3 < 1.0 && parameters.multilinear.is_none() {
+        let _ = write!(
+            said,
+            " Hinges are set back from the edges: {} = {}.",
+            formula("a3"),
+            number(parameters.a3)
+        );
+    }
+    format!(
+        "<figure><figcaption>{said}</figcaption><svg class=\"wall\" \
+         viewBox=\"0 {from:.0} {width} {height:.0}\" role=\"img\" aria-label=\"the wall to scale\" \
+         font-size=\"14\" font-family=\"system-ui, sans-serif\" fill=\"#1c1c1c\">\n{}</svg></figure>\n",
+        drawing.svg
+    )
+}
+
+impl Drawing<'_> {
+    /// Half the thickness \[px\].
+    fn half(&self) -> f64 {
+        0.5 * self.scale * self.case.report.scene.parameters.thickness
+    }
+
+    /// The place of a height above the base \[px\].
+    fn y(&self, height: f64) -> f64 {
+        FOOT - self.scale * height
+    }
+
+    fn top(&self) -> f64 {
+        self.y(self.case.wall.body().height)
+    }
+
+    /// The height of the hinge in the wall; `None` for a parapet.
+    fn hinge(&self) -> Option<f64> {
+        let body = self.case.wall.body();
+        (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height)
+    }
+
+    fn rect(&mut self, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2], look: &str) {
+        let (width, height) = (x1 - x0, y1 - y0);
+        let place = format!("x=\"{x0:.1}\" y=\"{y0:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"");
+        let _ = writeln!(self.svg, "<rect {place} {look}/>");
+    }
+
+    fn line(&mut self, from: [f64; 2], to: [f64; 2], look: &str) {
+        let ([x0, y0], [x1, y1]) = (from, to);
+        let _ = writeln!(self.svg, "<path d=\"M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}\" fill=\"none\" {look}/>");
+    }
+
+    fn text(&mut self, [x, y]: [f64; 2], anchor: &str, text: &str) {
+        let _ = writeln!(self.svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{text}</text>");
+    }
+
+    /// An arrow that points down to a place.
+    fn weight(&mut self, [x, y]: [f64; 2], length: f64) {
+        self.line([x, y - length], [x, y - 6.0], "stroke=\"#c8440f\" stroke-width=\"2\"");
+        let _ = writeln!(self.svg, "<path d=\"M{x:.1} {y:.1}l-4.5 -9h9z\" fill=\"#c8440f\"/>");
+    }
+
+    fn supports(&mut self) {
+        self.rect([AXIS - SUPPORT, AXIS + SUPPORT], [FOOT, FOOT + 10.0], STONE);
+        let (half, top) = (self.half(), self.top());
+        if self.hinge().is_some() {
+            self.rect([AXIS - SUPPORT, AXIS + SUPPORT], [top - 10.0, top], STONE);
+        }
+        match self.case.wall.free_side() {
+            Some(side) if side > 0.0 => self.rect([AXIS - SUPPORT, AXIS - half], [top, FOOT], STONE),
+            Some(_) => self.rect([AXIS + half, AXIS + SUPPORT], [top, FOOT], STONE),
+            None => {}
+        }
+    }
+
+    fn wall(&mut self) {
+        let (half, top) = (self.half(), self.top());
+        self.rect([AXIS - half, AXIS + half], [top, FOOT], BRICK);
+        if let Some(hinge) = self.hinge() {
+            let y = self.y(hinge);
+            self.line([AXIS - half, y], [AXIS + half, y], "stroke=\"#6b4a33\"");
+        }
+    }
+
+    /// Both bodies of a strip turn about the edge towards u at their outer ends, and about the other in the
+    /// middle.
+    fn hinges(&mut self) {
+        let (half, top) = (self.half(), self.top());
+        let signs: Vec<f64> = self.case.wall.sides().collect();
+        for sign in signs {
+            let towards = AXIS + half.copysign(sign);
+            let mut places = vec![[towards, FOOT]];
+            if let Some(hinge) = self.hinge() {
+                places.extend([[AXIS - half.copysign(sign), self.y(hinge)], [towards, top]]);
+            }
+            let fill = if sign > 0.0 { "#1f5fa8" } else { "#fff" };
+            for [x, y] in places {
+                let look = format!("r=\"5\" fill=\"{fill}\" stroke=\"#1f5fa8\" stroke-width=\"2\"");
+                let _ = writeln!(self.svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" {look}/>");
+            }
+        }
+    }
+
+    fn loads(&mut self) {
+        let body = self.case.wall.body();
+        let (weight, height, overburden) = (body.weight, body.height, body.overburden);
+        let half = self.half();
+        let parts = match self.hinge() {
+            None => vec![(0.0, height, "W")],
+            Some(hinge) => vec![(0.0, hinge, "W₁"), (hinge, height, "W₂")],
+        };
+        for (from, to, name) in parts {
+            let y = self.y(0.5 * (from + to));
+            let _ = writeln!(self.svg, "<circle cx=\"{AXIS}\" cy=\"{y:.1}\" r=\"3\" fill=\"#c8440f\"/>");
+            self.weight([AXIS, y + 34.0], 34.0);
+            let force = 1e-3 * weight * (to - from) / height;
+            let text = format!("{name} = {} kN", ::report::number(force, 4));
+            self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
+        }
+        if overburden > 0.0 {
+            let c = self.case.report.scene.parameters.overburden_eccentricity;
+            let (x, top) = (AXIS + self.scale * c, self.top());
+            let top = if self.hinge().is_some() { top - 10.0 } else { top };
+            self.weight([x, top], 36.0);
+            let mut text = format!("O = {} kN", ::report::number(1e-3 * overburden, 4));
+            if c != 0.0 {
+                let _ = write!(text, ", c = {} m", number(c));
+            }
+            self.text([x + 10.0, top - 20.0], "start", &text);
+        }
+    }
+
+    fn tie(&mut self) {
+        let Some(tie) = self.case.wall.tie() else { return };
+        let parameters = &self.case.report.scene.parameters;
+        let y = self.y(parameters.tie_height);
+        let half = self.half();
+        for sign in [1.0, -1.0] {
+            if tie.holds(sign) {
+                let (face, far) = (AXIS - half.copysign(sign), AXIS - 130.0_f64.copysign(sign));
+                let look = "stroke=\"#009e73\" stroke-width=\"2.5\"";
+                self.line([face, y], [far, y], look);
+                self.line([far, y - 9.0], [far, y + 9.0], look);
+            }
+        }
+        let mut texts = vec![format!("K = {} kN/m", number(1e-3 * tie.stiffness))];
+        texts.extend(tie.strength.map(|strength| format!("N_s = {} kN", number(1e-3 * strength))));
+        texts.push(format!("g₀ = {} mm", number(1000.0 * tie.slack)));
+        let x = if tie.holds(1.0) { AXIS - 130.0 } else { AXIS + half + 8.0 };
+        for (index, text) in texts.iter().enumerate() {
+            let text = text.replace("N_s", "Nₛ");
+            // one line above the tie, the others below it
+            let y = if index == 0 { y - 8.0 } else { y + 3.0 + 17.0 * index as f64 };
+            self.text([x + 4.0, y], "start", &text);
+        }
+    }
+
+    /// The line of a dimension, with a stroke across each end.
+    fn dimension(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let look = "stroke=\"#777\"";
+        self.line(from, to, look);
+        for [x, y] in [from, to] {
+            self.line([x - 5.0, y + 5.0], [x + 5.0, y - 5.0], look);
+        }
+    }
+
+    /// A vertical dimension from the base to a height.
+    fn height(&mut self, x: f64, height: f64, name: &str) {
+        let y = self.y(height);
+        self.dimension([x, FOOT], [x, y]);
+        let text = format!("{name} = {} m", number(height));
+        self.text([x + 7.0, 0.5 * (FOOT + y) + 5.0], "start", &text);
+    }
+
+    fn dimensions(&mut self) {
+        let body = self.case.wall.body();
+        self.height(OUTER, body.height, "h");
+        if let Some(hinge) = self.hinge() {
+            self.height(INNER, hinge, "h₁");
+        }
+        if self.case.wall.tie().is_some() {
+            self.height(INNER, self.case.report.scene.parameters.tie_height, "y");
+        }
+        let (half, y) = (self.half(), FOOT + 24.0);
+        self.dimension([AXIS - half, y], [AXIS + half, y]);
+        let text = format!("b = {} m", number(self.case.report.scene.parameters.thickness));
+        self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
+        let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);
+        let y = SIZE[1] - 12.0;
+        self.rect([12.0, 12.0 + self.scale * bar], [y - 5.0, y], "fill=\"#555\"");
+        self.text([18.0 + self.scale * bar, y + 1.0], "start", &format!("{} m", number(bar)));
+        let y = y - 3.0;
+        self.line([INNER, y], [INNER + 44.0, y], "stroke=\"#1f5fa8\" stroke-width=\"2\"");
+        let _ = writeln!(self.svg, "<path d=\"M{:.1} {y:.1}l-9 -4.5v9z\" fill=\"#1f5fa8\"/>", INNER + 50.0);
+        self.text([INNER + 58.0, y + 5.0], "start", "u &gt; 0");
+    }
+}

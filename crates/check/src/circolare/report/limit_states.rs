@@ -1,0 +1,200 @@
+//! Every static check with its clause, equations, the numbers put in and the result.
+
+use crate::circolare::{
+    ActivationCheck, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict, StateStatement,
+};
+
+use super::Case;
+use super::markup::{Calculation, formula, number as n, result, section, side_head};
+
+/// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
+const BEYOND: f64 = 1.1;
+
+/// The sections of all checks that are made.
+pub(super) fn sections(case: &Case<'_>) -> String {
+    let mut text = String::new();
+    let xi = case.report.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
+    let held = |side: &SideVerdict| side.t0 == 0.0;
+    let title = "SLD: activation <small>C8.7.1.2.1.5</small>";
+    text += &one(case, title, LimitState::Sld, &|side, given, demand| {
+        Some(activation(case, side, (given, demand, xi), side.sld?, (1.0, held(side))))
+    });
+    let title = "SLV with q <small>C8.7.1.2.1.7</small>";
+    let q = case.report.statement.behaviour_factor;
+    text += &one(case, title, LimitState::Slv, &|side, given, demand| {
+        Some(activation(case, side, (given, demand, xi), side.slv_q?, (q, held(side))))
+    });
+    let title = "SLV by displacement <small>C8.7.1.2.1.8</small>";
+    text += &one(case, title, LimitState::Slv, &|side, given, demand| {
+        Some(displacement(side, given, demand, side.slv?))
+    });
+    let title = "SLC by displacement <small>C8.7.1.2.1.8</small>";
+    text + &one(case, title, LimitState::Slc, &|side, given, demand| {
+        Some(displacement(side, given, demand, side.slc?))
+    })
+}
+
+/// The calculation of a check on a side.
+type Check<'a> = dyn Fn(&SideVerdict, &StateStatement, &Demand) -> Option<String> + 'a;
+
+/// The section of a check, both sides of it; empty where it is not made.
+fn one(case: &Case<'_>, title: &str, state: LimitState, check: &Check<'_>) -> String {
+    let given = case.report.statement.state(state);
+    let Some((given, demand)) = given.zip(case.demands[state as usize].as_ref()) else {
+        return String::new();
+    };
+    let mut text = String::new();
+    for (name, _, side) in case.sides() {
+        let Some(calculation) = check(side, given, demand) else { continue };
+        let head = if case.report.verdict.alike { String::new() } else { side_head(name) };
+        text.push_str(&["<div class=\"together\">", &head, &calculation, "</div>\n"].concat());
+    }
+    if text.is_empty() { text } else { section(title, &text) }
+}
+
+/// A check of accelerations, with a factor q and whether the wall is held.
+fn activation(
+    case: &Case<'_>,
+    side: &SideVerdict,
+    (given, demand, xi): (&StateStatement, &Demand, f64),
+    check: ActivationCheck,
+    (q, held): (f64, bool),
+) -> String {
+    let mut lines = Calculation::default();
+    let factor = n(case.report.statement.confidence_factor);
+    let (symbol, source) = if held { ("a_0", "[C8.7.1.8]") } else { ("a_y", "[C8.7.1.9]") };
+    let value = n(side.ay);
+    let (left, put) = if q == 1.0 {
+        (format!("{symbol}/FC"), format!("{value}/{factor}"))
+    } else {
+        (format!("q {symbol}/FC"), format!("{} · {value}/{factor}", n(q)))
+    };
+    lines.line(["Capacity", source], [&left, &put], (check.capacity, "m/s²"));
+    let at_t0 =
+        || format!("Demand at {} = {} s, {} = {} %", formula("T0"), n(side.t0), formula("ξ"), n(100.0 * xi));
+    let (words, source, left, put) = match demand {
+        Demand::Ground(ground) if held => {
+            let put = format!("{} · {}", n(ground.a_g), n(ground.s));
+            ("Demand".to_owned(), "[3.2.2], T = 0", "a_g S", put)
+        }
+        Demand::Ground(_) => (at_t0(), "[3.2.2]", "S_e(T0, ξ)", String::new()),
+        Demand::Floor(_) if held => ("Demand".to_owned(), "[C7.2.8]", "a_Z", String::new()),
+        Demand::Floor(_) => (at_t0(), "[C7.2.5]", "S_eZ(T0, ξ, z)", String::new()),
+        Demand::Points(..) => (at_t0(), "the spectrum given", "S_e(T0, ξ)", String::new()),
+        Demand::Records(_) => (at_t0(), "the records", "S_e(T0, ξ)", String::new()),
+    };
+    lines.line([&words, source], [left, &put], (check.demand, "m/s²"));
+    end(&mut lines, given, [n(check.capacity), n(check.demand)], check.ratio, check.ag);
+    lines.table()
+}
+
+/// The last lines of a check: `ζ_E`, `a_g` and the result.
+fn end(lines: &mut Calculation, given: &StateStatement, [capacity, demand]: [String; 2], zeta: f64, ag: f64) {
+    let put = format!("{capacity}/{demand}");
+    lines.line(["Safety index", "NTC 8.3"], ["ζ_E", &put], (zeta, ""));
+    acceleration(lines, given, zeta, ag);
+    lines.say("Result", result(zeta >= 1.0));
+}
+
+fn acceleration(lines: &mut Calculation, given: &StateStatement, zeta: f64, ag: f64) {
+    let put = format!("{} · {}", n(zeta), n(given.ag));
+    lines.line(["Acceleration that it bears", ""], ["a_g,cap = ζ_E a_g", &put], (ag, "g"));
+}
+
+/// A check of displacements.
+fn displacement(
+    side: &SideVerdict,
+    given: &StateStatement,
+    demand: &Demand,
+    check: DisplacementCheck,
+) -> String {
+    let mut lines = Calculation::default();
+    let state = given.state;
+    let (share, factor, source) = match state {
+        LimitState::Slc => (0.60, "1.56", "[C8.7.1.11]"),
+        LimitState::Sld | LimitState::Slv => (0.40, "1.68", "[C8.7.1.10]"),
+    };
+    let (d, a, t) = (format!("d_{state}"), format!("a(d_{state})"), format!("T_{state}"));
+    let of_curve = share * side.d0;
+    if check.limited_by_tie {
+        let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
+        let words = "Capacity, where the tie breaks";
+        lines.line([words, "C8.7.1.2.1.6"], [&format!("{d} = (d/u) u_r"), &put], (check.d, "m"));
+    } else if (check.d - of_curve).abs() > 1e-9 * of_curve {
+        let put = format!("{} · {}", n(side.d_per_u), n(check.d / side.d_per_u));
+        let words = "Capacity, at the local instability stated";
+        lines.line([words, "C8.7.1.2.1.6"], [&format!("{d} = (d/u) u"), &put], (check.d, "m"));
+    } else {
+        let put = format!("{share:.2} · {}", n(side.d0));
+        let left = format!("{d} = {share:.2} d_0");
+        lines.line(["Capacity", "C8.7.1.2.1.6"], [&left, &put], (check.d, "m"));
+    }
+    lines.line(["The curve there, with FC", "[C8.7.1.3]"], [&a, ""], (check.a, "m/s²"));
+    let put = format!("{factor} π √({}/{})", n(check.d), n(check.a));
+    let left = format!("{t} = {factor} π √({d}/a)");
+    lines.line(["Period", source], [&left, &put], (check.period, "s"));
+    demanded(&mut lines, given, demand, &check);
+    let put = format!("{}/{}", n(check.d), n(check.demand));
+    lines.line(["Capacity over demand", ""], [&format!("{d}/S_d"), &put], (check.ratio, ""));
+    if check.raised {
+        let left = format!("ζ_E = a_g,SLD/a_g,{state}");
+        let put = format!("{}/{}", n(check.ag), n(given.ag));
+        let words = format!("The acceleration of activation at SLD is larger than {} g and replaces it", {
+            n(check.ratio * given.ag)
+        });
+        lines.line([&words, "C8.7.1.2.1.8"], [&left, &put], (check.zeta, ""));
+    } else {
+        lines.line(["Safety index", "NTC 8.3"], [&format!("ζ_E = {d}/S_d"), ""], (check.zeta, ""));
+    }
+    acceleration(&mut lines, given, check.zeta, check.ag);
+    lines.say("Result", result(check.zeta >= 1.0));
+    lines.table()
+}
+
+/// The demand of displacement: both terms where there are two.
+fn demanded(lines: &mut Calculation, given: &StateStatement, demand: &Demand, check: &DisplacementCheck) {
+    let t = format!("T_{}", given.state);
+    let (period, xi) = (n(check.period), n(100.0 * given.damping));
+    let words = format!("Spectrum at {} and {} = {xi} %", formula(&t), formula("ξ"));
+    let (symbol, source) = match demand {
+        Demand::Ground(_) => ("S_e", "[3.2.2]"),
+        Demand::Floor(_) => ("S_eZ", "[C7.2.5]"),
+        Demand::Points(..) => ("S_e", "the spectrum given"),
+        Demand::Records(records) if records.len() >= MEAN_COUNTS_FROM => ("S_e", "mean of the records"),
+        Demand::Records(_) => ("S_e", "envelope of the records"),
+    };
+    lines.line([&words, source], [&format!("{symbol}({t}, ξ)"), ""], (check.acceleration, "m/s²"));
+    let put = format!("{} · {period}²/(4π²)", n(check.acceleration));
+    match (demand, check.demand_terms) {
+        (Demand::Points(..) | Demand::Records(_), _) => {
+            let words = format!("Demand: the largest from {} to {}", formula("T0"), formula(&t));
+            lines.line([&words, "C8.7.1.2.1.8"], ["S_d = max S_e T²/(4π²)", ""], (check.demand, "m"));
+        }
+        (Demand::Floor(floor), [Some(first), Some(second)]) => {
+            let left = format!("S_eZ({t}) {t}²/(4π²)");
+            lines.line(["Demand, first term", "[C8.7.1.12]"], [&left, &put], (first, "m"));
+            let t1 = floor.first_period();
+            let at_first = floor.acceleration(t1, given.damping);
+            let put = format!("{} · {BEYOND}² · {}²/(4π²)", n(at_first), n(t1));
+            let left = "S_eZ(T_1) (1.1 T_1)²/(4π²)";
+            lines.line(["Demand, second term", "[C8.7.1.12]"], [left, &put], (second, "m"));
+            lines.line(["Demand, the larger", ""], ["S_d", ""], (check.demand, "m"));
+        }
+        (Demand::Floor(_), _) => {
+            let left = format!("S_d = S_eZ({t}) {t}²/(4π²)");
+            lines.line(["Demand", "[C8.7.1.12]"], [&left, &put], (check.demand, "m"));
+        }
+        (Demand::Ground(ground), _) if check.period > ground.t_e => {
+            let words = format!("Demand, beyond {}", formula("T_E"));
+            lines.line(
+                [&words, "[3.2.11], [3.2.12]"],
+                [&format!("S_d = S_De({t}, ξ)"), ""],
+                (check.demand, "m"),
+            );
+        }
+        (Demand::Ground(_), _) => {
+            let left = format!("S_d = S_e({t}) {t}²/(4π²)");
+            lines.line(["Demand", "[3.2.10]"], [&left, &put], (check.demand, "m"));
+        }
+    }
+}

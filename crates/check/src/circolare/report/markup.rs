@@ -1,0 +1,126 @@
+//! Tables, formulas and calculations as markup.
+
+use std::fmt::Write;
+
+use ::report::escaped;
+
+/// A section with its headline.
+pub(super) fn section(title: &str, content: &str) -> String {
+    format!("<section>\n<h2>{title}</h2>\n{content}</section>\n")
+}
+
+/// The headline of a side.
+pub(super) fn side_head(name: &str) -> String {
+    format!("<h3>Side {}</h3>\n", escaped(name))
+}
+
+/// The result of a check.
+pub(super) fn result(is_passed: bool) -> &'static str {
+    if is_passed { "passed" } else { "<span class=\"fails\">not passed</span>" }
+}
+
+/// A number as people write it, with six digits.
+pub(super) fn number(value: f64) -> String {
+    ::report::number(value, 6)
+}
+
+/// A table of markup; without heads if there are none.
+pub(super) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> String {
+    let mut text = String::from("<div class=\"scroll\"><table>\n");
+    if !heads.is_empty() {
+        let _ = writeln!(text, "<thead><tr><th>{}</th></tr></thead>", heads.join("</th><th>"));
+    }
+    for row in rows {
+        let _ = writeln!(text, "<tr><td>{}</td></tr>", row.join("</td><td>"));
+    }
+    text + "</table></div>\n"
+}
+
+/// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices.
+pub(super) fn formula(text: &str) -> String {
+    let (mut markup, mut rest) = (String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        if !first.is_alphabetic() {
+            markup.push_str(&escaped(&first.to_string()));
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let word = leading(rest, char::is_alphabetic);
+        rest = &rest[word.len()..];
+        let is_symbol = word.chars().count() == 1 && word != "π";
+        let _ = if is_symbol { write!(markup, "<i>{word}</i>") } else { write!(markup, "{word}") };
+        let index = match rest.strip_prefix('_') {
+            Some(after) => {
+                rest = after;
+                leading(rest, |letter| letter.is_alphabetic() || letter.is_ascii_digit() || letter == ',')
+            }
+            None if is_symbol => leading(rest, |letter| letter.is_ascii_digit()),
+            None => "",
+        };
+        // a comma at the end separates
+        let index = index.trim_end_matches(',');
+        if !index.is_empty() {
+            let _ = write!(markup, "<sub>{index}</sub>");
+            rest = &rest[index.len()..];
+        }
+    }
+    markup
+}
+
+fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
+    &text[..text.find(|letter| !belongs(letter)).unwrap_or(text.len())]
+}
+
+/// A calculation: lines of what is computed, by which equation, from which numbers.
+#[derive(Default)]
+pub(super) struct Calculation(String);
+
+impl Calculation {
+    /// Adds a line: words and source of the formula, the formula, the numbers put in, result and unit. Empty
+    /// parts are left out.
+    pub(super) fn line(
+        &mut self,
+        [words, source]: [&str; 2],
+        [left, numbers]: [&str; 2],
+        (value, unit): (f64, &str),
+    ) {
+        let source =
+            if source.is_empty() { String::new() } else { format!(" <small>{}</small>", escaped(source)) };
+        let numbers = if numbers.is_empty() { String::new() } else { format!(" = {}", escaped(numbers)) };
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let _ = writeln!(
+            self.0,
+            "<tr><td>{words}{source}</td><td>{}{numbers} = <b>{}</b>{unit}</td></tr>",
+            formula(left),
+            number(value)
+        );
+    }
+
+    /// Adds a line of words.
+    pub(super) fn say(&mut self, words: &str, said: &str) {
+        let _ = writeln!(self.0, "<tr><td>{words}</td><td>{said}</td></tr>");
+    }
+
+    /// The lines as a table.
+    pub(super) fn table(self) -> String {
+        format!("<table class=\"calculation\">\n{}</table>\n", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::formula;
+
+    #[test]
+    fn letters_are_italic_and_indices_low() {
+        for (text, markup) in [
+            ("a_0 = α0 g/(e* FC)", "<i>a</i><sub>0</sub> = <i>α</i><sub>0</sub> <i>g</i>/(<i>e</i>* FC)"),
+            ("S_eZ(T_SLV, ξ)", "<i>S</i><sub>eZ</sub>(<i>T</i><sub>SLV</sub>, <i>ξ</i>)"),
+            ("a_g,cap", "<i>a</i><sub>g,cap</sub>"),
+            ("a_1, π", "<i>a</i><sub>1</sub>, π"),
+            ("T_1² T0²", "<i>T</i><sub>1</sub>² <i>T</i><sub>0</sub>²"),
+        ] {
+            assert_eq!(formula(text), markup);
+        }
+    }
+}

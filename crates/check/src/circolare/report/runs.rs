@@ -1,0 +1,83 @@
+//! The dynamic check: its runs.
+
+use crate::circolare::{DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
+use ::report::escaped;
+
+use super::Case;
+use super::markup::{Calculation, formula, number, result, section as part, table};
+
+/// The section of the dynamic check; empty without one.
+pub(super) fn section(case: &Case<'_>) -> String {
+    let Some(dynamic) = &case.report.verdict.dynamic else { return String::new() };
+    let states = [(LimitState::Slv, &dynamic.slv), (LimitState::Slc, &dynamic.slc)];
+    let states = states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)));
+    let factor = number(case.report.statement.confidence_factor);
+    let mut text = format!(
+        "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
+         record. FC = {factor} divides its forces (gravity, overburden, tie), not its masses. The check is \
+         passed if no run exceeds {} and the mean of the maxima of |{}| (of fewer than {MEAN_COUNTS_FROM} \
+         records the largest, NTC 7.3.5) is within the threshold of its side. {} is the lowest factor on all \
+         records that fails, searched upwards.</p>\n",
+        formula("d_0"),
+        formula("d"),
+        formula("ζ_E")
+    );
+    for (name, state) in states {
+        text += &one(case, name, state);
+    }
+    part("Runs under records <small>C8.7.1.2.1.9</small>", &text)
+}
+
+fn one(case: &Case<'_>, name: LimitState, state: &DynamicState) -> String {
+    let mut lines = Calculation::default();
+    let mut thresholds = Vec::new();
+    for (side, _, verdict) in case.sides() {
+        let check = if name == LimitState::Slc { verdict.slc } else { verdict.slv };
+        let Some(check) = check else { continue };
+        thresholds.push(check.d);
+        let words = format!("Threshold and zero of the curve, {}", escaped(side));
+        let said = format!(
+            "{} = <b>{}</b> m, {} = <b>{}</b> m",
+            formula(&format!("d_{name}")),
+            number(check.d),
+            formula("d_0"),
+            number(verdict.d0)
+        );
+        lines.say(&words, &said);
+    }
+    let few = state.runs.len() < MEAN_COUNTS_FROM;
+    let words = if few { "Largest of the maxima" } else { "Mean of the maxima" };
+    lines.line([words, "NTC 7.3.5"], ["d", ""], (state.d, "m"));
+    // with sides of different thresholds the ratio is no quotient of these numbers
+    let put = match thresholds[..] {
+        [threshold] => format!("{}/{}", number(threshold), number(state.d)),
+        _ => String::new(),
+    };
+    lines.line(
+        ["Threshold over it, each side by its own", ""],
+        [&format!("d_{name}/d"), &put],
+        (state.ratio, ""),
+    );
+    lines.say(
+        "Runs beyond the zero of the curve",
+        &format!("<b>{}</b> of {}", state.beyond_d0, state.runs.len()),
+    );
+    lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
+    lines.say("Result", result(state.passed));
+    let rows: Vec<_> = state.runs.iter().map(row).collect();
+    let factor = if case.report.statement.record_scale == crate::circolare::RecordScale::Ag {
+        format!("factor to {}", formula("a_g S"))
+    } else {
+        "factor".to_owned()
+    };
+    let heads = ["record", &factor, "largest d, u &gt; 0 [mm]", "largest d, u &lt; 0 [mm]", "beyond d_0"];
+    let heads = heads.map(|head| head.replace("d_0", &formula("d_0")));
+    let heads = heads.each_ref().map(String::as_str);
+    format!("<h3>{name}</h3>\n{}{}", lines.table(), table(&heads, &rows))
+}
+
+fn row(run: &DynamicRun) -> [String; 5] {
+    let [positive, negative] = run.d.map(|d| ::report::number(1000.0 * d, 4));
+    let beyond = if run.beyond_d0 { "<span class=\"fails\">yes</span>" } else { "no" };
+    [escaped(&run.record), ::report::number(run.factor, 4), positive, negative, beyond.to_owned()]
+}

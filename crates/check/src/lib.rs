@@ -1,0 +1,5 @@
+#![doc = include_str!("../README.md")]
+
+pub mod circolare;
+pub mod points;
+mod site;

@@ -1,0 +1,13 @@
+//! The tests of checks.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+#![allow(clippy::doc_markdown, reason = "formulas keep their letters")]
+
+#[path = "../../../../tests/it/broken.rs"]
+mod broken;
+mod circolare;
+mod circolare_cases;
+mod circolare_dynamic;
+mod circolare_properties;
+mod circolare_refusals;
+mod messages;

@@ -1,0 +1,54 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//! ```text
+//! values ─► Table ─► terminal · CSV · JSON · HTML · Markdown
+//! values ─► Plot ─► inline SVG for a page · picture (SVG) for a file
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`mod@table`] | tables: columns, cells, and the forms they are shown in |
+//! | [`mod@plot`] | lines and marks over two axes |
+//! | [`chart`] | plots with title and legend, in the colours of the damping models |
+//! | [`heat_map`] | cells in colours, and the scale of these colours |
+//! | [`many_lines`] | thousands of lines in few bytes, with their style |
+//! | [`sheet`] | drawings side by side in a file |
+//! | [`points`] | lines with fewer points that look the same |
+//! | [`palette`] | the colours and marks of all of them |
+//! | [`template`] | pages: their head and style, and the gaps of a template |
+//! | [`moving`] | pages with a moving picture |
+
+mod axes;
+pub mod chart;
+mod frame;
+pub mod heat_map;
+pub mod many_lines;
+pub mod moving;
+pub mod palette;
+pub mod plot;
+pub mod points;
+pub mod sheet;
+pub mod table;
+pub mod template;
+
+pub use axes::{number, ticks};
+
+/// Escapes text for markup.
+///
+/// ```
+/// assert_eq!(report::escaped("a < b"), "a &lt; b");
+/// ```
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Returns a count with its noun.
+///
+/// ```
+/// assert_eq!([1, 2].map(|count| report::counted(count, "record")), ["1 record", "2 records"]);
+/// ```
+pub fn counted(count: impl std::fmt::Display, noun: &str) -> String {
+    let text = format!("{count} {noun}");
+    if text.starts_with("1 ") { text } else { text + "s" }
+}

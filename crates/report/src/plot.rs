@@ -1,0 +1,247 @@
+//! Lines and marks over two axes, as SVG.
+//!
+//! ```
+//! use report::palette::{BLUE, RED};
+//! use report::plot::{Axis, Plot, Series};
+//!
+//! let points = vec![(0.0, 0.0), (1.0, 2.0), (2.0, -1.0)];
+//! let plot = Plot {
+//!     limits: vec![(1.5, RED)],
+//!     ..Plot::new(
+//!         [460.0, 300.0],
+//!         [Axis::over("time (s)", [0.0, 2.0]), Axis::over("u (m)", [-2.0, 3.0])],
+//!         vec![Series::line(BLUE, 1.2, points)],
+//!     )
+//! };
+//! assert!(plot.svg().starts_with("<svg"));
+//! ```
+
+use std::fmt::Write;
+
+pub use crate::chart::Axis;
+
+use crate::escaped;
+use crate::frame::{CHARACTER, Frame, legend};
+use crate::palette::Mark;
+
+/// Margins around the plot area of an inline plot \[px\]: left, right, top, bottom.
+pub(crate) const MARGINS: [f64; 4] = [70.0, 18.0, 14.0, 48.0];
+/// Size of the numbers on the axes \[px\]: inline, and in a picture.
+const NUMBERS: [f64; 2] = [13.0, 12.0];
+/// Space between plots one above the other \[px\].
+const SPACING: f64 = 4.0;
+
+/// Points that belong together, and how they look.
+#[derive(Clone, Debug)]
+pub struct Series {
+    /// x and y.
+    pub points: Vec<(f64, f64)>,
+    /// A colour of the [palette](crate::palette).
+    pub color: &'static str,
+    /// A line, or marks.
+    pub look: Look,
+    /// Width of a line or size of a mark \[px\].
+    pub width: f64,
+    /// Name in the legend of a [picture](Plot::picture); empty for none.
+    pub name: String,
+    /// For marks: the text shown when each one is pointed at.
+    pub titles: Vec<String>,
+}
+
+/// How a series looks.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Look {
+    Solid,
+    Dashed,
+    Dotted,
+    Marks(Mark),
+}
+
+impl Series {
+    /// A solid line of a width \[px\].
+    pub fn line(color: &'static str, width: f64, points: Vec<(f64, f64)>) -> Self {
+        Self { points, color, look: Look::Solid, width, name: String::new(), titles: Vec::new() }
+    }
+
+    /// Writes the line or its marks at places \[px\].
+    pub(crate) fn write(&self, svg: &mut String, places: &[[f64; 2]]) {
+        // writing to a String cannot fail
+        let Look::Marks(mark) = self.look else {
+            let mut path = String::new();
+            for ([x, y], step) in places.iter().zip(std::iter::once("M").chain(std::iter::repeat("L"))) {
+                let _ = write!(path, "{step}{x:.2} {y:.2}");
+            }
+            let dashes = match self.look {
+                Look::Dashed => " stroke-dasharray=\"8 4\"",
+                Look::Dotted => " stroke-dasharray=\"2 4\"",
+                Look::Solid | Look::Marks(_) => "",
+            };
+            let (color, width) = (self.color, self.width);
+            let _ = write!(
+                svg,
+                "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{width}\" fill=\"none\"{dashes}/>"
+            );
+            return;
+        };
+        let outline = mark.outline(self.width);
+        let _ =
+            write!(svg, "<g class=\"marks\" stroke=\"{0}\" fill=\"{0}\" stroke-width=\"1.4\">", self.color);
+        for (index, [x, y]) in places.iter().enumerate() {
+            let _ = write!(svg, "<path d=\"M{x:.2} {y:.2}{outline}\"");
+            let _ = match self.titles.get(index) {
+                Some(title) => write!(svg, "><title>{}</title></path>", escaped(title)),
+                None => write!(svg, "/>"),
+            };
+        }
+        svg.push_str("</g>");
+    }
+}
+
+/// What the axes count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Both count the values.
+    Linear,
+    /// x counts the values, spaced by their logarithms. y counts exponents of ten.
+    Logarithmic,
+}
+
+/// A pair of axes and what is on it.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// Width and height \[px\].
+    pub size: [f64; 2],
+    /// Title in a [picture](Plot::picture); empty for none.
+    pub title: String,
+    /// The horizontal and the vertical axis.
+    pub axes: [Axis; 2],
+    /// What the axes count.
+    pub scale: Scale,
+    /// Lines and marks, the last one on top.
+    pub series: Vec<Series>,
+    /// Dashed horizontal lines and their colours.
+    pub limits: Vec<(f64, &'static str)>,
+}
+
+impl Plot {
+    /// A plot without a title, of linear axes and no limits.
+    pub fn new(size: [f64; 2], axes: [Axis; 2], series: Vec<Series>) -> Self {
+        Self { size, title: String::new(), axes, scale: Scale::Linear, series, limits: Vec::new() }
+    }
+
+    /// Draws inline SVG that takes the width of its place: it has a view box instead of a size, rounded to
+    /// pixels.
+    pub fn svg(&self) -> String {
+        let frame = self.frame(MARGINS, NUMBERS[0]);
+        let [width, height] = self.size.map(f64::round);
+        format!(
+            "<svg viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\" role=\"img\" \
+             aria-label=\"{} over {}\"><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
+            escaped(&self.axes[1].label),
+            escaped(&self.axes[0].label),
+            self.body(&frame)
+        )
+    }
+
+    /// Draws a picture with title and legend, for a file of its own.
+    pub fn picture(&self) -> Picture {
+        Picture::stacked(std::slice::from_ref(self))
+    }
+
+    /// Returns the sides of the plot area of the inline SVG, as parts of its width and height: left, right,
+    /// top, bottom.
+    pub fn area(&self) -> [f64; 4] {
+        let ([width, height], [left, right, top, bottom]) = (self.size, MARGINS);
+        [left / width, 1.0 - right / width, top / height, 1.0 - bottom / height]
+    }
+
+    /// Returns the ends of the axes, of x and then of y; NaN where an axis takes its range from the data.
+    pub fn ranges(&self) -> [f64; 4] {
+        let [[x0, x1], [y0, y1]] = self.axes.each_ref().map(|axis| axis.range.unwrap_or([f64::NAN; 2]));
+        [x0, x1, y0, y1]
+    }
+
+    fn frame(&self, margins: [f64; 4], number_size: f64) -> Frame<'_> {
+        let of = |index: usize| {
+            let pick = move |&(x, y): &(f64, f64)| if index == 0 { x } else { y };
+            let values = self.series.iter().flat_map(move |series| series.points.iter().map(pick));
+            self.axes[index].range.unwrap_or_else(|| extremes(values, true))
+        };
+        let labels = self.axes.each_ref().map(|axis| &*axis.label);
+        Frame { size: self.size, margins, ranges: [of(0), of(1)], labels, scale: self.scale, number_size }
+    }
+
+    /// Draws the frame, and in it the limits and the series.
+    fn body(&self, frame: &Frame<'_>) -> String {
+        let mut inside = String::new();
+        for &(limit, color) in &self.limits {
+            let [_, y] = frame.place((frame.ranges[0][0], limit));
+            let [left, right, ..] = frame.area();
+            let line = Series { look: Look::Dashed, ..Series::line(color, 1.0, Vec::new()) };
+            line.write(&mut inside, &[[left, y], [right, y]]);
+        }
+        for series in &self.series {
+            let places: Vec<_> = series.points.iter().map(|&point| frame.place(point)).collect();
+            series.write(&mut inside, &places);
+        }
+        frame.around(&inside)
+    }
+}
+
+/// The range of an axis that takes it from the data: their extremes, with or without room around them.
+pub(crate) fn extremes(values: impl Iterator<Item = f64>, room: bool) -> [f64; 2] {
+    let finite = values.filter(|value| value.is_finite());
+    let (low, high) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let least = 1e-9 * high.abs().max(1.0);
+    let room = if room { 0.06 * (high - low).max(least) } else { 0.0 };
+    // an axis that starts near zero starts there
+    let low = if low >= 0.0 && low < 0.3 * high { 0.0 } else { low - room };
+    [low, (high + room).max(low + least)]
+}
+
+/// A drawing for a file of its own.
+pub struct Picture {
+    size: [f64; 2],
+    body: String,
+}
+
+impl Picture {
+    /// Draws plots of one width, one above the other.
+    pub fn stacked(plots: &[Plot]) -> Self {
+        let (mut body, mut size) = (String::new(), [0.0_f64; 2]);
+        for plot in plots {
+            let y = if size[1] > 0.0 { size[1] + SPACING } else { 0.0 };
+            let top = if plot.title.is_empty() { 10.0 } else { 32.0 };
+            let mut frame = plot.frame([0.0, 14.0, top, 51.0], NUMBERS[1]);
+            frame.margins[0] = 38.0 + CHARACTER * frame.longest_number();
+            let _ = write!(body, "<g transform=\"translate(0 {y})\">{}", plot.body(&frame));
+            if !plot.title.is_empty() {
+                let (x, title) = (0.5 * plot.size[0], escaped(&plot.title));
+                let _ = write!(
+                    body,
+                    "<text x=\"{x:.1}\" y=\"20\" font-size=\"14\" text-anchor=\"middle\">{title}</text>"
+                );
+            }
+            legend(&mut body, &plot.series, frame.area());
+            body.push_str("</g>");
+            size = [size[0].max(plot.size[0]), y + plot.size[1]];
+        }
+        Self { size, body }
+    }
+
+    /// Writes it as SVG.
+    pub fn svg(&self) -> String {
+        let [width, height] = self.size;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"system-ui, sans-serif\">\
+             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>{}</svg>",
+            self.body
+        )
+    }
+}

@@ -1,0 +1,77 @@
+//! Demands of a run as text, for the summary and the page.
+
+use rocking_wall::response::{Fate, Response, Summary};
+use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands};
+
+/// The largest |u| of a run in m or mm.
+pub fn largest(summary: &Summary, unit: &str, digits: usize) -> String {
+    let scale = if unit == "mm" { 1000.0 } else { 1.0 };
+    let falls = if summary.fate.falls() { ", where the wall falls" } else { "" };
+    format!("{:.digits$} {unit}, {:.4} u_ins{falls}", scale * summary.u_max, summary.u_ratio_max)
+}
+
+/// The time of overturning, and whether the wall fell.
+pub fn overturned(fate: Fate, digits: usize) -> String {
+    match fate {
+        Fate::Stands => "no".to_owned(),
+        Fate::ComesBack { exceeds } => format!("at {exceeds:.digits$} s, and came back"),
+        Fate::Falls { exceeds, falls } if falls > exceeds => {
+            format!("at {exceeds:.digits$} s, came back and fell at {falls:.2} s")
+        }
+        Fate::Falls { exceeds, .. } => format!("at {exceeds:.digits$} s"),
+    }
+}
+
+/// Describes where demands end; `None` for a wall that did not overturn.
+pub fn until(response: &Response) -> Option<&'static str> {
+    let is_tied = response.demands.tie.is_some();
+    let until = if is_tied { "up to overturning; that on the tie beyond" } else { "up to overturning" };
+    response.summary.overturned.then_some(until)
+}
+
+/// Names and values; a parapet has no top support.
+pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
+    let demands = &response.demands;
+    let mut lines = Vec::new();
+    let mut peak = |name: &str, extremes: &Extremes, scale: f64, unit: &str| {
+        let Extremes { highest, lowest } = extremes;
+        let part = |at: &Instant| format!("{} at {:.3} s", figure(scale * at.value), at.time);
+        lines.push((name.to_owned(), format!("{}, {} [{unit}]", part(highest), part(lowest))));
+    };
+    peak("u", &demands.displacement, 1000.0, "mm");
+    peak("u_dot", &demands.velocity, 1.0, "m/s");
+    peak("u_ddot", &demands.acceleration, 1.0, "m/s²");
+    peak(if has_top { "bottom force" } else { "base force" }, &demands.reaction_bottom, 1e-3, "kN");
+    if has_top {
+        peak("top force", &demands.reaction_top, 1e-3, "kN");
+    }
+    if let Some(TieDemands { force, strength }) = &demands.tie {
+        let reached = strength.map_or(String::new(), |at| format!(", strength reached at {:.4} s", at.time));
+        let peak = figure(1e-3 * force.value);
+        lines.push(("tie force".to_owned(), format!("{peak} at {:.3} s [kN]{reached}", force.time)));
+    }
+    let crossing = |Crossing { fraction, first }: &Crossing| match first {
+        Some(Instant { time, .. }) => format!("{fraction} u_ins at {time:.4} s"),
+        None => format!("{fraction} u_ins never"),
+    };
+    if !demands.crossings.is_empty() {
+        let crossings: Vec<_> = demands.crossings.iter().map(crossing).collect();
+        lines.push(("first reached".to_owned(), crossings.join(", ")));
+    }
+    lines.push(("half cycles".to_owned(), demands.half_cycles.to_string()));
+    let fallen = if response.summary.fate.falls() { ", fallen" } else { "" };
+    lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
+    lines
+}
+
+/// Four significant figures with a sign.
+fn figure(value: f64) -> String {
+    let value = value + 0.0; // no negative zero
+    let digits = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    if !(-3.0..6.0).contains(&digits) {
+        return format!("{value:+.3e}");
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6 decimals")]
+    let decimals = (3.0 - digits).clamp(0.0, 6.0) as usize;
+    format!("{value:+.decimals$}")
+}

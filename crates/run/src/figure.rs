@@ -1,0 +1,137 @@
+//! Plots of one run: histories, the force on its backbone, and small rotations beside full ones.
+//!
+//! ```
+//! let points: Vec<_> = (0..=100).map(|i| 0.1 * f64::from(i)).map(|t| (t, t.cos())).collect();
+//! let plot = run::figure::history(&points, 10.0);
+//! assert_eq!(plot.ranges()[..2], [0.0, 10.0]);
+//! assert!(plot.svg().contains("u / u_ins"));
+//! ```
+
+use report::palette::{AMBER, BLUE, DARK_GREY, GREY, Mark, RED};
+use report::plot::{Axis, Look, Plot, Series};
+use report::points::{clipped, decimated};
+
+/// Width of the plots \[px\].
+pub const WIDTH: f64 = 620.0;
+/// Largest |u|/`u_ins` of a history.
+const EDGE: f64 = 1.25;
+/// Looks of the curves of [`period_ratios`], the first for the smallest start.
+const LOOKS: [Look; 3] = [Look::Dotted, Look::Dashed, Look::Solid];
+
+/// Ends a history of u/`u_ins` where it leaves the plot for good: drawn on, a fallen wall would look like one
+/// at rest.
+///
+/// ```
+/// use run::figure::cut;
+///
+/// let fallen = cut(vec![(0.0, 0.5), (0.1, 1.2), (0.2, 1.9), (0.3, 10.0)]);
+/// assert_eq!(fallen, [(0.0, 0.5), (0.1, 1.2), (0.2, 1.25)]);
+/// let held_by_a_tie = [(0.0, 0.5), (0.1, 1.4), (0.2, 0.3)];
+/// assert_eq!(cut(held_by_a_tie.to_vec()), held_by_a_tie);
+/// ```
+pub fn cut(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let leaving = points.iter().rposition(|point| point.1.abs() <= EDGE).map_or(0, |within| within + 1);
+    points.truncate(leaving + 1);
+    if let Some(point) = points.get_mut(leaving) {
+        point.1 = point.1.clamp(-EDGE, EDGE);
+    }
+    points
+}
+
+/// Draws u/`u_ins` over the time \[s\], with the limits ±1.
+pub fn history(points: &[(f64, f64)], end: f64) -> Plot {
+    let limits = [-1.0, 1.0];
+    let plot = histories(&[(points, BLUE)], [0.0, end], "u / u_ins", &limits);
+    Plot { size: [WIDTH, 250.0], limits: limits.map(|limit| (limit, RED)).to_vec(), ..plot }
+}
+
+/// Draws the acceleration of the bottom support and, where it has its own, of the top one \[m/s²\] over the
+/// time \[s\].
+pub fn motion(bottom: &[(f64, f64)], top: Option<&[(f64, f64)]>, end: f64) -> Plot {
+    let top = top.map(|points| (points, AMBER));
+    let lines: Vec<_> = [(bottom, DARK_GREY)].into_iter().chain(top).collect();
+    histories(&lines, [0.0, end], "a (m/s²)", &[])
+}
+
+/// Draws lines in their colours over the times \[s\]. The vertical axis has the label, and its range includes
+/// the values `shown`.
+pub fn histories(
+    lines: &[(&[(f64, f64)], &'static str)],
+    times: [f64; 2],
+    label: &str,
+    shown: &[f64],
+) -> Plot {
+    let values = lines.iter().flat_map(|(points, _)| points.iter().map(|point| point.1));
+    let y_range = padded(values.chain(shown.iter().copied()));
+    let axes = [Axis::over("time (s)", times), Axis::over(label, y_range)];
+    let series = lines.iter().map(|(points, color)| Series::line(color, 1.2, decimated(points, times[1])));
+    Plot::new([WIDTH, 190.0], axes, series.collect())
+}
+
+/// Draws the backbone, F \[kN\] over u/`u_ins`, and on it the part that a history of u/`u_ins` went through.
+/// The history is [`cut`].
+pub fn path_on_backbone(backbone: &[(f64, f64)], history: &[(f64, f64)]) -> Plot {
+    let of = |pick: fn(f64, f64) -> f64| history.iter().map(|point| point.1).fold(0.0, pick);
+    let [lowest, highest] = [of(f64::min), of(f64::max)];
+    let reach = highest.max(-lowest).max(1.0);
+    let x_range = [-1.05 * reach, 1.05 * reach];
+    let within = clipped(backbone, x_range);
+    let path = clipped(backbone, [lowest, highest]);
+    let y_range = padded(within.iter().map(|point| point.1));
+    let law = Series { look: Look::Dashed, ..Series::line(RED, 1.0, within) };
+    let axes = [Axis::over("u / u_ins", x_range), Axis::over("restoring force F (kN)", y_range)];
+    Plot::new([WIDTH, 320.0], axes, vec![law, Series::line(BLUE, 1.6, path)])
+}
+
+/// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.
+pub fn both_rotations(full: &[(f64, f64)], small: &[(f64, f64)], end: f64, height: f64) -> Plot {
+    let y_range = padded(full.iter().chain(small).map(|point| point.1));
+    let series = vec![
+        Series { look: Look::Dashed, ..Series::line(RED, 1.4, decimated(small, end)) },
+        Series::line(BLUE, 1.4, decimated(full, end)),
+    ];
+    let axes = [Axis::over("time (s)", [0.0, end]), Axis::over("u / u_ins", y_range)];
+    Plot::new([WIDTH, height], axes, series)
+}
+
+/// Draws periods with small rotations over those with full ones, against the slenderness \[rad\].
+///
+/// There is one curve for each start, the largest last. They lie on that of Eq. (5) of the paper, unless it
+/// is empty; `wall` marks a point of its own.
+pub fn period_ratios(
+    curves: Vec<Vec<(f64, f64)>>,
+    housner: Vec<(f64, f64)>,
+    wall: Option<(f64, f64)>,
+    height: f64,
+) -> Plot {
+    let points = || curves.iter().flatten().chain(&housner);
+    let lowest = points().map(|point| point.1).fold(1.0, f64::min);
+    let widest = points().map(|point| point.0).fold(0.0, f64::max);
+    let room = 0.08 * (1.0 - lowest).max(1e-6);
+    let axes = [
+        Axis::over("slenderness α (rad)", [0.0, widest]),
+        Axis::over("period, small / full rotations", [lowest - room, 1.0 + room]),
+    ];
+    let mut series = Vec::new();
+    if housner.len() > 1 {
+        series.push(Series::line(GREY, 1.4, housner));
+    }
+    let looks = LOOKS.into_iter().skip(LOOKS.len().saturating_sub(curves.len()));
+    series.extend(
+        curves
+            .into_iter()
+            .zip(looks)
+            .map(|(points, look)| Series { look, ..Series::line(BLUE, 1.4, points) }),
+    );
+    let mark = |point| Series { look: Look::Marks(Mark::Circle), ..Series::line(RED, 4.5, vec![point]) };
+    series.extend(wall.map(mark));
+    Plot::new([WIDTH, height], axes, series)
+}
+
+/// The range of some values with room around it.
+fn padded(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    // nothing but zeros: an axis of ones
+    let room = if high > low { 0.06 * (high - low) } else { 1.0 };
+    [low - room, high + room]
+}

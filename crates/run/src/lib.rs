@@ -1,0 +1,43 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Modules
+//! Nothing here prints. Only [`walls`] and [`records`] open files.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`parallel`] | work shared by threads |
+//! | [`random`] | random numbers that are the same on every machine |
+//! | [`bisection`] | the first value at which a condition holds |
+//! | [`sample`] | medians and fractiles |
+//! | [`free_motion`] | free motion of a wall, with impacts or with viscous damping |
+//! | [`model`] | damping models: names, meanings and colours; walls that have them |
+//! | [`polarity`] | motions with both signs |
+//! | [`shaking`] | runs of one wall through one record, multiplied by factors |
+//! | [`walls`] | walls by their names, from study files, scenes and tables |
+//! | [`records`] | records by their names, from files, folders and patterns |
+//! | [`capacity`] | the static capacity curve: table, JSON, CSV, plot |
+//! | [`demands`] | demands as lines of text |
+//! | [`rotations`] | free rocking of a rigid wall in small and in full rotations |
+//! | [`counterpart`] | a run beside the same run in small or in full rotations |
+//! | [`mod@figure`] | histories, the force path on its backbone |
+//! | [`records_figure`] | accelerograms above their response spectra |
+//! | [`page`] | the page of a run |
+
+pub mod bisection;
+pub mod capacity;
+pub mod counterpart;
+pub mod demands;
+pub mod figure;
+pub mod free_motion;
+pub mod model;
+pub mod page;
+pub mod parallel;
+pub mod polarity;
+pub mod random;
+pub mod records;
+pub mod records_figure;
+pub mod rotations;
+pub mod sample;
+pub mod shaking;
+mod wall_table;
+pub mod walls;

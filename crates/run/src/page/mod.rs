@@ -1,0 +1,303 @@
+//! The page of `wall simulate`: the rocking wall, its histories and its force, in one file.
+
+use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};
+use report::{escaped, number};
+use rocking_wall::response::{Fate, Response, Sample};
+use rocking_wall::scene::Scene;
+use rocking_wall::variables::Impact;
+use rocking_wall::wall::{Parameters, Wall, usage};
+
+use crate::counterpart::Counterpart;
+use crate::{demands, figure as plots};
+
+/// Seconds that are drawn after a fall.
+const AFTER_FALL: f64 = 2.0;
+/// Exaggerations of the drawn rotation; the default is the largest that keeps it below this angle (rad).
+const FACTORS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
+const LARGEST_DRAWN: f64 = 0.3;
+/// Height of the figures on rotations \[px\].
+const HEIGHT: f64 = 250.0;
+
+/// Why a run has no page.
+#[derive(Debug, thiserror::Error)]
+pub enum PageError {
+    /// No time passes.
+    #[error("the response is empty: there is nothing to draw")]
+    Empty,
+    /// A number is not finite.
+    #[error("the response holds numbers that are not finite: there is nothing to draw")]
+    NotFinite,
+}
+
+/// Makes the page of a run.
+///
+/// # Errors
+/// [`PageError`] if there is nothing to draw.
+pub fn render(scene: &Scene, wall: &Wall, response: &Response) -> Result<String, PageError> {
+    let Some(end) = response.samples.last().map(|sample| sample.time).filter(|&end| end > 0.0) else {
+        return Err(PageError::Empty);
+    };
+    if response.samples.iter().any(|sample| !sample.outputs.displacement.is_finite()) {
+        return Err(PageError::NotFinite);
+    }
+    let (overturned, falls) = (response.summary.overturn_time, response.summary.fate.falling());
+    // slider and histories end together
+    let end = falls.map_or(end, |time| end.min(time + AFTER_FALL));
+    let drawn = response.samples.partition_point(|sample| sample.time <= end);
+    let frames: Vec<_> = frames(drawn).into_iter().map(|i| &response.samples[i]).collect();
+    let column = |pick: fn(&Sample) -> f64| rounded(frames.iter().map(|sample| pick(sample)));
+    let u_ins = wall.body().instability;
+    let hinge = wall.body().hinge();
+    // the top of a parapet, or the rotation of a strip's lower body in %
+    let [second, scale] = hinge.map_or([2.0, 1000.0], |h1| [1.0 / h1, 100.0]);
+    let data = serde_json::json!({
+        "t": column(|sample| sample.time),
+        "u": column(|sample| sample.outputs.displacement),
+        "second": rounded(frames.iter().map(|sample| scale * second * sample.outputs.displacement)),
+        "a": column(|sample| sample.support.bottom),
+        "f": column(|sample| sample.outputs.restoring_force),
+        "u_ins": [u_ins.positive, u_ins.negative],
+        "height": wall.body().height,
+        "thickness": scene.parameters.thickness,
+        "tie": wall.tie().map(|tie| 0.5 * tie.lever * wall.body().height),
+        "hinge": hinge,
+        "full": wall.rotations().is_some(),
+        "overturned": overturned,
+        "open": telling(&frames, falls),
+    });
+    let subtitle =
+        if scene.motion_notes.is_empty() { "free rocking".to_owned() } else { scene.motion_notes.join(", ") };
+    let figures =
+        figures(scene, wall, response, end) + &rotations(scene, response, end) + &demands(wall, response);
+    Ok(page(&Moving {
+        title: &scene.title,
+        subtitle: &subtitle,
+        verdict: &said(response),
+        name: "the wall",
+        style: "",
+        picture: &drawing(scene, wall, response),
+        choices: &factors("shown", &FACTORS, factor(wall, response)),
+        facts: &format!(
+            "<p class=\"overturned\" id=\"overturned\"></p>\n<table>{}</table>",
+            facts(scene, wall, response)
+        ),
+        figures: &figures,
+        data: &data,
+        script: include_str!("wall.js"),
+        frames: frames.len(),
+    }))
+}
+
+/// Finds the frame shown first: that of the largest |u|, or the last one before the wall falls.
+fn telling(frames: &[&Sample], falls: Option<f64>) -> usize {
+    let standing = frames.iter().take_while(|sample| falls.is_none_or(|time| sample.time < time));
+    let ratio = |sample: &Sample| sample.outputs.ratio.abs();
+    let peak = standing.enumerate().max_by(|a, b| ratio(a.1).total_cmp(&ratio(b.1)));
+    peak.map_or(0, |(frame, _)| frame)
+}
+
+/// Describes what becomes of the wall.
+fn said(response: &Response) -> String {
+    let ratio = 100.0 * response.summary.u_ratio_max;
+    match response.summary.fate.words(1) {
+        Some(words) => verdict(&format!("The wall {words}."), true),
+        None if ratio < 1.0 => verdict(&format!("The wall stands: {ratio:.2} % of u_ins."), false),
+        None => verdict(&format!("The wall stands: {ratio:.0} % of u_ins."), false),
+    }
+}
+
+/// The wall at rest, to scale, y upwards; the script turns its bodies.
+fn drawing(scene: &Scene, wall: &Wall, response: &Response) -> String {
+    let (h, b) = (wall.body().height, scene.parameters.thickness);
+    let half = if response.summary.overturned { 1.1 * h + b } else { (0.42 * h).max(1.4 * b) };
+    let (top, bottom) = (0.12 * h, 0.1 * h);
+    let line = 0.004 * h.max(half);
+    // the ground goes on beyond the view box, which the window may widen
+    let far = 10.0 * half;
+    let rect = |[x, y]: [f64; 2], [width, height]: [f64; 2], look: &str| {
+        format!("<rect {look} x=\"{x:.4}\" y=\"{y:.4}\" width=\"{width:.4}\" height=\"{height:.4}\"/>")
+    };
+    let body = |id: &str, from: f64, height: f64| {
+        let look = format!("id=\"{id}\" style=\"fill:var(--wall);stroke:var(--edge)\"");
+        rect([-b / 2.0, from], [b, height], &look)
+    };
+    let bodies = match wall.body().hinge() {
+        None => body("lower", 0.0, h),
+        Some(h1) => {
+            let look = "style=\"fill:var(--ground);stroke:var(--frame)\"";
+            let support = rect([-0.6 * half, h], [1.2 * half, 0.05 * h], look);
+            support + &body("lower", 0.0, h1) + &body("upper", h1, h - h1)
+        }
+    };
+    let transverse = wall.free_side().map_or_else(String::new, |side| {
+        let from = if side > 0.0 { -far } else { b / 2.0 };
+        rect([from, 0.0], [far - b / 2.0, h], "style=\"fill:var(--ground);stroke:var(--frame)\"")
+    });
+    format!(
+        "<svg viewBox=\"{:.4} {:.4} {:.4} {:.4}\" role=\"img\" aria-label=\"the wall to scale\">\
+         <g transform=\"scale(1 -1)\" stroke-width=\"{line:.4}\">{ground}\
+         <path d=\"M{:.4} 0H{far:.4}\" style=\"stroke:var(--frame)\"/>\
+         <path d=\"M0 0V{:.4}\" stroke=\"#999\" stroke-dasharray=\"{:.3}\"/>{transverse}{ties}{bodies}\
+         </g></svg>",
+        -half,
+        -(h + top),
+        2.0 * half,
+        h + top + bottom,
+        -far,
+        h + 0.6 * top,
+        0.02 * h,
+        ties = ties(wall, far, 2.0 * line),
+        ground = rect([-far, -far], [2.0 * far, far], "style=\"fill:var(--ground)\"")
+    )
+}
+
+/// Ties from the wall to beyond the view box, on the side that they pull to; the script moves their ends.
+fn ties(wall: &Wall, far: f64, stroke: f64) -> String {
+    let Some(tie) = wall.tie() else { return String::new() };
+    let y = 0.5 * tie.lever * wall.body().height;
+    let line = |sign: f64| {
+        let away = -sign * far;
+        format!(
+            "<line class=\"tie\" x1=\"{away:.4}\" y1=\"{y:.4}\" x2=\"0\" y2=\"{y:.4}\" \
+             style=\"stroke:var(--mark)\" stroke-width=\"{stroke:.4}\"/>"
+        )
+    };
+    [1.0, -1.0].into_iter().filter(|sign| tie.holds(*sign)).map(line).collect()
+}
+
+/// The largest exaggeration of the drawn rotation that keeps it below its limit.
+fn factor(wall: &Wall, response: &Response) -> f64 {
+    let arm = wall.body().hinge().map_or(wall.body().height / 2.0, |h1| h1.min(wall.body().height - h1));
+    let largest = response.summary.u_max / arm;
+    let fits = |factor: &&f64| largest * **factor <= LARGEST_DRAWN && !response.summary.overturned;
+    FACTORS.iter().rev().find(fits).copied().unwrap_or(1.0)
+}
+
+fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
+    let parameters = &scene.parameters;
+    let body = wall.body();
+    let summary = &response.summary;
+    let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
+    let tie = wall.tie().map_or("none".to_owned(), |tie| {
+        format!("{} kN/mm at {} m", number(1e-6 * tie.stiffness, 4), parameters.tie_height)
+    });
+    let rows = [
+        ("largest |u|", demands::largest(summary, "mm", 1)),
+        ("overturned", demands::overturned(summary.fate, 3)),
+        (
+            "wall",
+            format!(
+                "{}, {} m × {} m",
+                parameters.mechanism.name().replace('_', " "),
+                body.height,
+                parameters.thickness
+            ),
+        ),
+        ("static instability u_ins", format!("{:.1} mm", 1000.0 * body.instability.positive)),
+        ("strength F0", format!("{:.3} kN", body.strength.positive / 1000.0)),
+        ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
+        ("damping", if_any(parameters.damping_model.name(), "ξ", 100.0 * wall.damping_ratio(), "%")),
+        ("rotations", if wall.rotations().is_some() { "full".to_owned() } else { "small".to_owned() }),
+        ("impact", impact(parameters, wall.restitution())),
+        ("tie", tie),
+    ];
+    let shown = rows.iter().filter(|(name, _)| *name != "tie" || wall.tie().is_some());
+    shown.map(|(name, value)| row(name, value)).collect()
+}
+
+/// A name with its number, without the number if it is 0: a rigid wall has no ω₁.
+fn if_any(name: &str, symbol: &str, value: f64, unit: &str) -> String {
+    let name = name.replace('_', " ");
+    if value == 0.0 { name } else { format!("{name}, {symbol} = {value:.2} {unit}") }
+}
+
+/// Describes what happens at u = 0. Without impacts, e matters only where the damping is computed from it.
+fn impact(parameters: &Parameters, e: f64) -> String {
+    let computed = usage(parameters).any(|usage| usage.name == "restitution" && usage.matters);
+    match parameters.impact {
+        Impact::Restitution => format!("restitution, e = {e:.3}"),
+        Impact::None if computed => format!("none; the damping stands for e = {e:.3}"),
+        Impact::None => "none".to_owned(),
+    }
+}
+
+fn row(name: &str, value: &str) -> String {
+    format!("<tr><td>{}</td><td>{}</td></tr>", escaped(name), escaped(value))
+}
+
+fn demands(wall: &Wall, response: &Response) -> String {
+    let lines = demands::lines(response, wall.body().hinge().is_some());
+    let rows: String = lines.iter().map(|(name, value)| row(name, value)).collect();
+    let until = demands::until(response).map_or_else(String::new, |until| format!(", {until}"));
+    format!("<figure><figcaption>Demands{until}</figcaption><table>{rows}</table></figure>")
+}
+
+fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String {
+    let column = |pick: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
+        response.samples.iter().map(|sample| (sample.time, pick(sample))).collect()
+    };
+    let ratio = plots::cut(column(&|sample| sample.outputs.ratio));
+    let motion = column(&|sample| sample.support.bottom);
+    let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
+    let top_motion = has_top.then(|| column(&|sample| sample.support.top));
+    let on_floors = scene.floors.is_some();
+    let supports = match top_motion {
+        Some(_) => "Acceleration of the supports: bottom (grey), top (amber)",
+        None if wall.body().hinge().is_some() => "Acceleration of both supports",
+        None if on_floors => "Acceleration of the floor",
+        None => "Acceleration of the support",
+    };
+    let u_ins = wall.body().instability;
+    let backbone: Vec<_> =
+        wall.backbone().iter().map(|(u, force)| (u / u_ins.of(*u), force / 1000.0)).collect();
+    [
+        plot(
+            "history",
+            "Displacement; dashed: static instability u_ins",
+            &plots::history(&ratio, end),
+            &marks(response.summary.fate),
+            true,
+        ),
+        plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
+        plot(
+            "force",
+            "Restoring force on its backbone (dashed)",
+            &plots::path_on_backbone(&backbone, &ratio),
+            &[],
+            false,
+        ),
+    ]
+    .concat()
+}
+
+/// Marks where the wall exceeds `u_ins`, and where it falls after a return.
+fn marks(fate: Fate) -> Vec<(f64, &'static str)> {
+    match fate {
+        Fate::Stands => Vec::new(),
+        Fate::Falls { exceeds, falls } if falls == exceeds => vec![(falls, "falls")],
+        Fate::Falls { exceeds, falls } => vec![(exceeds, "exceeds u_ins"), (falls, "falls")],
+        Fate::ComesBack { exceeds } => vec![(exceeds, "exceeds u_ins")],
+    }
+}
+
+/// Compares a rigid wall with itself under the other kinematics; empty for walls that do not allow them.
+fn rotations(scene: &Scene, response: &Response, end: f64) -> String {
+    let Some(other) = Counterpart::of(scene, response) else { return String::new() };
+    let Counterpart { linear, trigonometric, apart, start, period, ratios } = other;
+    let histories = plots::both_rotations(&plots::cut(trigonometric), &plots::cut(linear), end, HEIGHT);
+    let mark = (period.slenderness, period.ratio());
+    let ratios = plots::period_ratios(vec![ratios], Vec::new(), Some(mark), HEIGHT);
+    let caption = format!(
+        "Full rotations (blue) and small ones (red, dashed): at most {apart:.3} u_ins apart while both stand"
+    );
+    plot("rotations", &caption, &histories, &[], true)
+        + &format!(
+            "<figure><figcaption>Period with small rotations over that with full ones, from {start:.2} \
+             u_ins; dot: this wall, {:.2} % short</figcaption>{}</figure>",
+            100.0 * (1.0 - period.ratio()),
+            ratios.svg()
+        )
+}
+
+#[cfg(test)]
+mod tests;

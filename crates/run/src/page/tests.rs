@@ -1,0 +1,116 @@
+//! Tests of the page without a browser.
+
+use rocking_wall::response::Response;
+use rocking_wall::scene::Scene;
+use rocking_wall::wall::Wall;
+
+use super::render;
+use crate::figure::{WIDTH, cut, history};
+
+fn page(change: impl Fn(&mut Scene)) -> String {
+    let mut scene = Scene::default();
+    change(&mut scene);
+    let response = Response::of(&scene).unwrap();
+    render(&scene, &Wall::new(&scene.parameters).unwrap(), &response).unwrap()
+}
+
+#[test]
+fn a_long_history_stays_small() {
+    let html = page(|scene| {
+        scene.stop_time = 100.0;
+        scene.output_step = 1e-3;
+    });
+    assert!(html.len() < 300_000, "{} bytes", html.len());
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere() {
+    let html = page(|_| {});
+    let links = html.replace("http://www.w3.org/2000/svg", "");
+    assert!(!links.contains("http"), "a link");
+    assert!(!html.contains("{{") && !html.contains("NaN"), "a gap");
+}
+
+#[test]
+fn titles_are_text() {
+    let html = page(|scene| scene.title = "<b>\"A\" & B</b></script>".into());
+    assert!(html.contains("&lt;b&gt;&quot;A&quot; &amp; B&lt;/b&gt;"));
+    assert!(!html.contains("<b>\"A\""));
+}
+
+/// After the fall the line leaves the plot: drawn on along the edge it would look like a wall at rest there.
+#[test]
+fn the_line_of_a_fallen_wall_ends() {
+    let mut scene = Scene::default();
+    scene.set("u_start", "0.199").unwrap();
+    scene.set("u_dot_start", "0.1").unwrap();
+    let response = Response::of(&scene).unwrap();
+    let line = cut(response.samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect());
+    let (before, last) = (line[line.len() - 2], line[line.len() - 1]);
+    assert!(before.1 <= 1.25 && last.1 == 1.25 && last.0 < 10.0, "{before:?}, {last:?}");
+}
+
+/// A wall that its tie brings back is drawn to its end, at its peak.
+#[test]
+fn the_line_of_a_wall_that_comes_back_goes_on() {
+    let tied = |scene: &mut Scene| {
+        let parameters = [("u_start", "0.19"), ("u_dot_start", "0.5"), ("tie_height", "3")];
+        for (name, value) in parameters.into_iter().chain([("tie_stiffness", "2e4"), ("tie_side", "both")]) {
+            scene.set(name, value).unwrap();
+        }
+    };
+    let html = page(tied);
+    assert!(html.contains("and comes back.") && html.contains(">exceeds u_ins</span>"));
+    let shown =
+        html.split("id=\"force\"").nth(1).and_then(|rest| rest.split("data-ranges=\"[").nth(1)).unwrap();
+    let left: f64 = shown.split(',').next().unwrap().parse().unwrap();
+    let peak = html.split("\"open\":").nth(1).and_then(|rest| rest.split(',').next()).unwrap();
+    let mut scene = Scene::default();
+    tied(&mut scene);
+    let response = Response::of(&scene).unwrap();
+    let time = response.samples[peak.parse::<usize>().unwrap()].time;
+    assert!(time > response.summary.overturn_time.unwrap(), "{time}");
+    let ratio = response.summary.u_ratio_max;
+    assert!(ratio > 1.2 && -left > ratio, "the dot of the force stays within {left}: {ratio}");
+}
+
+#[test]
+fn the_restitution_shown_is_one_that_matters() {
+    assert!(page(|_| {}).contains("none; the damping stands for e = 0.936"));
+    let given = page(|scene| scene.set("xi", "0.03").unwrap());
+    assert!(given.contains("<td>impact</td><td>none</td>"));
+}
+
+#[test]
+fn an_empty_response_is_refused() {
+    let scene = Scene::default();
+    let mut response = Response::of(&scene).unwrap();
+    response.samples.clear();
+    let wall = Wall::new(&scene.parameters).unwrap();
+    assert!(render(&scene, &wall, &response).unwrap_err().to_string().contains("empty"));
+}
+
+/// The cursor's place is computed from the margins of the plot: the first and last points of a line must
+/// lie there.
+#[test]
+fn the_cursor_lines_up_with_the_time_axis() {
+    let points: Vec<_> = (0..=10).map(|index| (f64::from(index), 0.1 * f64::from(index))).collect();
+    let figure = history(&points, 10.0);
+    let svg = figure.svg();
+    let path = svg.split("<path").find(|part| part.contains("#1f5fa8")).expect("the line");
+    let data = path.split(" d=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("its path");
+    let numbers: Vec<f64> = data
+        .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let [left, right, top, bottom] = figure.area();
+    let [_, _, low, high] = figure.ranges();
+    let height = 250.0;
+    let expected_y = |value: f64| height * (bottom - (bottom - top) * (value - low) / (high - low));
+    // the path has hundredths of a pixel
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 0.02, "{found} for {expected}");
+    near(numbers[0], left * WIDTH);
+    near(numbers[1], expected_y(0.0));
+    near(numbers[numbers.len() - 2], right * WIDTH);
+    near(numbers[numbers.len() - 1], expected_y(1.0));
+}

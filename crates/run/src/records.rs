@@ -1,0 +1,198 @@
+//! Records by their names: the table `[records]` of a study or a check, with files, folders and patterns.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ground_motion::{
+    Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, is_listed, read,
+};
+use rocking_wall::scene::{Place, SceneError};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// Most synthetic records of a study.
+const MOST_RECORDS: u64 = 10_000;
+
+/// A record of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedRecord {
+    /// Name in tables and messages.
+    pub name: String,
+    /// Motion, unscaled.
+    pub motion: GroundMotion,
+}
+
+/// Records of a study.
+#[derive(Clone, Debug, Default)]
+pub struct RecordsEntry {
+    /// Files, folders and patterns with `*` and `?`, relative to the study file, each with its line.
+    pub files: Vec<(String, usize)>,
+    /// Options for reading them.
+    pub options: RecordOptions,
+    /// Synthetic records after them.
+    pub synthetic: Vec<SyntheticMotion>,
+}
+
+/// Records of a study or a check, as they are written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordsTable {
+    #[serde(default)]
+    files: Vec<Spanned<String>>,
+    unit: Option<Unit>,
+    step: Option<f64>,
+    column: Option<String>,
+    channel: Option<String>,
+    format: Option<Format>,
+    synthetic: Option<Spanned<SyntheticRecords>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SyntheticRecords {
+    count: u64,
+    seed: Option<u64>,
+    duration: Option<f64>,
+    step: Option<f64>,
+}
+
+/// Reads the table `[records]`.
+///
+/// # Errors
+/// [`SceneError`] with file, line, value and remedy.
+pub fn records(table: &Spanned<RecordsTable>, place: &Place<'_>) -> Result<RecordsEntry, SceneError> {
+    let spec = table.get_ref();
+    if spec.files.is_empty() && spec.synthetic.is_none() {
+        return Err(place.error(table.span(), "[records] needs files = [...] or synthetic = { count = ... }"));
+    }
+    let RecordsTable { unit, step, format, .. } = *spec;
+    let (column, channel) = (spec.column.clone(), spec.channel.clone());
+    let options = RecordOptions { unit, step, column, channel, format };
+    let files = spec.files.iter().map(|file| (file.get_ref().clone(), place.line(file.span()))).collect();
+    let mut synthetic = Vec::new();
+    if let Some(recipe) = &spec.synthetic {
+        let SyntheticRecords { count, seed, duration, step } = *recipe.get_ref();
+        if !(1..=MOST_RECORDS).contains(&count) {
+            let message = format!("count = {count} must be from 1 to {MOST_RECORDS}");
+            return Err(place.error(recipe.span(), message));
+        }
+        let default = SyntheticMotion::default();
+        let first = seed.unwrap_or(default.seed);
+        synthetic.extend((0..count).map(|k| SyntheticMotion {
+            seed: first.wrapping_add(k),
+            duration: duration.unwrap_or(default.duration),
+            step: step.unwrap_or(default.step),
+            ..default
+        }));
+    }
+    Ok(RecordsEntry { files, options, synthetic })
+}
+
+/// A record file of a study.
+pub struct RecordFile {
+    /// Path.
+    pub path: PathBuf,
+    /// Whether the study names the file itself, and not its folder or a pattern.
+    is_named: bool,
+}
+
+/// Lists the record files of a study, in the order of its patterns.
+pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<RecordFile>, SceneError> {
+    let mut listed: Vec<RecordFile> = Vec::new();
+    for (pattern, line) in &entry.files {
+        let place = folder.join(pattern);
+        let is_named = place.is_file();
+        let found = files(&place).map_err(|reason| SceneError::Line {
+            file: study.to_owned(),
+            line: *line,
+            message: format!("{pattern:?}: {reason}"),
+        })?;
+        for path in found {
+            // a file that two patterns match is one record
+            match listed.iter_mut().find(|file| file.path == path) {
+                Some(file) => file.is_named |= is_named,
+                None => listed.push(RecordFile { path, is_named }),
+            }
+        }
+    }
+    Ok(listed)
+}
+
+/// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
+pub fn all_records(
+    entry: &RecordsEntry,
+    files: &[RecordFile],
+    study: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<NamedRecord>, SceneError> {
+    let short =
+        |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    for RecordFile { path, .. } in files {
+        *uses.entry(short(path)).or_default() += 1;
+    }
+    let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
+    for RecordFile { path, is_named } in files {
+        let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
+        let record = read(path, &entry.options).map_err(refused)?;
+        if record.is_vertical && !is_named {
+            let path = path.display();
+            warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
+            continue;
+        }
+        warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
+        let motion = record.motion;
+        let name = short(path);
+        // files with equal names go by their whole paths
+        let name = if uses[&name] > 1 { path.display().to_string() } else { name };
+        records.push(NamedRecord { name, motion });
+    }
+    if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
+        let reason =
+            "records: all are vertical, and records shake walls sideways; name horizontal ones".into();
+        return Err(SceneError::File { file: study.to_owned(), reason });
+    }
+    for recipe in &entry.synthetic {
+        let motion = recipe.motion().map_err(|error| SceneError::File {
+            file: study.to_owned(),
+            reason: format!("synthetic records: {error}"),
+        })?;
+        records.push(NamedRecord { name: format!("synthetic {}", recipe.seed), motion });
+    }
+    Ok(records)
+}
+
+/// Lists the files of a folder in the order of their names, but for hidden ones and the times beside records.
+///
+/// # Errors
+/// If the folder cannot be read.
+pub fn folder_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let files = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+    Ok(listed(files.collect::<std::io::Result<_>>()?))
+}
+
+fn listed(mut files: Vec<PathBuf>) -> Vec<PathBuf> {
+    files.retain(|path| is_listed(path));
+    files.sort();
+    files
+}
+
+/// Lists the files of a folder, of a pattern, or the one file, in order of their names.
+fn files(path: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+    let found: Vec<PathBuf> = if path.is_dir() {
+        folder_files(path)?
+    } else if path.is_file() {
+        return Ok(vec![path.to_owned()]);
+    } else {
+        let pattern = path.to_str().ok_or("expected a name in UTF-8")?;
+        listed(glob::glob(pattern)?.collect::<Result<_, _>>()?)
+    };
+    if found.is_empty() {
+        return Err(
+            "no such file, no match, or a folder without files; name records beside the study file, \
+                    such as records/*.AT2"
+                .into(),
+        );
+    }
+    Ok(found)
+}

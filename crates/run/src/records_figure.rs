@@ -1,0 +1,79 @@
+//! Accelerograms above their response spectra, as a picture.
+//!
+//! ```
+//! use run::records_figure::{Record, picture};
+//!
+//! let history = vec![(0.0, 0.0), (0.01, 0.2), (0.02, -0.1)];
+//! let spectrum = vec![(0.0, 0.2), (1.0, 0.5), (4.0, 0.1)];
+//! let record = Record { name: "a.AT2".into(), history, spectrum, is_vertical: false };
+//! assert!(picture(&[record], 0.05).svg().contains("Sa (g) at 5 % damping"));
+//! ```
+
+use report::counted;
+
+use report::number;
+use report::palette::{BLACK, PALE, SERIES};
+use report::plot::{Axis, Picture, Plot, Series};
+use report::points::decimated;
+
+/// Size \[px\].
+const WIDTH: f64 = 820.0;
+const HISTORY: f64 = 180.0;
+const SPECTRA: f64 = 420.0;
+
+/// The most records that have a history and a colour each; more are drawn as pale spectra with their median.
+pub const MOST: usize = SERIES.len();
+
+/// A record to draw.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Its name.
+    pub name: String,
+    /// Acceleration (g) over time (s).
+    pub history: Vec<(f64, f64)>,
+    /// Sa (g) over the period (s), at the same periods for all records.
+    pub spectrum: Vec<(f64, f64)>,
+    /// Whether the record is vertical: the median is that of the others.
+    pub is_vertical: bool,
+}
+
+/// Draws the histories of up to [`MOST`] records, and the spectra of all below them.
+pub fn picture(records: &[Record], damping: f64) -> Picture {
+    let end = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
+    let longest = records.iter().map(|record| end(&record.history)).fold(0.0, f64::max);
+    let mut panels = Vec::new();
+    let mut spectra = Vec::new();
+    if records.len() <= MOST {
+        for (Record { name, history, spectrum, .. }, (color, _)) in records.iter().zip(SERIES) {
+            let line = Series::line(color, 0.9, decimated(history, end(history)));
+            let axes = [Axis::over("time (s)", [0.0, longest]), Axis::new("a (g)")];
+            panels.push(Plot { title: name.clone(), ..Plot::new([WIDTH, HISTORY], axes, vec![line]) });
+            spectra.push(Series { name: name.clone(), ..Series::line(color, 1.6, spectrum.clone()) });
+        }
+    } else {
+        spectra.extend(records.iter().map(|record| Series::line(PALE, 0.8, record.spectrum.clone())));
+        let mut level: Vec<&Record> = records.iter().filter(|record| !record.is_vertical).collect();
+        let which = if level.is_empty() || level.len() == records.len() { "" } else { "horizontal " };
+        if level.is_empty() {
+            level.extend(records);
+        }
+        let name = format!("median of {}", counted(level.len(), &format!("{which}record")));
+        spectra.push(Series { name, ..Series::line(BLACK, 2.2, median(&level)) });
+    }
+    let longest = records.iter().map(|record| end(&record.spectrum)).fold(0.0, f64::max);
+    let label = format!("Sa (g) at {} % damping", number(100.0 * damping, 6));
+    let axes = [Axis::over("period T (s)", [0.0, longest]), Axis { label, range: None }];
+    panels.push(Plot::new([WIDTH, SPECTRA], axes, spectra));
+    Picture::stacked(&panels)
+}
+
+/// The median of the spectra.
+fn median(records: &[&Record]) -> Vec<(f64, f64)> {
+    let Some(first) = records.first() else { return Vec::new() };
+    let at = |index: usize| {
+        let mut values: Vec<f64> = records.iter().map(|record| record.spectrum[index].1).collect();
+        values.sort_by(f64::total_cmp);
+        f64::midpoint(values[(values.len() - 1) / 2], values[values.len() / 2])
+    };
+    first.spectrum.iter().enumerate().map(|(index, &(period, _))| (period, at(index))).collect()
+}

@@ -1,0 +1,319 @@
+//! Walls by their names: the tables `[[walls]]` of a study or a check, scenes, and tables of walls (CSV).
+
+use std::path::{Path, PathBuf};
+
+use rocking_wall::scene::{
+    Floors, GROUPS, Group, Place, Scene, SceneError, StoreyTable, SupportsTable, apply_group, parse_toml,
+    read_floors, to_toml,
+};
+use rocking_wall::wall::{COMPUTED, Parameters};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use toml::Spanned;
+
+use crate::wall_table;
+
+/// Groups of parameters that a wall of a study may state.
+const WALL_GROUPS: [&str; 5] = ["geometry", "force_law", "impact", "tie", "solver"];
+/// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedWall {
+    /// Name in tables and messages.
+    pub name: String,
+    /// Parameters. The coefficient of restitution that they state or imply serves every model.
+    pub parameters: Parameters,
+    /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
+    pub floors: Option<Floors>,
+}
+
+impl NamedWall {
+    /// Makes a wall on the ground.
+    pub fn new(name: impl Into<String>, parameters: Parameters) -> Self {
+        Self { name: name.into(), parameters, floors: None }
+    }
+}
+
+/// A wall of a study.
+#[derive(Clone, Debug)]
+pub struct WallEntry {
+    /// Name; if none is given, that of the scene file.
+    pub name: Option<String>,
+    /// Source of its parameters.
+    pub source: WallSource,
+    /// Storeys between ground and wall; if there are none, those of its scene.
+    pub floors: Option<Floors>,
+}
+
+/// Source of a wall.
+#[derive(Clone, Debug)]
+pub enum WallSource {
+    /// Parameters in the study file itself.
+    Inline(Box<Parameters>),
+    /// A scene file, relative to the study file, and the line that names it.
+    Scene(PathBuf, usize),
+    /// A table of many walls (CSV), relative to the study file, and the line that names it.
+    Table(PathBuf, usize),
+}
+
+/// A wall as it is written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallTable {
+    name: Option<String>,
+    scene: Option<PathBuf>,
+    table: Option<PathBuf>,
+    supports: Option<Spanned<SupportsTable>>,
+    #[serde(default)]
+    geometry: Group,
+    #[serde(default)]
+    force_law: Group,
+    #[serde(default)]
+    impact: Group,
+    #[serde(default)]
+    tie: Group,
+    #[serde(default)]
+    solver: Group,
+}
+
+/// A wall as [`wall_text`] writes it.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallText {
+    geometry: Group,
+    force_law: Group,
+    impact: Group,
+    #[serde(default)]
+    tie: Group,
+    solver: Group,
+    #[serde(default)]
+    storeys: Vec<Spanned<StoreyTable>>,
+    supports: Option<Spanned<SupportsTable>>,
+}
+
+/// A file of walls for a check. It may be a study: its other keys are ignored.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WallsDocument {
+    #[serde(rename = "title")]
+    _title: Option<IgnoredAny>,
+    #[serde(rename = "check")]
+    _check: Option<IgnoredAny>,
+    #[serde(rename = "models")]
+    _models: Option<IgnoredAny>,
+    #[serde(rename = "tail")]
+    _tail: Option<IgnoredAny>,
+    #[serde(rename = "intensity")]
+    _intensity: Option<IgnoredAny>,
+    #[serde(rename = "levels")]
+    _levels: Option<IgnoredAny>,
+    #[serde(rename = "records")]
+    _records: Option<IgnoredAny>,
+    #[serde(rename = "report")]
+    _report: Option<IgnoredAny>,
+    #[serde(rename = "classes")]
+    _classes: Option<IgnoredAny>,
+    #[serde(default)]
+    storeys: Vec<Spanned<StoreyTable>>,
+    supports: Option<Spanned<SupportsTable>>,
+    walls: Vec<Spanned<WallTable>>,
+}
+
+/// Reads the walls of a text with walls, storeys and supports; other keys are those of a study or a check.
+///
+/// # Errors
+/// [`SceneError`] with file, line, value and remedy.
+fn walls_of(name: &str, text: &str) -> Result<Vec<WallEntry>, SceneError> {
+    let place = &Place::new(name, text);
+    let WallsDocument { storeys, supports, walls, .. } = parse_toml(place)?;
+    entries(&walls, &storeys, supports.as_ref(), place)
+}
+
+/// Reads the walls of a text, each with its storeys.
+///
+/// # Errors
+/// [`SceneError`] with file, line, value and remedy.
+pub fn entries(
+    walls: &[Spanned<WallTable>],
+    storeys: &[Spanned<StoreyTable>],
+    supports: Option<&Spanned<SupportsTable>>,
+    place: &Place<'_>,
+) -> Result<Vec<WallEntry>, SceneError> {
+    let entry = |table: &Spanned<WallTable>| {
+        let supports = table.get_ref().supports.as_ref().or(supports);
+        Ok(WallEntry { floors: read_floors(storeys, supports, place)?, ..wall(table, place)? })
+    };
+    walls.iter().map(entry).collect()
+}
+
+fn wall(table: &Spanned<WallTable>, place: &Place<'_>) -> Result<WallEntry, SceneError> {
+    let spec = table.get_ref();
+    let [geometry, force_law, impact, tie, solver] = WALL_GROUPS;
+    let groups = [
+        (geometry, &spec.geometry),
+        (force_law, &spec.force_law),
+        (impact, &spec.impact),
+        (tie, &spec.tie),
+        (solver, &spec.solver),
+    ];
+    let given = [("scene", &spec.scene), ("table", &spec.table)];
+    if let Some((kind, path)) = given.into_iter().find_map(|(kind, path)| Some((kind, path.as_ref()?))) {
+        let is_other = kind == "scene" && spec.table.is_some();
+        let own = groups.iter().find(|(_, group)| !group.is_empty()).map(|(name, _)| *name);
+        if let Some(name) = is_other.then_some("table").or(own) {
+            let message =
+                format!("a wall is either a {kind} or has its own tables; leave out {kind} or {name}");
+            return Err(place.error(table.span(), message));
+        }
+        let line = place.line(table.span());
+        let source = if kind == "scene" { WallSource::Scene } else { WallSource::Table };
+        return Ok(WallEntry { name: spec.name.clone(), source: source(path.clone(), line), floors: None });
+    }
+    if let Some(key) = spec.impact.keys().find(|key| key.get_ref() == "impact") {
+        let message = "impact is set by the study's models; state restitution_source and restitution only";
+        return Err(place.error(key.span(), message));
+    }
+    if spec.name.is_none() {
+        return Err(place.error(table.span(), "a wall needs a name, such as name = \"1\""));
+    }
+    let mut parameters = Parameters::default();
+    for (name, group) in groups {
+        apply_group(&mut parameters, name, group, place)?;
+    }
+    let source = WallSource::Inline(Box::new(parameters));
+    Ok(WallEntry { name: spec.name.clone(), source, floors: None })
+}
+
+/// Returns the names of the parameters that a wall of a study may state.
+pub fn wall_parameters() -> impl Iterator<Item = &'static str> {
+    let groups = GROUPS.iter().filter(|(group, _)| WALL_GROUPS.contains(group));
+    // the impact is that of the models
+    groups.flat_map(|(_, names)| names.iter().copied()).filter(|name| *name != "impact")
+}
+
+/// Writes the parameters and storeys of a wall as tables of a study file.
+pub fn wall_text(wall: &NamedWall) -> String {
+    let (parameters, floors) = (wall.parameters.clone(), wall.floors.clone());
+    let text = to_toml(&Scene { parameters, floors, ..Scene::default() }, "");
+    let mut is_wanted = false;
+    let mut kept = String::new();
+    for line in text.lines() {
+        if line.starts_with('[') {
+            let group = line.trim_matches(['[', ']']);
+            is_wanted = WALL_GROUPS.contains(&group) || ["supports", "storeys"].contains(&group);
+        }
+        if is_wanted && !line.is_empty() && !line.starts_with("impact =") {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+/// Reads a wall from its tables.
+///
+/// # Errors
+/// [`SceneError`] with line and value.
+pub fn wall_of_text(name: String, text: &str) -> Result<NamedWall, SceneError> {
+    let place = &Place::new(&name, text);
+    let wall: WallText = parse_toml(place)?;
+    let mut parameters = Parameters::default();
+    for (group, entries) in
+        WALL_GROUPS.iter().zip([wall.geometry, wall.force_law, wall.impact, wall.tie, wall.solver])
+    {
+        apply_group(&mut parameters, group, &entries, place)?;
+    }
+    let floors = read_floors(&wall.storeys, wall.supports.as_ref(), place)?;
+    Ok(NamedWall { name, parameters, floors })
+}
+
+/// Reads the walls of a study's text, or of a text with walls only. Scenes and tables that it names are
+/// looked up beside its file. Adds the files that are read, and warnings about tables.
+///
+/// # Errors
+/// [`SceneError`], with file, line, value and remedy.
+pub fn read_walls(
+    text: &str,
+    path: &Path,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<NamedWall>, SceneError> {
+    let name = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut walls = Vec::new();
+    inputs.push(path.to_owned());
+    for entry in walls_of(&name, text)? {
+        // a check uses neither the motion nor the damping of a scene
+        walls.extend(self::walls(entry, folder, &name, inputs, (&mut Vec::new(), warnings))?);
+    }
+    check_unique("walls", walls.iter().map(|wall| &wall.name))
+        .map_err(|reason| SceneError::File { file: name, reason })?;
+    Ok(walls)
+}
+
+/// The name of a wall, and what the study ignores of its scene.
+pub type Ignored = (String, &'static str);
+
+/// Reads the walls of an entry. Adds the files that it names to `inputs`, what the study ignores of a scene, and
+/// warnings about a table.
+///
+/// # Errors
+/// [`SceneError`], with file, line, value and remedy.
+pub fn walls(
+    entry: WallEntry,
+    folder: &Path,
+    study: &str,
+    inputs: &mut Vec<PathBuf>,
+    (ignored, warnings): (&mut Vec<Ignored>, &mut Vec<String>),
+) -> Result<Vec<NamedWall>, SceneError> {
+    let at = |line, what: &str, error: SceneError| SceneError::Line {
+        file: study.to_owned(),
+        line,
+        message: format!("{what}: {error}"),
+    };
+    match entry.source {
+        WallSource::Inline(parameters) => {
+            let name = entry.name.unwrap_or_default();
+            Ok(vec![NamedWall { name, parameters: *parameters, floors: entry.floors }])
+        }
+        WallSource::Table(path, line) => {
+            let path = folder.join(path);
+            let (walls, found) =
+                wall_table::read(&path).map_err(|error| at(line, "a table of walls", error))?;
+            warnings.extend(found);
+            inputs.push(path);
+            Ok(walls.into_iter().map(|wall| NamedWall { floors: entry.floors.clone(), ..wall }).collect())
+        }
+        WallSource::Scene(path, line) => {
+            inputs.push(folder.join(&path));
+            let scene =
+                Scene::read(&folder.join(&path)).map_err(|error| at(line, "a wall's scene", error))?;
+            let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            let name = entry.name.or_else(stem).unwrap_or_default();
+            if scene.excitation.is_some() {
+                let warning = "the study ignores the motion of its scene and uses its records";
+                ignored.push((name.clone(), warning));
+            }
+            let Parameters { xi, c_bar, .. } = scene.parameters;
+            if xi != COMPUTED || c_bar != COMPUTED {
+                let warning = "the study ignores the damping of its scene and uses its models";
+                ignored.push((name.clone(), warning));
+            }
+            let floors = entry.floors.or(scene.floors);
+            Ok(vec![NamedWall { name, parameters: scene.parameters, floors }])
+        }
+    }
+}
+
+/// Refuses a name that occurs twice.
+///
+/// # Errors
+/// The message.
+pub fn check_unique<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Result<(), String> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            return Err(format!("{what}: the name {name:?} occurs twice; give each its own"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,219 @@
+//! The description of a study in its folder. Two studies with equal contents have the same runs.
+
+use std::ops::Range;
+
+use crate::document::ReportOptions;
+use crate::ida::{Case, Study};
+use rocking_wall::scene::fingerprint;
+use run::walls::wall_text;
+use serde::{Deserialize, Serialize};
+
+/// What the runs of a study depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contents {
+    /// The program and its version.
+    pub program: String,
+    /// The sources of the program, see [`crate::SOURCES`].
+    pub sources: String,
+    /// Name of the intensity measure.
+    pub measure: String,
+    pub(crate) measure_details: String,
+    pub(crate) levels: String,
+    /// Levels \[m/s²\] where all records share them.
+    pub(crate) grid: Option<Vec<f64>>,
+    pub(crate) tail_s: f64,
+    /// Combinations of each part; the last part may have fewer.
+    pub part_size: usize,
+    /// Damping models.
+    pub models: Vec<ModelNote>,
+    /// Records.
+    pub records: Vec<RecordNote>,
+    /// Walls.
+    pub walls: Vec<WallNote>,
+}
+
+/// A wall, as the contents describe it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WallNote {
+    /// Name.
+    pub name: String,
+    /// Tables of parameters and storeys, as in a study file.
+    pub parameters: String,
+    /// Coefficient of restitution \[-\].
+    pub restitution: f64,
+    /// Damping ratio with each model \[-\].
+    pub xi: Vec<f64>,
+}
+
+/// A damping model, as the contents describe it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelNote {
+    /// Name.
+    pub name: String,
+    /// The model and its values.
+    pub damping: String,
+}
+
+/// A record, as the contents describe it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordNote {
+    /// Name.
+    pub name: String,
+    /// Fingerprint of the samples.
+    pub fingerprint: String,
+    /// Number of samples.
+    pub points: usize,
+    /// Step \[s\].
+    pub step_s: f64,
+    /// Intensity \[m/s²\].
+    pub intensity: f64,
+}
+
+/// The description of a study in its folder.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Title.
+    pub title: String,
+    /// Options of the report.
+    pub report: ReportOptions,
+    /// What the runs depend on.
+    pub contents: Contents,
+    /// Fingerprint of the other fields.
+    pub(crate) checksum: String,
+}
+
+impl Manifest {
+    pub(crate) fn new(title: String, report: ReportOptions, contents: Contents) -> Self {
+        let mut manifest = Self { title, report, contents, checksum: String::new() };
+        manifest.checksum = manifest.fingerprint();
+        manifest
+    }
+
+    /// Returns the fingerprint of all fields except the checksum.
+    pub(crate) fn fingerprint(&self) -> String {
+        let head = json(&(&self.title, &self.report, self.contents.fingerprint()));
+        fingerprint(head.as_bytes())
+    }
+}
+
+impl Contents {
+    /// Collects the contents of a study.
+    pub fn of(study: &Study) -> Self {
+        let models = study.models();
+        let walls = study.walls().iter().enumerate().map(|(index, wall)| {
+            let made: Vec<_> = (0..models.len()).map(|model| study.wall(index, model)).collect();
+            WallNote {
+                name: wall.name.clone(),
+                parameters: wall_text(wall),
+                restitution: made[0].restitution(),
+                xi: made.iter().map(rocking_wall::wall::Wall::damping_ratio).collect(),
+            }
+        });
+        let records = study.records().iter().enumerate().map(|(index, record)| {
+            let samples = record.motion.samples();
+            let bytes: Vec<u8> = samples.iter().flat_map(|sample| sample.to_bits().to_le_bytes()).collect();
+            RecordNote {
+                name: record.name.clone(),
+                fingerprint: fingerprint(&bytes),
+                points: samples.len(),
+                step_s: record.motion.step(),
+                intensity: study.intensity(index),
+            }
+        });
+        Self {
+            program: format!("rocking-wall {}", env!("CARGO_PKG_VERSION")),
+            sources: crate::SOURCES.to_owned(),
+            measure: study.measure().name(),
+            measure_details: study.measure().description(),
+            levels: study.levels().description(),
+            grid: study.levels().shared(),
+            tail_s: study.tail(),
+            part_size: study.part_size(),
+            walls: walls.collect(),
+            models: models
+                .iter()
+                .map(|model| ModelNote { name: model.name.clone(), damping: model.loss.name() })
+                .collect(),
+            records: records.collect(),
+        }
+    }
+
+    /// Counts the combinations.
+    pub fn count(&self) -> usize {
+        self.walls.len() * self.models.len() * self.records.len()
+    }
+
+    /// Counts the parts.
+    pub fn parts(&self) -> usize {
+        self.count().div_ceil(self.part_size)
+    }
+
+    /// Returns the numbers of the combinations of a part.
+    pub fn part(&self, part: usize) -> Range<usize> {
+        part * self.part_size..((part + 1) * self.part_size).min(self.count())
+    }
+
+    /// Returns the combination of a number, as [`Study::case`] counts.
+    pub fn case(&self, index: usize) -> Case {
+        let (records, models) = (self.records.len(), self.models.len());
+        Case { wall: index / (records * models), model: index / records % models, record: index % records }
+    }
+
+    /// Returns the fingerprint of the contents.
+    pub fn fingerprint(&self) -> String {
+        // wall by wall: the text of thousands of walls at once would be the largest thing in memory
+        let fingerprints: Vec<_> = self.walls.iter().map(|wall| fingerprint(json(wall).as_bytes())).collect();
+        fingerprint((self.head() + &fingerprints.concat()).as_bytes())
+    }
+
+    /// Writes everything except the walls.
+    fn head(&self) -> String {
+        let Self { program, sources, measure, measure_details, levels, grid, .. } = self;
+        let runs = (program, sources, measure, measure_details, levels, grid, self.tail_s, self.part_size);
+        format!("{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
+    }
+
+    /// Describes the first line in which two contents differ.
+    pub(crate) fn difference(&self, other: &Self) -> String {
+        let lines = |contents: &Self| {
+            let Self { program, sources, measure_details, levels, tail_s, part_size, .. } = contents;
+            let head = format!(
+                "program {program}\nsources {sources}\nintensity {measure_details}\nlevels: {levels}\n\
+                 tail of {tail_s} s\nparts of {part_size}"
+            );
+            let models =
+                contents.models.iter().map(|model| format!("model {} ({})", model.name, model.damping));
+            let records = contents.records.iter().map(|record| {
+                let RecordNote { name, fingerprint, points, step_s, intensity } = record;
+                format!(
+                    "record {name}, {points} points of {step_s} s, intensity {intensity} m/s², fingerprint \
+                     {fingerprint}"
+                )
+            });
+            let walls = contents.walls.iter().flat_map(|wall| {
+                let WallNote { name, parameters, restitution, xi } = wall;
+                let xi: Vec<_> = xi.iter().map(f64::to_string).collect();
+                let text = format!("wall {name}\n{parameters}e = {restitution}\nxi = {}", xi.join(", "));
+                text.lines().map(str::to_owned).collect::<Vec<_>>()
+            });
+            let head: Vec<_> = head.lines().map(str::to_owned).collect();
+            head.into_iter().chain(models).chain(records).chain(walls).collect::<Vec<_>>()
+        };
+        let pair = lines(self).into_iter().zip(lines(other)).find(|(mine, theirs)| mine != theirs);
+        pair.map_or_else(
+            || "one has more lines than the other".to_owned(),
+            |(mine, theirs)| format!("found {}, expected {}", trimmed(&mine), trimmed(&theirs)),
+        )
+    }
+}
+
+/// Writes plain data as JSON; with plain data this cannot fail.
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_else(|error| unreachable!("plain data: {error}"))
+}
+
+/// Shortens a line.
+fn trimmed(line: &str) -> String {
+    const LONGEST: usize = 160;
+    line.trim().chars().take(LONGEST).collect()
+}

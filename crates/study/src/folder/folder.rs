@@ -1,0 +1,232 @@
+//! The folder of a study: its contents, and one file for each finished part.
+//!
+//! A part appears complete, by renaming, so that the program can be killed at any moment. It holds a
+//! checksum, and a damaged part counts as missing. Several processes can work on one folder. The final
+//! results are made from the parts alone, so their bytes do not depend on which process computed what.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::ida::Curve;
+use crate::loaded::LoadedStudy;
+
+use super::contents::{Contents, Manifest};
+use super::error::FolderError;
+use super::file::{self, Draft};
+use super::part;
+
+const STUDY: &str = "study.json";
+/// Largest description that is read; it has room for millions of walls.
+const MAX_STUDY_BYTES: u64 = 4 << 30;
+const RUNS: &str = "runs";
+/// Most missing combinations that a message names.
+const NAMED: usize = 3;
+
+/// A folder that holds one study.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    manifest: Manifest,
+    fingerprint: String,
+    /// The folder of the runs, locked as long as this process works on it. The lock is shared with other
+    /// processes, and exclusive to remove incomplete files. Where a folder cannot be locked, these stay.
+    lock: Option<File>,
+}
+
+impl Folder {
+    /// Opens or makes the folder of a study.
+    ///
+    /// # Errors
+    /// [`FolderError`] if it holds another study, or cannot be read or written.
+    pub fn of_study(path: &Path, loaded: &LoadedStudy) -> Result<Self, FolderError> {
+        let contents = Contents::of(&loaded.study);
+        if path.join(STUDY).exists() {
+            let other = read(path)?;
+            if other.contents != contents {
+                let difference = other.contents.difference(&contents);
+                return Err(FolderError::OtherStudy { path: path.to_owned(), difference });
+            }
+        }
+        Self::create(path, Manifest::new(loaded.title.clone(), loaded.report.clone(), contents))
+    }
+
+    /// Opens or makes the folder that a study is merged into.
+    ///
+    /// # Errors
+    /// As [`Self::of_study`].
+    pub fn like(path: &Path, manifest: &Manifest) -> Result<Self, FolderError> {
+        if path.join(STUDY).exists() {
+            Self::open(path)?.expect(&manifest.contents)?;
+        }
+        Self::create(path, manifest.clone())
+    }
+
+    fn create(path: &Path, manifest: Manifest) -> Result<Self, FolderError> {
+        make(&path.join(RUNS))?;
+        let mut draft = Draft::new(&path.join(STUDY), b"")?;
+        draft.write(|file| Ok(serde_json::to_writer_pretty(&mut *file, &manifest)?))?;
+        draft.write(|file| file.write_all(b"\n"))?;
+        draft.commit(true)?;
+        Ok(Self::locked(path, manifest))
+    }
+
+    /// Opens a folder that holds a study.
+    ///
+    /// # Errors
+    /// [`FolderError`] if there is none, or its description is damaged.
+    pub fn open(path: &Path) -> Result<Self, FolderError> {
+        Ok(Self::locked(path, read(path)?))
+    }
+
+    fn locked(path: &Path, manifest: Manifest) -> Self {
+        let fingerprint = manifest.contents.fingerprint();
+        let lock = File::open(path.join(RUNS)).ok().filter(|lock| lock.lock_shared().is_ok());
+        Self { path: path.to_owned(), manifest, fingerprint, lock }
+    }
+
+    /// Checks that the folder holds the study of these contents.
+    ///
+    /// # Errors
+    /// [`FolderError::OtherThanFirst`].
+    pub fn expect(&self, contents: &Contents) -> Result<(), FolderError> {
+        if self.manifest.contents == *contents {
+            return Ok(());
+        }
+        let difference = self.manifest.contents.difference(contents);
+        Err(FolderError::OtherThanFirst { path: self.path.clone(), difference })
+    }
+
+    /// Returns the path of the folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Returns the description of the study.
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    /// Returns what the runs depend on.
+    pub fn contents(&self) -> &Contents {
+        &self.manifest.contents
+    }
+
+    fn file(&self, part: usize) -> PathBuf {
+        // at most a thousand files in a folder, since large folders are slow
+        self.path.join(RUNS).join(format!("{:04}", part / 1000)).join(format!("{part:07}.parquet"))
+    }
+
+    /// Reads the curves of a part, if its file is there and not damaged.
+    pub fn part(&self, part: usize) -> Option<Vec<Curve>> {
+        let bytes = std::fs::read(self.file(part)).ok()?;
+        part::decode(self.contents(), &self.fingerprint, part, bytes)
+    }
+
+    /// Writes the curves of a part.
+    ///
+    /// # Errors
+    /// [`FolderError`] if the file cannot be written.
+    pub fn keep(&self, part: usize, curves: &[Curve]) -> Result<(), FolderError> {
+        self.keep_bytes(part, &part::encode(self.contents(), &self.fingerprint, part, curves)?)
+    }
+
+    /// Writes a part that another process has encoded.
+    ///
+    /// # Errors
+    /// [`FolderError`] if it is not that part of this study, or its file cannot be written.
+    pub fn keep_encoded(&self, part: usize, bytes: &[u8]) -> Result<(), FolderError> {
+        if part::decode(self.contents(), &self.fingerprint, part, bytes.to_vec()).is_none() {
+            return Err(FolderError::Part { part });
+        }
+        self.keep_bytes(part, bytes)
+    }
+
+    fn keep_bytes(&self, part: usize, bytes: &[u8]) -> Result<(), FolderError> {
+        let file = self.file(part);
+        make(file::folder(&file))?;
+        // no need to wait for the disk: a part that a power failure damages is computed again
+        Draft::new(&file, bytes)?.commit(false).map(drop)
+    }
+
+    /// Returns those of the parts given that are missing.
+    pub fn missing(&self, parts: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        parts.into_iter().filter(|&part| self.part(part).is_none()).collect()
+    }
+
+    /// Lists the files of missing parts that exist, because they are damaged.
+    pub fn damage(&self, missing: &[usize]) -> Option<String> {
+        let files: Vec<_> =
+            missing.iter().map(|&part| self.file(part)).filter(|file| file.exists()).collect();
+        files.first().map(|first| {
+            format!(
+                "{} of {} parts are damaged or of another study and count as missing; the first is {}",
+                files.len(),
+                self.contents().parts(),
+                first.display()
+            )
+        })
+    }
+
+    /// Makes the error that names what is missing.
+    pub fn incomplete(&self, missing: &[usize]) -> FolderError {
+        let contents = self.contents();
+        let name = |index: usize| {
+            let case = contents.case(index);
+            format!(
+                "wall {:?} with {} under {:?}",
+                contents.walls[case.wall].name,
+                contents.models[case.model].name,
+                contents.records[case.record].name
+            )
+        };
+        let count = missing.iter().map(|&part| contents.part(part).len()).sum();
+        let cases = missing.iter().flat_map(|&part| contents.part(part));
+        let names: Vec<_> = cases.take(NAMED).map(name).collect();
+        let more = if count > NAMED { " …" } else { "" };
+        FolderError::Missing { missing: count, all: contents.count(), names: names.join(", ") + more }
+    }
+
+    /// Removes the incomplete files of killed processes, unless another process works on the folder.
+    pub fn sweep(&self) {
+        let Some(lock) = &self.lock else { return };
+        if lock.try_lock().is_ok() {
+            self.remove_incomplete();
+        }
+        // an attempt that fails may lose the shared lock too
+        let _ = lock.lock_shared();
+    }
+
+    fn remove_incomplete(&self) {
+        let entries = |path: &Path| std::fs::read_dir(path).into_iter().flatten().flatten();
+        let folders = entries(&self.path.join(RUNS)).map(|entry| entry.path());
+        for folder in folders.chain([self.path.clone()]) {
+            for entry in entries(&folder) {
+                let name = entry.file_name().to_string_lossy().into_owned();
+                if name.starts_with('.') && name.strip_suffix(".part").is_some() {
+                    // another process may have removed it
+                    let _ = std::fs::remove_file(entry.path());
+                }
+            }
+        }
+    }
+}
+
+/// Makes a folder, and those that it lies in.
+fn make(path: &Path) -> Result<(), FolderError> {
+    let failed = |source| FolderError::File { path: path.to_owned(), what: "made", source };
+    std::fs::create_dir_all(path).map_err(failed)
+}
+
+/// Reads the description of the study in a folder.
+fn read(path: &Path) -> Result<Manifest, FolderError> {
+    let path = path.join(STUDY);
+    let bytes = ground_motion::read_file(&path, "the description of a study", MAX_STUDY_BYTES)
+        .map_err(|source| FolderError::NoStudy { path: path.clone(), source })?;
+    let manifest: Manifest = serde_json::from_slice(&bytes)
+        .map_err(|error| FolderError::Description { path: path.clone(), line: error.line() })?;
+    if manifest.checksum != manifest.fingerprint() {
+        return Err(FolderError::Damaged { path });
+    }
+    Ok(manifest)
+}

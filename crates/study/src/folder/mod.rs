@@ -1,0 +1,48 @@
+//! A study in a folder: runs in parts (Parquet), and the tables and the page that are made of them.
+//!
+//! ```text
+//! study ─► Folder ─► parts, in any order, by any process ─► finish ─► tables · page
+//! ```
+//!
+//! Each module uses only modules above it in this table:
+//!
+//! | module | holds |
+//! |---|---|
+//! | `error` | errors |
+//! | [`mod@file`] | files, written completely or not at all |
+//! | `contents` | what the runs of a study depend on |
+//! | `part` | a part as Parquet |
+//! | `folder` | the folder |
+//! | `work` | computes the parts that are not on disk yet |
+//! | `tables` | the tables |
+//! | `legend` | colours and marks of the damping models |
+//! | `comparison` | the walls at one glance |
+//! | `plots` | the plots of a wall |
+//! | `nrml` | fragility functions in the format of risk engines |
+//! | `risk` | fragilities of walls and classes for risk engines |
+//! | `page` | the page of a study |
+//! | `population` | the walls of a large study together |
+//! | `report` | all results of a complete folder |
+
+mod comparison;
+mod contents;
+mod error;
+pub mod file;
+mod folder;
+mod legend;
+mod nrml;
+mod page;
+mod part;
+mod plots;
+mod population;
+mod report;
+mod risk;
+mod tables;
+mod work;
+
+pub use contents::{Contents, Manifest, ModelNote, RecordNote, WallNote};
+pub use error::FolderError;
+pub use folder::Folder;
+pub use part::{decode, encode};
+pub use report::{Report, finish};
+pub use work::{WorkError, work};

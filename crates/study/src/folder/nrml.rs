@@ -1,0 +1,165 @@
+//! Fragility functions as NRML 0.5, the format of risk engines. Intensities are in g.
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+use crate::document::ReportOptions;
+use crate::fragility::FragilityFunction;
+use crate::tables::in_g;
+use report::escaped;
+
+use super::contents::Manifest;
+
+/// Φ⁻¹(1 − 1e-4): beyond `minIML` and `maxIML` lies a probability of 1e-4.
+const TAIL: f64 = 3.719_016_485_455_709;
+/// What risk engines refuse in the name of a function.
+const REFUSED: [char; 3] = ['#', '\'', '"'];
+
+/// Returns the limit states from the first to be exceeded to the last: place in the report, and name.
+pub(crate) fn limit_states(report: &ReportOptions) -> Vec<(usize, String)> {
+    let mut states: Vec<_> = report.fractions.iter().copied().enumerate().collect();
+    states.sort_by(|a, b| a.1.total_cmp(&b.1));
+    states.dedup_by_key(|(_, fraction)| *fraction);
+    let named = |(place, fraction): (usize, f64)| (place, format!("u_ins_{fraction}").replace('.', "_"));
+    states.into_iter().map(named).collect()
+}
+
+/// Returns the name in NRML of an intensity measure: `PGA` or `SA(T)`; `None` for the others.
+pub(crate) fn measure(name: &str) -> Option<String> {
+    let period = name.strip_prefix("Sa(").and_then(|rest| rest.strip_suffix(" s)"));
+    period.map(|period| format!("SA({period})")).or_else(|| (name == "PGA").then(|| "PGA".into()))
+}
+
+/// Writes the functions of a study one by one.
+pub(crate) struct Writer {
+    measure: String,
+    states: Vec<(usize, String)>,
+    ids: BTreeSet<String>,
+}
+
+impl Writer {
+    /// Writes what precedes the functions; `None` if NRML cannot state the study's measure.
+    pub(crate) fn new(manifest: &Manifest) -> Option<(Self, String)> {
+        let measure = measure(&manifest.contents.measure)?;
+        let states = limit_states(&manifest.report);
+        let names: Vec<_> = states.iter().map(|(_, name)| name.as_str()).collect();
+        let text = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+             <nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  \
+             <fragilityModel id=\"rocking_walls\" assetCategory=\"buildings\" lossCategory=\"structural\">\n\
+             \x20   \
+             <description>{}: a limit state is named by its fraction of the static instability displacement; \
+             intensities in g</description>\n    <limitStates>{}</limitStates>\n",
+            escaped(&manifest.title),
+            names.join(" ")
+        );
+        Some((Self { measure, states, ids: BTreeSet::new() }, text))
+    }
+
+    /// Writes a function, but none with a number that would be 0 or infinite; returns whether it did. Below
+    /// `minIML` and `noDamageLimit` the first limit state has a probability of less than 1e-4, above `maxIML`
+    /// the last one of more than 1 − 1e-4.
+    pub(crate) fn function(
+        &mut self,
+        out: &mut dyn Write,
+        name: &str,
+        function: &FragilityFunction,
+    ) -> io::Result<bool> {
+        let (medians, beta) = (&function.medians, function.dispersion());
+        let tail = libm::exp(TAIL * beta);
+        let (least, most) = (in_g(medians[0]) / tail, in_g(medians[medians.len() - 1]) * tail);
+        let params: Vec<_> = medians.iter().map(|median| moments(in_g(*median), beta)).collect();
+        let mut numbers = params.iter().flatten().chain([&least, &most]);
+        if !numbers.all(|number| number.is_finite() && *number > 0.0) {
+            return Ok(false);
+        }
+        writeln!(
+            out,
+            "    <fragilityFunction id=\"{}\" format=\"continuous\" shape=\"logncdf\">\n      \
+             <imls imt=\"{}\" noDamageLimit=\"{least:e}\" minIML=\"{least:e}\" maxIML=\"{most:e}\"/>",
+            escaped(&self.unique(name)),
+            self.measure
+        )?;
+        for ((_, state), [mean, deviation]) in self.states.iter().zip(&params) {
+            writeln!(out, "      <params ls=\"{state}\" mean=\"{mean:e}\" stddev=\"{deviation:e}\"/>")?;
+        }
+        writeln!(out, "    </fragilityFunction>")?;
+        Ok(true)
+    }
+
+    /// Writes what follows the functions.
+    pub(crate) fn finish(out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "  </fragilityModel>\n</nrml>")
+    }
+
+    /// Makes a name that no other function has.
+    fn unique(&mut self, name: &str) -> String {
+        let mut id = name.replace(REFUSED, "_");
+        while !self.ids.insert(id.clone()) {
+            id.push('_');
+        }
+        id
+    }
+}
+
+/// Returns the mean and the standard deviation of a lognormal variable, θ exp(β²/2) and mean √(exp β² − 1).
+fn moments(median: f64, beta: f64) -> [f64; 2] {
+    let square = beta * beta;
+    let mean = median * libm::exp(0.5 * square);
+    [mean, mean * libm::expm1(square).sqrt()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_give_back_the_curve() {
+        for beta in [0.05, 0.3, 0.7, 1.5] {
+            let [mean, deviation] = moments(0.37, beta);
+            // as risk engines do
+            let square = libm::log1p((deviation / mean).powi(2));
+            let theta = mean * libm::exp(-0.5 * square);
+            assert!((theta / 0.37 - 1.0).abs() < 1e-14 && (square.sqrt() / beta - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_function_of_infinite_numbers_is_left_out() {
+        let states = vec![(0, "u_ins_1".to_owned())];
+        let mut writer = Writer { measure: "PGA".into(), states, ids: BTreeSet::new() };
+        for (beta, is_written) in [(0.5, true), (50.0, false)] {
+            let curve = crate::fragility::Lognormal { median: 3.0, dispersion: beta };
+            let (function, mut out) = (FragilityFunction::new(&[curve], 0.0), Vec::new());
+            assert_eq!(writer.function(&mut out, "wall", &function).unwrap(), is_written);
+            assert_eq!(out.is_empty(), !is_written);
+        }
+    }
+
+    #[test]
+    fn names_are_unique_and_free_of_what_engines_refuse() {
+        let mut writer = Writer { measure: "PGA".into(), states: Vec::new(), ids: BTreeSet::new() };
+        let ids = ["a#1", "a'1", "a_1", "b"].map(|name| writer.unique(name));
+        assert_eq!(ids, ["a_1", "a_1_", "a_1__", "b"]);
+    }
+
+    #[test]
+    fn measures_have_the_names_of_nrml() {
+        let names = ["PGA", "Sa(0.5 s)", "AvgSA"].map(measure);
+        assert_eq!(names, [Some("PGA".into()), Some("SA(0.5)".into()), None]);
+    }
+
+    #[test]
+    fn limit_states_rise_and_have_plain_names() {
+        let report = ReportOptions {
+            fractions: vec![0.4, 0.1, 1.0, 0.4],
+            reference: String::new(),
+            resamples: 1,
+            seed: 1,
+            modelling_uncertainty: 0.0,
+            classes: Vec::new(),
+        };
+        let expected = [(1, "u_ins_0_1"), (0, "u_ins_0_4"), (2, "u_ins_1")];
+        assert_eq!(limit_states(&report), expected.map(|(place, name)| (place, name.to_owned())));
+    }
+}

@@ -1,0 +1,231 @@
+//! The page of a study: for each wall its IDA curves and fragilities, damping models side by side.
+
+use std::fmt::Write;
+
+use crate::fragility::Interval;
+use crate::ida::Exceedance;
+use crate::results::WallResults;
+use crate::tables::in_g;
+use report::counted;
+use report::escaped;
+use report::many_lines::STYLE;
+use report::palette::sign;
+use report::template;
+
+use super::contents::{Contents, Manifest};
+use super::legend::{key, looks, spelled_out};
+use super::plots::{Shown, curves, fragility, top};
+
+/// Most points of single curves on the page, about 12 bytes each. With more, only every nth record is drawn.
+const MOST_POINTS: usize = 100_000;
+/// Most records whose collapse the page lists.
+const MOST_LISTED: usize = 200;
+
+/// Makes the page of a study with a number of runs from the sections of its walls, or of all together.
+pub(crate) fn page(manifest: &Manifest, runs: usize, sections: &str) -> String {
+    let contents = &manifest.contents;
+    let facts = format!(
+        "{}, {}, {}: {}. Intensity: {}. A run stops when the wall overturns, |u| &gt; \
+         u<sub>ins</sub>; the lowest level at which it does is the collapse.",
+        counted(contents.walls.len(), "wall"),
+        counted(contents.records.len(), "record"),
+        counted(contents.models.len(), "damping model"),
+        counted(runs, "run"),
+        measure_words(manifest),
+    );
+    template::page(
+        include_str!("page.html"),
+        &[
+            ("title", &escaped(&manifest.title)),
+            ("style", STYLE),
+            ("facts", &facts),
+            ("reading", &reading(manifest)),
+            ("key", &key(manifest)),
+            ("models", &spelled_out(manifest)),
+            ("program", &escaped(&contents.program)),
+            ("sections", sections),
+        ],
+    )
+}
+
+/// The intensity measure in words, with its periods.
+fn measure_words(manifest: &Manifest) -> String {
+    let contents = &manifest.contents;
+    match contents.measure_details.split_once(" over ") {
+        Some((measure, periods)) => {
+            format!("{}, the geometric mean of 5&nbsp;%-damped Sa at {}", escaped(measure), escaped(periods))
+        }
+        None => escaped(&contents.measure),
+    }
+}
+
+/// Explains medians, fits and intervals.
+fn reading(manifest: &Manifest) -> String {
+    let report = &manifest.report;
+    let stripes = manifest.contents.grid.is_some();
+    let (drawn, observed) = if stripes {
+        (
+            "marks are the fractions of the records that exceed the limit state at each level",
+            "the numbers of exceedances at each level (Baker 2015, Eq. 11)",
+        )
+    } else {
+        (
+            "steps are the records",
+            "the records' own intensities; those that stood at the highest level count as censored (Baker \
+             2015, Eq. 8)",
+        )
+    };
+    let runs =
+        if stripes { " Each point of a stripe is a run; those at the right edge overturned." } else { "" };
+    format!(
+        "Fragilities: the {drawn}. The lines are lognormal curves, fitted by maximum \
+         likelihood to {observed}. All limit states of a wall and model share one β, so that their curves do \
+         not cross (Shinozuka et al. 2003). * marks a β that the limit states contradict (ratio of \
+         likelihoods, 5&nbsp;%). Intervals contain 95&nbsp;% of {} resamples of the records, drawn with all \
+         their results, so that ratios are paired. Ratios are to {}. “open” marks a number that the levels \
+         leave open, with its bound. Fractiles of IDA curves are those of the intensity at which a record \
+         first exceeds a demand (Vamvatsikos and Cornell 2004).{runs}",
+        report.resamples,
+        escaped(&report.reference)
+    )
+}
+
+/// Makes the section of a wall. If the study has many runs, only every nth record is drawn.
+pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, runs: usize) -> String {
+    let shown = Shown { manifest, wall, results };
+    let every = runs.div_ceil(MOST_POINTS).max(1);
+    let contents = &manifest.contents;
+    let note = &contents.walls[wall];
+    let top_of_collapses = top(shown, 1.0);
+    let mut html = format!(
+        "<section><h2>Wall {}</h2><p class=\"subtitle\">{}; e = {:.3}</p><div class=\"row pair\">",
+        escaped(&note.name),
+        escaped(&shape(&note.parameters)),
+        note.restitution
+    );
+    let fractions = &manifest.report.fractions;
+    if let Some(collapse) = fractions.iter().position(|fraction| *fraction == 1.0) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>Collapse fragility</figcaption>{}</figure><div class=\"scroll\">{}{}</div>",
+            fragility(shown, collapse, top_of_collapses),
+            table(shown, collapse),
+            collapses(shown)
+        );
+    }
+    let drawn = if contents.grid.is_some() { "Stripes" } else { "IDA curves" };
+    let _ = write!(html, "</div><h3>{drawn}, with their 16, 50 and 84 % fractiles</h3><div class=\"row\">");
+    for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>{}</figcaption>{}</figure>",
+            escaped(name),
+            curves(shown, model, every, top_of_collapses)
+        );
+    }
+    html.push_str("</div><h3>Fragilities at fractions of u<sub>ins</sub></h3><div class=\"row\">");
+    for (place, fraction) in fractions.iter().enumerate().filter(|(_, fraction)| **fraction < 1.0) {
+        let _ = write!(
+            html,
+            "<figure><figcaption>P(u<sub>max</sub>/u<sub>ins</sub> &gt; {fraction})</figcaption>{}</figure>",
+            fragility(shown, place, top(shown, *fraction))
+        );
+    }
+    html.push_str("</div></section>\n");
+    html
+}
+
+/// Shape, law and loads of a wall, from its parameters.
+fn shape(parameters: &str) -> String {
+    let find = |name: &str| {
+        parameters
+            .lines()
+            .find_map(|line| line.strip_prefix(name)?.strip_prefix(" = "))
+            .map(|v| v.trim_matches('"'))
+    };
+    let text = |name| find(name).unwrap_or("?");
+    let mut words =
+        format!("{}, {} m × {} m", text("mechanism").replace('_', " "), text("height"), text("thickness"));
+    if text("mechanism") == "vertical_spanning" {
+        let _ = write!(words, ", h1 = {} h", text("hinge_ratio"));
+    }
+    let _ = write!(words, ", {}", text("force_law").replace('_', " "));
+    if let Some(a1) = find("a1") {
+        let _ = write!(words, ", a1 = {a1}");
+    }
+    if find("overburden").is_some_and(|load| load != "0.0") {
+        let _ = write!(words, ", overburden {} N", text("overburden"));
+    }
+    words
+}
+
+/// Lists the collapse of each record with each model, unless there are too many records for a page.
+fn collapses(shown: Shown<'_>) -> String {
+    let Contents { records, models, .. } = &shown.manifest.contents;
+    if records.len() > MOST_LISTED {
+        return String::new();
+    }
+    let mut html = format!(
+        "<details><summary>Collapse of each record, {} (g)</summary><table><tr><th>record</th>",
+        escaped(&shown.manifest.contents.measure)
+    );
+    for model in models {
+        let _ = write!(html, "<th>{}</th>", escaped(&model.name));
+    }
+    for (index, record) in records.iter().enumerate() {
+        let _ = write!(html, "</tr>\n<tr><td>{}</td>", escaped(&record.name));
+        for model in 0..models.len() {
+            let _ = match shown.results.curves(model)[index].collapse() {
+                Exceedance::At(intensity) => write!(html, "<td>{:.3}</td>", in_g(intensity)),
+                Exceedance::Above(top) => write!(html, "<td>open &gt;{:.3}</td>", in_g(top)),
+            };
+        }
+    }
+    html + "</tr></table></details>"
+}
+
+/// Medians, dispersions and ratios.
+fn table(shown: Shown<'_>, collapse: usize) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let (contents, report) = (&manifest.contents, &manifest.report);
+    let mut html = format!(
+        "<table><thead><tr><th>model</th><th>ξ (%)</th><th>median (g)</th><th>θ (g)</th><th>β</th>\
+         <th>median / {0}</th><th>θ / {0}</th><th>censored</th><th>stands again</th></tr></thead><tbody>",
+        escaped(&report.reference)
+    );
+    for (model, (summary, (color, mark))) in
+        results.summaries(collapse).iter().zip(looks(manifest)).enumerate()
+    {
+        let xi = contents.walls[wall].xi[model];
+        let again = results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();
+        let reference = contents.models[model].name == report.reference;
+        let ratio = |interval: &Interval| if reference { "1".to_owned() } else { words(interval, 1.0) };
+        let gravity = ground_motion::STANDARD_GRAVITY;
+        let _ = write!(
+            html,
+            "<tr><td>{} {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{}</td><td>{again}</td></tr>",
+            escaped(&contents.models[model].name),
+            sign(color, mark),
+            if xi > 0.0 { format!("{:.2}", 100.0 * xi) } else { "–".to_owned() },
+            words(&summary.median, gravity),
+            words(&summary.theta, gravity),
+            match summary.fitted {
+                Ok(fit) if summary.contradicted => format!("{:.2} *", fit.dispersion),
+                Ok(fit) => format!("{:.2}", fit.dispersion),
+                Err(error) => format!("<span title=\"{}\">–</span>", escaped(&error.to_string())),
+            },
+            ratio(&summary.median_ratio),
+            ratio(&summary.theta_ratio),
+            summary.censored,
+        );
+    }
+    html.push_str("</tbody></table>");
+    html
+}
+
+/// An estimate over its interval.
+fn words(interval: &Interval, unit: f64) -> String {
+    let [estimate, low, high] = interval.texts(unit, Some(3)).map(|text| escaped(&text));
+    format!("{estimate}<br><small>{low} … {high}</small>")
+}

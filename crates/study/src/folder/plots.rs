@@ -1,0 +1,173 @@
+//! The plots of a wall: fragilities and IDA curves or stripes.
+
+use crate::fragility::steps;
+use crate::ida::{Curve, Exceedance, Run};
+use crate::results::WallResults;
+use crate::tables::in_g;
+use report::many_lines::ManyLines;
+use run::sample::fractile;
+
+use super::contents::Manifest;
+use super::legend::looks;
+
+/// Size of every plot \[px\]; with one size, their letters have one size too.
+pub(crate) const SIZE: [f64; 2] = [340.0, 260.0];
+/// Demand at the right end of IDA curves, and that at which the runs of stripes that overturned are drawn.
+const DEMAND_END: f64 = 1.08;
+const OVERTURNED: f64 = 1.05;
+/// Points of fractiles and of a fitted curve.
+pub(crate) const POINTS: u32 = 100;
+/// Probabilities at which a fitted curve has the mark of its model.
+const MARKED: [f64; 3] = [0.16, 0.5, 0.84];
+
+/// A wall and its results.
+#[derive(Clone, Copy)]
+pub(crate) struct Shown<'a> {
+    pub(crate) manifest: &'a Manifest,
+    pub(crate) wall: usize,
+    pub(crate) results: &'a WallResults,
+}
+
+/// Intensity at the end of a wall's axes \[g\]: nearly all exceedances of a fraction of `u_ins`.
+pub(crate) fn top(shown: Shown<'_>, fraction: f64) -> f64 {
+    let models = shown.manifest.contents.models.len();
+    let largest = |model: usize| {
+        let mut intensities: Vec<f64> = shown
+            .results
+            .exceedances(model, fraction)
+            .into_iter()
+            .map(|occurrence| match occurrence {
+                Exceedance::At(intensity) | Exceedance::Above(intensity) => intensity,
+            })
+            .collect();
+        intensities.sort_by(f64::total_cmp);
+        let (most, all) = (fractile(&intensities, 0.9), intensities.last().copied());
+        // a single outlying record must not squeeze the others
+        (1.5 * most.unwrap_or(1.0)).min(all.unwrap_or(1.0))
+    };
+    1.05 * in_g((0..models).map(largest).fold(1e-6, f64::max))
+}
+
+/// Draws the observations, as steps or as marks at the levels of stripes, and the fit of each model.
+pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let fraction = manifest.report.fractions[place];
+    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
+    for (model, (summary, (color, mark))) in results.summaries(place).iter().zip(looks(manifest)).enumerate()
+    {
+        let exceedances = results.exceedances(model, fraction);
+        if let Some(levels) = &manifest.contents.grid {
+            let part = |level: f64| {
+                let exceeded = exceedances.iter().filter(|e| e.or_infinity() <= level).count();
+                exceeded as f64 / exceedances.len() as f64
+            };
+            let stripes: Vec<_> = levels.iter().map(|&level| [in_g(level), part(level)]).collect();
+            plot.marks(&stripes, mark, color);
+        } else {
+            let mut points = vec![[0.0, 0.0]];
+            let mut before = 0.0;
+            for (intensity, part) in steps(&exceedances) {
+                points.extend([[in_g(intensity), before], [in_g(intensity), part]]);
+                before = part;
+            }
+            points.push([2.0 * top, before]);
+            plot.line(&points, "steps", color);
+        }
+        if let Ok(fit) = summary.fitted {
+            let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
+            let probability = |x: f64| fit.probability(x * ground_motion::STANDARD_GRAVITY);
+            let curve: Vec<_> = (1..=POINTS).map(|k| [at(k), probability(at(k))]).collect();
+            plot.line(&curve, "fit", color);
+            if manifest.contents.grid.is_none() {
+                let first = |part: f64| curve.iter().find(|point| point[1] >= part).copied();
+                plot.marks(&MARKED.into_iter().filter_map(first).collect::<Vec<_>>(), mark, color);
+            }
+        }
+    }
+    plot.svg(&format!("f{wall}-{place}"), [&format!("{} (g)", manifest.contents.measure), "probability"])
+}
+
+/// Draws the collapse fragility of a wall for a file, with the wall's name.
+pub(crate) fn panel(manifest: &Manifest, wall: usize, results: &WallResults) -> Option<(String, String)> {
+    let collapse = manifest.report.fractions.iter().position(|fraction| *fraction == 1.0)?;
+    let shown = Shown { manifest, wall, results };
+    let name = &manifest.contents.walls[wall].name;
+    Some((format!("Wall {name}"), fragility(shown, collapse, top(shown, 1.0))))
+}
+
+/// Draws the runs of one model, intensity over demand: a curve for each record, or the points of stripes.
+pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> String {
+    let Shown { manifest, wall, results } = shown;
+    let all = results.curves(model);
+    let (color, _) = looks(manifest)[model];
+    let mut plot = ManyLines::new(SIZE, [0.0, DEMAND_END], [0.0, top]);
+    for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
+        if manifest.contents.grid.is_some() {
+            let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
+            let runs: Vec<_> = curve.runs().iter().map(|run| [demand(run), in_g(run.intensity)]).collect();
+            plot.points(&runs, "runs", color);
+        } else {
+            plot.named_line(&path(curve), "record", color, &record.name);
+        }
+    }
+    for (points, class) in fractile_paths(all).iter().zip(["fractile outer", "fractile outer", "fractile"]) {
+        plot.line(points, class, color);
+    }
+    plot.svg(&format!("c{wall}-{model}"), ["u_max / u_ins", &format!("{} (g)", manifest.contents.measure)])
+}
+
+/// Returns the points of a curve up to its collapse, where it becomes flat.
+fn path(curve: &Curve) -> Vec<[f64; 2]> {
+    let mut points = vec![[0.0, 0.0]];
+    for run in curve.runs() {
+        if run.overturning.is_some() {
+            let standing = points.last().map_or(0.0, |point| point[0]);
+            points.extend([[standing, in_g(run.intensity)], [2.0 * DEMAND_END, in_g(run.intensity)]]);
+            break;
+        }
+        points.push([run.demand, in_g(run.intensity)]);
+    }
+    points
+}
+
+/// The 16, 84 and 50 % fractiles of the intensity at which a record first exceeds a demand, over the demand.
+/// They rise with the demand, and go flat at the collapse.
+fn fractile_paths(curves: &[Curve]) -> [Vec<[f64; 2]>; 3] {
+    let mut paths = [const { Vec::new() }; 3].map(|mut path: Vec<[f64; 2]>| {
+        path.push([0.0, 0.0]);
+        path
+    });
+    for k in 1..=POINTS {
+        let demand = f64::from(k) / f64::from(POINTS);
+        let first = |curve: &Curve| curve.exceedance(demand, false).or_infinity();
+        let mut intensities: Vec<f64> = curves.iter().map(first).collect();
+        intensities.sort_by(f64::total_cmp);
+        for (path, part) in paths.iter_mut().zip([0.16, 0.84, 0.5]) {
+            // unknown above the levels
+            let known = fractile(&intensities, part).filter(|intensity| intensity.is_finite());
+            path.extend(known.map(|intensity| [demand, in_g(intensity)]));
+            if k == POINTS {
+                path.extend(known.map(|intensity| [2.0 * DEMAND_END, in_g(intensity)]));
+            }
+        }
+    }
+    paths
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::ida::{Curve, Run};
+
+    use super::fractile_paths;
+
+    #[test]
+    fn fractiles_of_curves_that_weave_do_not_fold_back() {
+        let run = |(intensity, demand)| Run { intensity, demand, overturning: None };
+        let demands = [[0.5, 0.1, 0.9], [0.2, 0.6, 0.3], [0.4, 0.2, 1.0]];
+        let curves =
+            demands.map(|demands| Curve::new([1.0, 2.0, 3.0].into_iter().zip(demands).map(run).collect()));
+        for path in fractile_paths(&curves) {
+            assert!(path.is_sorted_by(|a, b| a[0] < b[0] && a[1] <= b[1]) && path.len() > 20, "{path:?}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The walls of a large study together: distributions of their medians and dispersions.
+
+use std::fmt::Write;
+
+use crate::results::WallResults;
+use crate::tables::in_g;
+use report::escaped;
+use report::many_lines::ManyLines;
+use run::sample::fractile;
+
+use super::contents::Manifest;
+use super::legend::looks;
+use super::plots::{POINTS, SIZE};
+
+/// Fractiles that the tables list.
+const FRACTILES: [f64; 5] = [0.05, 0.16, 0.5, 0.84, 0.95];
+/// Weakest walls that the page lists.
+const WEAKEST: usize = 10;
+
+/// What the page of a large study shows, wall by wall.
+#[derive(Debug)]
+pub(crate) struct Population {
+    /// Medians of each limit state and model \[m/s²\], infinite above the levels.
+    medians: Vec<Vec<Vec<f64>>>,
+    /// Dispersions of each model, where there is a fit.
+    dispersions: Vec<Vec<f64>>,
+}
+
+impl Population {
+    pub(crate) fn new(manifest: &Manifest) -> Self {
+        let models = manifest.contents.models.len();
+        let medians = vec![vec![Vec::new(); models]; manifest.report.fractions.len()];
+        Self { medians, dispersions: vec![Vec::new(); models] }
+    }
+
+    /// Adds the next wall.
+    pub(crate) fn add(&mut self, results: &WallResults) {
+        for (state, medians) in self.medians.iter_mut().enumerate() {
+            for (medians, summary) in medians.iter_mut().zip(results.summaries(state)) {
+                medians.push(summary.median.estimate);
+            }
+        }
+        // the limit states of a wall and model share it
+        let fits = self.medians.first().map(|_| results.summaries(0)).unwrap_or_default();
+        for (dispersions, summary) in self.dispersions.iter_mut().zip(fits) {
+            dispersions.extend(summary.fitted.ok().map(|fit| fit.dispersion));
+        }
+    }
+
+    /// Draws the distributions as sections of the page.
+    pub(crate) fn sections(&self, manifest: &Manifest) -> String {
+        let walls = manifest.contents.walls.len();
+        let mut html = format!(
+            "<section><h2>{walls} walls</h2><p class=\"subtitle\">Each curve is the fraction of the walls \
+             whose median intensity is at most that of the axis. The runs of each wall are in the parts, its \
+             fragilities in fragilities.csv.</p><div class=\"row\">"
+        );
+        let measure = format!("{} (g)", manifest.contents.measure);
+        for (place, fraction) in manifest.report.fractions.iter().enumerate() {
+            let medians = self.medians[place].iter().map(|medians| sorted(medians, in_g)).collect::<Vec<_>>();
+            let _ = write!(
+                html,
+                "<figure><figcaption>Medians of u<sub>max</sub>/u<sub>ins</sub> {}</figcaption>{}</figure>",
+                if *fraction < 1.0 { format!("&gt; {fraction}") } else { "≥ 1: collapse".to_owned() },
+                distribution(manifest, &medians, &format!("m{place}"), &measure)
+            );
+        }
+        let dispersions: Vec<_> =
+            self.dispersions.iter().map(|values| sorted(values, |value| value)).collect();
+        let _ = write!(
+            html,
+            "<figure><figcaption>Dispersions β</figcaption>{}</figure></div></section>\n{}",
+            distribution(manifest, &dispersions, "beta", "β"),
+            self.tables(manifest)
+        );
+        html
+    }
+
+    /// Lists fractiles of the medians, and the weakest walls.
+    fn tables(&self, manifest: &Manifest) -> String {
+        let mut html = "<section><h2>Fractiles of the medians over the walls (g)</h2><table><thead><tr>\
+                        <th>u<sub>max</sub>/u<sub>ins</sub></th><th>model</th>"
+            .to_owned();
+        for part in FRACTILES {
+            let _ = write!(html, "<th>{:.0} %</th>", 100.0 * part);
+        }
+        html.push_str("<th>above the levels</th></tr></thead><tbody>");
+        for (place, fraction) in manifest.report.fractions.iter().enumerate() {
+            for (model, medians) in manifest.contents.models.iter().zip(&self.medians[place]) {
+                let _ = write!(html, "<tr><td>{fraction}</td><td>{}</td>", escaped(&model.name));
+                let all = sorted(medians, in_g);
+                for value in FRACTILES.map(|part| fractile(&all, part)) {
+                    let _ = write!(html, "<td>{}</td>", shown(value.unwrap_or(f64::INFINITY)));
+                }
+                let open = all.iter().filter(|median| median.is_infinite()).count();
+                let _ = write!(html, "<td>{open}</td></tr>");
+            }
+        }
+        html + "</tbody></table></section>\n" + &self.weakest(manifest)
+    }
+
+    /// Lists the walls with the lowest medians of the last limit state, with the first model.
+    fn weakest(&self, manifest: &Manifest) -> String {
+        let Some(medians) = self.medians.last().and_then(|medians| medians.first()) else {
+            return String::new();
+        };
+        let mut order: Vec<usize> = (0..medians.len()).collect();
+        order.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
+        let mut html = format!(
+            "<section><h2>Walls with the lowest medians of u<sub>max</sub>/u<sub>ins</sub> = {}, {}</h2>\
+             <table><thead><tr><th>wall</th><th>median (g)</th></tr></thead><tbody>",
+            manifest.report.fractions.last().copied().unwrap_or(1.0),
+            escaped(&manifest.contents.models[0].name)
+        );
+        for &wall in order.iter().take(WEAKEST) {
+            let name = escaped(&manifest.contents.walls[wall].name);
+            let _ = write!(html, "<tr><td>{name}</td><td>{}</td></tr>", shown(in_g(medians[wall])));
+        }
+        html + "</tbody></table></section>\n"
+    }
+
+    /// Writes fractiles of the medians of a limit state as lines of text.
+    pub(crate) fn text(&self, manifest: &Manifest, place: usize) -> String {
+        let names = manifest.contents.models.iter().map(|model| &model.name);
+        let width = names.clone().map(|name| name.chars().count()).max().unwrap_or(0).max("model".len()) + 2;
+        let mut text = format!("{:<width$}", "model");
+        for part in FRACTILES {
+            let _ = write!(text, "{:>9}", format!("{:.0} %", 100.0 * part));
+        }
+        text.push_str("   of the walls have a lower median\n");
+        for (name, medians) in names.zip(&self.medians[place]) {
+            let all = sorted(medians, in_g);
+            let _ = write!(text, "{name:<width$}");
+            for value in FRACTILES.map(|part| fractile(&all, part)) {
+                let _ = write!(text, "{:>9}", shown(value.unwrap_or(f64::INFINITY)));
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+fn sorted(values: &[f64], convert: fn(f64) -> f64) -> Vec<f64> {
+    let mut values: Vec<f64> = values.iter().map(|&value| convert(value)).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Formats a median in g.
+fn shown(median: f64) -> String {
+    if median.is_finite() { format!("{median:.3}") } else { "open".to_owned() }
+}
+
+/// Draws sorted values of each model as distributions.
+fn distribution(manifest: &Manifest, values: &[Vec<f64>], id: &str, label: &str) -> String {
+    let finite = |values: &Vec<f64>| values.iter().rfind(|value| value.is_finite()).copied();
+    let top = 1.05 * values.iter().filter_map(finite).fold(1e-6, f64::max);
+    let mut plot = ManyLines::new(SIZE, [0.0, top], [0.0, 1.0]);
+    for (values, (color, mark)) in values.iter().zip(looks(manifest)) {
+        let point = |k: u32| {
+            let part = f64::from(k) / f64::from(POINTS);
+            Some([fractile(values, part).filter(|value| value.is_finite())?, part])
+        };
+        let points: Vec<_> = (1..=POINTS).filter_map(point).collect();
+        plot.line(&points, "fit", color);
+        let marked = points.iter().filter(|point| [0.16, 0.5, 0.84].contains(&point[1])).copied();
+        plot.marks(&marked.collect::<Vec<_>>(), mark, color);
+    }
+    plot.svg(id, [label, "fraction of the walls"])
+}

@@ -1,0 +1,59 @@
+//! Runs what is missing.
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use crate::ida::{Case, Curve, IdaError, Study};
+use run::parallel;
+
+use super::error::FolderError;
+use super::folder::Folder;
+
+/// Why parts could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum WorkError {
+    /// A run failed.
+    #[error(transparent)]
+    Run(#[from] IdaError),
+    /// A part could not be kept.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+}
+
+/// Computes some parts of a study, in rising order, and keeps them. Threads share the combinations of a part.
+/// `done` is called with each combination, its curve and the time that it took.
+///
+/// # Errors
+/// [`WorkError`] of the first combination that fails.
+pub fn work(
+    study: &Study,
+    folder: &Folder,
+    parts: &[usize],
+    threads: usize,
+    done: impl Fn(Case, &Curve, Duration) + Sync,
+) -> Result<(), WorkError> {
+    let size = study.part_size();
+    // only the last part may have fewer combinations, and it comes last
+    let short = parts.last().map_or(0, |&last| size - study.part(last).len());
+    let open: Mutex<BTreeMap<usize, Vec<(usize, Curve)>>> = Mutex::default();
+    parallel::each(parts.len() * size - short, threads, |place| {
+        let part = parts[place / size];
+        let range = study.part(part);
+        let index = range.start + place % size;
+        let begun = Instant::now();
+        let curve = study.curve(study.case(index))?;
+        done(study.case(index), &curve, begun.elapsed());
+        let mut open = open.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let curves = open.entry(part).or_default();
+        curves.push((index, curve));
+        if curves.len() < range.len() {
+            return Ok(());
+        }
+        let mut curves = open.remove(&part).unwrap_or_default();
+        drop(open);
+        curves.sort_by_key(|(index, _)| *index);
+        let curves: Vec<_> = curves.into_iter().map(|(_, curve)| curve).collect();
+        Ok(folder.keep(part, &curves)?)
+    })
+}
