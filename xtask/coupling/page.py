@@ -35,7 +35,7 @@ svg { width: 100%; height: auto; display: block; font: 12px system-ui, sans-seri
 """
 
 # how all pages print
-PAPER = (Path(__file__).parents[2] / "crates/figures/src/paper.css").read_text(encoding="utf-8")
+PAPER = (Path(__file__).parents[2] / "crates/report/src/paper.css").read_text(encoding="utf-8")
 
 INTRODUCTION = """
 <h1>Walls on floors: error against communication step and run time</h1>

@@ -97,6 +97,9 @@ pub struct RecordFile {
 }
 
 /// Lists the record files of a study, in the order of its patterns.
+///
+/// # Errors
+/// [`SceneError`] of a pattern that matches no file.
 pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<Vec<RecordFile>, SceneError> {
     let mut listed: Vec<RecordFile> = Vec::new();
     for (pattern, line) in &entry.files {
@@ -119,6 +122,9 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
 }
 
 /// Reads the records of a study. Vertical ones of a folder or a pattern are left out, with a warning.
+///
+/// # Errors
+/// [`SceneError`] of a record that cannot be read, or if all are vertical.
 pub fn all_records(
     entry: &RecordsEntry,
     files: &[RecordFile],
