@@ -22,7 +22,8 @@ pub(crate) fn read(path: &Path) -> Result<(Vec<NamedWall>, Vec<String>), SceneEr
     parse(&file, &read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?)
 }
 
-/// Reads the walls from the text of a table, and returns them with warnings; `file` stands for it in messages.
+/// Reads the walls from the text of a table, and returns them with warnings; `file` stands for it in
+/// messages.
 fn parse(file: &str, text: &str) -> Result<(Vec<NamedWall>, Vec<String>), SceneError> {
     let fail = |line: usize, message: String| SceneError::Line { file: file.to_owned(), line, message };
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());

@@ -253,8 +253,8 @@ pub fn read_walls(
 /// The name of a wall, and what the study ignores of its scene.
 pub type Ignored = (String, &'static str);
 
-/// Reads the walls of an entry. Adds the files that it names to `inputs`, what the study ignores of a scene, and
-/// warnings about a table.
+/// Reads the walls of an entry. Adds the files that it names to `inputs`, what the study ignores of a scene,
+/// and warnings about a table.
 ///
 /// # Errors
 /// [`SceneError`], with file, line, value and remedy.
