@@ -27,7 +27,7 @@ fn period_factor(state: LimitState) -> f64 {
 ///
 /// ```
 /// use rocking_wall::wall::Parameters;
-/// use crate::circolare::{Records, check, read_table};
+/// use check::circolare::{Records, check, read_table};
 /// use rocking_wall::scene::Place;
 ///
 /// let text = r#"

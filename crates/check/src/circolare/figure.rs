@@ -1,8 +1,8 @@
 //! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
 //!
 //! ```
-//! use crate::circolare::figure::{Drawn, spectra};
-//! use crate::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
+//! use check::circolare::figure::{Drawn, spectra};
+//! use check::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
 //!
 //! let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
 //! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
