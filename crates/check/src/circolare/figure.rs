@@ -8,7 +8,7 @@
 //! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
 //! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
 //! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
-//! # Ok::<(), crate::circolare::CheckError>(())
+//! # Ok::<(), check::circolare::CheckError>(())
 //! ```
 
 use crate::circolare::{
