@@ -38,7 +38,7 @@ pub use error::{Place, SceneError};
 pub use nearest::suggestion;
 pub use parameter::{apply_group, check_limits, number};
 pub use storeys::read_floors;
-pub use toml_text::parse_toml;
+pub use toml_text::{parse_document, parse_toml, refusal};
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use serde::de::DeserializeOwned;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Place, SceneError};
@@ -24,20 +25,34 @@ use super::syntax::{explained, number_meant, shown};
 /// # Errors
 /// [`SceneError::Line`] where the text is not such a document: key, line and what is expected.
 pub fn parse_toml<T: DeserializeOwned>(place: &Place<'_>) -> Result<T, SceneError> {
-    toml::from_str(place.text()).map_err(|error| {
+    toml::from_str(place.text()).map_err(|error| match parse_document(place) {
+        Ok(document) => place.error(error.span().unwrap_or(0..0), refusal(place, &document, &error).1),
+        Err(error) => error,
+    })
+}
+
+/// Parses a TOML text whose tables are read one by one.
+///
+/// # Errors
+/// [`SceneError::Line`] where the text is not TOML.
+pub fn parse_document<'a>(place: &Place<'a>) -> Result<DeTable<'a>, SceneError> {
+    DeTable::parse(place.text()).map(Spanned::into_inner).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        if let Ok(document) = DeTable::parse(place.text()) {
-            let found = Found::at(document.get_ref(), place.text(), &span);
-            place.error(span, found.explained(error.message()))
-        } else if error.message().starts_with("duplicate key") {
+        if error.message().starts_with("duplicate key") {
             let key = place.text().get(span.clone()).unwrap_or_default();
             let name = key.trim_matches(['"', '\'']);
-            place.error(span, format!("{name} is given twice; leave one out"))
-        } else {
-            let (line, message) = explained(place, span.start);
-            SceneError::Line { file: place.name().to_owned(), line, message }
+            return place.error(span, format!("{name} is given twice; leave one out"));
         }
+        let (line, message) = explained(place, span.start);
+        SceneError::Line { file: place.name().to_owned(), line, message }
     })
+}
+
+/// Returns the keys that lead to what a reader refused in a document, and the reason in plain words.
+pub fn refusal(place: &Place<'_>, document: &DeTable<'_>, error: &toml::de::Error) -> (Vec<String>, String) {
+    let found = Found::at(document, place.text(), &error.span().unwrap_or(0..0));
+    let message = found.explained(error.message());
+    (found.keys, message)
 }
 
 /// What stands where a value cannot be used.

@@ -1,5 +1,20 @@
 #![doc = include_str!("../README.md")]
 
 pub mod circolare;
-pub mod points;
+mod code;
+mod error;
+mod file;
+mod find;
+pub mod fractions;
+mod records;
+mod report;
 mod site;
+mod walls;
+
+pub use code::{CODES, Code, Details, Ends, Entry, Row, Subject, Verdict, read};
+pub use error::CheckError;
+pub use file::CheckFile;
+pub use find::{Found, Sought, find};
+pub use records::Records;
+pub use report::{Figure, Origin, page};
+pub use walls::{WallVerdicts, check_walls};

@@ -5,15 +5,17 @@ use rocking_wall::wall::{Parameters, Wall, Warning};
 
 use super::curve::Curve;
 use super::demand::{Demand, DisplacementDemand};
-use super::error::CheckError;
 use super::floor::Mode;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, UseClass};
 use super::verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, Governs, Side, SideVerdict, SideVerdicts,
-    TieBreak, Verdict,
+    ActivationCheck, Checked, Deciding, DisplacementCheck, DynamicCheck, Governs, Outcome, Side, SideVerdict,
+    SideVerdicts, TieBreak,
 };
-use super::{CODE, LimitState, Records};
+use super::{ENTRY, LimitState};
+use crate::code::Subject;
+use crate::error::CheckError;
+use crate::records::Records;
 
 /// Factor of π √(d/a) in [C8.7.1.10] and [C8.7.1.11].
 fn period_factor(state: LimitState) -> f64 {
@@ -23,114 +25,76 @@ fn period_factor(state: LimitState) -> f64 {
     }
 }
 
-/// Checks a wall.
-///
-/// ```
-/// use rocking_wall::wall::Parameters;
-/// use check::circolare::{Records, check, read_table};
-/// use rocking_wall::scene::Place;
-///
-/// let text = r#"
-/// [check]
-/// code = "circolare-2019"
-/// before_activation = "rigid"
-/// soil = "B"
-/// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
-/// "#;
-/// let statement = read_table(&Place::new("scene.toml", text))?.unwrap().statement()?;
-/// let verdict = check(&Parameters::default(), None, &statement, &Records::default())?;
-/// assert!(!verdict.passed && (verdict.governs.zeta - 0.855812).abs() < 5e-7);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`CheckError`] of a statement that is missing or does not go with the wall, of a wall that the code does
-/// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they may
-/// be the cause.
-pub fn check(
-    parameters: &Parameters,
-    floors: Option<&Floors>,
-    statement: &Statement,
-    records: &Records,
-) -> Result<Verdict, CheckError> {
-    let doubts = || {
-        let of_wall = Warning::unusual(parameters);
-        of_wall.chain(super::warnings::improbable(statement, floors)).collect()
-    };
-    checked(parameters, floors, statement, records).map_err(|error| error.with_doubts(doubts))
-}
+impl Statement {
+    /// Checks a wall.
+    ///
+    /// ```
+    /// use check::circolare::Statement;
+    /// use check::{CheckFile, Subject};
+    /// use rocking_wall::wall::Parameters;
+    ///
+    /// let text = r#"
+    /// [check]
+    /// code = "circolare-2019"
+    /// before_activation = "rigid"
+    /// soil = "B"
+    /// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
+    /// "#;
+    /// let statement = Statement::read(&CheckFile::parse("scene.toml", text)?)?;
+    /// let checked = statement.checked(Subject { parameters: &Parameters::default(), floors: None })?;
+    /// assert!(!checked.outcome.passed && (checked.outcome.governs.zeta - 0.855812).abs() < 5e-7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`CheckError`] of a statement that is missing or does not fit the wall, of a wall that the code does
+    /// not cover, of a spectrum that ends too early, or of a run. Improbable numbers come first, since they
+    /// may be the cause.
+    pub fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
+        let Subject { parameters, floors } = subject;
+        self.check_wall(parameters, floors).map_err(|error| {
+            let of_wall = Warning::unusual(parameters);
+            error.with_doubts(of_wall.chain(super::warnings::improbable(self, floors)).collect())
+        })
+    }
 
-fn checked(
-    parameters: &Parameters,
-    floors: Option<&Floors>,
-    statement: &Statement,
-    records: &Records,
-) -> Result<Verdict, CheckError> {
-    let wall = Wall::new(parameters)?;
-    let mut warnings = super::warnings::of_statement(statement, parameters, floors, &wall);
-    let demands = demands(&wall, floors, statement, records)?;
-    for (state, demand) in LimitState::ALL.into_iter().zip(&demands) {
-        warnings.extend(demand.iter().filter_map(|demand| super::warnings::of_demand(state, demand)));
+    fn check_wall<'a>(
+        &'a self,
+        parameters: &'a Parameters,
+        floors: Option<&'a Floors>,
+    ) -> Result<Checked<'a>, CheckError> {
+        let wall = Wall::new(parameters)?;
+        let mut warnings = super::warnings::of_statement(self, parameters, floors, &wall);
+        let mut demands = [const { None }; 3];
+        for given in self.states.iter().flatten() {
+            let demand = demand(given, floors, &wall, &self.records)?;
+            warnings.extend(super::warnings::of_demand(given.state, &demand));
+            demands[given.state as usize] = Some(demand);
+        }
+        let mut sides = [None, None];
+        for sign in wall.sides() {
+            let curve = Curve::new(&wall, parameters, self, sign)?;
+            sides[Side::of(sign) as usize] = Some(side(&curve, self, &demands)?);
+            warnings.extend(super::warnings::of_side(&curve, self, &demands));
+        }
+        let [positive, negative] = sides;
+        let sides = SideVerdicts { positive, negative };
+        warnings.extend(super::warnings::of_periods(&sides));
+        let dynamic = super::dynamic::check(parameters, floors, self, &sides)?;
+        warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(parameters, self)));
+        let mut seen = std::collections::BTreeSet::new();
+        warnings.retain(|warning| seen.insert(warning.clone()));
+        let governs = governing(self, &sides, dynamic.as_ref())?;
+        let passed = governs.zeta >= 1.0
+            && dynamic.as_ref().is_none_or(|d| self.table.method != Method::Dynamic || d.passed());
+        let alike = wall.has_equal_sides();
+        let outcome = Outcome { code: ENTRY.name, passed, governs, alike, sides, dynamic, warnings };
+        Ok(Checked { statement: self, parameters, floors, wall, demands, outcome })
     }
-    let mut sides = [None, None];
-    for sign in wall.sides() {
-        let curve = Curve::new(&wall, parameters, statement, sign)?;
-        sides[Side::of(sign) as usize] = Some(side(&curve, statement, &demands)?);
-        warnings.extend(super::warnings::of_side(&curve, statement, &demands));
-    }
-    let [positive, negative] = sides;
-    let sides = SideVerdicts { positive, negative };
-    warnings.extend(super::warnings::of_periods(&sides));
-    let dynamic = super::dynamic::check(parameters, floors, statement, &sides, records)?;
-    warnings.extend(dynamic.iter().flat_map(|dynamic| dynamic.warnings(parameters, statement)));
-    let mut seen = std::collections::BTreeSet::new();
-    warnings.retain(|warning| seen.insert(warning.clone()));
-    let governs = governing(statement, &sides, dynamic.as_ref())?;
-    let passed = governs.zeta >= 1.0
-        && dynamic.as_ref().is_none_or(|d| statement.method != Method::Dynamic || d.passed());
-    let alike = wall.has_equal_sides();
-    Ok(Verdict { code: CODE, passed, governs, alike, sides, dynamic, warnings })
-}
-
-/// Makes the demands of SLD, SLV and SLC at the place of a wall; `None` for one that is not stated.
-///
-/// ```
-/// use rocking_wall::scene::Place;
-/// use rocking_wall::wall::{Parameters, Wall};
-/// use check::circolare::{LimitState, Records, demands, read_table};
-///
-/// let text = r#"
-/// [check]
-/// code = "circolare-2019"
-/// soil = "B"
-/// SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
-/// "#;
-/// let statement = read_table(&Place::new("scene.toml", text))?.unwrap().statement()?;
-/// let wall = Wall::new(&Parameters::default())?;
-/// let [sld, slv, _] = demands(&wall, None, &statement, &Records::default())?;
-/// // a_g S
-/// let peak = slv.unwrap().acceleration(LimitState::Slv, 0.0, 0.08)?;
-/// assert!(sld.is_none() && (peak - 1.7658).abs() < 1e-12);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`CheckError`] of a statement that is missing, or of a record.
-pub fn demands(
-    wall: &Wall,
-    floors: Option<&Floors>,
-    statement: &Statement,
-    records: &Records,
-) -> Result<[Option<Demand>; 3], CheckError> {
-    let mut demands = [const { None }; 3];
-    for given in statement.states.iter().flatten() {
-        demands[given.state as usize] = Some(demand(given, floors, wall, records)?);
-    }
-    Ok(demands)
 }
 
 /// Makes the demand of a limit state.
-pub(super) fn demand(
+fn demand(
     given: &StateStatement,
     floors: Option<&Floors>,
     wall: &Wall,
@@ -184,13 +148,12 @@ fn side(
         .transpose()?;
     let q = statement.behaviour_factor;
     // a spectrum of another damping than that of the activation leaves this check out
-    let with_q = |(given, demand): (&StateStatement, &Demand)| {
-        activation(curve, statement, given, demand, given.activation_damping, q)
-    };
-    let slv_q = match of(LimitState::Slv).map(with_q).transpose() {
-        Err(CheckError::Damping { .. }) if statement.method != Method::Linear => None,
-        checked => checked?,
-    };
+    let slv_q = of(LimitState::Slv)
+        .filter(|(given, demand)| {
+            statement.table.method == Method::Linear || demand.has_damping(given.activation_damping)
+        })
+        .map(|(given, demand)| activation(curve, statement, given, demand, given.activation_damping, q))
+        .transpose()?;
     let floor = sld.map(|sld| sld.ag);
     let by_displacement = |state: LimitState| {
         of(state).map(|(given, demand)| displacement(curve, given, demand, floor)).transpose()
@@ -199,7 +162,8 @@ fn side(
     if let (Some(slv), Some(slc)) = (slv, slc)
         && slc.d < slv.d
     {
-        return Err(CheckError::Order { slc: slc.d, slv: slv.d });
+        let message = format!("SLC comes before SLV: d_SLC = {} m is below d_SLV = {} m", slc.d, slv.d);
+        return Err(CheckError::value(&["SLC", "displacement"], message));
     }
     Ok(SideVerdict {
         alpha0: curve.alpha0,
@@ -247,7 +211,9 @@ fn limit(curve: &Curve<'_>, given: &StateStatement) -> Result<(f64, bool), Check
         let of_curve = 0.60 * curve.zero;
         let Some(local) = given.displacement else { return Ok((of_curve, false)) };
         if !(local > 0.0 && local < curve.zero) {
-            return Err(CheckError::LocalInstability { given: local, zero: curve.zero });
+            let message =
+                format!("SLC.displacement = {local} m must be above 0 and below u_0 = {} m", curve.zero);
+            return Err(CheckError::value(&["SLC", "displacement"], message));
         }
         return Ok((of_curve.min(local), false));
     }
@@ -268,13 +234,16 @@ fn displacement(
     let (u, limited_by_tie) = limit(curve, given)?;
     let (d, a) = (curve.stretch * u, curve.tied(u));
     if a <= 0.0 {
-        return Err(CheckError::NotPositive { state, displacement: d });
+        return Err(CheckError::wall(format!("{state}: a is not positive at d = {d} m")));
     }
     let period = Curve::period(period_factor(state), d, a);
     let t0 = curve.elastic.period;
     let elastic = curve.elastic.displacement;
     if elastic >= d || t0 >= period {
-        return Err(CheckError::Elastic { state, elastic, t0, displacement: d, period });
+        return Err(CheckError::wall(format!(
+            "the elastic branch reaches d_{state}: the wall does not rock before {state} (it ends at d_y = \
+             {elastic} m with T0 = {t0} s; d_{state} = {d} m with T = {period} s)"
+        )));
     }
     let DisplacementDemand { acceleration, displacement: demand, terms: demand_terms } =
         demand.displacement(state, [t0, period], given.damping)?;
@@ -309,10 +278,10 @@ fn governing(
         let mut add = |limit_state, zeta: Option<f64>| {
             all.extend(zeta.map(|zeta| Governs { side, limit_state, zeta }));
         };
-        if statement.use_class == Some(UseClass::IV) {
+        if statement.table.use_class == Some(UseClass::IV) {
             add(Deciding::Sld, verdict.sld.map(|check| check.ratio));
         }
-        match statement.method {
+        match statement.table.method {
             Method::Nonlinear => {
                 add(Deciding::Slv, verdict.slv.map(|check| check.zeta));
                 add(Deciding::Slc, verdict.slc.map(|check| check.zeta));
@@ -321,7 +290,7 @@ fn governing(
             Method::Dynamic => {}
         }
     }
-    if statement.method == Method::Dynamic {
+    if statement.table.method == Method::Dynamic {
         let Some(dynamic) = dynamic else {
             let message = "method = \"dynamic\" needs records; add [check.records] with files";
             return Err(CheckError::value(&["method"], message));

@@ -18,10 +18,10 @@ use std::f64::consts::{PI, TAU};
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Kinematics, Parameters, Tie, Wall};
 
-use super::error::CheckError;
 use super::statement::Statement;
 use super::table::Activation;
 use super::verdict::TieBreak;
+use crate::error::CheckError;
 
 /// κ of [C8.7.1.7] for a cantilever and for vertical bending \[-\].
 const CANTILEVER: f64 = 6.2;
@@ -84,7 +84,8 @@ impl<'a> Curve<'a> {
         };
         let zero = wall.force_end().of(sign);
         if !(zero > 0.0 && zero.is_finite()) {
-            return Err(CheckError::NoZero);
+            let message = "the restoring force never falls to zero, so d_0 does not exist";
+            return Err(CheckError::wall(message));
         }
         // F_act: the softening line at u = 0, at most F0; a law with a plateau has its largest force
         let acting = match activation {
@@ -105,7 +106,7 @@ impl<'a> Curve<'a> {
             zero,
             elastic: Elastic { period: 0.0, displacement: 0.0, acceleration: 0.0 },
         };
-        curve.elastic = curve.elastic_branch(parameters, statement.young_modulus);
+        curve.elastic = curve.elastic_branch(parameters, statement.table.young_modulus);
         Ok(curve)
     }
 
@@ -233,7 +234,7 @@ fn activation(wall: &Wall, parameters: &Parameters, statement: &Statement) -> Re
         return Err(CheckError::wall(message));
     }
     let refused = |message: &str| Err(CheckError::value(&["before_activation"], message));
-    match statement.before_activation {
+    match statement.table.before_activation {
         // transverse walls hold it
         None if wall.free_side().is_some() && !has_plateau(parameters) => Ok(Activation::Rigid),
         None => refused(
@@ -252,7 +253,7 @@ fn activation(wall: &Wall, parameters: &Parameters, statement: &Statement) -> Re
 /// r O \[N\].
 fn moved_overburden(parameters: &Parameters, statement: &Statement) -> Result<f64, CheckError> {
     let refused = |message: &str| Err(CheckError::value(&["overburden_mass"], message));
-    match (parameters.mechanism, statement.overburden_mass) {
+    match (parameters.mechanism, statement.table.overburden_mass) {
         (Mechanism::VerticalSpanning, Some(r)) if r > 0.0 => refused(
             "overburden_mass: the top of a strip wall is held, its overburden does not move; leave it out",
         ),

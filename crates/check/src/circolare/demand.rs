@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use ground_motion::{GroundMotion, Maxima, Spectrum};
 
 use super::LimitState;
-use super::error::CheckError;
 use super::floor::FloorSpectrum;
 use super::ground::GroundSpectrum;
+use crate::error::CheckError;
 use crate::site::interpolated;
 
 /// Fewest records whose mean counts, NTC 7.3.5; of fewer it is the envelope.
@@ -59,23 +59,34 @@ impl Demand {
         }
     }
 
+    /// Whether it has values of the damping ξ.
+    pub(super) fn has_damping(&self, xi: f64) -> bool {
+        if let Self::Points(_, given) = self { (given - xi).abs() <= 1e-9 } else { true }
+    }
+
     /// The acceleration at a period, of the damping ξ \[m/s²\].
     ///
     /// # Errors
-    /// [`CheckError::Damping`] and [`CheckError::Period`] of points, [`CheckError::Motion`] of records.
+    /// [`CheckError`] of points with another damping or without the period, and of records.
     pub fn acceleration(&self, state: LimitState, period: f64, xi: f64) -> Result<f64, CheckError> {
         match self {
             _ if period == 0.0 => Ok(self.peak()),
             Self::Ground(ground) => Ok(ground.acceleration(period, xi)),
             Self::Floor(floor) => Ok(floor.acceleration(period, xi)),
             Self::Points(points, given) => {
-                if (given - xi).abs() > 1e-9 {
+                if !self.has_damping(xi) {
                     let (needed, given) = (100.0 * xi, 100.0 * given);
-                    return Err(CheckError::Damping { state, needed, given });
+                    let message = format!(
+                        "{state} needs the spectrum at {needed} % damping; the given one is at {given} %"
+                    );
+                    return Err(CheckError::value(&[state.key(), "spectrum_damping"], message));
                 }
                 interpolated(points, period).ok_or_else(|| {
                     let [from, to] = [points[0].0, points[points.len() - 1].0];
-                    CheckError::Period { state, period, from, to }
+                    let message = format!(
+                        "{state} needs the spectrum up to T = {period} s; it goes from {from} to {to} s"
+                    );
+                    CheckError::value(&[state.key(), "spectrum"], message)
                 })
             }
             Self::Records(records) => {

@@ -1,9 +1,9 @@
 //! The dynamic check, C8.7.1.2.1.9: runs of the wall under records.
 //!
 //! The skeleton of the model is the capacity curve, which FC divides: gravity, the overburden, the stiffness
-//! and the strength of a tie are divided by FC, masses stay. A record counts by the larger |d| over the
-//! threshold of its side. The tie of the model does not break: a run that reaches its strength fails, and so
-//! does one that reaches `u_ins`.
+//! and the strength of a tie are divided by FC, masses stay. The result of a record is the larger of
+//! |d|/threshold on the two sides. The tie of the model does not break: a run that reaches its strength fails,
+//! and so does one that reaches `u_ins`.
 
 use record::RecordSolver;
 use rocking_wall::scene::{DEFAULT_TAIL, Floors};
@@ -11,12 +11,12 @@ use rocking_wall::solver::Motion;
 use rocking_wall::wall::{Parameters, Tie, Wall};
 
 use super::demand::{MEAN_COUNTS_FROM, combined};
-use super::error::CheckError;
-use super::records::Records;
 use super::statement::{Source, StateStatement, Statement};
 use super::table::{Method, RecordScale};
 use super::verdict::{DynamicCheck, DynamicRun, DynamicState, Side, SideVerdict, SideVerdicts};
 use super::{G, LimitState};
+use crate::error::CheckError;
+use crate::records::Records;
 use run::bisection::begins_at;
 use run::shaking::Shaking;
 
@@ -34,7 +34,7 @@ const HALVINGS: u32 = 10;
 #[derive(Clone, Copy, Debug)]
 struct Thresholds {
     limit: [f64; 2],
-    /// `d_0`, or where the model ends before.
+    /// Overturning: `d_0`, or `u_ins` if the model ends earlier.
     end: [f64; 2],
 }
 
@@ -94,7 +94,7 @@ impl DynamicCheck {
                  analysis (C8.7.1.2.1.9)"
             ));
         }
-        if parameters.overburden > 0.0 && statement.overburden_mass.is_some_and(|r| r > 0.0) {
+        if parameters.overburden > 0.0 && statement.table.overburden_mass.is_some_and(|r| r > 0.0) {
             warnings.push(
                 "the dynamic model has no mass on top: the overburden loads the wall without inertia".into(),
             );
@@ -123,12 +123,12 @@ pub(super) fn check(
     floors: Option<&Floors>,
     statement: &Statement,
     sides: &SideVerdicts,
-    records: &Records,
 ) -> Result<Option<DynamicCheck>, CheckError> {
-    if records.is_empty() {
+    let records = &statement.records;
+    if records.named.is_empty() {
         return Ok(None);
     }
-    if statement.has_building && floors.is_none() {
+    if statement.table.building.is_some() && floors.is_none() {
         let message = "the records move the ground: give [[storeys]] in place of [check.building]";
         return Err(CheckError::value(&["building"], message));
     }
@@ -151,7 +151,7 @@ pub(super) fn check(
     let state = |state: LimitState, limit: fn(&SideVerdict) -> Option<f64>| {
         let Some(given) = statement.state(state) else { return Ok(None) };
         let factors = match factors(statement, given, records) {
-            Err(_) if statement.method != Method::Dynamic => return Ok(None),
+            Err(_) if statement.table.method != Method::Dynamic => return Ok(None),
             factors => factors?,
         };
         runs.check(&Thresholds::of(motion.wall(), sides, limit), &factors, records).map(Some)
@@ -163,8 +163,8 @@ pub(super) fn check(
 
 /// The factors that bring the peaks of the records to `a_g` S, or 1.
 fn factors(statement: &Statement, given: &StateStatement, records: &Records) -> Result<Vec<f64>, CheckError> {
-    let records = records.named().iter();
-    match (statement.record_scale, &given.source) {
+    let records = records.named.iter();
+    match (statement.table.record_scale, &given.source) {
         (RecordScale::None, _) => Ok(records.map(|_| 1.0).collect()),
         (RecordScale::Ag, Source::Code(ground)) => {
             let peak = given.ag * G * ground.s;
@@ -192,7 +192,7 @@ impl Runs<'_> {
     ) -> Result<DynamicState, CheckError> {
         let maxima = self.maxima(factors, &[1.0])?.remove(0);
         let judged = thresholds.judge(&maxima);
-        let runs = records.named().iter().zip(factors).zip(&maxima).map(|((record, factor), d)| DynamicRun {
+        let runs = records.named.iter().zip(factors).zip(&maxima).map(|((record, factor), d)| DynamicRun {
             record: record.name.clone(),
             factor: *factor,
             d: *d,

@@ -1,59 +1,26 @@
-//! A check by the code: `ζ_E` over a parameter of the wall, spectra, and capacity over demand.
-//!
-//! ```
-//! use check::circolare::figure::{Drawn, spectra};
-//! use check::circolare::{Demand, GroundSpectrum, Hazard, LimitState, Soil};
-//!
-//! let hazard = Hazard { ag: 0.15, f0: 2.45, tc: 0.32 };
-//! let demand = Demand::Ground(GroundSpectrum::new(hazard, Soil::B, 1.0));
-//! let drawn = Drawn { state: LimitState::Slv, demand: &demand, damping: 0.08, period: Some(1.1) };
-//! assert!(spectra(&[drawn], "S_e (m/s²)", 2.0)?.svg().starts_with("<svg"));
-//! # Ok::<(), check::circolare::CheckError>(())
-//! ```
+//! Spectra, and capacity over demand.
 
-use crate::circolare::{
-    CheckError, Demand, DisplacementCheck, Found, LimitState, SideVerdict, Sought, StateStatement, Statement,
-    Verdict,
-};
+use ::report::palette::{BLACK, BLUE, GREEN, Mark, RED};
+use ::report::plot::{Axis, Look, Plot, Series};
+use ::report::points::{simplified, within};
 
-use report::palette::{BLACK, BLUE, DARK_GREY, GREEN, Mark, RED};
-use report::plot::{Axis, Look, Plot, Series};
-use report::points::{simplified, within};
-
-/// Draws `ζ_E` over the values that were tried up to three times the one found, the limit 1, and that value.
-pub fn over_parameter(found: &Found, sought: Sought) -> Plot {
-    let [left, right] = found.range;
-    let right = found.value.map_or(right, |value| right.min(3.0 * value));
-    let shown = found.curve.iter().copied().filter(|point| point.1.is_finite() && point.0 <= right);
-    let points: Vec<(f64, f64)> = shown.collect();
-    // far beyond the demand nothing is to be seen
-    let top = points.iter().map(|point| point.1).fold(1.2, f64::max).min(3.0);
-    let inside = points.into_iter().filter(|point| point.1 <= top).collect();
-    let named = |name: String, look: Look, line: Series| Series { look, name, ..line };
-    let mut series = vec![named("ζ_E".into(), Look::Solid, Series::line(BLUE, 2.0, inside))];
-    if let Some(value) = found.value {
-        let name = format!("{} = {value:.4} {}", sought.name(), sought.unit());
-        let line = Series::line(RED, 1.3, vec![(value, 0.0), (value, top)]);
-        series.push(named(name, Look::Dashed, line));
-    }
-    let axes = [
-        Axis::over(&format!("{} ({})", sought.name(), sought.unit()), [left.min(right), right]),
-        Axis::over("ζ_E", [0.0, 1.05 * top]),
-    ];
-    Plot { limits: vec![(1.0, DARK_GREY)], ..Plot::new([820.0, 460.0], axes, series) }
-}
+use super::LimitState;
+use super::demand::Demand;
+use super::statement::{StateStatement, Statement};
+use super::verdict::{DisplacementCheck, SideVerdict};
+use crate::error::CheckError;
 
 /// Size of spectra and of capacity over demand \[px\].
 const SIZE: [f64; 2] = [820.0, 400.0];
 /// Steps of a spectrum along the periods.
 const STEPS: u32 = 400;
 /// Mark of what a wall can take.
-pub const CAPACITY: Mark = Mark::Circle;
+pub(super) const CAPACITY: Mark = Mark::Circle;
 /// Mark of what is demanded.
-pub const DEMAND: Mark = Mark::Triangle;
+pub(super) const DEMAND: Mark = Mark::Triangle;
 
 /// The colour of a limit state.
-pub fn color(state: LimitState) -> &'static str {
+pub(super) fn color(state: LimitState) -> &'static str {
     match state {
         LimitState::Sld => GREEN,
         LimitState::Slv => BLUE,
@@ -63,15 +30,15 @@ pub fn color(state: LimitState) -> &'static str {
 
 /// A demand as it is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawn<'a> {
+pub(super) struct Drawn<'a> {
     /// Limit state.
-    pub state: LimitState,
+    pub(super) state: LimitState,
     /// Its demand.
-    pub demand: &'a Demand,
+    pub(super) demand: &'a Demand,
     /// ξ \[-\].
-    pub damping: f64,
+    pub(super) damping: f64,
     /// Period to mark; 0 for a rigid wall \[s\].
-    pub period: Option<f64>,
+    pub(super) period: Option<f64>,
 }
 
 /// Periods of a spectrum from 0 to `last`.
@@ -83,7 +50,7 @@ fn periods(last: f64) -> impl Iterator<Item = f64> {
 ///
 /// # Errors
 /// [`CheckError`] of a record, or of points with another damping.
-pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, CheckError> {
+pub(super) fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, CheckError> {
     let (mut lines, mut marks, mut top) = (Vec::new(), Vec::new(), 0.0_f64);
     for Drawn { state, demand, damping, period } in demands {
         let at = |period: f64| Ok((period, demand.acceleration(*state, period, *damping)?));
@@ -108,7 +75,7 @@ pub fn spectra(demands: &[Drawn<'_>], label: &str, last: f64) -> Result<Plot, Ch
 ///
 /// # Errors
 /// [`CheckError`] of a record, or of points with another damping.
-pub fn over_demand(
+pub(super) fn over_demand(
     side: &SideVerdict,
     statement: &Statement,
     demands: &[Option<Demand>; 3],
@@ -156,22 +123,4 @@ pub fn over_demand(
     }
     let axes = [Axis::over("d, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a, S_e (m/s²)", [0.0, top])];
     Ok(Plot::new(SIZE, axes, series))
-}
-
-/// Draws the curve of the side that governs a verdict over the demands of SLV and SLC.
-///
-/// # Errors
-/// [`CheckError`] of a record, or of points with another damping.
-///
-/// # Panics
-/// If the side that governs is not one of the verdict.
-pub fn governing_over_demand(
-    statement: &Statement,
-    demands: &[Option<Demand>; 3],
-    verdict: &Verdict,
-) -> Result<Plot, CheckError> {
-    let mut sides = verdict.sides.iter();
-    let governing = sides.find(|(side, _)| *side == verdict.governs.side);
-    let (_, side) = governing.expect("a side governs");
-    over_demand(side, statement, demands)
 }

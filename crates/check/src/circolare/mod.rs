@@ -6,55 +6,88 @@
 //! | file | holds |
 //! |---|---|
 //! | `table` | the table `[check]` as it is written |
-//! | `statement` | the same, in its limits |
+//! | `statement` | the table `[check]`, validated |
 //! | `ground`, `floor` | spectra on the ground and at a height |
 //! | `curve` | a(d) of one side of a wall |
 //! | `demand` | what a limit state demands |
-//! | `records` | the records of a check |
 //! | `checks` | the static checks and what governs |
 //! | `verdict` | the outcome |
 //! | `dynamic` | runs under records |
 //! | `warnings` | what the engineer should know |
-//! | `find` | the smallest wall that passes |
-//! | `walls` | many walls |
+//! | `rows` | the outcome as the verdict that every code has |
+//! | `figure`, `report` | spectra, curves, and the sections of the report |
 
 mod checks;
 mod curve;
 mod demand;
 mod dynamic;
-mod error;
-pub mod figure;
-mod find;
+mod figure;
 mod floor;
 mod ground;
-mod records;
-pub mod report;
+mod report;
+mod rows;
 mod statement;
 mod table;
 mod verdict;
-mod walls;
 mod warnings;
 
-pub use checks::{LARGEST_LOSS, check, demands};
+use crate::code::{Code, Entry, Subject, Verdict};
+use crate::error::CheckError;
+use crate::records::Records;
+
+pub use checks::LARGEST_LOSS;
 pub use demand::{Demand, MEAN_COUNTS_FROM};
-pub use error::CheckError;
-pub use find::{Found, Sought, find};
 pub use floor::{FloorSpectrum, Mode, frame_acceleration};
 pub use ground::{G, GroundSpectrum, Hazard, Soil, damping_factor};
-pub use records::Records;
 pub use statement::{LARGEST_CONFIDENCE_FACTOR, Source, StateStatement, Statement};
 pub use table::{
     Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
-    UseClass, in_table, read_table,
+    UseClass,
 };
 pub use verdict::{
-    ActivationCheck, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs, Side,
-    SideVerdict, SideVerdicts, TieBreak, Verdict,
+    ActivationCheck, Checked, Deciding, DisplacementCheck, DynamicCheck, DynamicRun, DynamicState, Governs,
+    Outcome, Side, SideVerdict, SideVerdicts, TieBreak,
 };
-pub use walls::{WallVerdict, Walls};
 
-/// The code, in `[check]`.
-pub const CODE: &str = "circolare-2019";
+/// Fewest records, NTC 7.3.5.
+const FEWEST_RECORDS: usize = 3;
+
+/// This code among the others.
+pub const ENTRY: Entry = Entry {
+    name: "circolare-2019",
+    title: "Circolare 7/2019",
+    source: "Check of a local out-of-plane mechanism by Circolare C.S.LL.PP. 21.1.2019 n. 7, C8.7.1.2.1 and \
+             C7.2.3, with the spectra of NTC 2018 (D.M. 17.1.2018)",
+    symbol: "zeta_E",
+    checks: &["SLD", "SLV with q", "SLV", "SLC"],
+    example: "[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+              SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }",
+    read: |file| Ok(Box::new(Statement::read(file)?)),
+};
+
+impl Code for Statement {
+    fn entry(&self) -> Entry {
+        ENTRY
+    }
+
+    fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError> {
+        Ok(self.checked(subject)?.verdict())
+    }
+
+    fn records(&self) -> &Records {
+        &self.records
+    }
+
+    fn takes_runs(&self) -> bool {
+        let mut states = self.states.iter().flatten();
+        self.table.method == Method::Dynamic || states.any(|given| given.source == Source::Records)
+    }
+
+    fn deciding(&self) -> Option<Box<dyn Code>> {
+        let informs = !self.records.named.is_empty() && !self.takes_runs();
+        informs.then(|| -> Box<dyn Code> { Box::new(Self { records: Records::default(), ..self.clone() }) })
+    }
+}
 
 /// A limit state of NTC 2018, 3.2.1, in the order in which they are reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]

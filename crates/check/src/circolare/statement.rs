@@ -1,42 +1,32 @@
-//! What the engineer states, checked.
+//! The table `[check]`, validated.
 
-use super::error::CheckError;
+use crate::error::CheckError;
+use crate::file::CheckFile;
+use crate::records::Records;
+
 use super::floor::{FloorSpectrum, Mode};
 use super::ground::{GroundSpectrum, Hazard, Soil};
 use super::table::{
     Activation, BuildingTable, CheckTable, KnowledgeLevel, LimitStateTable, Method, RecordScale, Topography,
-    UseClass,
 };
-use super::{CODE, LimitState};
+use super::{FEWEST_RECORDS, LimitState};
 
 /// FC of LC1, which applies where compression is neglected, C8.7.1.2.1.3 \[-\].
 pub const LARGEST_CONFIDENCE_FACTOR: f64 = 1.35;
 
-/// The statements of a check, in their limits.
-#[derive(Clone, Debug, PartialEq)]
+/// The table `[check]`, validated.
+#[derive(Clone, Debug)]
 pub struct Statement {
-    /// The wall before it rocks; `None` where the engineer did not say.
-    pub before_activation: Option<Activation>,
-    /// E of the masonry \[Pa\]; given where the wall is a beam.
-    pub young_modulus: Option<f64>,
+    /// The table.
+    pub table: CheckTable,
     /// FC \[-\].
     pub confidence_factor: f64,
-    /// Whether the hinges are set back for compression.
-    pub compression_considered: bool,
-    /// r \[-\]; `None` where the engineer did not say.
-    pub overburden_mass: Option<f64>,
     /// q \[-\].
     pub behaviour_factor: f64,
-    /// Use class.
-    pub use_class: Option<UseClass>,
-    /// What decides.
-    pub method: Method,
-    /// What the peaks of the records become.
-    pub record_scale: RecordScale,
     /// SLD, SLV and SLC; `None` for a check that is not made.
     pub states: [Option<StateStatement>; 3],
-    /// The building is that of the table `[check.building]`.
-    pub has_building: bool,
+    /// Records of the dynamic check, and of limit states without F0 and TC.
+    pub records: Records,
 }
 
 /// What is stated of a limit state.
@@ -73,27 +63,36 @@ pub enum Source {
     Records,
 }
 
-impl CheckTable {
-    /// Checks the values against each other and the code.
+impl Statement {
+    /// Reads the table `[check]` of a file.
     ///
     /// # Errors
-    /// [`CheckError::Value`] of the first that cannot be used.
-    pub fn statement(&self) -> Result<Statement, CheckError> {
-        let refused = |key, message: String| Err(CheckError::value(&[key], message));
-        if self.code != CODE {
-            return refused("code", format!("code = {:?} is unknown; the code is {CODE:?}", self.code));
+    /// [`CheckError`] of the first value that cannot be used, or of a record.
+    pub fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
+        let mut statement = Self::new(file.table()?)?;
+        statement.records = file.records(statement.table.records.as_ref())?;
+        let count = statement.records.named.len();
+        if (1..FEWEST_RECORDS).contains(&count) {
+            let message = format!("records: found {count}; at least {FEWEST_RECORDS} records (NTC 7.3.5)");
+            return Err(CheckError::value(&["records"], message));
         }
-        let q = self.behaviour_factor.unwrap_or(2.0);
+        Ok(statement)
+    }
+
+    /// Checks the values against each other and the code.
+    fn new(table: CheckTable) -> Result<Self, CheckError> {
+        let refused = |key, message: String| Err(CheckError::value(&[key], message));
+        let q = table.behaviour_factor.unwrap_or(2.0);
         if !(q >= 1.0 && q.is_finite()) {
             return refused("behaviour_factor", format!("behaviour_factor = {q} must be at least 1"));
         }
-        if let Some(r) = self.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
+        if let Some(r) = table.overburden_mass.filter(|r| !(*r >= 0.0 && r.is_finite())) {
             return refused("overburden_mass", format!("overburden_mass = {r} must be at least 0"));
         }
-        if let Some(e) = self.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
+        if let Some(e) = table.young_modulus.filter(|e| !(*e > 0.0 && e.is_finite())) {
             return refused("young_modulus", format!("young_modulus = {e} Pa must be above 0"));
         }
-        match (self.before_activation, self.young_modulus) {
+        match (table.before_activation, table.young_modulus) {
             (Some(Activation::Beam), None) => {
                 return refused("before_activation", "beam needs young_modulus, E in Pa".into());
             }
@@ -106,42 +105,25 @@ impl CheckTable {
             _ => {}
         }
         let mut states = [const { None }; 3];
-        for (state, given) in LimitState::ALL.into_iter().zip([&self.sld, &self.slv, &self.slc]) {
+        for (state, given) in LimitState::ALL.into_iter().zip([&table.sld, &table.slv, &table.slc]) {
             if let Some(given) = given {
-                states[state as usize] = Some(limit_state(state, given, self)?);
+                states[state as usize] = Some(limit_state(state, given, &table)?);
             }
         }
-        let statement = Statement {
-            before_activation: self.before_activation,
-            young_modulus: self.young_modulus,
-            confidence_factor: confidence_factor(self)?,
-            compression_considered: self.compression_considered,
-            overburden_mass: self.overburden_mass,
-            behaviour_factor: q,
-            use_class: self.use_class,
-            method: self.method,
-            record_scale: self.record_scale,
-            states,
-            has_building: self.building.is_some(),
-        };
-        statement.check_sites()?;
-        Ok(statement)
+        // a method needs the sites of its limit states
+        let [_, slv, slc] = states.each_ref().map(Option::is_some);
+        if !(slv || (slc && table.method != Method::Linear)) {
+            let message = "SLV needs its site: [check.SLV] with ag, F0 and TC";
+            return Err(CheckError::value(&["SLV", "ag"], message));
+        }
+        let confidence_factor = confidence_factor(&table)?;
+        let records = Records::default();
+        Ok(Self { table, confidence_factor, behaviour_factor: q, states, records })
     }
-}
 
-impl Statement {
     /// Returns the statements about a limit state; `None` where its check is not made.
     pub fn state(&self, state: LimitState) -> Option<&StateStatement> {
         self.states[state as usize].as_ref()
-    }
-
-    /// Refuses a method whose limit states have no site.
-    fn check_sites(&self) -> Result<(), CheckError> {
-        let [slv, slc] = [LimitState::Slv, LimitState::Slc].map(|state| self.state(state).is_some());
-        if slv || (slc && self.method != Method::Linear) {
-            return Ok(());
-        }
-        Err(CheckError::value(&[], "SLV needs its site: [check.SLV] with ag, F0 and TC"))
     }
 }
 
@@ -274,7 +256,7 @@ fn source(state: LimitState, given: &LimitStateTable, table: &CheckTable) -> Res
 
 fn soil(table: &CheckTable) -> Result<Soil, CheckError> {
     let Some(given) = &table.soil else {
-        return Err(CheckError::value(&[], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
+        return Err(CheckError::value(&["soil"], "soil is missing; state soil = \"A\" to \"E\" (NTC 3.2.2)"));
     };
     Soil::ALL.into_iter().find(|soil| soil.name() == given).ok_or_else(|| {
         let letter = given.to_uppercase();
@@ -357,7 +339,7 @@ impl StateStatement {
                 "{name}: state building_damping, the damping of the building in this limit state \
                  (C8.7.1.2.1.4)"
             );
-            return Err(CheckError::value(&[name], message));
+            return Err(CheckError::value(&[name, "building_damping"], message));
         };
         let floor = FloorSpectrum::new(ground, modes, xi);
         if floor.peak_acceleration() <= 0.0 {

@@ -1,11 +1,48 @@
 //! The outcome of a check.
 
+use rocking_wall::scene::Floors;
+use rocking_wall::wall::{Parameters, Wall};
 use serde::Serialize;
+
+use super::demand::Demand;
+use super::statement::Statement;
+
+/// A wall that was checked, with what it was checked by.
+#[derive(Debug)]
+pub struct Checked<'a> {
+    pub(super) statement: &'a Statement,
+    pub(super) parameters: &'a Parameters,
+    pub(super) floors: Option<&'a Floors>,
+    pub(super) wall: Wall,
+    /// Of SLD, SLV and SLC; `None` for one that is not stated.
+    pub(super) demands: [Option<Demand>; 3],
+    /// The outcome.
+    pub outcome: Outcome,
+}
+
+impl Checked<'_> {
+    /// The sides that differ, with their names.
+    pub(super) fn sides(&self) -> impl Iterator<Item = (&'static str, Side, &SideVerdict)> {
+        let alike = self.outcome.alike;
+        let shown = self.outcome.sides.iter().take(if alike { 1 } else { 2 });
+        shown.map(move |(side, verdict)| (if alike { "both sides" } else { side.name() }, side, verdict))
+    }
+
+    /// The side that governs.
+    pub(super) fn governing(&self) -> Option<&SideVerdict> {
+        let Outcome { sides, governs, .. } = &self.outcome;
+        sides
+            .iter()
+            .find(|(side, _)| *side == governs.side)
+            .or(sides.iter().next())
+            .map(|(_, verdict)| verdict)
+    }
+}
 
 /// The outcome of a check. Serialized it is what `wall check --json` prints: SI units, `a_g` in g.
 #[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
-    /// [`CODE`](super::CODE).
+pub struct Outcome {
+    /// Name of the code.
     pub code: &'static str,
     /// Whether every limit state that decides holds on every side.
     pub passed: bool,
@@ -60,7 +97,7 @@ impl Side {
     }
 }
 
-/// A check that can decide.
+/// Which of the checks governs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Deciding {
     /// Activation.

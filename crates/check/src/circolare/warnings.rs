@@ -29,7 +29,7 @@ pub(super) fn of_statement(
         }
         below = Some((given.state, given.ag));
     }
-    let on_ground = floors.is_none() && !statement.has_building;
+    let on_ground = floors.is_none() && !statement.table.building.is_some();
     for given in statement.states.iter().flatten().filter(|_| on_ground) {
         if given.building_damping.is_some() || given.building_period.is_some() {
             warnings.push(format!(
@@ -39,11 +39,12 @@ pub(super) fn of_statement(
         }
     }
     let body = wall.body();
-    if statement.overburden_mass.is_some() && (body.overburden == 0.0 || body.mechanism != Mechanism::Parapet)
+    if statement.table.overburden_mass.is_some()
+        && (body.overburden == 0.0 || body.mechanism != Mechanism::Parapet)
     {
         warnings.push("overburden_mass has no effect: it is for a parapet with overburden".into());
     }
-    if statement.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
+    if statement.table.compression_considered && parameters.a3 == 1.0 && parameters.multilinear.is_none() {
         warnings.push(
             "compression_considered with a3 = 1 puts the hinges at the edges: give the reduced thickness"
                 .into(),
@@ -54,10 +55,10 @@ pub(super) fn of_statement(
     if statement.confidence_factor > LARGEST_CONFIDENCE_FACTOR {
         warnings.push(format!("FC = {} is above that of LC1, 1.35 (C8.5.4)", statement.confidence_factor));
     }
-    if statement.has_building && floors.is_some() {
+    if statement.table.building.is_some() && floors.is_some() {
         warnings.push("the static checks use [check.building]; runs under records use [[storeys]]".into());
     }
-    if statement.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
+    if statement.table.use_class == Some(UseClass::IV) && statement.state(LimitState::Sld).is_none() {
         warnings.push("use class IV is checked for SLD too (NTC 8.3); give [check.SLD]".into());
     }
     warnings.extend(
@@ -84,7 +85,7 @@ const TC: Usual = Usual { name: "TC", unit: "s", range: [0.1, 1.0], others: &[("
 /// Finds what the engineer states that is improbable, and what may be meant.
 pub(super) fn improbable(statement: &Statement, floors: Option<&Floors>) -> Vec<Warning> {
     let mut found: Vec<_> =
-        statement.young_modulus.and_then(|e| YOUNG_MODULUS.warning(e)).into_iter().collect();
+        statement.table.young_modulus.and_then(|e| YOUNG_MODULUS.warning(e)).into_iter().collect();
     for given in statement.states.iter().flatten() {
         if let Source::Code(ground) = &given.source {
             let tc = ground.t_c / ground.period_factor;

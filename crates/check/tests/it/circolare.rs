@@ -6,10 +6,11 @@
 use std::path::Path;
 
 use check::circolare::{
-    DisplacementCheck, FloorSpectrum, GroundSpectrum, Hazard, Mode, Records, SideVerdict, Soil, Verdict,
-    check, damping_factor, frame_acceleration, in_table, read_table,
+    DisplacementCheck, FloorSpectrum, GroundSpectrum, Hazard, Mode, Outcome, SideVerdict, Soil, Statement,
+    damping_factor, frame_acceleration,
 };
-use rocking_wall::scene::{Place, Scene};
+use check::{CheckError, CheckFile};
+use rocking_wall::scene::Scene;
 
 const DIGITS: f64 = 1e-5;
 
@@ -24,23 +25,23 @@ fn near_each<const N: usize>(found: [f64; N], expected: [f64; N], what: &str) {
 }
 
 /// Checks the wall of a scene by the table of its text.
-pub(crate) fn checked(text: &str) -> Result<Verdict, String> {
-    let place = Place::new("scene.toml", text);
-    let folder = Path::new(".");
-    let scene = Scene::parse("scene.toml", text, folder).map_err(|error| error.to_string())?;
-    let table = read_table(&place).map_err(|error| error.to_string())?.expect("a table [check]");
-    let records = Records::read(&table, &place, folder).map_err(|error| error.to_string())?;
-    table
-        .statement()
-        .and_then(|statement| check(&scene.parameters, scene.floors.as_ref(), &statement, &records))
-        .map_err(|error| in_table(error, &place).to_string())
+pub(crate) fn checked(text: &str) -> Result<Outcome, String> {
+    try_checked(text).map_err(|(error, file)| file.located(error).to_string())
+}
+
+/// The same, with the file of an error.
+pub(crate) fn try_checked(text: &str) -> Result<Outcome, (CheckError, CheckFile<'_>)> {
+    let scene = Scene::parse("scene.toml", text, Path::new(".")).unwrap();
+    let file = CheckFile::parse("scene.toml", text).unwrap();
+    let outcome = || Ok(Statement::read(&file)?.checked((&scene).into())?.outcome);
+    outcome().map_err(|error| (error, file))
 }
 
 pub(crate) const PARAPET: &str = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n";
 const SITE: &str = "ag = 0.15, F0 = 2.45, TC = 0.32";
 
 /// Checks a wall with a₁ = 0.03 on the ground, or at z/H of a building of three storeys.
-fn example(wall: &str, activation: &str, height_ratio: Option<f64>, more: &str) -> Verdict {
+fn example(wall: &str, activation: &str, height_ratio: Option<f64>, more: &str) -> Outcome {
     let mut building = String::new();
     let mut damping = ["", ""];
     if let Some(ratio) = height_ratio {
@@ -57,7 +58,7 @@ fn example(wall: &str, activation: &str, height_ratio: Option<f64>, more: &str) 
     checked(&text).unwrap()
 }
 
-fn positive(verdict: &Verdict) -> &SideVerdict {
+fn positive(verdict: &Outcome) -> &SideVerdict {
     verdict.sides.positive.as_ref().expect("the wall rocks to u > 0")
 }
 

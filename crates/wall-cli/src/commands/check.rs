@@ -1,43 +1,37 @@
-//! `wall check`: a wall against a code, or its capacity curve against a response spectrum.
-
-mod code;
-mod find;
-mod spectrum;
-mod walls;
+//! `wall check`: walls against a building code.
 
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use check::circolare::{Sought, read_table};
+use check::{CODES, CheckFile, Code, Origin, Sought, check_walls, find, page, read};
 use clap::Args;
-use rocking_wall::scene::{Place, read_text};
+use rocking_wall::scene::{Scene, read_text};
+use run::parallel;
+use run::walls::read_walls;
 
 use crate::args::{SceneArguments, refuse};
-use crate::output::Console;
+use crate::output::{Console, written};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    #[command(flatten)]
-    spectrum: spectrum::SpectrumArguments,
-    /// With `[check]`: find the smallest thickness, tie strength or stiffness, or the largest height, that
-    /// passes
+    /// Find the smallest thickness, tie strength or stiffness, or the largest height, that passes
     #[arg(long, value_name = "PARAMETER", value_parser = sought)]
     find: Option<Sought>,
-    /// With --find: write `zeta_E` over the parameter as a chart (SVG)
+    /// With --find: write capacity over demand over the parameter as a chart (SVG)
     #[arg(long, value_name = "FILE", requires = "find")]
     plot: Option<PathBuf>,
-    /// With a study: write one row for each wall, the worst first, as CSV
+    /// Write the rows as CSV: one for each check, or for each wall of a file of walls, the worst first
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write a page: the capacity curve over the demand, or the walls of a study
+    /// With a file of walls: write its table as a page
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// With `[check]`: write the report for a calculation file as a page
+    /// Write the report for a calculation file as a page
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// With --report: the date to print in it, in any form
@@ -50,51 +44,90 @@ const MAX_FILE_BYTES: u64 = 4 << 20;
 
 pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Some(path) = &arguments.scene.scene else {
-        arguments.refuse_those_of_the_code("the default wall")?;
-        return spectrum::run(console, arguments);
+        bail!("there is no file; give one with a table [check], such as\n\n{}", CODES[0].example);
     };
     let (name, text) = (path.display().to_string(), read_text(path, "a scene file (TOML)", MAX_FILE_BYTES)?);
-    if is_study(&text) {
-        return walls::run(console, arguments, path, &text);
-    }
-    let place = Place::new(&name, &text);
-    let Some(table) = read_table(&place)? else {
-        arguments.refuse_those_of_the_code(&name)?;
-        return spectrum::run(console, arguments);
-    };
-    arguments.spectrum.refuse(&name)?;
-    if arguments.csv.is_some() {
-        bail!("{name}: --csv lists the walls of a study; this is a scene");
-    }
-    if arguments.html.is_some() {
-        bail!("{name}: --html draws a spectrum, or the walls of a study; --report is the page of a check");
-    }
-    let case = code::Case::read(console, arguments, &table, &place)?;
-    match arguments.find {
-        Some(_) if arguments.report.is_some() => {
-            bail!("{name}: --report covers the wall as given; leave out --find")
-        }
-        Some(sought) => find::run(console, arguments, &case, sought),
-        None => code::run(console, arguments, &case),
-    }
-}
-
-impl Arguments {
-    /// Refuses the options that need a table `[check]`.
-    fn refuse_those_of_the_code(&self, name: &str) -> Result<()> {
-        let given = [
-            ("--find", self.find.is_some()),
-            ("--csv", self.csv.is_some()),
-            ("--report", self.report.is_some()),
+    let file = CheckFile::parse(&name, &text)?;
+    let code = || read(&file).map_err(|error| file.located(error));
+    if file.has_walls() {
+        let one_wall = [
+            ("--find", arguments.find.is_some()),
+            ("--report", arguments.report.is_some()),
+            ("--set", !arguments.scene.set.is_empty()),
         ];
-        let why = "needs a table [check] with code = \"circolare-2019\"";
-        refuse(given, why).with_context(|| name.to_owned())
+        refuse(one_wall, "takes one wall; give a scene").context(name.clone())?;
+        return walls(console, arguments, &file, &*code()?);
     }
+    let many_walls = [("--html", arguments.html.is_some())];
+    refuse(many_walls, "lists the walls of a file; --report is the page of one wall")
+        .context(name.clone())?;
+    let mut scene = Scene::parse(&name, &text, file.folder())?;
+    arguments.scene.apply(&mut scene)?;
+    one(console, arguments, &file, &*code()?, &scene)
 }
 
-/// Returns whether a text has walls, as a study has.
-fn is_study(text: &str) -> bool {
-    text.parse::<toml::Table>().is_ok_and(|keys| keys.contains_key("walls"))
+/// Checks the wall of a scene.
+fn one(
+    console: &Console<'_>,
+    arguments: &Arguments,
+    file: &CheckFile<'_>,
+    code: &dyn Code,
+    scene: &Scene,
+) -> Result<()> {
+    let Arguments { plot, csv, report, .. } = arguments;
+    let records = code.records();
+    records.warnings.iter().for_each(|warning| console.warn(warning));
+    let outputs = plot.iter().chain(csv).chain(report);
+    console.check_distinct(arguments.scene.inputs(scene).chain(&records.files), outputs)?;
+    if let Some(sought) = arguments.find {
+        let of_the_wall = [("--report", report.is_some()), ("--csv", csv.is_some())];
+        refuse(of_the_wall, "covers the wall as given; leave out --find").context(file.name().to_owned())?;
+        let found = find(code, scene.into(), sought).map_err(|error| file.located(error))?;
+        console.picture(plot.as_ref(), || Ok(found.plot().picture()))?;
+        return console.print(&if arguments.json {
+            serde_json::to_string_pretty(&found.json())? + "\n"
+        } else {
+            found.text() + &written("written  ", plot)
+        });
+    }
+    let verdict = code.check(scene.into()).map_err(|error| file.located(error))?;
+    if let Some(path) = report {
+        let date = arguments.date.as_deref();
+        let origin = Origin { title: &scene.title, file, set: &arguments.scene.set, records, date };
+        console.write(path, page(&verdict, &origin)?.as_bytes())?;
+    }
+    console.save(csv.as_ref(), || verdict.table().csv())?;
+    if arguments.json {
+        return console.print(&(serde_json::to_string_pretty(&verdict.json())? + "\n"));
+    }
+    verdict.warnings.iter().for_each(|warning| console.warn(warning));
+    console.print(&(verdict.text(&scene.title) + &written("\nwritten  ", csv.iter().chain(report))))
+}
+
+/// Checks the walls of a file.
+fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>, code: &dyn Code) -> Result<()> {
+    let (mut inputs, mut warnings) = (Vec::new(), Vec::new());
+    let walls = read_walls(file.text(), file.name().as_ref(), &mut inputs, &mut warnings)?;
+    let Arguments { csv, html, .. } = arguments;
+    console.check_distinct(inputs.iter().chain(&code.records().files), html.iter().chain(csv))?;
+    let verdicts = check_walls(code, &walls, parallel::threads(None).get());
+    console.save(csv.as_ref(), || verdicts.table().csv())?;
+    console.save(html.as_ref(), || verdicts.page(file.name()))?;
+    if !arguments.json {
+        console.report_all(verdicts.warnings());
+    }
+    warnings.iter().chain(&code.records().warnings).for_each(|warning| console.warn(warning));
+    console.print(&if arguments.json {
+        serde_json::to_string_pretty(&verdicts.json())? + "\n"
+    } else {
+        verdicts.table().text() + &written("written  ", csv.iter().chain(html))
+    })?;
+    match verdicts.refused() {
+        0 => Ok(()),
+        refused => {
+            bail!("{refused} of {} walls could not be checked; the first rows say why", walls.len())
+        }
+    }
 }
 
 fn sought(name: &str) -> Result<Sought, String> {

@@ -3,57 +3,65 @@
 use std::f64::consts::TAU;
 
 use crate::circolare::figure::{CAPACITY, DEMAND, color, over_demand};
-use crate::circolare::{Activation, CheckError, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::circolare::{Activation, Checked, LARGEST_LOSS, LimitState, Side, SideVerdict, TieBreak};
+use crate::error::CheckError;
+use crate::report::Figure;
 use ::report::palette::{BLACK, sign};
 use rocking_wall::variables::{EccentricityMode, ForceLaw, Mechanism};
 
-use super::Case;
-use super::markup::{Calculation, formula, number as n, side_head};
-use super::site::figure;
+use crate::report::markup::{Calculation, formula, number as n, side_head};
 
-pub(super) fn section(case: &Case<'_>) -> Result<String, CheckError> {
+pub(super) fn section(case: &Checked<'_>) -> Result<String, CheckError> {
     let mut text = String::new();
     for (name, side, verdict) in case.sides() {
-        if !case.report.verdict.alike {
+        if !case.outcome.alike {
             text.push_str(&side_head(name));
         }
         text += &numbers(case, side, verdict);
     }
     for (name, _, side) in case.sides() {
-        if side.slv.is_none() && side.slc.is_none() {
-            continue;
+        if side.slv.is_some() || side.slc.is_some() {
+            text += &figure(case, name, side)?.html();
         }
-        let entry = |sample: String, name: &str| format!("<span>{sample}{name}</span>");
-        let line = |color: &str, style: &str, name: &str| {
-            entry(format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>"), name)
-        };
-        let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
-        for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
-            if check.is_none() {
-                continue;
-            }
-            let color = color(state);
-            key += &entry(sign(color, CAPACITY), &formula(&format!("d_{state}")));
-            key += &entry(sign(color, DEMAND), &format!("demand of {state}"));
-            key += &line(color, "dashed", &format!("secant to {}", formula(&format!("d_{state}"))));
-            key += &line(color, "dotted", &formula(&format!("T_{state}")));
-            key += &line(color, "solid", "its spectrum");
-        }
-        let caption = format!(
-            "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies \
-             right of the triangle of the same colour. <span class=\"key\">{key}</span>",
-            ::report::escaped(name)
-        );
-        text += &figure(&caption, &over_demand(side, case.report.statement, &case.demands)?);
     }
     Ok(text)
 }
 
+/// The curve of a side over the demands of SLV and SLC.
+pub(in crate::circolare) fn figure(
+    case: &Checked<'_>,
+    name: &str,
+    side: &SideVerdict,
+) -> Result<Figure, CheckError> {
+    let entry = |sample: String, name: &str| format!("<span>{sample}{name}</span>");
+    let line = |color: &str, style: &str, name: &str| {
+        entry(format!("<i class=\"chip line\" style=\"border-top:2px {style} {color}\"></i>"), name)
+    };
+    let mut key = line(BLACK, "solid", &format!("{} with FC", formula("a(d)")));
+    for (state, check) in [(LimitState::Slv, side.slv), (LimitState::Slc, side.slc)] {
+        if check.is_none() {
+            continue;
+        }
+        let color = color(state);
+        key += &entry(sign(color, CAPACITY), &formula(&format!("d_{state}")));
+        key += &entry(sign(color, DEMAND), &format!("demand of {state}"));
+        key += &line(color, "dashed", &format!("secant to {}", formula(&format!("d_{state}"))));
+        key += &line(color, "dotted", &formula(&format!("T_{state}")));
+        key += &line(color, "solid", "its spectrum");
+    }
+    let caption = format!(
+        "Capacity curve over the demand, {}. A wall passes by displacement where its circle lies right of the \
+         triangle of the same colour. <span class=\"key\">{key}</span>",
+        ::report::escaped(name)
+    );
+    Ok(Figure { caption, plot: over_demand(side, case.statement, &case.demands)? })
+}
+
 /// The numbers of one side, from the force to the curve.
-fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
-    let parameters = &case.report.scene.parameters;
+fn numbers(case: &Checked<'_>, side: Side, verdict: &SideVerdict) -> String {
+    let parameters = case.parameters;
     let body = case.wall.body();
-    let r = case.report.statement.overburden_mass.unwrap_or(0.0);
+    let r = case.statement.table.overburden_mass.unwrap_or(0.0);
     let o = body.overburden;
     let SideVerdict { alpha0, mass, a0, d0, d_per_u, acting_force, pushed_weight, .. } = *verdict;
     let mut lines = Calculation::default();
@@ -104,8 +112,8 @@ fn numbers(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> String {
 }
 
 /// The formula of `F_act` and the numbers put in, where it is F0 of Eq. (1).
-fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
-    let parameters = &case.report.scene.parameters;
+fn force(case: &Checked<'_>, side: Side, acting: f64) -> (&'static str, String) {
+    let parameters = case.parameters;
     let body = case.wall.body();
     let sign = if side == Side::Negative { -1.0 } else { 1.0 };
     let strength = body.strength.of(sign);
@@ -129,10 +137,10 @@ fn force(case: &Case<'_>, side: Side, acting: f64) -> (&'static str, String) {
 }
 
 /// Adds T0, `d_y` and `a_y`.
-fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
-    let parameters = &case.report.scene.parameters;
+fn elastic(case: &Checked<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
+    let parameters = case.parameters;
     let SideVerdict { t0, dy, ay, a0, d0, .. } = *verdict;
-    match case.report.statement.before_activation {
+    match case.statement.table.before_activation {
         None | Some(Activation::Rigid) => {
             lines.line(["Period before activation: rigid", "C8.7.1.2.1.3"], ["T0", ""], (0.0, "s"));
         }
@@ -149,7 +157,7 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
             let parapet = parameters.mechanism == Mechanism::Parapet;
             let factor = if parapet { "6.2" } else { "2.2" };
             let [h, b, rho] = [parameters.height, parameters.thickness, parameters.density].map(n);
-            let e = n(case.report.statement.young_modulus.unwrap_or(f64::NAN));
+            let e = n(case.statement.table.young_modulus.unwrap_or(f64::NAN));
             let put = format!("{factor} · ({h}/{b}) · {h} · √({rho}/{e})");
             let words = "Period of a uniform beam";
             lines.line([words, "[C8.7.1.7]"], ["T0 = κ λ L √(W_s/(E g))", &put], (t0, "s"));
@@ -164,8 +172,8 @@ fn elastic(case: &Case<'_>, verdict: &SideVerdict, lines: &mut Calculation) {
 }
 
 /// Adds where the tie breaks, and what the curve loses there.
-fn tie(case: &Case<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
-    let parameters = &case.report.scene.parameters;
+fn tie(case: &Checked<'_>, verdict: &SideVerdict, broken: &TieBreak, lines: &mut Calculation) {
+    let parameters = case.parameters;
     let [n_s, k, g0, h, y] = [
         parameters.tie_strength,
         parameters.tie_stiffness,

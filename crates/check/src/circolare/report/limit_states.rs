@@ -1,67 +1,66 @@
 //! Every static check with its clause, equations, the numbers put in and the result.
 
 use crate::circolare::{
-    ActivationCheck, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict, StateStatement,
+    ActivationCheck, Checked, Demand, DisplacementCheck, LimitState, MEAN_COUNTS_FROM, SideVerdict,
+    StateStatement,
 };
 
-use super::Case;
-use super::markup::{Calculation, formula, number as n, result, section, side_head};
+use crate::report::markup::{Calculation, formula, number as n, result, side_head};
 
 /// a and b of C7.2.3 times the first period, from where the second term of [C8.7.1.12] counts.
 const BEYOND: f64 = 1.1;
 
 /// The sections of all checks that are made.
-pub(super) fn sections(case: &Case<'_>) -> String {
-    let mut text = String::new();
-    let xi = case.report.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
-    let held = |side: &SideVerdict| side.t0 == 0.0;
-    let title = "SLD: activation <small>C8.7.1.2.1.5</small>";
-    text += &one(case, title, LimitState::Sld, &|side, given, demand| {
-        Some(activation(case, side, (given, demand, xi), side.sld?, (1.0, held(side))))
-    });
-    let title = "SLV with q <small>C8.7.1.2.1.7</small>";
-    let q = case.report.statement.behaviour_factor;
-    text += &one(case, title, LimitState::Slv, &|side, given, demand| {
-        Some(activation(case, side, (given, demand, xi), side.slv_q?, (q, held(side))))
-    });
-    let title = "SLV by displacement <small>C8.7.1.2.1.8</small>";
-    text += &one(case, title, LimitState::Slv, &|side, given, demand| {
-        Some(displacement(side, given, demand, side.slv?))
-    });
-    let title = "SLC by displacement <small>C8.7.1.2.1.8</small>";
-    text + &one(case, title, LimitState::Slc, &|side, given, demand| {
-        Some(displacement(side, given, demand, side.slc?))
-    })
+pub(super) fn sections(case: &Checked<'_>) -> Vec<(String, String)> {
+    let xi = case.statement.state(LimitState::Sld).map_or(0.05, |given| given.damping);
+    let q = case.statement.behaviour_factor;
+    let checks: [(&str, LimitState, &Check<'_>); 4] = [
+        ("SLD: activation C8.7.1.2.1.5", LimitState::Sld, &|side, given, demand| {
+            Some(activation(case, side, (given, demand, xi), side.sld?, 1.0))
+        }),
+        ("SLV with q C8.7.1.2.1.7", LimitState::Slv, &|side, given, demand| {
+            Some(activation(case, side, (given, demand, xi), side.slv_q?, q))
+        }),
+        ("SLV by displacement C8.7.1.2.1.8", LimitState::Slv, &|side, given, demand| {
+            Some(displacement(side, given, demand, side.slv?))
+        }),
+        ("SLC by displacement C8.7.1.2.1.8", LimitState::Slc, &|side, given, demand| {
+            Some(displacement(side, given, demand, side.slc?))
+        }),
+    ];
+    let made = checks.into_iter().map(|(title, state, check)| (title.to_owned(), one(case, state, check)));
+    made.filter(|(_, markup)| !markup.is_empty()).collect()
 }
 
 /// The calculation of a check on a side.
 type Check<'a> = dyn Fn(&SideVerdict, &StateStatement, &Demand) -> Option<String> + 'a;
 
-/// The section of a check, both sides of it; empty where it is not made.
-fn one(case: &Case<'_>, title: &str, state: LimitState, check: &Check<'_>) -> String {
-    let given = case.report.statement.state(state);
+/// A check of both sides; empty where it is not made.
+fn one(case: &Checked<'_>, state: LimitState, check: &Check<'_>) -> String {
+    let given = case.statement.state(state);
     let Some((given, demand)) = given.zip(case.demands[state as usize].as_ref()) else {
         return String::new();
     };
     let mut text = String::new();
     for (name, _, side) in case.sides() {
         let Some(calculation) = check(side, given, demand) else { continue };
-        let head = if case.report.verdict.alike { String::new() } else { side_head(name) };
+        let head = if case.outcome.alike { String::new() } else { side_head(name) };
         text.push_str(&["<div class=\"together\">", &head, &calculation, "</div>\n"].concat());
     }
-    if text.is_empty() { text } else { section(title, &text) }
+    text
 }
 
-/// A check of accelerations, with a factor q and whether the wall is held.
+/// A check of accelerations, with a factor q.
 fn activation(
-    case: &Case<'_>,
+    case: &Checked<'_>,
     side: &SideVerdict,
     (given, demand, xi): (&StateStatement, &Demand, f64),
     check: ActivationCheck,
-    (q, held): (f64, bool),
+    q: f64,
 ) -> String {
+    let held = side.t0 == 0.0;
     let mut lines = Calculation::default();
-    let factor = n(case.report.statement.confidence_factor);
+    let factor = n(case.statement.confidence_factor);
     let (symbol, source) = if held { ("a_0", "[C8.7.1.8]") } else { ("a_y", "[C8.7.1.9]") };
     let value = n(side.ay);
     let (left, put) = if q == 1.0 {

@@ -1,139 +1,40 @@
-//! The report of a check by the code: what goes into a calculation file, in one page.
+//! The sections of the report: every statement, number and check, with its clause and equations.
 
-mod capacity;
-mod drawing;
+pub(super) mod capacity;
 mod inputs;
 mod limit_states;
-mod markup;
 mod readings;
 mod runs;
 mod site;
-mod verdict;
 
-use crate::circolare::{CheckError, Demand, Records, Side, SideVerdict, Statement, Verdict, demands};
-use ::report::{escaped, template};
-use rocking_wall::scene::{Scene, SceneError, fingerprint};
-use rocking_wall::wall::Wall;
+use super::table::Activation;
+use super::verdict::Checked;
+use crate::error::CheckError;
+use crate::report::{Origin, the_wall};
 
-use inputs::Given;
-use markup::{section, table};
+/// The groups of parameters that the static check uses, and those that only runs use.
+const STATIC: [&str; 3] = ["geometry", "force_law", "tie"];
+const DYNAMIC: [&str; 3] = ["damping", "impact", "solver"];
 
-/// What a report is about.
-pub struct Report<'a> {
-    /// Scene of the wall.
-    pub scene: &'a Scene,
-    /// Name of the scene file, and its text.
-    pub file: (&'a str, &'a str),
-    /// What `--set` replaces.
-    pub set: &'a [String],
-    /// Statements of the engineer.
-    pub statement: &'a Statement,
-    /// Records.
-    pub records: &'a Records,
-    /// Outcome.
-    pub verdict: &'a Verdict,
-    /// The verdict in one line.
-    pub headline: &'a str,
-    /// Date or place of the report, as the user gives it.
-    pub date: Option<&'a str>,
-}
-
-/// What the sections of a report share.
-struct Case<'a> {
-    report: &'a Report<'a>,
-    wall: Wall,
-    given: Given,
-    /// Of SLD, SLV and SLC.
-    demands: [Option<Demand>; 3],
-}
-
-impl Case<'_> {
-    /// The sides that are shown, with their names.
-    fn sides(&self) -> impl Iterator<Item = (&'static str, Side, &SideVerdict)> {
-        let shown = self.report.verdict.sides.iter().take(if self.report.verdict.alike { 1 } else { 2 });
-        shown.map(|(side, verdict)| {
-            (if self.report.verdict.alike { "both sides" } else { side.name() }, side, verdict)
-        })
-    }
-
-    /// The side that governs.
-    fn governing(&self) -> Option<&SideVerdict> {
-        let governs = self.report.verdict.governs.side;
-        let sides = &self.report.verdict.sides;
-        sides.iter().find(|(side, _)| *side == governs).or(sides.iter().next()).map(|(_, verdict)| verdict)
-    }
-}
-
-/// Makes the page of a report.
-///
-/// # Errors
-/// Of a demand, or of a record that cannot be read again.
-pub fn page(report: &Report<'_>) -> Result<String, CheckError> {
-    let wall = Wall::new(&report.scene.parameters)?;
-    let floors = report.scene.floors.as_ref();
-    let case = Case {
-        report,
-        given: Given::new(report.file.1, report.set),
-        demands: demands(&wall, floors, report.statement, report.records)?,
-        wall,
+/// The sections, each with its heading.
+pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
+    let is_dynamic = case.outcome.dynamic.is_some();
+    let is_law = case.statement.table.before_activation == Some(Activation::Law);
+    let is_used = |group: &str, name: &str| {
+        // a wall that is rigid or a beam before it rocks has no elastic branch of its law
+        let replaced = name == "a1" && !is_dynamic && !is_law;
+        (STATIC.contains(&group) || is_dynamic && DYNAMIC.contains(&group)) && !replaced
     };
-    let warnings: Vec<_> = report.verdict.warnings.iter().chain(&report.records.warnings).collect();
-    let warnings = if warnings.is_empty() {
-        "<p>None.</p>\n".to_owned()
-    } else {
-        let items: Vec<_> = warnings.iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
-        format!("<ul>\n{}</ul>\n", items.concat())
-    };
-    let sections = [
-        section("Verdict", &verdict::section(&case)),
-        section("Statements of the engineer", &inputs::statements(&case)),
-        section("The wall", &(drawing::figure(&case) + &inputs::wall(&case))),
-        section("Site and building", &site::values(&case)),
-        section("Spectra", &site::figures(&case)?),
-        section("Capacity curve", &capacity::section(&case)?),
-        limit_states::sections(&case),
-        runs::section(&case),
-        section("Readings of the code", &readings::section(&case)),
-        section("Warnings", &warnings),
-        section("Document", &document(report)?),
+    let one = |heading: &str, markup: String| (heading.to_owned(), markup);
+    let mut sections = vec![
+        one("Statements of the engineer", inputs::statements(case, origin)),
+        one("The wall", the_wall(&case.wall, case.parameters, origin, &is_used)),
+        one("Site and building", site::values(case)),
+        one("Spectra", site::figures(case)?),
+        one("Capacity curve", capacity::section(case)?),
     ];
-    let title = escaped(&report.scene.title);
-    let passed = if report.verdict.passed { "holds" } else { "fails" };
-    let headline = verdict::headline(report.headline);
-    let date = report.date.map_or_else(String::new, escaped);
-    let parts = [
-        ("title", &*title),
-        ("date", &date),
-        ("passed", passed),
-        ("headline", &headline),
-        ("sections", &sections.concat()),
-    ];
-    Ok(template::page(include_str!("page.html"), &parts))
-}
-
-/// Program, version, date, and the fingerprints of what was read.
-fn document(report: &Report<'_>) -> Result<String, CheckError> {
-    let (name, text) = report.file;
-    let scene = fingerprint(text.as_bytes());
-    let mut files = vec![(name.to_owned(), scene)];
-    for path in &report.records.files {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::File {
-            file: path.display().to_string(),
-            reason: format!("{error}; the file could be read earlier in this run"),
-        })?;
-        files.push((path.display().to_string(), fingerprint(&bytes)));
-    }
-    // names of files are left out: a copy elsewhere is the same input
-    let inputs: Vec<&str> =
-        files.iter().map(|(_, hash)| hash.as_str()).chain(report.set.iter().map(String::as_str)).collect();
-    let mut rows = vec![
-        ["program".to_owned(), format!("wall (rocking-wall) {}", env!("CARGO_PKG_VERSION"))],
-        ["date".to_owned(), report.date.map_or_else(|| "not given".to_owned(), escaped)],
-        ["fingerprint of the inputs".to_owned(), fingerprint(inputs.join("\n").as_bytes())],
-    ];
-    rows.extend(files.into_iter().map(|(file, hash)| [escaped(&file), hash]));
-    rows.extend(report.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
-    Ok(table(&[], &rows)
-        + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
-           against deliberate changes.</p>\n")
+    sections.extend(limit_states::sections(case));
+    sections.extend(runs::section(case).map(|markup| one("Runs under records C8.7.1.2.1.9", markup)));
+    sections.push(one("Readings of the code", readings::section(case)));
+    Ok(sections)
 }

@@ -1,30 +1,29 @@
 //! Where the code can be read in two ways: the reading that this check takes.
 
-use crate::circolare::{Demand, Source};
+use crate::circolare::{Checked, Demand, Source};
 
-use super::Case;
-use super::markup::formula;
+use crate::report::markup::formula;
 
-fn any_demand(case: &Case<'_>, holds: fn(&Demand) -> bool) -> bool {
+fn any_demand(case: &Checked<'_>, holds: fn(&Demand) -> bool) -> bool {
     case.demands.iter().flatten().any(holds)
 }
 
-fn is_at_height(case: &Case<'_>) -> bool {
+fn is_at_height(case: &Checked<'_>) -> bool {
     any_demand(case, |demand| matches!(demand, Demand::Floor(_)))
 }
 
 /// Returns whether there is a check of accelerations of a side whose T0 fulfils a condition.
-fn is_activated(case: &Case<'_>, such: fn(f64) -> bool) -> bool {
-    let sides = case.report.verdict.sides.iter();
+fn is_activated(case: &Checked<'_>, such: fn(f64) -> bool) -> bool {
+    let sides = case.outcome.sides.iter();
     sides.map(|(_, side)| side).any(|side| (side.sld.is_some() || side.slv_q.is_some()) && such(side.t0))
 }
 
-fn is_by_code(case: &Case<'_>) -> bool {
-    case.report.statement.states.iter().flatten().any(|given| matches!(given.source, Source::Code(_)))
+fn is_by_code(case: &Checked<'_>) -> bool {
+    case.statement.states.iter().flatten().any(|given| matches!(given.source, Source::Code(_)))
 }
 
 /// A test whether a reading bears on a check, and the reading with its formulas in braces.
-type Reading = (fn(&Case<'_>) -> bool, &'static str);
+type Reading = (fn(&Checked<'_>) -> bool, &'static str);
 
 const READINGS: [Reading; 13] = [
     (
@@ -59,7 +58,7 @@ const READINGS: [Reading; 13] = [
          floor of SLD that of SLD.",
     ),
     (
-        |case| case.report.verdict.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some()),
+        |case| case.outcome.sides.iter().any(|(_, side)| side.sld.is_some() && side.slc.is_some()),
         "The rule that the acceleration of activation at SLD is the least one is printed for SLV. It is \
          taken for SLC, too.",
     ),
@@ -83,7 +82,7 @@ const READINGS: [Reading; 13] = [
          the mean spectrum of 7 and more records, of the envelope of fewer.",
     ),
     (
-        |case| case.report.verdict.dynamic.is_some(),
+        |case| case.outcome.dynamic.is_some(),
         "Runs under records: the skeleton is the capacity curve, which contains FC. Gravity, overburden, \
          stiffness and strength of a tie are divided by FC; masses and thresholds are not.",
     ),
@@ -96,7 +95,7 @@ const READINGS: [Reading; 13] = [
 ];
 
 /// The readings that bear on this check, as a list.
-pub(super) fn section(case: &Case<'_>) -> String {
+pub(super) fn section(case: &Checked<'_>) -> String {
     let taken = READINGS.into_iter().filter(|(bears, _)| bears(case));
     let items: Vec<_> = taken.map(|(_, text)| format!("<li>{}</li>\n", filled(text))).collect();
     format!(

@@ -1,17 +1,14 @@
 //! The dynamic check: its runs.
 
-use crate::circolare::{DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
+use crate::circolare::{Checked, DynamicRun, DynamicState, LimitState, MEAN_COUNTS_FROM};
 use ::report::escaped;
 
-use super::Case;
-use super::markup::{Calculation, formula, number, result, section as part, table};
+use crate::report::markup::{Calculation, formula, number, result, table};
 
-/// The section of the dynamic check; empty without one.
-pub(super) fn section(case: &Case<'_>) -> String {
-    let Some(dynamic) = &case.report.verdict.dynamic else { return String::new() };
-    let states = [(LimitState::Slv, &dynamic.slv), (LimitState::Slc, &dynamic.slc)];
-    let states = states.into_iter().filter_map(|(name, state)| Some((name, state.as_ref()?)));
-    let factor = number(case.report.statement.confidence_factor);
+/// The section of the dynamic check, if there is one.
+pub(super) fn section(case: &Checked<'_>) -> Option<String> {
+    case.outcome.dynamic.as_ref()?;
+    let factor = number(case.statement.confidence_factor);
     let mut text = format!(
         "<p>The wall of the scene, with its damping, restitution and one-sided rocking, moves under each \
          record. FC = {factor} divides its forces (gravity, overburden, tie), not its masses. The check is \
@@ -22,13 +19,13 @@ pub(super) fn section(case: &Case<'_>) -> String {
         formula("d"),
         formula("ζ_E")
     );
-    for (name, state) in states {
+    for (name, _, state) in case.dynamic() {
         text += &one(case, name, state);
     }
-    part("Runs under records <small>C8.7.1.2.1.9</small>", &text)
+    Some(text)
 }
 
-fn one(case: &Case<'_>, name: LimitState, state: &DynamicState) -> String {
+fn one(case: &Checked<'_>, name: LimitState, state: &DynamicState) -> String {
     let mut lines = Calculation::default();
     let mut thresholds = Vec::new();
     for (side, _, verdict) in case.sides() {
@@ -65,7 +62,7 @@ fn one(case: &Case<'_>, name: LimitState, state: &DynamicState) -> String {
     lines.line(["Lowest factor on all records that fails", "NTC 8.3"], ["ζ_E", ""], (state.zeta, ""));
     lines.say("Result", result(state.passed));
     let rows: Vec<_> = state.runs.iter().map(row).collect();
-    let factor = if case.report.statement.record_scale == crate::circolare::RecordScale::Ag {
+    let factor = if case.statement.table.record_scale == crate::circolare::RecordScale::Ag {
         format!("factor to {}", formula("a_g S"))
     } else {
         "factor".to_owned()

@@ -2,21 +2,18 @@
 
 use crate::circolare::figure::{DEMAND, Drawn, color, spectra};
 use crate::circolare::{
-    CheckError, Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM, Mode, Source,
-    StateStatement,
+    BuildingTable, CheckTable, Checked, Demand, FloorSpectrum, GroundSpectrum, LimitState, MEAN_COUNTS_FROM,
+    Mode, Source, StateStatement, Topography,
 };
+use crate::error::CheckError;
+use crate::report::Figure;
 use ::report::palette::sign;
-use ::report::plot::Plot;
 
-use super::Case;
-use super::markup::{formula, number, table};
-
-/// Width of a figure on a phone \[px\].
-const NARROW: f64 = 390.0;
+use crate::report::markup::{formula, number, table};
 
 /// A limit state that is checked, with its demand.
-fn checked<'a>(case: &'a Case<'_>) -> impl Iterator<Item = (&'a StateStatement, &'a Demand)> {
-    let statement = case.report.statement;
+fn checked<'a>(case: &'a Checked<'_>) -> impl Iterator<Item = (&'a StateStatement, &'a Demand)> {
+    let statement = case.statement;
     LimitState::ALL
         .into_iter()
         .zip(&case.demands)
@@ -57,7 +54,7 @@ const GROUND: [OfGround; 10] = [
 ];
 
 /// The numbers of the site and of the building, one column a limit state.
-pub(super) fn values(case: &Case<'_>) -> String {
+pub(super) fn values(case: &Checked<'_>) -> String {
     let states: Vec<_> = checked(case).collect();
     let mut rows = Vec::new();
     let mut row =
@@ -97,29 +94,39 @@ pub(super) fn values(case: &Case<'_>) -> String {
 }
 
 /// Describes where the wall stands.
-fn place(case: &Case<'_>) -> String {
+fn place(case: &Checked<'_>) -> String {
     let mut said = Vec::new();
-    let given = &case.given;
-    if let Some(soil) = given.text(&["soil"]) {
-        let topography = given.text(&["topography"]).unwrap_or_else(|| "T1 (default)".into());
-        said.push(format!("Soil {soil}, topography {topography}"));
+    let CheckTable { soil, topography, building, .. } = &case.statement.table;
+    if let Some(soil) = soil {
+        let topography = match topography {
+            None => "T1 (default)".to_owned(),
+            Some(Topography::Category(name)) => name.clone(),
+            Some(Topography::Factor(factor)) => number(*factor),
+        };
+        said.push(::report::escaped(&format!("Soil {soil}, topography {topography}")));
     }
-    let of = |key: &str| given.text(&["building", key]);
-    if let (Some(storeys), Some(period), Some(ratio)) = (of("storeys"), of("period"), of("height_ratio")) {
+    if let Some(BuildingTable {
+        storeys: Some(storeys),
+        period: Some(period),
+        height_ratio: Some(ratio),
+        ..
+    }) = building
+    {
+        let [period, ratio] = [*period, *ratio].map(number);
         said.push(format!(
             "building of {storeys} storeys with {} = {period} s, linear shape of its first mode, wall at \
              {} = {ratio}",
             formula("T_1"),
             formula("z/H")
         ));
-    } else if case.report.statement.has_building {
+    } else if building.is_some() {
         said.push("modes of the building as given in [check.building]".into());
-    } else if let Some(floors) = &case.report.scene.floors {
+    } else if let Some(floors) = case.floors {
         said.push(format!("the motion of the ground is {}", ::report::escaped(&floors.note())));
     } else if case.demands.iter().flatten().any(|demand| matches!(demand, Demand::Ground(_))) {
         said.push("the wall stands on the ground".into());
     }
-    for given in case.report.statement.states.iter().flatten() {
+    for given in case.statement.states.iter().flatten() {
         let state = given.state;
         match &given.source {
             Source::Code(_) => {}
@@ -135,13 +142,13 @@ fn place(case: &Case<'_>) -> String {
 }
 
 /// Describes how the spectra of the records are combined.
-fn combined(case: &Case<'_>) -> &'static str {
-    let enough = case.report.records.named().len() >= MEAN_COUNTS_FROM;
+fn combined(case: &Checked<'_>) -> &'static str {
+    let enough = case.statement.records.named.len() >= MEAN_COUNTS_FROM;
     if enough { "mean spectrum" } else { "envelope of the spectra" }
 }
 
 /// The spectra of the site, and those at the wall's place with the periods of the governing side.
-pub(super) fn figures(case: &Case<'_>) -> Result<String, CheckError> {
+pub(super) fn figures(case: &Checked<'_>) -> Result<String, CheckError> {
     let Some(side) = case.governing() else { return Ok(String::new()) };
     let period = |state: LimitState| match state {
         LimitState::Sld => side.sld.map(|_| side.t0),
@@ -168,7 +175,7 @@ pub(super) fn figures(case: &Case<'_>) -> Result<String, CheckError> {
     if !of_ground.is_empty() {
         let caption =
             format!("Site: {} at 5 % damping [3.2.2]. {}", formula("S_e(T)"), key(&of_ground, false));
-        text += &figure(&caption, &spectra(&of_ground, "S_e (m/s²)", last)?);
+        text += &Figure { caption, plot: spectra(&of_ground, "S_e (m/s²)", last)? }.html();
     }
     if !at_wall.is_empty() {
         let at_height = at_wall.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
@@ -180,7 +187,8 @@ pub(super) fn figures(case: &Case<'_>) -> Result<String, CheckError> {
             formula("T0, T_SLV, T_SLC"),
             key(&at_wall, true)
         );
-        text += &figure(&caption, &spectra(&at_wall, &format!("{symbol} (m/s²)"), last)?);
+        let plot = spectra(&at_wall, &format!("{symbol} (m/s²)"), last)?;
+        text += &Figure { caption, plot }.html();
     }
     Ok(text)
 }
@@ -194,15 +202,4 @@ fn key(drawn: &[Drawn<'_>], has_marks: bool) -> String {
         format!("<span>{line}{mark}{}, {} %</span>", drawn.state, number(100.0 * drawn.damping))
     };
     format!("<span class=\"key\">{}</span>", drawn.iter().map(one).collect::<String>())
-}
-
-/// A figure with its form for phones.
-pub(super) fn figure(caption: &str, plot: &Plot) -> String {
-    let narrow = Plot { size: [NARROW, 300.0], ..plot.clone() };
-    format!(
-        "<figure><figcaption>{caption}</figcaption><div class=\"plot wide\">{}</div><div class=\"plot \
-         narrow\">{}</div></figure>\n",
-        plot.svg(),
-        narrow.svg()
-    )
 }

@@ -4,28 +4,29 @@ use std::fmt::Write;
 
 use ::report::escaped;
 
-/// A section with its headline.
-pub(super) fn section(title: &str, content: &str) -> String {
-    format!("<section>\n<h2>{title}</h2>\n{content}</section>\n")
+/// A list of texts.
+pub(crate) fn list(texts: &[String]) -> String {
+    let items: String = texts.iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
+    if items.is_empty() { items } else { format!("<ul>\n{items}</ul>\n") }
 }
 
 /// The headline of a side.
-pub(super) fn side_head(name: &str) -> String {
+pub(crate) fn side_head(name: &str) -> String {
     format!("<h3>Side {}</h3>\n", escaped(name))
 }
 
 /// The result of a check.
-pub(super) fn result(is_passed: bool) -> &'static str {
+pub(crate) fn result(is_passed: bool) -> &'static str {
     if is_passed { "passed" } else { "<span class=\"fails\">not passed</span>" }
 }
 
 /// A number as people write it, with six digits.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     ::report::number(value, 6)
 }
 
 /// A table of markup; without heads if there are none.
-pub(super) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> String {
+pub(crate) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> String {
     let mut text = String::from("<div class=\"scroll\"><table>\n");
     if !heads.is_empty() {
         let _ = writeln!(text, "<thead><tr><th>{}</th></tr></thead>", heads.join("</th><th>"));
@@ -37,7 +38,7 @@ pub(super) fn table<const N: usize>(heads: &[&str], rows: &[[String; N]]) -> Str
 }
 
 /// A formula as markup: single letters are italic, what follows `_`, and digits behind a letter, are indices.
-pub(super) fn formula(text: &str) -> String {
+pub(crate) fn formula(text: &str) -> String {
     let (mut markup, mut rest) = (String::new(), text);
     while let Some(first) = rest.chars().next() {
         if !first.is_alphabetic() {
@@ -73,12 +74,12 @@ fn leading(text: &str, belongs: impl Fn(char) -> bool) -> &str {
 
 /// A calculation: lines of what is computed, by which equation, from which numbers.
 #[derive(Default)]
-pub(super) struct Calculation(String);
+pub(crate) struct Calculation(String);
 
 impl Calculation {
     /// Adds a line: words and source of the formula, the formula, the numbers put in, result and unit. Empty
     /// parts are left out.
-    pub(super) fn line(
+    pub(crate) fn line(
         &mut self,
         [words, source]: [&str; 2],
         [left, numbers]: [&str; 2],
@@ -97,12 +98,12 @@ impl Calculation {
     }
 
     /// Adds a line of words.
-    pub(super) fn say(&mut self, words: &str, said: &str) {
+    pub(crate) fn say(&mut self, words: &str, said: &str) {
         let _ = writeln!(self.0, "<tr><td>{words}</td><td>{said}</td></tr>");
     }
 
     /// The lines as a table.
-    pub(super) fn table(self) -> String {
+    pub(crate) fn table(self) -> String {
         format!("<table class=\"calculation\">\n{}</table>\n", self.0)
     }
 }

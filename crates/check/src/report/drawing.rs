@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use rocking_wall::variables::{EccentricityMode, Mechanism};
+use rocking_wall::wall::{Parameters, Wall};
 
-use super::Case;
 use super::markup::{formula, number};
 
 /// Width and height of the drawing, axis of the wall and its foot \[px\].
@@ -25,18 +25,19 @@ const STONE: &str = "fill=\"#e4e1dc\" stroke=\"#777\"";
 
 /// The wall in pixels.
 struct Drawing<'a> {
-    case: &'a Case<'a>,
+    of: &'a Wall,
+    parameters: &'a Parameters,
     /// px for a metre.
     scale: f64,
     svg: String,
 }
 
 /// The figure, with what its marks mean.
-pub(super) fn figure(case: &Case<'_>) -> String {
-    let body = case.wall.body();
-    let thickness = case.report.scene.parameters.thickness;
+pub(super) fn figure(of: &Wall, parameters: &Parameters) -> String {
+    let body = of.body();
+    let thickness = parameters.thickness;
     let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
-    let mut drawing = Drawing { case, scale, svg: String::new() };
+    let mut drawing = Drawing { of, parameters, scale, svg: String::new() };
     drawing.supports();
     drawing.wall();
     drawing.hinges();
@@ -48,16 +49,15 @@ pub(super) fn figure(case: &Case<'_>) -> String {
     let from = if body.overburden > 0.0 { 0.0 } else { drawing.top() - 20.0 };
     let height = height - from;
     let mut said = String::from("The wall to scale.");
-    if case.wall.sides().any(|sign| sign > 0.0) {
+    if of.sides().any(|sign| sign > 0.0) {
         said += " ● Hinges for u &gt; 0.";
     }
-    if case.wall.sides().any(|sign| sign < 0.0) {
+    if of.sides().any(|sign| sign < 0.0) {
         said += " ○ Hinges for u &lt; 0.";
     }
-    if case.wall.free_side().is_some() {
+    if of.free_side().is_some() {
         said += " Grey beside the wall: transverse walls.";
     }
-    let parameters = &case.report.scene.parameters;
     if parameters.eccentricity_mode == EccentricityMode::FollowsPivot
         && parameters.overburden_eccentricity != 0.0
     {
@@ -82,7 +82,7 @@ pub(super) fn figure(case: &Case<'_>) -> String {
 impl Drawing<'_> {
     /// Half the thickness \[px\].
     fn half(&self) -> f64 {
-        0.5 * self.scale * self.case.report.scene.parameters.thickness
+        0.5 * self.scale * self.parameters.thickness
     }
 
     /// The place of a height above the base \[px\].
@@ -91,12 +91,12 @@ impl Drawing<'_> {
     }
 
     fn top(&self) -> f64 {
-        self.y(self.case.wall.body().height)
+        self.y(self.of.body().height)
     }
 
     /// The height of the hinge in the wall; `None` for a parapet.
     fn hinge(&self) -> Option<f64> {
-        let body = self.case.wall.body();
+        let body = self.of.body();
         (body.mechanism == Mechanism::VerticalSpanning).then_some(body.hinge_height)
     }
 
@@ -127,7 +127,7 @@ impl Drawing<'_> {
         if self.hinge().is_some() {
             self.rect([AXIS - SUPPORT, AXIS + SUPPORT], [top - 10.0, top], STONE);
         }
-        match self.case.wall.free_side() {
+        match self.of.free_side() {
             Some(side) if side > 0.0 => self.rect([AXIS - SUPPORT, AXIS - half], [top, FOOT], STONE),
             Some(_) => self.rect([AXIS + half, AXIS + SUPPORT], [top, FOOT], STONE),
             None => {}
@@ -147,7 +147,7 @@ impl Drawing<'_> {
     /// middle.
     fn hinges(&mut self) {
         let (half, top) = (self.half(), self.top());
-        let signs: Vec<f64> = self.case.wall.sides().collect();
+        let signs: Vec<f64> = self.of.sides().collect();
         for sign in signs {
             let towards = AXIS + half.copysign(sign);
             let mut places = vec![[towards, FOOT]];
@@ -163,7 +163,7 @@ impl Drawing<'_> {
     }
 
     fn loads(&mut self) {
-        let body = self.case.wall.body();
+        let body = self.of.body();
         let (weight, height, overburden) = (body.weight, body.height, body.overburden);
         let half = self.half();
         let parts = match self.hinge() {
@@ -179,7 +179,7 @@ impl Drawing<'_> {
             self.text([AXIS - half - 10.0, y + 22.0], "end", &text);
         }
         if overburden > 0.0 {
-            let c = self.case.report.scene.parameters.overburden_eccentricity;
+            let c = self.parameters.overburden_eccentricity;
             let (x, top) = (AXIS + self.scale * c, self.top());
             let top = if self.hinge().is_some() { top - 10.0 } else { top };
             self.weight([x, top], 36.0);
@@ -192,8 +192,8 @@ impl Drawing<'_> {
     }
 
     fn tie(&mut self) {
-        let Some(tie) = self.case.wall.tie() else { return };
-        let parameters = &self.case.report.scene.parameters;
+        let Some(tie) = self.of.tie() else { return };
+        let parameters = self.parameters;
         let y = self.y(parameters.tie_height);
         let half = self.half();
         for sign in [1.0, -1.0] {
@@ -234,17 +234,17 @@ impl Drawing<'_> {
     }
 
     fn dimensions(&mut self) {
-        let body = self.case.wall.body();
+        let body = self.of.body();
         self.height(OUTER, body.height, "h");
         if let Some(hinge) = self.hinge() {
             self.height(INNER, hinge, "h₁");
         }
-        if self.case.wall.tie().is_some() {
-            self.height(INNER, self.case.report.scene.parameters.tie_height, "y");
+        if self.of.tie().is_some() {
+            self.height(INNER, self.parameters.tie_height, "y");
         }
         let (half, y) = (self.half(), FOOT + 24.0);
         self.dimension([AXIS - half, y], [AXIS + half, y]);
-        let text = format!("b = {} m", number(self.case.report.scene.parameters.thickness));
+        let text = format!("b = {} m", number(self.parameters.thickness));
         self.text([AXIS + half + 12.0, y + 5.0], "start", &text);
         let bar = BARS.into_iter().find(|bar| self.scale * bar <= 110.0).unwrap_or(0.1);
         let y = SIZE[1] - 12.0;

@@ -1,0 +1,297 @@
+//! What every building code has: it is read from the table `[check]`, and gives a verdict on a wall.
+//!
+//! ```
+//! use check::{CheckFile, Subject, read};
+//! use rocking_wall::wall::Parameters;
+//!
+//! let text = r#"
+//! [check]
+//! code = "circolare-2019"
+//! before_activation = "rigid"
+//! soil = "B"
+//! SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }
+//! "#;
+//! let code = read(&CheckFile::parse("scene.toml", text)?)?;
+//! let verdict = code.check(Subject { parameters: &Parameters::default(), floors: None })?;
+//! assert!(!verdict.passed && (verdict.zeta - 0.855812).abs() < 5e-7);
+//! assert_eq!(verdict.headline(), "NOT PASSED: SLV governs with zeta_E = 0.856 (both sides alike)");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use std::fmt::{self, Write};
+
+use report::number;
+use report::table::{Cell, Column, Digits, Table};
+use rocking_wall::scene::{Floors, Scene, suggestion};
+use rocking_wall::wall::{Parameters, Wall};
+use serde_json::Value;
+
+use crate::error::CheckError;
+use crate::file::CheckFile;
+use crate::records::Records;
+use crate::report::{Figure, Origin, the_wall};
+use crate::{circolare, fractions};
+
+/// The codes. A new one is a module and a line here.
+pub const CODES: [Entry; 2] = [circolare::ENTRY, fractions::ENTRY];
+
+/// A code among the others.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The value of `code` in `[check]`.
+    pub name: &'static str,
+    /// Its name for people.
+    pub title: &'static str,
+    /// Its source, for the head of a report.
+    pub source: &'static str,
+    /// Symbol of the ratio of capacity to demand, which names columns: `zeta_E`.
+    pub symbol: &'static str,
+    /// Names of the checks that tables of walls show.
+    pub checks: &'static [&'static str],
+    /// The smallest table `[check]` that it takes.
+    pub example: &'static str,
+    /// Reads that table.
+    pub(crate) read: fn(&CheckFile<'_>) -> Result<Box<dyn Code>, CheckError>,
+}
+
+/// What an engineer states by a code: the table `[check]`, validated, ready to check walls.
+pub trait Code: fmt::Debug + Send + Sync {
+    /// Which code.
+    fn entry(&self) -> Entry;
+
+    /// Checks a wall.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a statement that is missing or does not fit the wall, of a wall that the code does not
+    /// cover, of a spectrum that ends too early, or of a run.
+    fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError>;
+
+    /// The records that the table names.
+    fn records(&self) -> &Records;
+
+    /// Whether a verdict takes runs under records: a search then tries fewer values.
+    fn takes_runs(&self) -> bool {
+        false
+    }
+
+    /// The same statements without records that only inform; `None` where there are none.
+    fn deciding(&self) -> Option<Box<dyn Code>> {
+        None
+    }
+}
+
+/// A wall that is checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// Its parameters.
+    pub parameters: &'a Parameters,
+    /// Storeys between ground and wall.
+    pub floors: Option<&'a Floors>,
+}
+
+impl<'a> From<&'a Scene> for Subject<'a> {
+    fn from(scene: &'a Scene) -> Self {
+        Self { parameters: &scene.parameters, floors: scene.floors.as_ref() }
+    }
+}
+
+/// The outcome of a check, as every code has it.
+pub struct Verdict<'a> {
+    /// The code.
+    pub code: Entry,
+    /// Whether the wall passes.
+    pub passed: bool,
+    /// The check that governs, such as `SLV`.
+    pub governs: &'static str,
+    /// The side that governs, such as `u > 0`; `None` where both are alike.
+    pub side: Option<&'static str>,
+    /// Capacity over demand of what governs \[-\].
+    pub zeta: f64,
+    /// A row for each check of each side; of sides that are alike, one.
+    pub rows: Vec<Row>,
+    /// What is to be said of the rows, in sentences.
+    pub notes: Vec<String>,
+    /// What the engineer should know; none of it stops the check.
+    pub warnings: Vec<String>,
+    /// What only this code knows.
+    pub details: Box<dyn Details + Send + 'a>,
+}
+
+/// A check of one side.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Name of the check, such as `SLV`.
+    pub check: &'static str,
+    /// The side.
+    pub side: &'static str,
+    /// Capacity over demand \[-\].
+    pub zeta: f64,
+    /// Whether it passes.
+    pub passed: bool,
+    /// Whether it decides; otherwise it informs.
+    pub decides: bool,
+    /// Ground acceleration that just passes, and that of the site, if the code has one \[g\].
+    pub ground: Option<[f64; 2]>,
+    /// Capacity and demand.
+    pub ends: Ends,
+    /// Where the code has it.
+    pub clause: &'static str,
+}
+
+/// A capacity and its demand.
+#[derive(Clone, Copy, Debug)]
+pub enum Ends {
+    /// Accelerations \[m/s²\].
+    Accelerations([f64; 2]),
+    /// Displacements \[m\].
+    Displacements([f64; 2]),
+}
+
+/// What only one code knows of a verdict.
+pub trait Details {
+    /// The wall that was checked.
+    fn wall(&self) -> &Wall;
+
+    /// Its parameters.
+    fn parameters(&self) -> &Parameters;
+
+    /// All numbers by name, in SI units; what `wall check --json` prints.
+    fn json(&self, verdict: &Verdict<'_>) -> Value;
+
+    /// Draws the capacity of the side that governs over the demand.
+    ///
+    /// # Errors
+    /// [`CheckError`] of a record, or of a spectrum that ends too early.
+    fn figure(&self) -> Result<Figure, CheckError>;
+
+    /// Intermediate numbers: a row for each, a column for each side.
+    fn numbers(&self) -> Table;
+
+    /// The sections of a report between verdict and warnings: by default the wall, the figure and the numbers.
+    ///
+    /// # Errors
+    /// Those of [`figure`](Self::figure).
+    fn sections(&self, origin: &Origin<'_>) -> Result<Vec<(String, String)>, CheckError> {
+        let wall = the_wall(self.wall(), self.parameters(), origin, &|_, _| true);
+        Ok(vec![
+            ("The wall".to_owned(), wall),
+            ("Capacity over demand".to_owned(), self.figure()?.html() + &self.numbers().html()),
+        ])
+    }
+}
+
+/// A table of intermediate numbers without rows: a name, a unit, and a column for each side.
+pub(crate) fn numbers(sides: impl Iterator<Item = &'static str>) -> Table {
+    let heads = [Column::text("quantity", "quantity"), Column::text("unit", "unit")];
+    Table::new(heads.into_iter().chain(sides.map(|side| Column::number(side, side, Digits::Significant(6)))))
+}
+
+/// Reads the table `[check]` of a file.
+///
+/// # Errors
+/// [`CheckError`] without a table, of an unknown code, or of the first value that cannot be used.
+pub fn read(file: &CheckFile<'_>) -> Result<Box<dyn Code>, CheckError> {
+    let names = CODES.map(|code| format!("{:?}", code.name));
+    let Some(name) = file.code() else {
+        return Err(CheckError::wall(format!(
+            "the table [check] is missing; the codes are {}. The smallest table of {} is:\n\n{}",
+            names.join(" and "),
+            names[0],
+            CODES[0].example
+        )));
+    };
+    if let Some(code) = CODES.into_iter().find(|code| code.name == name) {
+        return (code.read)(file);
+    }
+    let given = if name.is_empty() { "code is missing".to_owned() } else { format!("code = {name:?}") };
+    let meant = suggestion(name, CODES.iter().map(|code| code.name));
+    let message = format!("{given}{meant}; state one of {}", names.join(", "));
+    Err(CheckError::value(&["code"], message))
+}
+
+impl Verdict<'_> {
+    /// The verdict in a line.
+    pub fn headline(&self) -> String {
+        let passed = if self.passed { "PASSED" } else { "NOT PASSED" };
+        let Self { code: Entry { symbol, .. }, governs, zeta, .. } = self;
+        format!("{passed}: {governs} governs with {symbol} = {zeta:.3} ({})", self.at("both sides alike"))
+    }
+
+    /// The side that governs, or `both` where they are alike.
+    pub fn at(&self, both: &'static str) -> &'static str {
+        self.side.unwrap_or(both)
+    }
+
+    /// The rows as a table: for people four digits, for files SI units and every digit.
+    pub fn table(&self) -> Table {
+        let four = Digits::AtMost(4);
+        let has_ground = self.rows.iter().any(|row| row.ground.is_some());
+        let ground = |heading: &'static str| if has_ground { heading } else { "" };
+        let mut table = Table::new([
+            Column::text("check", "check"),
+            Column::text("side", "side"),
+            Column::number(self.code.symbol, self.code.symbol, four),
+            Column::number("passed", "", four),
+            Column::text("", "result"),
+            Column::number(ground("ag_g"), ground("bears a_g [g]"), four),
+            Column::number(ground("site_ag_g"), ground("site a_g [g]"), four),
+            Column::number("capacity", "", four),
+            Column::number("demand", "", four),
+            Column::text("unit", ""),
+            Column::text("", "capacity"),
+            Column::text("", "demand"),
+            Column::number("decides", "decides", four),
+            Column::text("clause", "clause"),
+        ]);
+        for row in &self.rows {
+            let (ends, factor, unit, shown) = match row.ends {
+                Ends::Accelerations(ends) => (ends, 1.0, "m/s2", "m/s²"),
+                Ends::Displacements(ends) => (ends, 1000.0, "m", "mm"),
+            };
+            let [capacity, demand] = ends.map(|end| format!("{} {shown}", number(factor * end, 4)));
+            table.row([
+                row.check.into(),
+                row.side.into(),
+                row.zeta.into(),
+                row.passed.into(),
+                if row.passed { "passed" } else { "not passed" }.into(),
+                row.ground.map(|ground| ground[0]).into(),
+                row.ground.map(|ground| ground[1]).into(),
+                ends[0].into(),
+                ends[1].into(),
+                unit.into(),
+                capacity.into(),
+                demand.into(),
+                row.decides.into(),
+                Cell::from(row.clause),
+            ]);
+        }
+        table
+    }
+
+    /// The rows as markup, with classes for those that decide and for those that fail.
+    pub fn html(&self) -> String {
+        self.table().html_with(|index| match (self.rows[index].decides, self.rows[index].passed) {
+            (true, true) => "decides",
+            (true, false) => "decides fails",
+            (false, true) => "",
+            (false, false) => "fails",
+        })
+    }
+
+    /// The verdict for a terminal: title, headline, rows, numbers and notes.
+    pub fn text(&self, title: &str) -> String {
+        let numbers = self.details.numbers().text();
+        let mut text = format!("{title}\n{}\n\n{}\n{numbers}\n", self.headline(), self.table().text());
+        for note in &self.notes {
+            // writing to a String cannot fail
+            let _ = writeln!(text, "{note}");
+        }
+        text
+    }
+
+    /// All numbers by name.
+    pub fn json(&self) -> Value {
+        self.details.json(self)
+    }
+}

@@ -1,0 +1,63 @@
+//! Why a check is impossible, and which key of the table `[check]` that is about.
+
+use ground_motion::GroundMotionError;
+use rocking_wall::scene::SceneError;
+use rocking_wall::wall::{ParameterError, Warning};
+
+/// Why a check is impossible.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum CheckError {
+    /// A key that the table `[check]` does not hold, or a value of the wrong kind.
+    #[error("{message}")]
+    Unread { keys: Vec<String>, message: String },
+    /// A value of the table `[check]` that cannot be used, or one that is missing.
+    #[error("{message}")]
+    Value { keys: Vec<String>, message: String },
+    /// A wall that the code does not cover.
+    #[error("{message}")]
+    Wall { message: String },
+    /// A check that is impossible and has numbers that are improbable: they may be the cause.
+    #[error("{}; as given, {error}", doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Improbable { doubts: Vec<Warning>, error: Box<CheckError> },
+    /// A record or a spectrum.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
+    /// A scene, a file or a run.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The parameters of the wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+}
+
+impl CheckError {
+    pub(crate) fn value(keys: &[&str], message: impl Into<String>) -> Self {
+        let keys = keys.iter().map(|key| (*key).to_owned()).collect();
+        Self::Value { keys, message: message.into() }
+    }
+
+    pub(crate) fn wall(message: impl Into<String>) -> Self {
+        Self::Wall { message: message.into() }
+    }
+
+    /// Returns the keys from the table `[check]` to the value that the error is about, such as `SLV`, `ag`, be
+    /// it there or missing; `None` where it is about no value of the table.
+    pub fn keys(&self) -> Option<&[String]> {
+        match self {
+            Self::Unread { keys, .. } | Self::Value { keys, .. } => Some(keys),
+            Self::Improbable { error, .. } => error.keys(),
+            _ => None,
+        }
+    }
+
+    /// Adds the numbers that may be the cause; a wall that is refused has named its own.
+    pub(crate) fn with_doubts(self, doubts: Vec<Warning>) -> Self {
+        match self {
+            Self::Parameters(_) | Self::Scene(_) | Self::Motion(_) => self,
+            _ if doubts.is_empty() => self,
+            error => Self::Improbable { doubts, error: Box::new(error) },
+        }
+    }
+}

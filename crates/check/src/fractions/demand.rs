@@ -1,0 +1,102 @@
+//! The demand: a spectrum given by points, or the median of records.
+
+use std::f64::consts::TAU;
+
+use ground_motion::{GroundMotion, Maxima, Spectrum};
+use run::sample::sample_median;
+
+use crate::error::CheckError;
+use crate::site::interpolated;
+
+/// The demand of a check.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demand(Of);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Of {
+    /// Points (T, `S_a`) \[s, m/s²\].
+    Points(Vec<(f64, f64)>),
+    Records(Spectrum, Vec<GroundMotion>),
+}
+
+impl Demand {
+    /// Makes the demand of points (T, `S_a`) \[s, m/s²\].
+    ///
+    /// # Errors
+    /// [`CheckError`] of the first whose period does not rise or whose `S_a` is not above 0, and if the first is
+    /// not that of T = 0; `place` names a point by its index.
+    pub fn of_points(points: Vec<(f64, f64)>, place: impl Fn(usize) -> String) -> Result<Self, CheckError> {
+        let mut before: Option<f64> = None;
+        for (index, &(period, acceleration)) in points.iter().enumerate() {
+            let fault = |expected: String, found: String| {
+                let message = format!("{}: expected {expected}, found {found}", place(index));
+                Err(CheckError::value(&["spectrum"], message))
+            };
+            let rises = before.map_or(period >= 0.0, |before| period > before);
+            if !(rises && period.is_finite()) {
+                let expected = before.map_or_else(
+                    || "a finite period from 0 on".to_owned(),
+                    |before| format!("periods that rise: a finite one above T = {before} s"),
+                );
+                return fault(expected, format!("T = {period} s"));
+            }
+            if !(acceleration.is_finite() && acceleration > 0.0) {
+                return fault("a finite Sa above 0".to_owned(), format!("Sa = {acceleration} m/s²"));
+            }
+            before = Some(period);
+        }
+        match points.first() {
+            Some(first) if first.0 == 0.0 => Ok(Self(Of::Points(points))),
+            _ => {
+                let message = "the spectrum has no T = 0, the peak acceleration; give it with that point";
+                Err(CheckError::value(&["spectrum"], message))
+            }
+        }
+    }
+
+    /// Makes the demand of what acts on a wall: the median spectrum of motions with a damping ratio.
+    ///
+    /// # Errors
+    /// [`CheckError`] without motions, or of a damping ratio outside its limits.
+    pub fn of_motions(motions: Vec<GroundMotion>, damping: f64) -> Result<Self, CheckError> {
+        if motions.is_empty() {
+            return Err(CheckError::value(&["records"], "the demand needs at least one record"));
+        }
+        Ok(Self(Of::Records(Spectrum::new(damping, Maxima::Everywhere)?, motions)))
+    }
+
+    /// Returns `S_a` at a period \[m/s²\].
+    ///
+    /// # Errors
+    /// [`CheckError`] for a period that the demand does not have.
+    pub fn at(&self, period: f64) -> Result<f64, CheckError> {
+        match &self.0 {
+            Of::Points(points) => interpolated(points, period).ok_or_else(|| {
+                let [from, to] = [points.first(), points.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
+                let message = format!(
+                    "the spectrum goes from {from} to {to} s and has no T = {period} s; give it with that period"
+                );
+                CheckError::value(&["spectrum"], message)
+            }),
+            Of::Records(spectrum, motions) => {
+                let at = |motion| spectrum.acceleration(motion, period);
+                let mut values = motions.iter().map(at).collect::<Result<Vec<f64>, _>>()?;
+                Ok(sample_median(&mut values))
+            }
+        }
+    }
+
+    /// Points (`S_d`, `S_a`) up to twice a period, to draw \[m, m/s²\].
+    pub(super) fn drawn(&self, period: f64) -> Result<Vec<(f64, f64)>, CheckError> {
+        let longest = match &self.0 {
+            Of::Points(points) => points.last().map_or(0.0, |point| point.0).min(2.0 * period),
+            Of::Records(..) => 2.0 * period,
+        };
+        let at = |part: u32| {
+            let period = longest * f64::from(part) / 200.0;
+            let acceleration = self.at(if part < 3 { 0.0 } else { period })?;
+            Ok((acceleration * (period / TAU).powi(2), acceleration))
+        };
+        (0..=200).map(at).collect()
+    }
+}

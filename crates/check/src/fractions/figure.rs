@@ -1,0 +1,48 @@
+//! The capacity curve over the demand.
+
+use ::report::palette::{BLUE, DARK_GREY, RED};
+use ::report::plot::{Axis, Look, Plot, Series};
+use rocking_wall::wall::Wall;
+
+use super::demand::Demand;
+use super::sides::SideCheck;
+use crate::error::CheckError;
+use crate::report::Figure;
+
+/// Draws the capacity curve of a side over the demand.
+///
+/// # Errors
+/// [`CheckError`] for a period that the demand does not have.
+pub(super) fn figure(wall: &Wall, demand: &Demand, side: &SideCheck) -> Result<Figure, CheckError> {
+    let [d_s, a_s] = side.secant;
+    let right = 1.25 * side.displacement_capacity.max(side.displacement_demand);
+    let corners = wall.capacity_corners(side.sign);
+    let curve: Vec<_> =
+        corners.iter().map(|corner| (corner.spectral_displacement, corner.spectral_acceleration)).collect();
+    let spectrum = demand.drawn(side.secant_period)?;
+    let points = curve.iter().chain(&spectrum).filter(|point| point.0 <= right);
+    let top = 1.08 * points.map(|point| point.1).fold(0.0, f64::max);
+    let within = |points: &[(f64, f64)]| {
+        let inside = points.iter().take_while(|point| point.0 <= right).count();
+        let mut cut: Vec<_> = points[..inside].to_vec();
+        if let (Some(&(d0, a0)), Some(&(d1, a1))) = (cut.last(), points.get(inside)) {
+            cut.push((right, a0 + (a1 - a0) * (right - d0) / (d1 - d0)));
+        }
+        cut.iter().map(|(d, a)| (1000.0 * d, *a)).collect::<Vec<_>>()
+    };
+    let longest = (right / d_s).min(top / a_s);
+    let capacity = 1000.0 * side.displacement_capacity;
+    let named = |name: &str, line: Series| Series { name: name.to_owned(), ..line };
+    let dashed = |points| Series { look: Look::Dashed, ..Series::line(DARK_GREY, 1.3, points) };
+    let secant = format!("secant, T = {:.3} s", side.secant_period);
+    let series = vec![
+        named("demand", Series::line(RED, 1.6, within(&spectrum))),
+        named("capacity curve", Series::line(BLUE, 2.0, within(&curve))),
+        named(&secant, dashed(vec![(0.0, 0.0), (1000.0 * longest * d_s, longest * a_s)])),
+        named("displacement capacity", dashed(vec![(capacity, 0.0), (capacity, top)])),
+    ];
+    let axes = [Axis::over("d*, S_d (mm)", [0.0, 1000.0 * right]), Axis::over("a*, S_a (m/s²)", [0.0, top])];
+    let caption = "Capacity curve of the governing side (blue) over the demand (red) in acceleration and \
+                   displacement; dashed: the secant, and the displacement capacity";
+    Ok(Figure { caption: caption.to_owned(), plot: Plot::new([820.0, 460.0], axes, series) })
+}

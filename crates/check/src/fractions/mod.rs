@@ -1,0 +1,363 @@
+//! Capacity against demand: the wall's own capacity curve, read at fractions of the displacement at which its
+//! force vanishes, against a response spectrum. docs/model.md states the rule.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `demand` | the spectrum: points, or the median of records |
+//! | `sides` | the check of each side |
+//! | `figure` | the capacity curve over the demand |
+
+mod demand;
+mod figure;
+mod sides;
+
+use std::path::PathBuf;
+
+use ground_motion::spectrum::DAMPING;
+use ground_motion::{SpectrumFile, Unit};
+use rocking_wall::wall::{Parameters, Wall, Warning};
+use run::records::RecordsTable;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use toml::Spanned;
+
+use crate::circolare::Side;
+use crate::code::{Code, Details, Ends, Entry, Row, Subject, Verdict, numbers};
+use crate::error::CheckError;
+use crate::file::CheckFile;
+use crate::records::Records;
+use crate::report::Figure;
+use ::report::table::{Cell, Table, significant};
+use sides::governing;
+
+pub use demand::Demand;
+pub use sides::{Fractions, SideCheck, check};
+
+/// This code among the others.
+pub const ENTRY: Entry = Entry {
+    name: "fractions",
+    title: "Capacity at fractions",
+    source: "Static capacity of a wall, read at fractions of the displacement at which its force vanishes, \
+             against a response spectrum",
+    symbol: "ratio",
+    checks: &["onset", "displacement"],
+    example: "[check]\ncode = \"fractions\"\nspectrum = [[0, 2.0], [0.1, 5.0], [0.5, 5.0], [4, 0.6]]\n\
+              unit = \"m/s2\"",
+    read: |file| Ok(Box::new(Statement::read(file)?)),
+};
+
+/// The table `[check]` of this code.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FractionsTable {
+    /// The code.
+    #[serde(rename = "code")]
+    _code: String,
+    /// Displacement capacity over the displacement at which the force of the wall vanishes \[-\].
+    displacement_fraction: Option<f64>,
+    /// Displacement of the secant period over the displacement capacity \[-\].
+    secant_fraction: Option<f64>,
+    /// The demand: a file with columns T and Sa, or points [T, Sa], T in s from 0 on.
+    spectrum: Option<SpectrumTable>,
+    /// Unit of Sa, where the file does not state its own.
+    unit: Option<Unit>,
+    /// Name of the column with Sa, for a file with several.
+    column: Option<String>,
+    /// Damping ratio of the spectrum (-).
+    damping: Option<f64>,
+    /// The demand: the median spectrum of these records, felt on the floor of a scene with storeys.
+    records: Option<Spanned<RecordsTable>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "expected a file, or points [T, Sa]")]
+enum SpectrumTable {
+    File(PathBuf),
+    Points(Vec<[f64; 2]>),
+}
+
+/// The table `[check]`, validated.
+#[derive(Clone, Debug)]
+pub struct Statement {
+    fractions: Fractions,
+    /// The spectrum that is given; otherwise the demand is that of the records.
+    spectrum: Option<Demand>,
+    /// Where the spectrum comes from.
+    source: String,
+    damping: f64,
+    records: Records,
+}
+
+impl Statement {
+    fn read(file: &CheckFile<'_>) -> Result<Self, CheckError> {
+        let table: FractionsTable = file.table()?;
+        let Fractions { displacement, secant } = Fractions::default();
+        let mut statement = Self {
+            fractions: Fractions {
+                displacement: table.displacement_fraction.unwrap_or(displacement),
+                secant: table.secant_fraction.unwrap_or(secant),
+            },
+            spectrum: None,
+            source: String::new(),
+            damping: table.damping.unwrap_or(DAMPING),
+            records: file.records(table.records.as_ref())?,
+        };
+        match (&table.spectrum, &table.records) {
+            (Some(_), Some(_)) => {
+                let message = "spectrum and records are both the demand; leave one out";
+                Err(CheckError::value(&["records"], message))
+            }
+            (None, None) => {
+                let message = "there is no demand; give spectrum = \"FILE\", or records = { files = [...] }";
+                Err(CheckError::value(&["spectrum"], message))
+            }
+            (None, Some(_)) if table.unit.is_some() || table.column.is_some() => {
+                let key = if table.unit.is_some() { "unit" } else { "column" };
+                let message = format!("{key} is that of a spectrum; records have theirs, records.{key}");
+                Err(CheckError::value(&[key], message))
+            }
+            (None, Some(_)) => Ok(statement),
+            (Some(SpectrumTable::Points(points)), None) => {
+                let Some(unit) = table.unit else {
+                    let message = "unit is missing: state the unit of Sa, m/s2, cm/s2, mm/s2 or g";
+                    return Err(CheckError::value(&["unit"], message));
+                };
+                let points: Vec<_> = points.iter().map(|[period, sa]| (*period, unit.to_si(*sa))).collect();
+                statement.source = format!("{} points, Sa in {}", points.len(), unit.name());
+                let place = |index| format!("point {} of the spectrum", index + 1);
+                statement.spectrum = Some(Demand::of_points(points, place)?);
+                Ok(statement)
+            }
+            (Some(SpectrumTable::File(name)), None) => {
+                statement.read_spectrum(file.folder().join(name), &table)?;
+                Ok(statement)
+            }
+        }
+    }
+
+    /// Reads the spectrum of a file.
+    fn read_spectrum(&mut self, path: PathBuf, table: &FractionsTable) -> Result<(), CheckError> {
+        let read = SpectrumFile::read(&path, table.unit, table.column.as_deref())?;
+        let name = path.display();
+        self.records.warnings.extend(read.warning().map(|warning| format!("{name}: {warning}")));
+        if let Some(stated) = read.damping {
+            // a file may round it: 0.9 % for 0.0087
+            if let Some(given) = table.damping.filter(|given| (given - stated).abs() > 0.05 * stated) {
+                let message = format!(
+                    "{name}: expected the damping ratio that the column of Sa states, {stated}, found damping = \
+                     {given}; leave out damping, or use the spectrum of that damping"
+                );
+                return Err(CheckError::value(&["damping"], message));
+            }
+            self.damping = table.damping.unwrap_or(stated);
+        }
+        let SpectrumFile { points, lines, unit, column, .. } = read;
+        let column = column.map_or_else(String::new, |column| format!("column {column}, "));
+        self.source = format!("{name}, {column}Sa in {unit}");
+        self.spectrum = Some(Demand::of_points(points, |index| format!("{name}, line {}", lines[index]))?);
+        self.records.files.push(path);
+        Ok(())
+    }
+
+    fn checked<'a>(&'a self, subject: Subject<'a>) -> Result<Checked<'a>, CheckError> {
+        let Subject { parameters, floors } = subject;
+        let wall = Wall::new(parameters)?;
+        let (mut source, mut warnings) = (self.source.clone(), Vec::new());
+        let demand = if let Some(spectrum) = &self.spectrum {
+            if floors.is_some() {
+                warnings.push(
+                    "the storeys are not applied to the spectrum; it must be that of the wall's floor".into(),
+                );
+            }
+            spectrum.clone()
+        } else {
+            let count = self.records.named.len();
+            source = format!("median of {count} record{}", if count == 1 { "" } else { "s" });
+            if let Some(floors) = floors {
+                warnings.extend(floors.warnings(&wall));
+                source += &format!(" {}", floors.note());
+            }
+            Demand::of_motions(self.records.felt(floors, &wall)?, self.damping)?
+        };
+        let sides = check(&wall, self.fractions, |period| demand.at(period))?;
+        Ok(Checked { statement: self, parameters, wall, demand, source, sides, warnings })
+    }
+}
+
+impl Code for Statement {
+    fn entry(&self) -> Entry {
+        ENTRY
+    }
+
+    fn check<'a>(&'a self, subject: Subject<'a>) -> Result<Verdict<'a>, CheckError> {
+        let doubts = |error: CheckError| error.with_doubts(Warning::unusual(subject.parameters).collect());
+        let mut checked = self.checked(subject).map_err(doubts)?;
+        let worst = *governing(&checked.sides, |side| side.displacement_ratio);
+        Ok(Verdict {
+            code: ENTRY,
+            passed: worst.displacement_ratio >= 1.0,
+            governs: "displacement",
+            side: (!checked.wall.has_equal_sides()).then(|| name(&worst)),
+            zeta: worst.displacement_ratio,
+            rows: checked.rows(),
+            notes: checked.notes(),
+            warnings: std::mem::take(&mut checked.warnings),
+            details: Box::new(checked),
+        })
+    }
+
+    fn records(&self) -> &Records {
+        &self.records
+    }
+}
+
+/// A wall that was checked.
+struct Checked<'a> {
+    statement: &'a Statement,
+    parameters: &'a Parameters,
+    wall: Wall,
+    demand: Demand,
+    source: String,
+    sides: Vec<SideCheck>,
+    warnings: Vec<String>,
+}
+
+fn name(side: &SideCheck) -> &'static str {
+    Side::of(side.sign).name()
+}
+
+/// A name, its ratio, and what it says.
+type Named = (&'static str, fn(&SideCheck) -> f64, [&'static str; 2]);
+
+/// Both results: they mean different things, and neither stands for the other.
+const RESULTS: [Named; 2] = [
+    ("onset", |side| side.acceleration_ratio, ["the wall does not rock", "the wall rocks"]),
+    ("displacement", |side| side.displacement_ratio, ["within the capacity", "beyond the capacity"]),
+];
+
+/// A name, a unit, and the number of a side.
+type Line = (&'static str, &'static str, fn(&SideCheck) -> f64);
+
+const NUMBERS: [Line; 10] = [
+    ("onset a0*", "m/s2", |side| side.onset_acceleration),
+    ("zero of F d0*", "m", |side| side.zero_displacement),
+    ("capacity d_u*", "m", |side| side.displacement_capacity),
+    ("secant d_s*", "m", |side| side.secant[0]),
+    ("secant a_s*", "m/s2", |side| side.secant[1]),
+    ("secant period T_s", "s", |side| side.secant_period),
+    ("demand Sa(0)", "m/s2", |side| side.peak_acceleration),
+    ("demand Sd(T_s)", "m", |side| side.displacement_demand),
+    ("a0*/Sa(0)", "-", |side| side.acceleration_ratio),
+    ("d_u*/Sd(T_s)", "-", |side| side.displacement_ratio),
+];
+
+impl Checked<'_> {
+    /// The sides that differ, with their names.
+    fn shown(&self) -> impl Iterator<Item = (&'static str, &SideCheck)> {
+        let alike = self.wall.has_equal_sides();
+        let shown = self.sides.iter().take(if alike { 1 } else { 2 });
+        shown.map(move |side| (if alike { "both sides" } else { name(side) }, side))
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let of_side = |(side, found): (&'static str, &SideCheck)| {
+            let accelerations = [found.onset_acceleration, found.peak_acceleration];
+            let displacements = [found.displacement_capacity, found.displacement_demand];
+            let row = |check, zeta: f64, decides, ends, clause| Row {
+                check,
+                side,
+                zeta,
+                passed: zeta >= 1.0,
+                decides,
+                ground: None,
+                ends,
+                clause,
+            };
+            let onset = Ends::Accelerations(accelerations);
+            let displacement = Ends::Displacements(displacements);
+            [
+                row("onset", found.acceleration_ratio, false, onset, "a0*/Sa(0)"),
+                row("displacement", found.displacement_ratio, true, displacement, "d_u*/Sd(T_s)"),
+            ]
+        };
+        self.shown().flat_map(of_side).collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let Statement { fractions, damping, .. } = self.statement;
+        let mut notes = vec![
+            format!("demand: {}, {} % damping", self.source, 100.0 * damping),
+            format!(
+                "fractions: d_u* at {} of the zero of F, secant at {} of d_u*",
+                fractions.displacement, fractions.secant
+            ),
+        ];
+        for (what, ratio, [holds, fails]) in RESULTS {
+            let worst = governing(&self.sides, ratio);
+            let side = if self.wall.has_equal_sides() { "both sides alike" } else { name(worst) };
+            let verdict = if ratio(worst) >= 1.0 { holds } else { fails };
+            notes.push(format!("{what}: {verdict}, ratio {} ({side})", significant(ratio(worst), 6)));
+        }
+        for (side, _) in self.shown().filter(|(_, side)| side.limited_by_tie) {
+            notes.push(format!("{side}: the strength of the tie limits d_u*"));
+        }
+        notes
+    }
+}
+
+impl Details for Checked<'_> {
+    fn wall(&self) -> &Wall {
+        &self.wall
+    }
+
+    fn parameters(&self) -> &Parameters {
+        self.parameters
+    }
+
+    fn json(&self, verdict: &Verdict<'_>) -> Value {
+        let side = |side: &SideCheck| {
+            json!({
+                "side": name(side),
+                "onset_acceleration": side.onset_acceleration,
+                "zero_displacement": side.zero_displacement,
+                "displacement_capacity": side.displacement_capacity,
+                "limited_by_tie": side.limited_by_tie,
+                "secant_displacement": side.secant[0],
+                "secant_acceleration": side.secant[1],
+                "secant_period": side.secant_period,
+                "peak_acceleration": side.peak_acceleration,
+                "displacement_demand": side.displacement_demand,
+                "acceleration_ratio": side.acceleration_ratio,
+                "displacement_ratio": side.displacement_ratio,
+            })
+        };
+        let governs = RESULTS.map(|(result, ratio, _)| {
+            let worst = governing(&self.sides, ratio);
+            (result.to_owned(), json!({ "side": name(worst), "ratio": ratio(worst) }))
+        });
+        json!({
+            "code": ENTRY.name,
+            "passed": verdict.passed,
+            "demand": self.source,
+            "damping": self.statement.damping,
+            "displacement_fraction": self.statement.fractions.displacement,
+            "secant_fraction": self.statement.fractions.secant,
+            "sides": self.sides.iter().map(side).collect::<Vec<_>>(),
+            "governs": governs.into_iter().collect::<serde_json::Map<_, _>>(),
+            "warnings": verdict.warnings,
+        })
+    }
+
+    fn figure(&self) -> Result<Figure, CheckError> {
+        figure::figure(&self.wall, &self.demand, governing(&self.sides, |side| side.displacement_ratio))
+    }
+
+    fn numbers(&self) -> Table {
+        let mut table = numbers(self.shown().map(|(name, _)| name));
+        for (name, unit, value) in NUMBERS {
+            let values = self.shown().map(|(_, side)| value(side).into());
+            table.row([name.into(), Cell::from(unit)].into_iter().chain(values));
+        }
+        table
+    }
+}

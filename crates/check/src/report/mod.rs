@@ -1,0 +1,106 @@
+//! The report of a check for a calculation file, in one page: what the reports of all codes share.
+
+pub(crate) mod drawing;
+pub(crate) mod inputs;
+pub(crate) mod markup;
+
+use ::report::escaped;
+use ::report::page::Page;
+use ::report::plot::Plot;
+use rocking_wall::scene::{SceneError, fingerprint};
+
+use crate::code::Verdict;
+use crate::error::CheckError;
+use crate::file::CheckFile;
+use crate::records::Records;
+
+pub(crate) use inputs::the_wall;
+use markup::{formula, list, table};
+
+/// Width of a figure on a phone \[px\].
+const NARROW: f64 = 390.0;
+
+/// Where the wall of a report comes from.
+pub struct Origin<'a> {
+    /// Title of the wall.
+    pub title: &'a str,
+    /// Its file.
+    pub file: &'a CheckFile<'a>,
+    /// What `--set` replaces.
+    pub set: &'a [String],
+    /// The records that were read.
+    pub records: &'a Records,
+    /// Date or place of the report, as the user gives it.
+    pub date: Option<&'a str>,
+}
+
+/// A picture with its caption.
+pub struct Figure {
+    /// Markup.
+    pub caption: String,
+    /// Picture.
+    pub plot: Plot,
+}
+
+impl Figure {
+    /// The figure as markup, with a form for phones, where a legend would hide the curves.
+    pub fn html(&self) -> String {
+        let mut narrow = Plot { size: [NARROW, 300.0], ..self.plot.clone() };
+        narrow.series.iter_mut().for_each(|series| series.name.clear());
+        let Self { caption, plot } = self;
+        format!(
+            "<figure><figcaption>{caption}</figcaption><div class=\"plot wide\">{}</div><div class=\"plot \
+             narrow\">{}</div></figure>\n",
+            plot.svg(),
+            narrow.svg()
+        )
+    }
+}
+
+/// Makes the page of a report: the verdict, the sections of its code, warnings and the fingerprints of what was
+/// read.
+///
+/// # Errors
+/// [`CheckError`] of a demand, or of a record that cannot be read again.
+pub fn page(verdict: &Verdict<'_>, origin: &Origin<'_>) -> Result<String, CheckError> {
+    let passed = if verdict.passed { "holds" } else { "fails" };
+    let headline = escaped(&verdict.headline()).replace("zeta_E", &formula("ζ_E"));
+    let head = format!(
+        "<p class=\"subtitle\">{}</p>\n<p class=\"subtitle\">{}</p>\n<p class=\"verdict {passed}\">{headline}</p>",
+        escaped(verdict.code.source),
+        origin.date.map_or_else(String::new, escaped)
+    );
+    let page = Page::new(origin.title).styled(include_str!("page.css")).text(&head);
+    let mut page = page.section("Verdict", &(verdict.html() + &list(&verdict.notes)));
+    for (heading, markup) in verdict.details.sections(origin)? {
+        page = page.section(&heading, &markup);
+    }
+    let warnings: Vec<_> = verdict.warnings.iter().chain(&origin.records.warnings).cloned().collect();
+    let warnings = if warnings.is_empty() { "<p>None.</p>\n".to_owned() } else { list(&warnings) };
+    Ok(page.section("Warnings", &warnings).section("Document", &document(origin)?).html())
+}
+
+/// Program, version, date, and the fingerprints of what was read.
+fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
+    let mut files = vec![(origin.file.name().to_owned(), fingerprint(origin.file.text().as_bytes()))];
+    for path in &origin.records.files {
+        let bytes = std::fs::read(path).map_err(|error| SceneError::File {
+            file: path.display().to_string(),
+            reason: format!("{error}; the file could be read earlier in this run"),
+        })?;
+        files.push((path.display().to_string(), fingerprint(&bytes)));
+    }
+    // names of files are left out: a copy elsewhere is the same input
+    let inputs: Vec<&str> =
+        files.iter().map(|(_, hash)| hash.as_str()).chain(origin.set.iter().map(String::as_str)).collect();
+    let mut rows = vec![
+        ["program".to_owned(), format!("wall (rocking-wall) {}", env!("CARGO_PKG_VERSION"))],
+        ["date".to_owned(), origin.date.map_or_else(|| "not given".to_owned(), escaped)],
+        ["fingerprint of the inputs".to_owned(), fingerprint(inputs.join("\n").as_bytes())],
+    ];
+    rows.extend(files.into_iter().map(|(file, hash)| [escaped(&file), hash]));
+    rows.extend(origin.set.iter().map(|set| ["--set".to_owned(), escaped(set)]));
+    Ok(table(&[], &rows)
+        + "<p>Fingerprints are 128-bit FNV-1a hashes: equal inputs have equal ones. They do not protect \
+           against deliberate changes.</p>\n")
+}

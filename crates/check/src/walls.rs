@@ -1,0 +1,115 @@
+//! The check of many walls.
+
+use std::convert::Infallible;
+
+use report::page::Page;
+use report::table::{Cell, Column, Digits, Table};
+use run::parallel;
+use run::walls::NamedWall;
+use serde_json::{Value, json};
+
+use crate::code::{Code, Entry, Subject, Verdict};
+use crate::error::CheckError;
+
+/// The outcomes of walls by one code, the worst first.
+pub struct WallVerdicts<'a> {
+    code: Entry,
+    /// Names of the walls, and their verdicts or why there is none; those come first.
+    pub walls: Vec<(&'a str, Result<Verdict<'a>, CheckError>)>,
+}
+
+/// Checks every wall on some threads; walls that are alike stay in their order.
+pub fn check_walls<'a>(code: &'a dyn Code, walls: &'a [NamedWall], threads: usize) -> WallVerdicts<'a> {
+    let one = |index: usize| {
+        let NamedWall { name, parameters, floors } = &walls[index];
+        let verdict = code.check(Subject { parameters, floors: floors.as_ref() });
+        Ok::<_, Infallible>((name.as_str(), verdict))
+    };
+    let Ok(mut walls) = parallel::map(walls.len(), threads, one);
+    let zeta = |verdict: &Result<Verdict<'_>, _>| verdict.as_ref().map_or(f64::NEG_INFINITY, |v| v.zeta);
+    walls.sort_by(|a, b| zeta(&a.1).total_cmp(&zeta(&b.1)));
+    WallVerdicts { code: code.entry(), walls }
+}
+
+impl WallVerdicts<'_> {
+    /// Returns how many walls could not be checked.
+    pub fn refused(&self) -> usize {
+        self.walls.iter().filter(|(_, verdict)| verdict.is_err()).count()
+    }
+
+    /// The warnings of each wall in a line with its name, in the order of the table.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        self.walls.iter().filter_map(|(name, verdict)| {
+            let own = &verdict.as_ref().ok()?.warnings;
+            (!own.is_empty()).then(|| format!("warning: wall {name:?}: {}", own.join("; ")))
+        })
+    }
+
+    /// A row for each wall: what governs, the least ratio of each check, and why there is none.
+    pub fn table(&self) -> Table {
+        let Entry { symbol, checks, .. } = self.code;
+        let four = Digits::Decimals(4);
+        let ratio = |check: &&'static str| {
+            let name = check.replace(" with ", "_").replace(' ', "_");
+            Column::number(format!("{symbol}_{name}"), *check, four)
+        };
+        let mut table = Table::new(
+            [
+                Column::text("name", "wall"),
+                Column::number("passed", "passed", four),
+                Column::number(symbol, symbol, four),
+                Column::text("governs", "governs"),
+                Column::text("side", "side"),
+            ]
+            .into_iter()
+            .chain(checks.iter().map(ratio))
+            .chain([
+                Column::text("not_checked", if self.refused() > 0 { "not checked" } else { "" }),
+                Column::text("warnings", ""),
+            ]),
+        );
+        for (name, verdict) in &self.walls {
+            let mut row = vec![Cell::from((*name).to_owned())];
+            match verdict {
+                Ok(verdict) => {
+                    let least = |check: &&str| -> Cell<'static> {
+                        let of = verdict.rows.iter().filter(|row| row.check == *check);
+                        of.map(|row| row.zeta).min_by(f64::total_cmp).into()
+                    };
+                    row.extend([verdict.passed.into(), verdict.zeta.into(), verdict.governs.into()]);
+                    row.push(verdict.at("both").into());
+                    row.extend(checks.iter().map(least));
+                    row.extend([Cell::Empty, verdict.warnings.join("; ").into()]);
+                }
+                Err(error) => {
+                    row.resize(5 + checks.len(), Cell::Empty);
+                    row.extend([error.to_string().into(), Cell::Empty]);
+                }
+            }
+            table.row(row);
+        }
+        table
+    }
+
+    /// The verdicts by the names of the walls.
+    pub fn json(&self) -> Value {
+        let one = |(name, verdict): &(&str, Result<Verdict<'_>, CheckError>)| match verdict {
+            Ok(verdict) => json!({ "name": name, "verdict": verdict.json() }),
+            Err(error) => json!({ "name": name, "not_checked": error.to_string() }),
+        };
+        self.walls.iter().map(one).collect()
+    }
+
+    /// A page with the table; `file` names the file of the walls.
+    pub fn page(&self, file: &str) -> String {
+        let passes = |index: usize| self.walls[index].1.as_ref().is_ok_and(|verdict| verdict.passed);
+        let passed = (0..self.walls.len()).filter(|index| passes(*index)).count();
+        let rows = self.table().html_with(|index| if passes(index) { "holds" } else { "fails" });
+        let Entry { title, symbol, .. } = self.code;
+        Page::new(&format!("{file}: {passed} of {} walls pass", self.walls.len()))
+            .styled("tr.fails td:nth-child(2), tr.fails td:nth-child(3) { font-weight: 700; }")
+            .text(&format!("<p>{title}. The wall with the smallest {symbol} that decides comes first.</p>"))
+            .text(&rows)
+            .html()
+    }
+}
