@@ -14,20 +14,42 @@
 //! # Ok::<(), evidence::accuracy::AccuracyError>(())
 //! ```
 
-mod error;
 pub mod figure;
 pub mod linearisation;
 pub mod page;
 mod problem;
+pub mod table;
 
 use std::time::Instant;
 
-pub use error::AccuracyError;
 pub use problem::{Problem, defaults};
 
+use ground_motion::GroundMotionError;
 use record::{Forcing, Outcome, RecordSolver, RunStart};
+use rocking_wall::scene::SceneError;
 use rocking_wall::solver::{Method, Motion, SolverError, Work};
-use rocking_wall::wall::Wall;
+use rocking_wall::wall::{ParameterError, Wall};
+
+/// Why a problem could not be measured.
+#[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the fields are the words of the message")]
+pub enum AccuracyError {
+    /// The parameters make no wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// The wall does not go with its supports.
+    #[error(transparent)]
+    Supports(#[from] SceneError),
+    /// The motion is invalid.
+    #[error(transparent)]
+    Motion(#[from] GroundMotionError),
+    /// A wall cannot be compared in both kinematics.
+    #[error(transparent)]
+    Rotations(#[from] run::rotations::RotationsError),
+    /// A run failed.
+    #[error("{name}: {source}")]
+    Run { name: String, source: SolverError },
+}
 
 /// A solver and the setting of its accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,13 +1,11 @@
 //! The page of `wall accuracy`: for each problem error against run time, on logarithmic axes.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
-use report::counted;
-use report::escaped;
+use report::page::Page;
 use report::palette::sign;
 use report::plot::{Picture, Plot};
-use report::template;
+use report::{counted, escaped};
 
 use super::figure::{SOLVERS, TOOLS, Tool, plot};
 use super::linearisation::{self, BothRotations};
@@ -23,35 +21,57 @@ const SETTINGS: [&str; 3] = [
 /// The measurements of other tools, scene by scene.
 pub type Peers = BTreeMap<String, Vec<PeerRow>>;
 
+const INTRODUCTION: &str = "\
+<p>Each point is one solver at one step or tolerance. It shows the largest error \
+of u over u<sub>ins</sub> at the samples of the record while the wall stands, against the least of several \
+run times. Down and to the left is better. Point at a mark to see its numbers.</p>
+<p>The grey line is the error that rounding alone can cause: 100 ε times the factor by which the wall \
+amplifies a change of its motion. The points of <i>exact</i> are compared with the adaptive solver at \
+10<sup>−13</sup>. They divide the record's step by 1, 4 and 16; their error does not depend on the \
+step.</p>";
+
 /// Writes the page of problems, of small rotations and, if they are given, of other tools.
 pub fn page(studies: &[WorkPrecision], rotations: &[BothRotations], peers: Option<&Peers>) -> String {
-    let mut figures = String::new();
-    for study in studies {
+    let drawn = |study: &WorkPrecision| {
         let fate = match study.overturning {
             Some(time) => format!("overturns at {time:.3} s"),
             None => format!("u<sub>max</sub>/u<sub>ins</sub> = {:.3}", study.peak),
         };
         let reference = if study.exact { "exact" } else { "adaptive at 10<sup>−13</sup>" };
-        let _ = writeln!(
-            figures,
-            "<figure><figcaption><b>{}</b><br>{fate}; reference: {reference}</figcaption>{}</figure>",
-            escaped(&study.name),
-            solver_plot(study, false).svg()
-        );
-    }
-    let key = SOLVERS.iter().zip(SETTINGS).map(|(&(name, color, mark), settings)| {
-        format!("<span>{}{name}: {settings}</span>", sign(color, mark))
-    });
-    template::page(
-        include_str!("page.html"),
-        &[
-            ("title", "Error against run time"),
-            ("key", &key.collect::<String>()),
-            ("figures", &figures),
-            ("rotations", &linearisation::page::section(rotations)),
-            ("peers", &peers.map_or_else(String::new, section)),
-        ],
-    )
+        let caption = format!("<b>{}</b><br>{fate}; reference: {reference}", escaped(&study.name));
+        figure(&caption, &solver_plot(study, false))
+    };
+    let settings = SOLVERS.iter().zip(SETTINGS);
+    let key =
+        settings.map(|(&(name, color, mark), settings)| (sign(color, mark), format!("{name}: {settings}")));
+    let page =
+        Page::new("Error against run time").text(INTRODUCTION).text(&figures(key, studies.iter().map(drawn)));
+    let page = match peers {
+        None => page,
+        Some(peers) => {
+            let key = TOOLS.map(|(name, color, mark)| (sign(color, mark), name.to_owned()));
+            let drawn = |(scene, rows): (&String, &Vec<PeerRow>)| {
+                figure(&format!("<b>{}</b>", escaped(scene)), &peer_plot(rows, false))
+            };
+            page.section("Beside other tools", &figures(key, peers.iter().map(drawn)))
+        }
+    };
+    page.section("What small rotations leave out", &linearisation::page::section(rotations)).html()
+}
+
+/// A plot with its caption, which is markup.
+pub(super) fn figure(caption: &str, plot: &Plot) -> String {
+    format!("<figure><figcaption>{caption}</figcaption>{}</figure>\n", plot.svg())
+}
+
+/// Figures under a key: signs and words, which are markup.
+pub(super) fn figures(
+    key: impl IntoIterator<Item = (String, String)>,
+    figures: impl Iterator<Item = String>,
+) -> String {
+    let key: String = key.into_iter().map(|(sign, words)| format!("<span>{sign}{words}</span>\n")).collect();
+    let figures: String = figures.collect();
+    format!("<p class=\"key\">{key}</p>\n<main class=\"figures\">\n{figures}</main>")
 }
 
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are
@@ -117,20 +137,6 @@ pub fn read_peers(csv: &str) -> Peers {
         peers.entry(scene).or_default().push(row);
     }
     peers
-}
-
-/// The section on other tools.
-fn section(peers: &Peers) -> String {
-    let mut section = String::from("<h2>Beside other tools</h2>\n<p class=\"key\">");
-    for (name, color, mark) in TOOLS {
-        let _ = write!(section, "<span>{}{name}</span>", sign(color, mark));
-    }
-    section.push_str("</p>\n<main class=\"figures\">\n");
-    for (scene, rows) in peers {
-        let (scene, plot) = (escaped(scene), peer_plot(rows, false).svg());
-        let _ = writeln!(section, "<figure><figcaption><b>{scene}</b></figcaption>{plot}</figure>");
-    }
-    section + "</main>\n"
 }
 
 fn hover(study: &WorkPrecision, row: &Measurement) -> String {

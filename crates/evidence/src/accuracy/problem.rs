@@ -5,7 +5,7 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 
-use super::error::AccuracyError;
+use super::AccuracyError;
 
 /// A wall under a record.
 #[derive(Clone, Debug, PartialEq)]

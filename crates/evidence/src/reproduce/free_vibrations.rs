@@ -12,13 +12,13 @@ use run::free_motion::{with_damping, with_restitution};
 use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{Grid, calibrate};
 
-use super::error::ReproductionError;
 use super::figure::{Figure, history, spaced};
 use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
-use super::table::{Cell, Table, columns};
+use super::{PaperTable, ReproductionError};
+use crate::Comparison;
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
 /// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.
@@ -204,13 +204,8 @@ fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
     (-xi * omega * time).exp() * (phase.cos() + xi / root * phase.sin())
 }
 
-/// Returns a row of the captions: a number, its printed value with its decimals, and a remark.
-fn row(number: &str, computed: f64, (printed, decimals): (f64, usize), remark: &str) -> Vec<Cell> {
-    vec![Cell::text(number), Cell::value(computed, printed, decimals), Cell::text(remark)]
-}
-
 /// Computes the numbers printed in captions and text.
-pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError> {
+pub(super) fn captions(threads: NonZeroUsize) -> Result<PaperTable, ReproductionError> {
     let strip = strip()?;
     let cdc = Wall::new(&with_damping(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
     let fits = |model, restitution: &[f64]| {
@@ -228,29 +223,38 @@ pub(super) fn captions(threads: NonZeroUsize) -> Result<Table, ReproductionError
     let e_parapet = analytic_parapet((thickness / height).atan());
     let e_strip = analytic_vertical_spanning((2.0 * thickness / height).atan());
     let [e_2_parapet, e_2_strip] = FIGURE_2_RESTITUTION;
-    let strip_remark = "Eq. (3) with h₁ = h/2; neither it nor 0.90 of it is what was used";
-    let cdc_remark = "the assumed width and density were chosen for it";
+    let e_2 = "Figure 2: e of the";
     let mut rows = vec![
-        row("Figure 2: e of the parapet", e_parapet, (e_2_parapet, 3), "Eq. (2)"),
-        row("Figure 2: e of the strip", e_strip, (e_2_strip, 3), strip_remark),
-        row("Figure 5: C_CDC (kg/s)", cdc.elastic_damping(), (FIGURE_5_COEFFICIENT, 0), cdc_remark),
-        row(
+        Comparison::printed(format!("{e_2} parapet"), "Eq. (2)", [e_parapet, e_2_parapet], 3),
+        Comparison::printed(format!("{e_2} strip"), "Eq. (3), h₁ = h/2", [e_strip, e_2_strip], 3),
+        Comparison::printed(
+            "Figure 5: C_CDC (kg/s)",
+            "with the assumed width and density",
+            [cdc.elastic_damping(), FIGURE_5_COEFFICIENT],
+            0,
+        ),
+        Comparison::printed(
             "Figure 6: ξ of CDR for e = 0.875",
-            figure_6,
-            (FIGURE_6[1], 3),
             "least of Eq. (18) for this wall and start",
+            [figure_6, FIGURE_6[1]],
+            3,
         ),
     ];
-    let remark = format!("least of Eq. (18) for e = {e:.3}, with which CDR comes to its value");
+    let least = format!("least of Eq. (18) for e = {e:.3}");
     for (model, printed) in MODELS.into_iter().zip(FIGURE_5_RATIOS) {
-        let number = format!("Figure 5: ξ of {}", label(model).name);
-        rows.push(row(&number, fits(model, &[e])?[0], (printed, 3), &remark));
+        let case = format!("Figure 5: ξ of {}", label(model).name);
+        rows.push(Comparison::printed(case, &least, [fits(model, &[e])?[0], printed], 3));
     }
-    Ok(Table {
+    Ok(PaperTable {
         name: "Captions",
         title: "Numbers printed in captions and text",
-        notes: vec![],
-        columns: columns("number | value | remark"),
+        notes: vec![
+            "Neither e by Eq. (3) nor 0.90 of it is what Figure 2 used for the strip.".into(),
+            format!(
+                "Width and density were chosen so that C_CDC comes out, and e = {e:.3} so that CDR of Figure \
+                 5 does."
+            ),
+        ],
         rows,
     })
 }

@@ -10,7 +10,7 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 use run::free_motion::{with_damping, with_restitution};
 use run::model::color;
 
-use super::error::ReproductionError;
+use super::ReproductionError;
 use super::figure::{Figure, history};
 use super::printed::{TABLE_4, TABLE_4_A3, TABLE_4_SIZE, TABLE_4_STRENGTH};
 

@@ -3,7 +3,7 @@
 use crate::accuracy::AccuracyError;
 use run::rotations::{FreeMotion, period};
 
-use crate::accuracy::linearisation::{Comparison, figure_2, figure_2_wall, figure_3};
+use crate::accuracy::linearisation::{Histories, figure_2, figure_2_wall, figure_3};
 use report::chart::{Axis, Chart, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
@@ -24,9 +24,9 @@ const ANGLES: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35];
 pub(super) fn free_vibrations() -> Result<Figure, AccuracyError> {
     let parapet = figure_2(Mechanism::Parapet, DURATION, STEP)?;
     let strip = figure_2(Mechanism::VerticalSpanning, DURATION, STEP)?;
-    let ratio = |comparison: &Comparison| comparison.time_ratio(0).unwrap_or(f64::NAN);
+    let ratio = |comparison: &Histories| comparison.time_ratio(0).unwrap_or(f64::NAN);
     let first = |motion: &FreeMotion| motion.impacts.first().copied().unwrap_or(f64::NAN);
-    let chart = |title: &str, comparison: &Comparison| {
+    let chart = |title: &str, comparison: &Histories| {
         let points = |motion: &FreeMotion| {
             motion.history.iter().enumerate().map(|(index, u)| (index as f64 * comparison.step, *u)).collect()
         };

@@ -10,9 +10,10 @@ use study::calibration::{
     Calibration, CalibrationError, Coefficient, FREE_STANDING, Fit, Grid, PowerLaw, REGRESSIONS, calibrate,
 };
 
+use super::PaperTable;
 use super::figure::{Figure, spaced};
 use super::printed::{FIGURE_WALL, START};
-use super::table::{Cell, Table, columns};
+use crate::Comparison;
 
 /// u₀/`u_ins` assumed for Figure 8, and a₁ for Figure 10; those of the printed figures are not known.
 const STARTS: [f64; 4] = [0.3, 0.5, 0.7, START];
@@ -70,28 +71,22 @@ impl Section5 {
     }
 
     /// Refits Eqs. (20)–(23).
-    pub(super) fn equations(&self) -> Table {
+    pub(super) fn equations(&self) -> PaperTable {
         let mut rows = Vec::new();
         for ((model, equation, [q, r]), found) in REGRESSIONS.into_iter().zip(&self.stiffness) {
             let points: Vec<_> = found.coefficients.iter().map(|c| (c.a1, c.x)).collect();
             for (words, points) in [("0.01 … 0.10", &points[2..]), ("0.005 … 0.10", &points[..])] {
                 let Some(law) = PowerLaw::fit(points) else { continue };
-                rows.push(vec![
-                    Cell::text(format!("Eq. ({equation}), {}", label(model).name)),
-                    Cell::text(words),
-                    Cell::value(law.q, q, 3),
-                    Cell::value(law.r, r, 3),
-                ]);
+                let case = format!("Eq. ({equation}), {}, a₁ = {words}", label(model).name);
+                rows.push(Comparison::printed(&case, "q", [law.q, q], 3));
+                rows.push(Comparison::printed(case, "r", [law.r, r], 3));
             }
         }
-        rows.push(vec![
-            Cell::text("Eq. (23), c̄ = −q ln e"),
-            Cell::text("rigid-linear"),
-            Cell::value(self.free_standing.coefficients[0].x, FREE_STANDING, 2),
-            Cell::text(""),
-        ]);
+        let found = self.free_standing.coefficients[0].x;
+        let case = "Eq. (23), c̄ = −q ln e, rigid-linear";
+        rows.push(Comparison::printed(case, "q", [found, FREE_STANDING], 2));
         let implied = implied_c_bar(REFERENCE_A1);
-        Table {
+        PaperTable {
             name: "Equations (20) to (23)",
             title: "Section 5 refitted: ξ = −q a₁^r ln e, u₀ = 0.9 u_ins, e = 0.80 … 0.98",
             notes: vec![
@@ -103,7 +98,6 @@ impl Section5 {
                      = {REFERENCE_A1}, and the refit confirms that value rather than 1.55."
                 ),
             ],
-            columns: columns("equation | a₁ | q | r"),
             rows,
         }
     }

@@ -1,31 +1,13 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
+use crate::Comparison;
+
 use super::released::{Released, StabilityError};
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
 use run::bisection::begins_at;
-
-/// Result of one extreme case.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Extreme {
-    /// Name.
-    pub name: &'static str,
-    /// What happens in the case, and what its value measures.
-    pub criterion: &'static str,
-    /// Value found.
-    pub value: f64,
-    /// Largest value that is allowed.
-    pub limit: f64,
-}
-
-impl Extreme {
-    /// Returns whether the value keeps its limit.
-    pub fn holds(&self) -> bool {
-        self.value <= self.limit
-    }
-}
 
 type Value = Result<f64, StabilityError>;
 /// Name, criterion, limit, and how the value is found.
@@ -77,9 +59,9 @@ const CASES: [Case; 24] = [
 ///
 /// # Errors
 /// [`StabilityError`] if one cannot be run.
-pub fn extremes() -> Result<Vec<Extreme>, StabilityError> {
+pub fn extremes() -> Result<Vec<Comparison>, StabilityError> {
     let run =
-        |&(name, criterion, limit, value): &Case| Ok(Extreme { name, criterion, value: value()?, limit });
+        |&(case, criterion, limit, value): &Case| Ok(Comparison::limited(case, criterion, value()?, limit));
     CASES.iter().map(run).collect()
 }
 

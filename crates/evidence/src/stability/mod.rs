@@ -18,7 +18,7 @@ mod extreme;
 pub mod page;
 mod released;
 
-pub use extreme::{Extreme, extremes};
+pub use extreme::extremes;
 pub use released::StabilityError;
 
 use released::Released;

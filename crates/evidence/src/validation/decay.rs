@@ -5,8 +5,7 @@ use rocking_wall::variables::{ForceLaw, RestitutionSource};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
 use run::model::{RATIO_MODELS, label};
 
-use super::difference::Difference;
-use super::error::ValidationError;
+use super::{Difference, ValidationError};
 use run::bisection::begins_at;
 use run::free_motion::{advance, with_damping, with_restitution};
 

@@ -14,12 +14,68 @@
 
 mod case;
 mod decay;
-mod difference;
-mod error;
+mod page;
 mod push;
+
+use rocking_wall::scene::SceneError;
+use rocking_wall::solver::SolverError;
+use rocking_wall::wall::ParameterError;
 
 pub use case::{Case, Test};
 pub use decay::{Decay, DecayComparison, DecayModel};
-pub use difference::Difference;
-pub use error::ValidationError;
 pub use push::{Push, PushComparison, PushedLaw};
+
+/// Why a test cannot be compared with the model.
+#[derive(Debug, thiserror::Error)]
+pub enum ValidationError {
+    /// The files of the test.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The wall.
+    #[error(transparent)]
+    Parameters(#[from] ParameterError),
+    /// A run.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// A free decay cannot start beyond `u_ins`.
+    #[error("the peak |d|/t = {peak} is not below u_ins = {instability} t; leave it out")]
+    Peak {
+        /// |u|/t of the peak \[-\].
+        peak: f64,
+        /// `u_ins` over the thickness \[-\].
+        instability: f64,
+    },
+    /// The model comes to rest before the last peak.
+    #[error("the wall comes to rest after {found} of {expected} peaks; leave out the last points")]
+    Rest {
+        /// Peaks of the model.
+        found: usize,
+        /// Peaks of the test after its start.
+        expected: usize,
+    },
+}
+
+/// Size of some differences \[-\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Root of their mean square.
+    pub rms: f64,
+    /// The largest.
+    pub largest: f64,
+}
+
+impl Difference {
+    /// Measures differences.
+    ///
+    /// # Panics
+    /// If there is none.
+    fn of(differences: impl IntoIterator<Item = f64>) -> Self {
+        let differences: Vec<f64> = differences.into_iter().collect();
+        assert!(!differences.is_empty(), "no point is compared");
+        let squares: f64 = differences.iter().map(|difference| difference * difference).sum();
+        Self {
+            rms: (squares / differences.len() as f64).sqrt(),
+            largest: differences.iter().fold(0.0, |largest, difference| largest.max(difference.abs())),
+        }
+    }
+}

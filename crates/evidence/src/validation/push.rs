@@ -3,8 +3,7 @@
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism, Softening};
 use rocking_wall::wall::{Parameters, Wall};
 
-use super::difference::Difference;
-use super::error::ValidationError;
+use super::{Difference, ValidationError};
 
 /// Step of the search for a₃ \[-\].
 const A3_STEP: f64 = 0.001;

@@ -4,15 +4,16 @@
 //! ones, so that both start at the same θ₀/α of Eq. (5).
 //!
 //! ```
-//! use evidence::accuracy::linearisation::{figure_2_wall, period};
+//! use evidence::accuracy::linearisation::figure_2_wall;
 //! use rocking_wall::variables::Mechanism;
+//! use run::rotations::period;
 //!
 //! let period = period(&figure_2_wall(Mechanism::Parapet), 0.9)?;
 //! assert!((period.ratio() - 0.9975).abs() < 1e-3);
 //! # Ok::<(), evidence::accuracy::AccuracyError>(())
 //! ```
 
-pub(crate) mod page;
+pub mod page;
 
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
@@ -29,7 +30,7 @@ pub const STARTS: [f64; 3] = [0.1, 0.5, 0.9];
 /// Free motions of one wall, released from one fraction of its unstable equilibrium, in small and in full
 /// rotations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct Histories {
     /// Output step \[s\].
     pub step: f64,
     /// Small rotations, Eq. (1).
@@ -38,7 +39,7 @@ pub struct Comparison {
     pub trigonometric: FreeMotion,
 }
 
-impl Comparison {
+impl Histories {
     /// Returns the largest difference between the two histories \[-\].
     pub fn largest_difference(&self) -> f64 {
         largest_difference(&self.linear.history, &self.trigonometric.history)
@@ -82,7 +83,7 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
 ///
 /// # Errors
 /// [`AccuracyError::Run`] if a run fails.
-pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Comparison, AccuracyError> {
+pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Histories, AccuracyError> {
     compare(&figure_2_wall(mechanism), 0.9, duration, step)
 }
 
@@ -97,9 +98,9 @@ pub fn compare(
     start: f64,
     duration: f64,
     step: f64,
-) -> Result<Comparison, AccuracyError> {
+) -> Result<Histories, AccuracyError> {
     let [linear, trigonometric] = both(parameters, |release| release.run(start, duration, step))?;
-    Ok(Comparison { step, linear, trigonometric })
+    Ok(Histories { step, linear, trigonometric })
 }
 
 /// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m
@@ -130,7 +131,7 @@ pub struct BothRotations {
     /// Its coefficient of restitution \[-\].
     pub restitution: f64,
     /// Figure 2.
-    pub history: Comparison,
+    pub history: Histories,
     /// Figure 3: for each of [`STARTS`] one period for each of [`SLENDERNESS`].
     pub periods: Vec<Vec<Period>>,
 }
