@@ -1,4 +1,4 @@
-//! The page of `wall accuracy`: for each problem error against run time, on logarithmic axes.
+//! The page of `wall verify accuracy`: for each problem error against run time, on logarithmic axes.
 
 use std::collections::BTreeMap;
 
@@ -69,9 +69,9 @@ pub(super) fn figures(
     key: impl IntoIterator<Item = (String, String)>,
     figures: impl Iterator<Item = String>,
 ) -> String {
-    let key: String = key.into_iter().map(|(sign, words)| format!("<span>{sign}{words}</span>\n")).collect();
-    let figures: String = figures.collect();
-    format!("<p class=\"key\">{key}</p>\n<main class=\"figures\">\n{figures}</main>")
+    let key: Vec<_> = key.into_iter().map(|(sign, words)| sign + &words).collect();
+    let (key, figures) = (key.join("</span>\n<span>"), figures.collect::<String>());
+    format!("<p class=\"key\"><span>{key}</span></p>\n<main class=\"figures\">\n{figures}</main>")
 }
 
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are

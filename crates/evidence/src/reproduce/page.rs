@@ -75,7 +75,8 @@ pub fn page(reproduction: &Reproduction, collapses: Option<&Collapses>) -> Strin
 }
 
 fn notes(notes: &[String]) -> String {
-    notes.iter().map(|note| format!("<p>{}</p>\n", escaped(note))).collect()
+    let notes: Vec<_> = notes.iter().map(|note| ["<p>", &escaped(note), "</p>\n"].concat()).collect();
+    notes.concat()
 }
 
 fn drawn(Figure { number, title, notes: words, charts }: &Figure) -> String {

@@ -55,7 +55,7 @@ pub struct Formula {
     pub comparisons: Vec<Comparison>,
     /// Texts of scenes by their names.
     #[serde(default)]
-    scenes: BTreeMap<String, String>,
+    pub scenes: BTreeMap<String, String>,
     /// Motion of all scenes.
     motion: Option<scenes::Samples>,
     /// The study that computes it.
@@ -86,8 +86,11 @@ pub enum VerificationError {
 /// # Errors
 /// [`VerificationError`] where one cannot be computed.
 pub fn verify() -> Result<Vec<Formula>, VerificationError> {
-    let mut formulas = formulas();
+    let mut formulas = document().formula;
     for formula in &mut formulas {
+        for text in [&mut formula.statement, &mut formula.reference, &mut formula.why] {
+            *text = text.trim().replace('\n', " ");
+        }
         formula.comparisons = match formula.study {
             Some(study) => study.compare()?,
             None => scenes::compare(&formula.scenes, formula.motion.as_ref())?,
@@ -96,15 +99,6 @@ pub fn verify() -> Result<Vec<Formula>, VerificationError> {
     Ok(formulas)
 }
 
-/// Reads the formulas, which have no numbers yet.
-fn formulas() -> Vec<Formula> {
-    let document: Document =
-        toml::from_str(include_str!("formulas.toml")).expect("formulas.toml is part of the program");
-    let mut formulas = document.formula;
-    for Formula { statement, reference, why, .. } in &mut formulas {
-        for text in [statement, reference, why] {
-            *text = text.trim().replace('\n', " ");
-        }
-    }
-    formulas
+fn document() -> Document {
+    toml::from_str(include_str!("formulas.toml")).expect("formulas.toml is part of the program")
 }

@@ -56,14 +56,6 @@ fn references(scene: &str) -> impl Iterator<Item = Reference> {
     })
 }
 
-fn scene(name: &str, text: &str, motion: Option<&Samples>) -> Result<Scene, VerificationError> {
-    let mut scene = Scene::parse(name, text, Path::new("."))?;
-    if let Some(samples) = motion {
-        scene.excitation = Some(samples.excitation()?);
-    }
-    Ok(scene)
-}
-
 /// Compares the variables of scenes with their references.
 pub(super) fn compare(
     scenes: &BTreeMap<String, String>,
@@ -71,7 +63,10 @@ pub(super) fn compare(
 ) -> Result<Vec<Comparison>, VerificationError> {
     let mut comparisons = Vec::new();
     for (name, text) in scenes {
-        let scene = scene(name, text, motion)?;
+        let mut scene = Scene::parse(name, text, Path::new("."))?;
+        if let Some(samples) = motion {
+            scene.excitation = Some(samples.excitation()?);
+        }
         let motion = scene.support_motion()?;
         let motion = motion.as_deref();
         let support = |time: f64| segment_of(motion, time, 0.0).from;
@@ -107,28 +102,5 @@ fn computed(simulation: &Simulation, support: Support, name: &str) -> f64 {
             let facts = simulation.wall().facts();
             facts.iter().find(|fact| fact.name == name).map_or(f64::NAN, |fact| fact.value)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::formulas;
-    use super::{Scene, scene};
-
-    /// Scenes named like a reference case are that case.
-    #[test]
-    fn cases_are_those_of_the_tests() {
-        let mut compared = 0;
-        for formula in formulas() {
-            for (name, text) in &formula.scenes {
-                let file = format!("{}/../../tests/data/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-                let Ok(case) = Scene::read(file.as_ref()) else { continue };
-                let scene = scene(name, text, formula.motion.as_ref()).unwrap();
-                assert_eq!(scene.parameters, case.parameters, "{name}");
-                assert_eq!(format!("{:?}", scene.excitation), format!("{:?}", case.excitation));
-                compared += 1;
-            }
-        }
-        assert_eq!(compared, 12);
     }
 }

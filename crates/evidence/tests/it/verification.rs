@@ -2,6 +2,7 @@
 
 use evidence::Comparison;
 use evidence::verification::verify;
+use rocking_wall::scene::Scene;
 
 use crate::root;
 
@@ -34,4 +35,19 @@ fn a_wrong_number_fails() {
             }
         }
     }
+}
+
+/// Scenes named like a reference case are that case.
+#[test]
+fn cases_are_those_of_the_tests() {
+    let mut compared = 0;
+    for (name, text) in verify().unwrap().iter().flat_map(|formula| &formula.scenes) {
+        let file = root().join(format!("tests/data/cases/{name}.toml"));
+        let Ok(case) = Scene::read(&file) else { continue };
+        let scene = Scene::parse(name, text, root()).unwrap();
+        assert_eq!(scene.parameters, case.parameters, "{name}");
+        assert_eq!(format!("{:?}", scene.excitation), format!("{:?}", case.excitation));
+        compared += 1;
+    }
+    assert_eq!(compared, 12);
 }
