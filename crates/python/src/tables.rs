@@ -31,7 +31,7 @@ impl<'a> Column<'a> {
         match (self, cell) {
             (Self::Names(names), Cell::Text(name)) => names.push(name.clone()),
             (Self::Numbers(numbers), Cell::Number(number) | Cell::Rounded(number, _)) => {
-                numbers.push(*number)
+                numbers.push(*number);
             }
             (Self::Numbers(numbers), Cell::Empty) => numbers.push(f64::NAN),
             (Self::Numbers(numbers), Cell::Between([least, most])) => {

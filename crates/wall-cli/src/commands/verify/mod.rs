@@ -25,7 +25,7 @@ pub(crate) enum Subject {
     Paper(paper::Arguments),
     /// Measure the error of each solver against its run time
     #[command(allow_negative_numbers = true)]
-    Accuracy(accuracy::Arguments),
+    Accuracy(Box<accuracy::Arguments>),
     /// Map the stability of each solver, and run the extremes
     Stability(Stability),
 }
