@@ -15,9 +15,11 @@
 
 pub mod accuracy;
 mod comparison;
+mod error;
 pub mod reproduce;
 pub mod stability;
 pub mod validation;
 pub mod verification;
 
 pub use comparison::Comparison;
+pub use error::EvidenceError;

@@ -19,60 +19,11 @@ fn loaded(mechanism: Mechanism) -> Result<Wall, ParameterError> {
     })
 }
 
-/// Symbols of the formulas.
-struct Symbols {
-    h: f64,
-    b: f64,
-    h1: f64,
-    h2: f64,
-    c: f64,
-    weight: f64,
-    overburden: f64,
-}
-
-impl Symbols {
-    fn of(wall: &Wall) -> Self {
-        let body = wall.body();
-        let (h, h1, b) = (body.height, body.hinge_height, body.hinge_height * body.slenderness.tan());
-        Self { h, b, h1, h2: h - h1, c: 0.1 * b, weight: body.weight, overburden: body.overburden }
-    }
-
-    /// Table 1, parapet: as printed, which is right.
-    fn parapet_force(&self, u: f64) -> f64 {
-        let Self { h, b, c, weight, overburden, .. } = *self;
-        2.0 / h * weight * (b / 2.0 - u) + 2.0 / h * overburden * (b / 2.0 - c - 2.0 * u)
-    }
-
-    /// Table 1, strip, as printed.
-    fn strip_force(&self, u: f64) -> f64 {
-        let Self { h, b, h1, h2, c, weight, overburden } = *self;
-        2.0 / h1 * weight * (b - u)
-            + h / (h1 * h2) * overburden * (b + 2.0 * c - u)
-            + 2.0 / h1 * overburden * (b - 2.0 * c)
-    }
-
-    /// Table 2, parapet, as printed.
-    fn parapet_strength(&self) -> f64 {
-        let Self { h, b, c, weight, overburden, .. } = *self;
-        (weight + overburden) * b / h + 2.0 / h * overburden * c
-    }
-
-    fn parapet_instability(&self) -> f64 {
-        let Self { h, b, c, weight, overburden, .. } = *self;
-        (2.0 / h * (weight + overburden) * b / 2.0 - 2.0 / h * overburden * c)
-            / (2.0 / h * (weight + 2.0 * overburden))
-    }
-
-    /// Table 2, strip: as printed, which is right.
-    fn strip_strength(&self) -> f64 {
-        let Self { b, h1, h2, c, weight, overburden, .. } = *self;
-        2.0 / h1 * (weight + overburden) * b + overburden / h2 * (b + 2.0 * c)
-    }
-
-    fn strip_instability(&self) -> f64 {
-        let Self { h1, h2, weight, overburden, .. } = *self;
-        self.strip_strength() / (2.0 / h1 * (weight + overburden) + 2.0 * overburden / h2)
-    }
+/// Symbols of the formulas: h, h₁ and h₂, b, c, W, O.
+fn symbols(wall: &Wall) -> [f64; 7] {
+    let body = wall.body();
+    let (h, h1, b) = (body.height, body.hinge_height, body.hinge_height * body.slenderness.tan());
+    [h, h1, h - h1, b, 0.1 * b, body.weight, body.overburden]
 }
 
 /// Returns a row of either table: its name, the printed formula, the computed number and that of the formula.
@@ -110,20 +61,27 @@ fn parameter_rows(
 pub(super) fn tables_1_and_2() -> Result<[PaperTable; 2], ParameterError> {
     let [parapet, strip] = [Mechanism::Parapet, Mechanism::VerticalSpanning].map(loaded);
     let (parapet, strip) = (parapet?, strip?);
-    let (p, s) = (Symbols::of(&parapet), Symbols::of(&strip));
-    let force = ("2/h W (b/2 − u) + 2/h O (b/2 − c − 2u)", |u| p.parapet_force(u));
-    let mut first = parameter_rows(("PW", &parapet), ("4/3 m", 4.0 / 3.0, 0.75), force);
+    // as printed; right are those of Table 1 for the parapet and of Table 2 for the strip
+    let [h, .., b, c, w, o] = symbols(&parapet);
+    let force = |u: f64| 2.0 / h * w * (b / 2.0 - u) + 2.0 / h * o * (b / 2.0 - c - 2.0 * u);
+    let p_f0 = ((w + o) * b / h + 2.0 / h * o * c) / 1e3;
+    let p_u = (2.0 / h * (w + o) * b / 2.0 - 2.0 / h * o * c) / (2.0 / h * (w + 2.0 * o));
+    let formula = "2/h W (b/2 − u) + 2/h O (b/2 − c − 2u)";
+    let mut first = parameter_rows(("PW", &parapet), ("4/3 m", 4.0 / 3.0, 0.75), (formula, force));
+    let [h, h1, h2, b, c, w, o] = symbols(&strip);
+    let force = |u: f64| {
+        2.0 / h1 * w * (b - u) + h / (h1 * h2) * o * (b + 2.0 * c - u) + 2.0 / h1 * o * (b - 2.0 * c)
+    };
+    let s_f0 = 2.0 / h1 * (w + o) * b + o / h2 * (b + 2.0 * c);
+    let s_u = s_f0 / (2.0 / h1 * (w + o) + 2.0 * o / h2);
     let formula = "2/h₁ W (b − u) + h/(h₁h₂) O (b + 2c − u) + 2/h₁ O (b − 2c)";
-    let force = (formula, |u| s.strip_force(u));
-    first.extend(parameter_rows(("VSSW", &strip), ("2/3 (m₁ + m₂)", 2.0 / 3.0, 1.5), force));
+    first.extend(parameter_rows(("VSSW", &strip), ("2/3 (m₁ + m₂)", 2.0 / 3.0, 1.5), (formula, force)));
     let strength = |wall: &Wall| wall.body().strength.positive / 1e3;
     let instability = |wall: &Wall| wall.body().instability.positive;
-    let (p_f0, s_f0) = (p.parapet_strength() / 1e3, s.strip_strength() / 1e3);
-    let (p_u, s_u) = (p.parapet_instability(), s.strip_instability());
     let second = vec![
         row("PW: F₀ (kN)", "(W + O) b/h + 2/h O c", strength(&parapet), p_f0),
         row("PW: u_ins (m)", "[2/h (W + O) b/2 − 2/h O c]/[2/h (W + 2O)]", instability(&parapet), p_u),
-        row("VSSW: F₀ (kN)", "2/h₁ (W + O) b + O (b + 2c)/(h − h₁)", strength(&strip), s_f0),
+        row("VSSW: F₀ (kN)", "2/h₁ (W + O) b + O (b + 2c)/(h − h₁)", strength(&strip), s_f0 / 1e3),
         row("VSSW: u_ins (m)", "F₀/[2/h₁ (W + O) + 2 O/(h − h₁)]", instability(&strip), s_u),
     ];
     let example = "Evaluated for a wall of 4 m by 0.4 m by 1 m, 1800 kg/m³, with O = W/2 at c = b/10 and h₁ \

@@ -12,13 +12,14 @@ use run::free_motion::{with_damping, with_restitution};
 use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{Grid, calibrate};
 
+use super::PaperTable;
 use super::figure::{Figure, history, spaced};
 use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
-use super::{PaperTable, ReproductionError};
 use crate::Comparison;
+use crate::EvidenceError;
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
 /// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.
@@ -57,7 +58,7 @@ fn u_axis() -> Axis {
 }
 
 /// Computes Figure 5: C over u, ξ over ω, damping force over u.
-pub(super) fn figure_5() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
     let strip = strip()?;
     let (mut coefficients, mut ratios, mut forces) = (Vec::new(), Vec::new(), Vec::new());
     // a constant coefficient, a constant ratio, and one proportional to stiffness
@@ -119,7 +120,7 @@ fn damping_coefficients(wall: &Wall) -> Vec<(f64, f64)> {
 }
 
 /// Computes Figure 6: a free vibration of CR beside one of CDR.
-pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
     let [e, xi] = FIGURE_6;
     let strip = strip()?;
     let u_ins = Wall::new(&strip)?.body().instability.positive;
@@ -148,7 +149,7 @@ pub(super) fn figure_6() -> Result<Figure, ReproductionError> {
 }
 
 /// Computes Figure 7: a rocking body beside elastic oscillators.
-pub(super) fn figure_7() -> Result<Figure, ReproductionError> {
+pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
     let [height, thickness] = FIGURE_WALL;
     let rigid = Parameters {
         height,
@@ -205,13 +206,13 @@ fn elastic(time: f64, omega: f64, xi: f64) -> f64 {
 }
 
 /// Computes the numbers printed in captions and text.
-pub(super) fn captions(threads: NonZeroUsize) -> Result<PaperTable, ReproductionError> {
+pub(super) fn captions(threads: NonZeroUsize) -> Result<PaperTable, EvidenceError> {
     let strip = strip()?;
     let cdc = Wall::new(&with_damping(&strip, MODELS[0], FIGURE_5_RATIOS[0]))?;
     let fits = |model, restitution: &[f64]| {
         let grid = Grid { restitution: restitution.to_vec(), a1: vec![strip.a1], ..Grid::default() };
         let found = calibrate(&strip, model, &grid, threads)?;
-        Ok::<Vec<f64>, ReproductionError>(found.fits.iter().map(|fit| fit.damping).collect())
+        Ok::<Vec<f64>, EvidenceError>(found.fits.iter().map(|fit| fit.damping).collect())
     };
     let figure_6 = fits(DampingModel::ConstantRatio, &FIGURE_6[..1])?[0];
     // the e at which CDR needs the ratio of Figure 5, between two values around it

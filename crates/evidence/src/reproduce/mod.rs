@@ -34,27 +34,10 @@ pub mod tables;
 
 use std::num::NonZeroUsize;
 
-use ground_motion::GroundMotionError;
-use rocking_wall::scene::SceneError;
-use rocking_wall::wall::ParameterError;
-use study::calibration::CalibrationError;
-
 use crate::Comparison;
-use crate::accuracy::AccuracyError;
+use crate::EvidenceError;
 
 pub use figure::Figure;
-
-/// Why the paper could not be reproduced.
-#[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-#[allow(missing_docs, reason = "each variant is an error of another module, passed on")]
-pub enum ReproductionError {
-    Parameters(#[from] ParameterError),
-    Scene(#[from] SceneError),
-    Rotations(#[from] AccuracyError),
-    Calibration(#[from] CalibrationError),
-    Motion(#[from] GroundMotionError),
-}
 
 /// A table of the paper, computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,8 +83,8 @@ const PARTS: usize = section_5::CALIBRATIONS + 6;
 /// parts after each part.
 ///
 /// # Errors
-/// [`ReproductionError`] if a wall, a motion, a run or a calibration fails.
-pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, ReproductionError> {
+/// [`EvidenceError`] if a wall, a motion, a run or a calibration fails.
+pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, EvidenceError> {
     let [table_1, table_2] = formulas::tables_1_and_2()?;
     let section_5 = section_5::Section5::new(threads, || finished(PARTS))?;
     let drawn = |figure: Figure| {

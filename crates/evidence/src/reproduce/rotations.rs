@@ -1,6 +1,6 @@
 //! Figures 2 and 3: small rotations beside full ones.
 
-use crate::accuracy::AccuracyError;
+use crate::EvidenceError;
 use run::rotations::{FreeMotion, period};
 
 use crate::accuracy::linearisation::{Histories, figure_2, figure_2_wall, figure_3};
@@ -21,7 +21,7 @@ const SLENDERNESS: f64 = 0.1;
 const ANGLES: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35];
 
 /// Computes Figure 2.
-pub(super) fn free_vibrations() -> Result<Figure, AccuracyError> {
+pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
     let parapet = figure_2(Mechanism::Parapet, DURATION, STEP)?;
     let strip = figure_2(Mechanism::VerticalSpanning, DURATION, STEP)?;
     let ratio = |comparison: &Histories| comparison.time_ratio(0).unwrap_or(f64::NAN);
@@ -74,7 +74,7 @@ fn with_frequency(p: f64, angle: f64) -> Parameters {
 }
 
 /// Computes Figure 3.
-pub(super) fn periods() -> Result<Figure, AccuracyError> {
+pub(super) fn periods() -> Result<Figure, EvidenceError> {
     let mut series = Vec::new();
     for (color, p) in FREQUENCIES.into_iter().enumerate() {
         let closed = spaced([0.0, 0.98], 98).map(|start| (start, equivalence::housner_period(p, start)));
@@ -82,7 +82,7 @@ pub(super) fn periods() -> Result<Figure, AccuracyError> {
         let wall = with_frequency(p, SLENDERNESS);
         let points = spaced([0.1, 0.9], 8)
             .map(|start| Ok((start, period(&wall, start)?.linear)))
-            .collect::<Result<_, AccuracyError>>()?;
+            .collect::<Result<_, EvidenceError>>()?;
         series.push(Series::marks(&format!("p = {p} rad/s"), color, points));
     }
     let over_angle = figure_3(Mechanism::Parapet, &ANGLES, START)?;

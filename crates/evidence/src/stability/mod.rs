@@ -11,7 +11,7 @@
 //! let damping = DampingModel::ConstantCoefficient;
 //! let map = map(Solver::Automatic, damping, RowQuantity::DampingRatio, 2)?;
 //! assert!(map.cells.iter().flatten().all(|cell| cell.stable));
-//! # Ok::<(), evidence::stability::StabilityError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
 mod extreme;
@@ -19,13 +19,12 @@ pub mod page;
 mod released;
 
 pub use extreme::extremes;
-pub use released::StabilityError;
-
 use released::Released;
 use rocking_wall::solver::{Method, Motion};
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::Parameters;
 
+use crate::EvidenceError;
 use run::model::damping_models;
 
 /// Largest growth of the energy in one step, over the energy at the start, that counts as none \[-\]. The
@@ -96,13 +95,13 @@ const STEP_RATIO: f64 = 0.03;
 /// Makes one map with `columns` values of a₁ from 1e-6 to 0.1.
 ///
 /// # Errors
-/// [`StabilityError`] if a reference run fails.
+/// [`EvidenceError`] if a reference run fails.
 pub fn map(
     solver: Solver,
     damping: DampingModel,
     quantity: RowQuantity,
     columns: u32,
-) -> Result<Map, StabilityError> {
+) -> Result<Map, EvidenceError> {
     let a1 = |index| libm::pow(10.0, -6.0 + 5.0 * f64::from(index) / f64::from(columns - 1));
     let columns: Vec<f64> = (0..columns).map(a1).collect();
     let rows: Vec<(f64, u32, f64)> = match quantity {
@@ -112,7 +111,7 @@ pub fn map(
     let row = |&(_, steps, xi): &(f64, u32, f64)| {
         columns.iter().map(|&a1| cell(solver, damping, a1, xi, steps)).collect()
     };
-    let cells = rows.iter().map(row).collect::<Result<_, StabilityError>>()?;
+    let cells = rows.iter().map(row).collect::<Result<_, EvidenceError>>()?;
     let rows = rows.iter().map(|row| row.0).collect();
     Ok(Map { solver, damping, quantity, columns, rows, cells })
 }
@@ -124,7 +123,7 @@ fn cell(
     a1: f64,
     xi: f64,
     steps: u32,
-) -> Result<MapCell, StabilityError> {
+) -> Result<MapCell, EvidenceError> {
     let step = INTERVAL / f64::from(steps);
     let parameters = Parameters {
         height: 3.0,

@@ -6,7 +6,8 @@ use report::chart::{Axis, Chart, Series};
 use report::table::{Cell, Column, Digits, Table};
 use run::model::color;
 
-use super::{Case, DecayComparison, Push, PushComparison, PushedLaw, Test, ValidationError};
+use super::{Case, DecayComparison, Push, PushComparison, PushedLaw, Test};
+use crate::EvidenceError;
 
 /// Number of the colour and the mark of the measured points; no model here has the same one.
 const MEASURED: usize = 3;
@@ -15,11 +16,11 @@ impl Case {
     /// Compares the test with the model, in words for a terminal and as a chart.
     ///
     /// # Errors
-    /// [`ValidationError`] if the model cannot do what was tested.
+    /// [`EvidenceError`] if the model cannot do what was tested.
     ///
     /// # Panics
     /// If it has too few points, which [`Case::read`] refuses.
-    pub fn shown(&self) -> Result<(String, Chart), ValidationError> {
+    pub fn shown(&self) -> Result<(String, Chart), EvidenceError> {
         let (text, chart) = match &self.test {
             Test::Push(push) => {
                 let comparison = push.compare(&self.parameters)?;

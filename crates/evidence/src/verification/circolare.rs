@@ -4,9 +4,9 @@ use std::path::Path;
 
 use rocking_wall::scene::{Place, Scene, SceneError};
 
-use super::VerificationError;
 use super::studies::{SIX_DIGITS, within};
 use crate::Comparison;
+use crate::EvidenceError;
 use check::circolare::{
     GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
 };
@@ -21,7 +21,7 @@ const STRIP: &str = "geometry.mechanism = \"vertical_spanning\"\ngeometry.height
                      force_law = { a1 = 0.03 }\n";
 
 /// Checks a wall on the ground, or at z/H of a building of three storeys.
-fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, VerificationError> {
+fn checked(wall: &str, height_ratio: Option<f64>) -> Result<Verdict, EvidenceError> {
     let (mut building, mut damping) = (String::new(), [""; 2]);
     if let Some(ratio) = height_ratio {
         building = format!("building = {{ storeys = 3, period = 0.3, height_ratio = {ratio:?} }}\n");
@@ -53,7 +53,7 @@ fn results(side: Option<&SideVerdict>) -> [f64; 5] {
     })
 }
 
-pub(super) fn examples() -> Result<Vec<Comparison>, VerificationError> {
+pub(super) fn examples() -> Result<Vec<Comparison>, EvidenceError> {
     let ground = GroundSpectrum::new(Hazard { ag: 0.15, f0: 2.45, tc: 0.32 }, Soil::B, 1.0);
     let case = "site, soil B";
     let mut comparisons = within(

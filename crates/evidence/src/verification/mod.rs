@@ -15,7 +15,7 @@
 //! ```
 //! let formulas = evidence::verification::verify()?;
 //! assert!(formulas.iter().all(|formula| formula.comparisons.iter().all(|number| number.passes())));
-//! # Ok::<(), evidence::verification::VerificationError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
 mod circolare;
@@ -26,15 +26,10 @@ mod studies;
 
 use std::collections::BTreeMap;
 
-use check::points::CheckError;
-use ground_motion::GroundMotionError;
-use rocking_wall::scene::SceneError;
-use rocking_wall::wall::ParameterError;
 use serde::Deserialize;
-use study::fragility::FitError;
-use study::spectrum::SpectrumError;
 
 use crate::Comparison;
+use crate::EvidenceError;
 
 /// A formula, what it is compared with, and the numbers.
 #[derive(Deserialize)]
@@ -67,25 +62,11 @@ struct Document {
     formula: Vec<Formula>,
 }
 
-/// Why a formula could not be computed.
-#[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-#[non_exhaustive]
-#[allow(missing_docs, reason = "each variant is an error of another module, passed on")]
-pub enum VerificationError {
-    Scene(#[from] SceneError),
-    Parameters(#[from] ParameterError),
-    Motion(#[from] GroundMotionError),
-    Check(#[from] CheckError),
-    Spectrum(#[from] SpectrumError),
-    Fit(#[from] FitError),
-}
-
 /// Computes every formula.
 ///
 /// # Errors
-/// [`VerificationError`] where one cannot be computed.
-pub fn verify() -> Result<Vec<Formula>, VerificationError> {
+/// [`EvidenceError`] where one cannot be computed.
+pub fn verify() -> Result<Vec<Formula>, EvidenceError> {
     let mut formulas = document().formula;
     for formula in &mut formulas {
         for text in [&mut formula.statement, &mut formula.reference, &mut formula.why] {

@@ -1,7 +1,7 @@
 //! The paper's tables of damping ratios beside print.
 
-use super::VerificationError;
 use crate::Comparison;
+use crate::EvidenceError;
 use crate::comparison::unit_of;
 use crate::reproduce::PaperTable;
 use crate::reproduce::printed::{TABLE_3_RESTITUTION, TABLE_4, TABLE_5};
@@ -11,7 +11,7 @@ use crate::reproduce::tables::{TABLE_5_NUMBERS, table_3, table_4, table_5};
 /// of 0.350.
 const CDR: usize = 3;
 
-pub(super) fn tables() -> Result<Vec<Comparison>, VerificationError> {
+pub(super) fn tables() -> Result<Vec<Comparison>, EvidenceError> {
     // half a unit of the printed e, and e; Tables 3 and 5 print ratios and per cent
     let third = |index: usize| Some((0.005, TABLE_3_RESTITUTION.as_flattened()[index % 4]));
     let fourth = |index: usize| Some((0.0005, TABLE_4[index / 2].restitution[1]));

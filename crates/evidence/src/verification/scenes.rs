@@ -11,8 +11,8 @@ use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::Support;
 use serde::Deserialize;
 
-use super::VerificationError;
 use crate::Comparison;
+use crate::EvidenceError;
 
 /// Motion of the supports, straight between samples.
 #[derive(Deserialize)]
@@ -60,7 +60,7 @@ fn references(scene: &str) -> impl Iterator<Item = Reference> {
 pub(super) fn compare(
     scenes: &BTreeMap<String, String>,
     motion: Option<&Samples>,
-) -> Result<Vec<Comparison>, VerificationError> {
+) -> Result<Vec<Comparison>, EvidenceError> {
     let mut comparisons = Vec::new();
     for (name, text) in scenes {
         let mut scene = Scene::parse(name, text, Path::new("."))?;

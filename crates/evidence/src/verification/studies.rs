@@ -8,9 +8,9 @@ use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
-use super::VerificationError;
 use super::{circolare, paper};
 use crate::Comparison;
+use crate::EvidenceError;
 use check::points::{Demand, Fractions, check};
 use run::bisection::begins_at;
 use serde::Deserialize;
@@ -33,7 +33,7 @@ pub(super) enum Study {
     Paper,
 }
 
-type Comparisons = Result<Vec<Comparison>, VerificationError>;
+type Comparisons = Result<Vec<Comparison>, EvidenceError>;
 
 impl Study {
     pub(super) fn compare(self) -> Comparisons {

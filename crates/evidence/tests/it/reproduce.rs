@@ -137,7 +137,7 @@ fn the_figures_show_what_the_paper_says() {
     }
     // Figure 8: CDC depends most on the amplitude, and falls with it as CDR does; SDR rises
     let start = |chart: usize, start: &str| {
-        let points = series(&figure(8).charts[chart], &format!("u₀ = {start}"));
+        let points = series(&figure(8).charts[chart], &format!("a₁ = 0.03, u₀ = {start}"));
         points.iter().map(|point| point.1).sum::<f64>()
     };
     let rise = |chart| start(chart, "0.9") / start(chart, "0.3");

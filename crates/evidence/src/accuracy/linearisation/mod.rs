@@ -10,7 +10,7 @@
 //!
 //! let period = period(&figure_2_wall(Mechanism::Parapet), 0.9)?;
 //! assert!((period.ratio() - 0.9975).abs() < 1e-3);
-//! # Ok::<(), evidence::accuracy::AccuracyError>(())
+//! # Ok::<(), evidence::EvidenceError>(())
 //! ```
 
 pub mod page;
@@ -19,7 +19,7 @@ use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::Parameters;
 use run::rotations::{FreeMotion, Period, SLENDERNESS, both, period};
 
-use super::AccuracyError;
+use crate::EvidenceError;
 
 /// Output step of Figure 2 \[s\].
 const STEP: f64 = 0.01;
@@ -82,8 +82,8 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
 /// steps of `step` \[s\].
 ///
 /// # Errors
-/// [`AccuracyError::Run`] if a run fails.
-pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Histories, AccuracyError> {
+/// [`EvidenceError::Run`] if a run fails.
+pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Histories, EvidenceError> {
     compare(&figure_2_wall(mechanism), 0.9, duration, step)
 }
 
@@ -92,13 +92,13 @@ pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Histor
 /// force law and damping.
 ///
 /// # Errors
-/// [`AccuracyError`] if the parameters make no such wall or a run fails.
+/// [`EvidenceError`] if the parameters make no such wall or a run fails.
 pub fn compare(
     parameters: &Parameters,
     start: f64,
     duration: f64,
     step: f64,
-) -> Result<Histories, AccuracyError> {
+) -> Result<Histories, EvidenceError> {
     let [linear, trigonometric] = both(parameters, |release| release.run(start, duration, step))?;
     Ok(Histories { step, linear, trigonometric })
 }
@@ -108,8 +108,8 @@ pub fn compare(
 /// start.
 ///
 /// # Errors
-/// [`AccuracyError`] if a slenderness makes no wall or a run fails.
-pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, AccuracyError> {
+/// [`EvidenceError`] if a slenderness makes no wall or a run fails.
+pub fn figure_3(mechanism: Mechanism, slenderness: &[f64], start: f64) -> Result<Vec<Period>, EvidenceError> {
     let wall = figure_2_wall(mechanism);
     let lower = match mechanism {
         Mechanism::Parapet => wall.height,
@@ -139,8 +139,8 @@ pub struct BothRotations {
 /// Computes Figures 2 and 3 for both mechanisms, the parapet first.
 ///
 /// # Errors
-/// [`AccuracyError::Run`] if a run fails.
-pub fn both_rotations() -> Result<Vec<BothRotations>, AccuracyError> {
+/// [`EvidenceError::Run`] if a run fails.
+pub fn both_rotations() -> Result<Vec<BothRotations>, EvidenceError> {
     let mechanisms = [(Mechanism::Parapet, "parapet", 20.0), (Mechanism::VerticalSpanning, "strip", 12.0)];
     let measured = |(mechanism, name, duration)| {
         let periods = STARTS.iter().map(|&start| figure_3(mechanism, &SLENDERNESS, start));
