@@ -7,7 +7,7 @@ use report::palette::sign;
 use report::plot::{Picture, Plot};
 use report::{counted, escaped};
 
-use super::figure::{SOLVERS, TOOLS, Tool, plot};
+use super::figure::{Point, SOLVERS, TOOLS, plot};
 use super::linearisation::{self, BothRotations};
 use super::{Measurement, WorkPrecision};
 
@@ -19,7 +19,7 @@ const SETTINGS: [&str; 3] = [
 ];
 
 /// The measurements of other tools, scene by scene.
-pub type Peers = BTreeMap<String, Vec<PeerRow>>;
+pub type Peers = BTreeMap<String, Vec<Point>>;
 
 const INTRODUCTION: &str = "\
 <p>Each point is one solver at one step or tolerance. It shows the largest error \
@@ -50,8 +50,8 @@ pub fn page(studies: &[WorkPrecision], rotations: &[BothRotations], peers: Optio
         None => page,
         Some(peers) => {
             let key = TOOLS.map(|(name, color, mark)| (sign(color, mark), name.to_owned()));
-            let drawn = |(scene, rows): (&String, &Vec<PeerRow>)| {
-                figure(&format!("<b>{}</b>", escaped(scene)), &peer_plot(rows, false))
+            let drawn = |(scene, rows): (&String, &Vec<Point>)| {
+                figure(&format!("<b>{}</b>", escaped(scene)), &plot(&TOOLS, rows, None, false))
             };
             page.section("Beside other tools", &figures(key, peers.iter().map(drawn)))
         }
@@ -77,9 +77,11 @@ pub(super) fn figures(
 /// Draws the plots of all problems, one above the other, for a file; those of the peers instead, if they are
 /// given.
 pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
-    let sized = |title: &str, plot| Plot { title: title.to_owned(), size: [560.0, 320.0], ..plot };
+    let sized = |title: &String, plot| Plot { title: title.clone(), size: [560.0, 320.0], ..plot };
     let plots: Vec<_> = match peers {
-        Some(peers) => peers.iter().map(|(scene, rows)| sized(scene, peer_plot(rows, true))).collect(),
+        Some(peers) => {
+            peers.iter().map(|(scene, rows)| sized(scene, plot(&TOOLS, rows, None, true))).collect()
+        }
         None => studies.iter().map(|study| sized(&study.name, solver_plot(study, true))).collect(),
     };
     Picture::stacked(&plots)
@@ -87,47 +89,24 @@ pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> Picture {
 
 /// The plot of a problem; with the names of the solvers if it is `named`.
 fn solver_plot(study: &WorkPrecision, named: bool) -> Plot {
-    let tools = SOLVERS.map(|(name, color, mark)| {
-        let rows: Vec<&Measurement> =
-            study.measurements.iter().filter(|row| row.setting.solver() == name).collect();
-        let points = rows.iter().map(|row| (row.seconds * 1e3, row.error_max)).collect();
-        let titles = rows.iter().map(|row| hover(study, row)).collect();
-        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: true }
-    });
-    plot(&tools, Some(study.rounding()))
-}
-
-/// The plot of a scene of the peers; with their names if it is `named`.
-fn peer_plot(rows: &[PeerRow], named: bool) -> Plot {
-    let tools = TOOLS.map(|(name, color, mark)| {
-        let rows = rows.iter().filter(|row| row.tool == name);
-        let points = rows.clone().map(|row| (row.seconds * 1e3, row.error)).collect();
-        let titles = rows
-            .map(|row| {
-                format!("{name}, {}: max error {:.1e}; {:.3} ms", row.setting, row.error, row.seconds * 1e3)
-            })
-            .collect();
-        Tool { name: if named { name } else { "" }, color, mark, points, titles, joined: false }
-    });
-    plot(&tools, None)
-}
-
-/// A line of the CSV that `cargo xtask bench --peers` writes.
-pub struct PeerRow {
-    tool: String,
-    setting: String,
-    seconds: f64,
-    error: f64,
+    let point = |row: &Measurement| Point {
+        tool: row.setting.solver().to_owned(),
+        seconds: row.seconds,
+        error: row.error_max,
+        title: hover(study, row),
+    };
+    let points: Vec<_> = study.measurements.iter().map(point).collect();
+    plot(&SOLVERS, &points, Some(study.rounding()), named)
 }
 
 /// Reads a line and its scene; `None` for the header and for a model that a tool does not offer.
-fn peer(line: &str) -> Option<(String, PeerRow)> {
+fn peer(line: &str) -> Option<(String, Point)> {
     let fields: Vec<&str> = line.split(',').collect();
     let [scene, tool, setting, seconds, error, ..] = fields[..] else { return None };
-    let (seconds, error) =
-        (seconds.parse().ok()?, error.parse().ok().filter(|error: &f64| error.is_finite())?);
-    let row = PeerRow { tool: tool.to_owned(), setting: setting.to_owned(), seconds, error };
-    Some((format!("Table 5, {scene}"), row))
+    let seconds: f64 = seconds.parse().ok()?;
+    let error = error.parse().ok().filter(|error: &f64| error.is_finite())?;
+    let title = format!("{tool}, {setting}: max error {error:.1e}; {:.3} ms", seconds * 1e3);
+    Some((format!("Table 5, {scene}"), Point { tool: tool.to_owned(), seconds, error, title }))
 }
 
 /// Reads the CSV of `cargo xtask bench --peers`.

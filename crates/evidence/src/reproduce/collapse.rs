@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use ground_motion::STANDARD_GRAVITY;
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use report::counted;
 use report::table::{Column, Table};
 use rocking_wall::variables::RestitutionSource;
@@ -138,8 +138,8 @@ fn chart(row: &Table5, models: &[Model], collapses: &[Vec<Exceedance>]) -> Chart
     widest.sort_by(f64::total_cmp);
     let nine_tenths = widest.get(widest.len() * 9 / 10).copied().unwrap_or(1.0);
     let title = format!("{}: {} {:.2} m × {:.2} m", row.number, mechanism(row), row.size[0], row.size[1]);
-    let x = Axis::over("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
-    Chart::new(title, x, Axis::over("probability of overturning", [0.0, 1.02]), series)
+    let x = ("AvgSA (g)", [0.0, 1.6 * nine_tenths]);
+    Chart::new(title, x, ("probability of overturning", [0.0, 1.02]), series)
 }
 
 fn interval(value: &Interval, unit: f64) -> String {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
@@ -53,9 +53,8 @@ fn released(parameters: Parameters, start: f64) -> Result<Parameters, ParameterE
     Ok(Parameters { u_start, ..parameters })
 }
 
-fn u_axis() -> Axis {
-    Axis::over("u / u_ins", [-1.0, 1.0])
-}
+/// The axis of u.
+const U: (&str, [f64; 2]) = ("u / u_ins", [-1.0, 1.0]);
 
 /// Computes Figure 5: C over u, ξ over ω, damping force over u.
 pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
@@ -91,19 +90,9 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
                 .into(),
         ],
         charts: vec![
-            Chart::new("a) damping coefficient", u_axis(), Axis::new("C (kg/s)"), coefficients),
-            Chart::new(
-                "b) damping ratio",
-                Axis::new("ω (rad/s)"),
-                Axis::over("damping ratio (%)", [0.0, 10.0]),
-                ratios,
-            ),
-            Chart::new(
-                "c) damping force in a free vibration from 0.9 u_ins",
-                u_axis(),
-                Axis::new("C u̇ / F0"),
-                forces,
-            ),
+            Chart::new("a) damping coefficient", U, "C (kg/s)", coefficients),
+            Chart::new("b) damping ratio", "ω (rad/s)", ("damping ratio (%)", [0.0, 10.0]), ratios),
+            Chart::new("c) damping force in a free vibration from 0.9 u_ins", U, "C u̇ / F0", forces),
         ],
     })
 }
@@ -142,8 +131,8 @@ pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
         title: "Matched free vibrations of CR and CDR",
         notes: vec!["The wall is that of Figure 5; the velocity is divided by u_ins.".into()],
         charts: vec![
-            Chart::new("a) history", Axis::over("time (s)", [0.0, 10.0]), u_axis(), histories),
-            Chart::new("b) displacement and velocity", u_axis(), Axis::new("velocity / u_ins (1/s)"), phases),
+            Chart::new("a) history", ("time (s)", [0.0, 10.0]), U, histories),
+            Chart::new("b) displacement and velocity", U, "velocity / u_ins (1/s)", phases),
         ],
     })
 }
@@ -178,7 +167,7 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
             Series::line("rocking body, CR", color("CR"), rocking),
         ];
-        charts.push(Chart::new(title, Axis::over("time (s)", [0.0, end]), u_axis(), series));
+        charts.push(Chart::new(title, ("time (s)", [0.0, end]), U, series));
     }
     Ok(Figure {
         number: 7,

@@ -4,7 +4,7 @@ use crate::EvidenceError;
 use run::rotations::{FreeMotion, period};
 
 use crate::accuracy::linearisation::{Histories, figure_2, figure_2_wall, figure_3};
-use report::chart::{Axis, Chart, Series};
+use report::chart::{Chart, Series};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, equivalence};
 
@@ -30,7 +30,7 @@ pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
         let points = |motion: &FreeMotion| {
             motion.history.iter().enumerate().map(|(index, u)| (index as f64 * comparison.step, *u)).collect()
         };
-        let (x, y) = (Axis::over("time (s)", [0.0, DURATION]), Axis::over("u / u_ins", [-1.0, 1.0]));
+        let (x, y) = (("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]));
         Chart::new(
             title,
             x,
@@ -101,14 +101,14 @@ pub(super) fn periods() -> Result<Figure, EvidenceError> {
         charts: vec![
             Chart::new(
                 format!("a) over the initial rotation, α = {SLENDERNESS}"),
-                Axis::over("θ0 / α", [0.0, 1.0]),
-                Axis::over("period (s)", [0.0, 10.0]),
+                ("θ0 / α", [0.0, 1.0]),
+                ("period (s)", [0.0, 10.0]),
                 series,
             ),
             Chart::new(
                 "b) Eq. (1) over Eq. (5)",
-                Axis::over("α (rad)", [0.0, 0.4]),
-                Axis::over("ratio of periods", [0.96, 1.005]),
+                ("α (rad)", [0.0, 0.4]),
+                ("ratio of periods", [0.96, 1.005]),
                 vec![Series::line("√cos α", 5, roots), Series::marks("Eq. (1)", 0, ratios.collect())],
             ),
         ],
