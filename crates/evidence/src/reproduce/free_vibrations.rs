@@ -13,7 +13,7 @@ use run::model::{RATIO_MODELS as MODELS, color, label};
 use study::calibration::{Grid, calibrate};
 
 use super::PaperTable;
-use super::figure::{Figure, history, spaced};
+use super::figure::{Figure, history, run, spaced};
 use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
@@ -72,8 +72,7 @@ pub(super) fn figure_5() -> Result<Figure, EvidenceError> {
         let ratio = |omega: f64| (omega, 100.0 * xi * (omega / omega1).powi(power));
         ratios.push(Series::line(name, color, spaced([0.5, omega1], 200).map(ratio).collect()));
         let force = |sample: &Sample| (sample.outputs.ratio, sample.outputs.damping_force / strength);
-        let samples = history(&parameters, None, [0.002, 5.0])?;
-        forces.push(Series::line(name, color, samples.iter().map(force).collect()));
+        forces.push(Series::line(name, color, run(&parameters, None, [0.002, 5.0], force)?));
     }
     // the model with the largest forces lies behind the others
     forces.reverse();
@@ -119,12 +118,9 @@ pub(super) fn figure_6() -> Result<Figure, EvidenceError> {
     ];
     let (mut histories, mut phases) = (Vec::new(), Vec::new());
     for (name, color, parameters) in runs {
-        let samples = history(&parameters, None, [0.002, 10.0])?;
-        let time = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
-        let phase =
-            samples.iter().map(|sample| (sample.outputs.ratio, sample.outputs.velocity / u_ins)).collect();
-        histories.push(Series::line(&name, color, time));
-        phases.push(Series::line(&name, color, phase));
+        let phase = |sample: &Sample| (sample.outputs.ratio, sample.outputs.velocity / u_ins);
+        histories.push(Series::line(&name, color, run(&parameters, None, [0.002, 10.0], history)?));
+        phases.push(Series::line(&name, color, run(&parameters, None, [0.002, 10.0], phase)?));
     }
     Ok(Figure {
         number: 6,
@@ -153,15 +149,15 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
     let frequency = (0.75 * body.gravity / (height.hypot(thickness) / 2.0)).sqrt();
     let mut charts = Vec::new();
     for ((e, impacts), (panel, end)) in FIGURE_7.into_iter().zip([("a", 20.0), ("b", 10.0)]) {
-        let samples = history(&with_restitution(&body, e), None, [0.005, end])?;
+        let rocking = run(&with_restitution(&body, e), None, [0.005, end], history)?;
         let xi = equivalence::priestley(e, FIGURE_7_START, impacts);
-        let amplitude = amplitude_after(e, impacts / 2);
-        let period = equivalence::housner_period(frequency, amplitude);
+        // half-way through the impacts, each of which leaves e² of the energy
+        let energy = e.powf(2.0 * f64::from(impacts / 2)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
+        let period = equivalence::housner_period(frequency, 1.0 - (1.0 - energy).sqrt());
         let oscillator = |period: f64| {
             spaced([0.0, end], 2000).map(|t| (t, FIGURE_7_START * elastic(t, TAU / period, xi))).collect()
         };
         let title = format!("{panel}) e = {e}, ξ = {xi:.4} from Eq. (13) with n = {impacts}");
-        let rocking = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
         let series = vec![
             Series::line(&format!("EO_stiff, T = {:.2} s", period / 2.0), 4, oscillator(period / 2.0)),
             Series::line(&format!("EO, T = {period:.2} s"), 1, oscillator(period)),
@@ -179,12 +175,6 @@ pub(super) fn figure_7() -> Result<Figure, EvidenceError> {
         ],
         charts,
     })
-}
-
-/// Returns the amplitude θ/α of a rocking block after `impacts` impacts, by Housner's energy.
-fn amplitude_after(e: f64, impacts: u32) -> f64 {
-    let energy = e.powf(2.0 * f64::from(impacts)) * (1.0 - (1.0 - FIGURE_7_START).powi(2));
-    1.0 - (1.0 - energy).sqrt()
 }
 
 /// Returns the free vibration of an elastic oscillator released at rest from 1.

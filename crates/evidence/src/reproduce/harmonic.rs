@@ -10,7 +10,7 @@ use rocking_wall::wall::{ParameterError, Parameters, Wall};
 use run::free_motion::{with_damping, with_restitution};
 use run::model::color;
 
-use super::figure::{Figure, history};
+use super::figure::{Figure, history, run};
 use super::printed::{TABLE_4, TABLE_4_A3, TABLE_4_SIZE, TABLE_4_STRENGTH};
 use crate::EvidenceError;
 
@@ -60,8 +60,7 @@ pub(super) fn figure_14() -> Result<Figure, EvidenceError> {
         let mut series = Vec::new();
         for (name, parameters) in runs {
             let excitation = Excitation::new(motion.clone(), None);
-            let samples = history(&parameters, Some(excitation), [0.005, END])?;
-            let points: Vec<_> = samples.iter().map(|sample| (sample.time, sample.outputs.ratio)).collect();
+            let points = run(&parameters, Some(excitation), [0.005, END], history)?;
             let peak = points.iter().fold(0.0_f64, |peak, point| peak.max(point.1.abs()));
             series.push(Series::line(&format!("{name}, peak {peak:.3}"), color(name), points));
         }

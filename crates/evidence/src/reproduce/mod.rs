@@ -75,22 +75,15 @@ pub struct Reproduction {
     pub figures: Vec<Figure>,
 }
 
-/// Number of parts that [`reproduce`] computes.
-const PARTS: usize = section_5::CALIBRATIONS + 6;
-
 /// Computes all tables and figures that need no records, on `threads` threads. Figure 15, which needs
 /// records, is computed by [`collapse::figure_15`]. Calls `finished` with the number of all
-/// parts after each part.
+/// calibrations, which take most of the time, after each.
 ///
 /// # Errors
 /// [`EvidenceError`] if a wall, a motion, a run or a calibration fails.
 pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Reproduction, EvidenceError> {
     let [table_1, table_2] = formulas::tables_1_and_2()?;
-    let section_5 = section_5::Section5::new(threads, || finished(PARTS))?;
-    let drawn = |figure: Figure| {
-        finished(PARTS);
-        figure
-    };
+    let section_5 = section_5::Section5::new(threads, || finished(section_5::CALIBRATIONS))?;
     let tables = vec![
         table_1,
         table_2,
@@ -101,12 +94,12 @@ pub fn reproduce(threads: NonZeroUsize, finished: impl Fn(usize)) -> Result<Repr
         free_vibrations::captions(threads)?,
     ];
     let mut figures = vec![
-        drawn(rotations::free_vibrations()?),
-        drawn(rotations::periods()?),
-        drawn(closed_forms::figure_4()?),
-        drawn(free_vibrations::figure_5()?),
-        drawn(free_vibrations::figure_6()?),
-        drawn(free_vibrations::figure_7()?),
+        rotations::free_vibrations()?,
+        rotations::periods()?,
+        closed_forms::figure_4()?,
+        free_vibrations::figure_5()?,
+        free_vibrations::figure_6()?,
+        free_vibrations::figure_7()?,
     ];
     figures.extend(section_5.figures());
     figures.extend([closed_forms::figure_13(), harmonic::figure_14()?]);

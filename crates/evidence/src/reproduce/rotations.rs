@@ -11,9 +11,8 @@ use rocking_wall::wall::{Parameters, equivalence};
 use super::figure::{Figure, spaced};
 use super::printed::START;
 
-/// Length and step of the histories of Figure 2 \[s\].
+/// Length of the histories of Figure 2 \[s\].
 const DURATION: f64 = 20.0;
-const STEP: f64 = 0.01;
 /// p of Figure 3 \[rad/s\].
 const FREQUENCIES: [f64; 4] = [2.0, 3.0, 4.0, 5.0];
 /// α of the walls of Figure 3 a) and b) \[rad\].
@@ -22,24 +21,14 @@ const ANGLES: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35];
 
 /// Computes Figure 2.
 pub(super) fn free_vibrations() -> Result<Figure, EvidenceError> {
-    let parapet = figure_2(Mechanism::Parapet, DURATION, STEP)?;
-    let strip = figure_2(Mechanism::VerticalSpanning, DURATION, STEP)?;
-    let ratio = |comparison: &Histories| comparison.time_ratio(0).unwrap_or(f64::NAN);
+    let [parapet, strip] = [Mechanism::Parapet, Mechanism::VerticalSpanning].map(|m| figure_2(m, DURATION));
+    let (parapet, strip) = (parapet?, strip?);
+    let ratio = |histories: &Histories| histories.time_ratio(0).unwrap_or(f64::NAN);
     let first = |motion: &FreeMotion| motion.impacts.first().copied().unwrap_or(f64::NAN);
-    let chart = |title: &str, comparison: &Histories| {
-        let points = |motion: &FreeMotion| {
-            motion.history.iter().enumerate().map(|(index, u)| (index as f64 * comparison.step, *u)).collect()
-        };
-        let (x, y) = (("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]));
-        Chart::new(
-            title,
-            x,
-            y,
-            vec![
-                Series::line("full rotations", 0, points(&comparison.trigonometric)),
-                Series::dashed("Eq. (1)", 1, points(&comparison.linear)),
-            ],
-        )
+    let chart = |title: &str, histories: &Histories| {
+        let [small, full] = histories.points();
+        let series = vec![Series::line("full rotations", 0, full), Series::dashed("Eq. (1)", 1, small)];
+        Chart::new(title, ("time (s)", [0.0, DURATION]), ("u / u_ins", [-1.0, 1.0]), series)
     };
     Ok(Figure {
         number: 2,

@@ -31,8 +31,6 @@ pub const STARTS: [f64; 3] = [0.1, 0.5, 0.9];
 /// rotations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histories {
-    /// Output step \[s\].
-    pub step: f64,
     /// Small rotations, Eq. (1).
     pub linear: FreeMotion,
     /// Full rotations.
@@ -40,6 +38,13 @@ pub struct Histories {
 }
 
 impl Histories {
+    /// Returns time \[s\] and displacement in small rotations, and in full ones.
+    pub fn points(&self) -> [Vec<(f64, f64)>; 2] {
+        let timed = |(index, u): (usize, &f64)| (index as f64 * STEP, *u);
+        [&self.linear, &self.trigonometric]
+            .map(|motion| motion.history.iter().enumerate().map(timed).collect())
+    }
+
     /// Returns the largest difference between the two histories \[-\].
     pub fn largest_difference(&self) -> f64 {
         largest_difference(&self.linear.history, &self.trigonometric.history)
@@ -78,29 +83,14 @@ pub fn figure_2_wall(mechanism: Mechanism) -> Parameters {
     }
 }
 
-/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` in
-/// steps of `step` \[s\].
+/// Computes Figure 2: the wall released at rest from 0.9 of its unstable equilibrium, over `duration` \[s\].
 ///
 /// # Errors
-/// [`EvidenceError::Run`] if a run fails.
-pub fn figure_2(mechanism: Mechanism, duration: f64, step: f64) -> Result<Histories, EvidenceError> {
-    compare(&figure_2_wall(mechanism), 0.9, duration, step)
-}
-
-/// Releases a wall at rest from the fraction `start` of its unstable equilibrium and follows it in both
-/// kinematics over `duration` in steps of `step` \[s\]. The wall is rigid and has restitution, whatever its
-/// force law and damping.
-///
-/// # Errors
-/// [`EvidenceError`] if the parameters make no such wall or a run fails.
-pub fn compare(
-    parameters: &Parameters,
-    start: f64,
-    duration: f64,
-    step: f64,
-) -> Result<Histories, EvidenceError> {
-    let [linear, trigonometric] = both(parameters, |release| release.run(start, duration, step))?;
-    Ok(Histories { step, linear, trigonometric })
+/// [`EvidenceError::Rotations`] if a run fails.
+pub fn figure_2(mechanism: Mechanism, duration: f64) -> Result<Histories, EvidenceError> {
+    let [linear, trigonometric] =
+        both(&figure_2_wall(mechanism), |release| release.run(0.9, duration, STEP))?;
+    Ok(Histories { linear, trigonometric })
 }
 
 /// Computes Figure 3: periods at each of `slenderness` \[rad\], which sets the thickness of a wall of 4 m
@@ -148,7 +138,7 @@ pub fn both_rotations() -> Result<Vec<BothRotations>, EvidenceError> {
             name,
             duration,
             restitution: figure_2_wall(mechanism).restitution,
-            history: figure_2(mechanism, duration, STEP)?,
+            history: figure_2(mechanism, duration)?,
             periods: periods.collect::<Result<_, _>>()?,
         })
     };

@@ -9,7 +9,7 @@ use report::table::{Column, Digits, Table};
 use run::figure::{both_rotations, period_ratios};
 use run::rotations::SLENDERNESS;
 
-use super::{BothRotations, Histories, Period, STARTS};
+use super::{BothRotations, Period, STARTS};
 use crate::accuracy::page::{figure, figures};
 
 /// Size of the plots \[px\].
@@ -87,7 +87,8 @@ pub(crate) fn section(both: &[BothRotations]) -> String {
             history.largest_difference(),
             history.largest_amplitude_difference()
         );
-        figure(&caption, &histories(history, *duration))
+        let [small, full] = history.points();
+        figure(&caption, &Plot { size: SIZE, ..both_rotations(&full, &small, *duration, SIZE[1]) })
     });
     let periods = both.iter().map(|BothRotations { name, periods, .. }| {
         let starts = "started at 0.1 (dotted), 0.5 (dashed) and 0.9 (solid) of u<sub>ins</sub>";
@@ -97,14 +98,6 @@ pub(crate) fn section(both: &[BothRotations]) -> String {
                  u<sub>ins</sub>) with small and with full rotations, and the ratio of the two periods \
                  against slenderness, hinge of the strip at mid-height.</p>\n";
     words.to_owned() + &figures(key.map(chip), moved.chain(periods))
-}
-
-fn histories(comparison: &Histories, duration: f64) -> Plot {
-    let timed = |history: &[f64]| -> Vec<(f64, f64)> {
-        history.iter().enumerate().map(|(index, &u)| (index as f64 * comparison.step, u)).collect()
-    };
-    let (linear, full) = (timed(&comparison.linear.history), timed(&comparison.trigonometric.history));
-    Plot { size: SIZE, ..both_rotations(&full, &linear, duration, SIZE[1]) }
 }
 
 /// Ratios of periods of one mechanism.
