@@ -57,6 +57,16 @@ pub enum RowQuantity {
     DampingRatio,
 }
 
+impl RowQuantity {
+    /// Its name in files, in words and on an axis.
+    fn names(self) -> [&'static str; 3] {
+        match self {
+            Self::Step => ["step_s", "step", "step (s)"],
+            Self::DampingRatio => ["xi", "xi", "ξ"],
+        }
+    }
+}
+
 /// Free motions of one solver with one damping model over a₁ and a second quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {

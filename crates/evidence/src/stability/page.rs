@@ -29,7 +29,7 @@ pub fn summary(map: &Map) -> String {
         "{:<10}{:<24} a1 x {:<5} {:>4} cells, {unstable:>3} unstable, largest error {worst:.1e}\n",
         map.solver.name(),
         map.damping.name(),
-        axis_words(map.quantity),
+        map.quantity.names()[1],
         cells().count()
     )
 }
@@ -41,7 +41,7 @@ pub fn of_cells(maps: &[Map]) -> Table {
     let texts = ["solver", "damping_model", "axis"].map(|name| Column::text(name, name));
     let mut table = Table::new(texts.into_iter().chain(columns));
     for map in maps {
-        let axis = if map.quantity == RowQuantity::Step { "step_s" } else { "xi" };
+        let [axis, ..] = map.quantity.names();
         for (value, cells) in map.rows.iter().zip(&map.cells) {
             for (a1, MapCell { stable, error, growth }) in map.columns.iter().zip(cells) {
                 let names = [map.solver.name().into(), map.damping.name().into(), axis.into()];
@@ -85,30 +85,18 @@ pub fn page(maps: &[Map], extremes: &[Comparison]) -> String {
         .html()
 }
 
-/// Words for the second axis.
-fn axis_words(quantity: RowQuantity) -> &'static str {
-    match quantity {
-        RowQuantity::Step => "step",
-        RowQuantity::DampingRatio => "xi",
-    }
-}
-
 fn figure(map: &Map) -> String {
-    format!(
-        "<figure><figcaption><b>{}</b>, {}</figcaption>{}</figure>\n",
-        map.solver.name(),
-        map.damping.name().replace('_', " "),
-        drawing(map)
-    )
-}
-
-fn drawing(map: &Map) -> String {
-    let axis = axis_words(map.quantity);
+    let [_, axis, label] = map.quantity.names();
     let paint = |row: usize, column: usize| {
         let (cell, a1, value) = (&map.cells[row][column], map.columns[column], map.rows[row]);
         heat_map::Cell {
             fill: colour(cell.error),
-            title: format!("a1 = {a1:.1e}, {axis} = {value:.1e}: {}", words(cell)),
+            title: format!(
+                "a1 = {a1:.1e}, {axis} = {value:.1e}: {}, error {:.1e}, growth of the energy {:.1e}",
+                if cell.stable { "stable" } else { "unstable" },
+                cell.error,
+                cell.growth
+            ),
             crossed: !cell.stable,
         }
     };
@@ -119,24 +107,20 @@ fn drawing(map: &Map) -> String {
     // only whole powers of ten have a label
     let mut values = map.columns.iter();
     columns.retain(|_| values.next().is_some_and(|a1| (a1.log10() - a1.log10().round()).abs() < 1e-6));
-    let label = match map.quantity {
-        RowQuantity::Step => "step (s)",
-        RowQuantity::DampingRatio => "ξ",
-    };
-    HeatMap {
+    let drawing = HeatMap {
         label: format!("error over a1 and {axis}"),
         columns: heat_map::Axis { label: "a₁".into(), count: map.columns.len(), ticks: columns },
         rows: heat_map::Axis { label: label.into(), count: map.rows.len(), ticks: middles(&map.rows) },
         size: CELL,
         own: None,
         cells: &paint,
-    }
-    .svg()
-}
-
-fn words(cell: &MapCell) -> String {
-    let verdict = if cell.stable { "stable" } else { "unstable" };
-    format!("{verdict}, error {:.1e}, growth of the energy {:.1e}", cell.error, cell.growth)
+    };
+    format!(
+        "<figure><figcaption><b>{}</b>, {}</figcaption>{}</figure>\n",
+        map.solver.name(),
+        map.damping.name().replace('_', " "),
+        drawing.svg()
+    )
 }
 
 /// Short numbers for axes.
