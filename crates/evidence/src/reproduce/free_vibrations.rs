@@ -18,8 +18,7 @@ use super::printed::{
     FIGURE_2_RESTITUTION, FIGURE_5_COEFFICIENT, FIGURE_5_RATIOS, FIGURE_5_WALL, FIGURE_6, FIGURE_7,
     FIGURE_7_START, FIGURE_WALL, START,
 };
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 
 /// Width \[m\] and density \[kg/m³\] of the strip of Figures 5 and 6, which the paper does not state. With
 /// them `C_CDC` is the 300 kg/s of the text, and nothing else depends on them.

@@ -34,8 +34,7 @@ pub mod tables;
 
 use std::num::NonZeroUsize;
 
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 
 pub use figure::Figure;
 

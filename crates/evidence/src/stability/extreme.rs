@@ -1,9 +1,8 @@
 //! Extremes: cases at the edges of the model, each with a value that proves it and the limit derived for it.
 
-use crate::Comparison;
+use crate::{Comparison, EvidenceError};
 
 use super::released::Released;
-use crate::EvidenceError;
 use record::{Forcing, RecordSolver, RunStart};
 use rocking_wall::solver::{Memo, Method, Motion, Phase, Segment, State};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};

@@ -5,8 +5,7 @@ use std::path::Path;
 use rocking_wall::scene::{Place, Scene, SceneError};
 
 use super::studies::{SIX_DIGITS, within};
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 use check::circolare::{
     GroundSpectrum, Hazard, Records, SideVerdict, Soil, Verdict, check, damping_factor, in_table, read_table,
 };

@@ -28,8 +28,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 
 /// A formula, what it is compared with, and the numbers.
 #[derive(Deserialize)]

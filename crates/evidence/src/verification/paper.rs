@@ -1,11 +1,10 @@
 //! The paper's tables of damping ratios beside print.
 
-use crate::Comparison;
-use crate::EvidenceError;
 use crate::comparison::unit_of;
 use crate::reproduce::PaperTable;
 use crate::reproduce::printed::{TABLE_3_RESTITUTION, TABLE_4, TABLE_5};
 use crate::reproduce::tables::{TABLE_5_NUMBERS, table_3, table_4, table_5};
+use crate::{Comparison, EvidenceError};
 
 /// Place of the damping ratio in Table 5 that print does not make of Eq. (21): 0.352 to 0.354 there instead
 /// of 0.350.

@@ -11,8 +11,7 @@ use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::Support;
 use serde::Deserialize;
 
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 
 /// Motion of the supports, straight between samples.
 #[derive(Deserialize)]

@@ -9,8 +9,7 @@ use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
 
 use super::{circolare, paper};
-use crate::Comparison;
-use crate::EvidenceError;
+use crate::{Comparison, EvidenceError};
 use check::points::{Demand, Fractions, check};
 use run::bisection::begins_at;
 use serde::Deserialize;
