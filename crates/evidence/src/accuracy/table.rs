@@ -28,21 +28,14 @@ pub fn table(studies: &[WorkPrecision]) -> Table {
         for Measurement { setting, seconds, error_max, error_rms, error_peak, error_overturning, work } in
             &study.measurements
         {
-            table.row([
-                study.name.clone().into(),
-                setting.solver().into(),
-                setting.describe(study.step).into(),
-                (*seconds).into(),
-                (*error_max).into(),
-                (*error_rms).into(),
-                (*error_peak).into(),
-                (*error_overturning).into(),
-                (*seconds).into(),
-                count(work.pieces),
-                count(work.corners),
-                count(work.impacts),
-                study.amplification.into(),
-            ]);
+            let names = [study.name.as_str(), setting.solver(), &setting.describe(study.step)]
+                .map(|name| Cell::from(name.to_owned()));
+            let errors =
+                [Some(*error_max), Some(*error_rms), *error_peak, *error_overturning].map(Cell::from);
+            let work = [work.pieces, work.corners, work.impacts].map(count);
+            let seconds = || [Cell::from(*seconds)];
+            let row = names.into_iter().chain(seconds()).chain(errors).chain(seconds()).chain(work);
+            table.row(row.chain([study.amplification.into()]));
         }
     }
     table

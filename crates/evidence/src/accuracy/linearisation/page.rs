@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use report::palette::{BLUE, GREY, RED};
 use report::plot::Plot;
-use report::table::{Column, Digits, Table};
+use report::table::{Cell, Column, Digits, Table};
 use run::figure::{both_rotations, period_ratios};
 use run::rotations::SLENDERNESS;
 
@@ -17,29 +17,23 @@ const SIZE: [f64; 2] = [440.0, 290.0];
 
 /// Returns the periods, one a row.
 pub fn table(both: &[BothRotations]) -> Table {
-    let number = |name| Column::number(name, name, Digits::AtMost(6));
-    let mut table = Table::new([
-        Column::text("mechanism", "mechanism"),
-        number("alpha_rad"),
-        number("start_over_u_ins"),
-        number("period_linear_s"),
-        number("period_trigonometric_s"),
-        number("period_eq5_s"),
-        number("ratio"),
-        number("ratio_eq5"),
-    ]);
+    let names = [
+        "alpha_rad",
+        "start_over_u_ins",
+        "period_linear_s",
+        "period_trigonometric_s",
+        "period_eq5_s",
+        "ratio",
+        "ratio_eq5",
+    ];
+    let numbers = names.map(|name| Column::number(name, name, Digits::AtMost(6)));
+    let mut table = Table::new([Column::text("mechanism", "mechanism")].into_iter().chain(numbers));
     for measured in both {
         for period in measured.periods.iter().flatten() {
-            table.row([
-                measured.name.into(),
-                period.slenderness.into(),
-                period.start.into(),
-                period.linear.into(),
-                period.trigonometric.into(),
-                period.housner.into(),
-                period.ratio().into(),
-                period.over_housner().into(),
-            ]);
+            let Period { slenderness, start, linear, trigonometric, housner, .. } = *period;
+            let known = [slenderness, start, linear, trigonometric].map(Cell::from);
+            let ratios = [housner, Some(period.ratio()), period.over_housner()].map(Cell::from);
+            table.row([measured.name.into()].into_iter().chain(known).chain(ratios));
         }
     }
     table
