@@ -1,6 +1,7 @@
 //! Lines, words and numbers of a record: in free form, and in the fixed widths that Fortran wrote.
 
 use crate::error::{CUT_SHORT, DAMAGED, Fault, TOO_MANY};
+use crate::motion::floor_index;
 use crate::quantity::Quantity;
 
 /// A line and its number, from 1.
@@ -181,6 +182,16 @@ impl Layout {
             }
         }
         Ok((numbers, last_line))
+    }
+
+    /// Returns integer `place` of a header, from 1, as a count; the integers stand below line `above`.
+    pub(crate) fn count_among(self, integers: &[f64], place: usize, above: usize) -> Result<usize, Fault> {
+        let value = integers[place - 1];
+        if value >= 0.0 && value.fract() == 0.0 {
+            return Ok(floor_index(value));
+        }
+        let line = above + place.div_ceil(self.per_line);
+        Err(Fault::new(line, format!("a count as integer {place}"), value.to_string(), "correct the header"))
     }
 
     /// Refuses more numbers where a block should have ended.

@@ -151,6 +151,9 @@ fn parsed(name: &str, bytes: Vec<u8>, options: &RecordOptions) -> Result<(Format
     check_is_text(&bytes)?;
     let decoded = decode(bytes);
     let text = sound_part(&decoded)?;
+    if text.trim().is_empty() {
+        return Err(Fault::new(1, "a record", "an empty file", "check that this is the right file"));
+    }
     let format = options.format.map_or_else(|| Format::of(name, text, options), Ok)?;
     let mut parsed = format.parse(text, options)?;
     if vertical::by_name(name, format, options) {

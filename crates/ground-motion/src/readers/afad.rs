@@ -15,7 +15,8 @@
 //!
 //! AFAD's newer files (`.asc`) are in the form of ESM.
 
-use super::components::{Components, step, value};
+use super::components::Components;
+use super::header::{count, step};
 use crate::error::Fault;
 use crate::fields::{Line, after, find, lines, real};
 use crate::options::RecordOptions;
@@ -37,11 +38,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let header: Vec<Line<'_>> =
         lines(text).take(HEADER_LINES).take_while(|(_, line)| !is_row(line)).collect();
     let step = step(&header, "SAMPLING INTERVAL (sec)", |step| step, options)?;
-    let (count_line, count) = value(&header, COUNT)?;
-    let count = count.parse().map_err(|_| {
-        let expected = format!("{COUNT} as a whole number");
-        Fault::excerpt(count_line, expected, count, "correct the header")
-    })?;
+    let (count_line, count) = count(&header, COUNT)?;
     let peaks = header.iter().find(|(_, line)| find(line, "PGA VALUES").is_some());
     let in_brackets = |&(number, line): &Line<'_>| {
         let unit = line.split_once('(')?.1.split_once(')')?.0;

@@ -13,7 +13,7 @@
 //!
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
-use crate::error::{Fault, excerpt};
+use crate::error::Fault;
 use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
@@ -40,13 +40,13 @@ fn states_count_and_step(line: &str) -> bool {
 }
 
 /// Reads the text of an AT2 file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let first = |states: fn(&str) -> bool| lines(text).take(HEADER_LINES).position(|(_, line)| states(line));
     let header_length = first(states_count_and_step).or_else(|| first(|line| find(line, "NPTS").is_some()));
     let Some(header_length) = header_length else {
-        let found = lines(text).next().map_or_else(|| "an empty file".to_owned(), |(_, line)| excerpt(line));
+        let found = lines(text).next().unwrap_or_default().1;
         let expected = format!("an AT2 header with {COUNT_AND_STEP}");
-        return Err(Fault::new(1, expected, found, "check that this is a PEER AT2 file"));
+        return Err(Fault::excerpt(1, expected, found, "check that this is a PEER AT2 file"));
     };
     let header = || lines(text).take(header_length);
     let mut rest = lines(text).skip(header_length);
@@ -70,7 +70,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     let direction = place.and_then(|(_, component)| component.split_whitespace().next());
     parsed.is_vertical = direction.is_some_and(is_vertical);
     parsed.keep_header(header().map(|(_, line)| line));
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Reads NPTS and DT from their line.

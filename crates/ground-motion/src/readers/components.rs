@@ -1,8 +1,7 @@
 //! What formats with one column for each component share.
 
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, check_count, leading_number, positive, real, rounding};
-use crate::options::RecordOptions;
+use crate::fields::{check_count, real, rounding};
 use crate::parsed::Parsed;
 use crate::unit::Unit;
 use crate::vertical::is_vertical;
@@ -82,38 +81,4 @@ impl Components {
         }
         Ok(self.channels)
     }
-}
-
-/// Finds the value of a key in header lines `KEY : value`, and its line.
-pub(super) fn value<'a>(header: &[Line<'a>], key: &str) -> Result<Line<'a>, Fault> {
-    let of_key = |&(number, line): &Line<'a>| {
-        let (name, value) = line.trim_start_matches('#').split_once(':')?;
-        name.trim().eq_ignore_ascii_case(key).then_some((number, value.trim()))
-    };
-    header.iter().find_map(of_key).filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
-        let line = header.last().map_or(1, |(number, _)| *number);
-        Fault::new(line, format!("a value for `{key}` in the header"), "none", "complete the header")
-    })
-}
-
-/// Finds the positive number of a key, and its line.
-pub(super) fn number(header: &[Line<'_>], key: &str) -> Result<(usize, f64), Fault> {
-    let (line, text) = value(header, key)?;
-    let number = positive(leading_number(text).0);
-    number.map(|number| (line, number)).ok_or_else(|| {
-        Fault::excerpt(line, format!("a positive number for `{key}`"), text, "correct the header")
-    })
-}
-
-/// Finds the step of a key and compares it with the one that the user states.
-pub(super) fn step(
-    header: &[Line<'_>],
-    key: &str,
-    to_step: impl Fn(f64) -> f64,
-    options: &RecordOptions,
-) -> Result<f64, Fault> {
-    let (line, value) = number(header, key)?;
-    let step = to_step(value);
-    options.check_step(step, line)?;
-    Ok(step)
 }

@@ -52,7 +52,7 @@ fn is_time(name: &Name) -> bool {
 }
 
 /// Reads the text of a table or a column.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let columns = Columns::of_numbers(text, is_time, FORMS)?;
     let (column, seconds) = if columns.width() == 1 {
         (0, 1.0)
@@ -81,7 +81,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
         let expected = "a stated unit (this file has none)";
         return Err(Fault::new(columns.line(), expected, "no unit", remedy));
     }
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Returns how many seconds the unit of the times has. Refuses a first column that is not the time, and times

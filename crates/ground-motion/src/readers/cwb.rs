@@ -13,7 +13,8 @@
 //!      0.000     0.000     0.000     0.000
 //! ```
 
-use super::components::{Components, is_due, number, step, value};
+use super::components::{Components, is_due};
+use super::header::{number, step, value};
 use crate::error::{DAMAGED, Fault, excerpt};
 use crate::fields::{Layout, Line, leading_real, real, untrimmed_lines};
 use crate::motion::floor_index;
@@ -23,6 +24,7 @@ use crate::parsed::Parsed;
 /// Longest header.
 const HEADER_LINES: usize = 60;
 
+const LENGTH: &str = "RecordLength(sec)";
 const SEQUENCE: &str = "DataSequence";
 
 /// Returns whether the first lines are such a header.
@@ -74,8 +76,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         }
         components.push(fields, line)?;
     }
-    let (length_line, length) = number(&header, "RecordLength(sec)")?;
-    let stated_by = format!("RecordLength(sec) on line {length_line}, {length} s at {step} s,");
+    let (length_line, length) = number(value(&header, LENGTH)?, LENGTH)?;
+    let stated_by = format!("{LENGTH} on line {length_line}, {length} s at {step} s,");
     let stated = floor_index((length / step).round());
     components.finish(stated, &stated_by, &header.iter().map(|(_, line)| line.trim_start_matches('#').trim()))
 }

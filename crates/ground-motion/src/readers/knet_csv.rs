@@ -14,8 +14,9 @@
 //! ```
 
 use super::components::{Components, MOST, is_due};
+use super::header::{number, required};
 use crate::error::{DAMAGED, Fault};
-use crate::fields::{Line, find, lines, positive, real};
+use crate::fields::{Line, find, lines, real};
 use crate::motion::floor_index;
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -91,17 +92,9 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 /// Reads the positive number on the line below a label; `None` without the label.
 fn below(header: &[Line<'_>], label: &str) -> Result<Option<(usize, f64)>, Fault> {
     let place = header.iter().position(|(_, line)| line.trim_start_matches('#').starts_with(label));
-    if place.is_none() {
-        return Ok(None);
-    }
-    let found = place.and_then(|place| header.get(place + 1)).copied();
-    let number = found.and_then(|(number, line)| {
-        Some((number, positive(line.trim_start_matches('#').trim_end_matches(',').trim())?))
-    });
-    number.map(Some).ok_or_else(|| {
-        let (line, text) = found.or(header.last().copied()).unwrap_or((1, ""));
-        Fault::excerpt(line, format!("a positive number below `{label}`"), text, "correct the header")
-    })
+    let Some(place) = place else { return Ok(None) };
+    let value = header.get(place + 1).map(|(line, value)| (*line, value.trim_start_matches('#').trim()));
+    number(required(header, label, value)?, label).map(Some)
 }
 
 /// Splits `N-S(gal)`.

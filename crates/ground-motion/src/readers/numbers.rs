@@ -51,7 +51,7 @@ fn starts_with_times(rows: &[Vec<f64>]) -> bool {
 }
 
 /// Reads the text of such a file.
-pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault> {
+pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
     let content = || lines(text).filter(|(_, line)| !line.starts_with(COMMENTS));
     let Some((first_line, first)) = content().next() else {
         return Err(Fault::new(1, "numbers", "none", "check that this is the right file"));
@@ -86,7 +86,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Parsed, Fault
     }
     check_order(&parsed, columns.unwrap_or(0), first_line)?;
     parsed.keep_header(lines(text).map(|(_, line)| line));
-    Ok(parsed)
+    Ok(vec![parsed])
 }
 
 /// Refuses columns that are records of their own: neighbours in a column are then much closer than

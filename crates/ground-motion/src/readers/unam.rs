@@ -17,7 +17,8 @@
 //!    -0.0083   -0.0214    0.0000
 //! ```
 
-use super::components::{Components, MOST, value};
+use super::components::{Components, MOST};
+use super::header::value;
 use crate::check::Warning;
 use crate::error::{DAMAGED, Fault};
 use crate::fields::{Layout, Line, check_count, find, positive, untrimmed_lines};

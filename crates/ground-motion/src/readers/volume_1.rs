@@ -18,6 +18,7 @@
 
 use std::iter::Peekable;
 
+use super::one_by_one;
 use crate::check::Warning;
 use crate::error::{CUT_SHORT, Fault, UNEVEN, excerpt};
 use crate::fields::{Layout, Line, after, find, leading_number, positive, real, untrimmed_lines};
@@ -43,18 +44,7 @@ pub(super) fn recognises(head: &[&str]) -> bool {
 
 /// Reads the channels of a volume 1 file.
 pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-    let mut rest = untrimmed_lines(text).peekable();
-    let mut channels = Vec::new();
-    while rest.peek().is_some() {
-        let mut channel = channel(&mut rest, options)?;
-        let name = channel.channel.take().unwrap_or_default();
-        channel.channel = Some(format!("{}: {name}", channels.len() + 1));
-        channels.push(channel);
-    }
-    if channels.is_empty() {
-        return Err(Fault::new(1, "a volume 1 file", "an empty file", "check that this is the right file"));
-    }
-    Ok(channels)
+    one_by_one(untrimmed_lines(text).peekable(), |rest| channel(rest, options))
 }
 
 /// Reads the next channel.

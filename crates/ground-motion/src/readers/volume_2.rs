@@ -94,11 +94,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions, dialect: &Dialect) -> R
     }
     if channels.is_empty() {
         let (number, line) = other.unwrap_or(last);
-        let found = match line.trim() {
-            "" => "an empty file".to_owned(),
-            line if number == 1 || other.is_some() => excerpt(line),
-            _ => "none up to the end".to_owned(),
-        };
+        let is_quoted = number == 1 || other.is_some();
+        let found = if is_quoted { excerpt(line.trim()) } else { "none up to the end".to_owned() };
         return Err(Fault::new(number, dialect.data[0], found, dialect.data[1]));
     }
     if let (Some(width), Some(channel)) = (open, channels.last_mut()) {
