@@ -19,7 +19,7 @@ pub(crate) use heading::Said;
 
 use crate::error::excerpt;
 use crate::fields::{Line, lines};
-use cells::{Cells, Separator};
+use cells::{Separator, cells};
 
 /// What starts a comment.
 pub(crate) const COMMENTS: [char; 2] = ['#', '%'];
@@ -360,7 +360,7 @@ const OTHER_COMMENT: &str = "comments start with # or %; start this line with # 
 
 /// Counts the cells of a row without the empty ones at its end.
 fn filled(separator: Separator, row: &str) -> usize {
-    let filled = Cells::new(row, separator).enumerate().filter(|(_, cell)| !cell.is_empty());
+    let filled = cells(row, separator).enumerate().filter(|(_, cell)| !cell.is_empty());
     filled.last().map_or(0, |(at, _)| at + 1)
 }
 

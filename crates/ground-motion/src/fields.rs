@@ -46,6 +46,20 @@ pub(crate) fn leading_number(text: &str) -> (&str, &str) {
     text.split_at(text.find(|c| !is_number(c)).unwrap_or(text.len()))
 }
 
+/// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
+pub(crate) fn touching(word: &str) -> impl Iterator<Item = &str> {
+    let mut rest = word;
+    std::iter::from_fn(move || {
+        let bytes = rest.as_bytes();
+        let is_start = |at: &usize| {
+            matches!(bytes[*at], b'+' | b'-') && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
+        };
+        let (number, after) = rest.split_at((1..bytes.len()).find(is_start).unwrap_or(bytes.len()));
+        rest = after;
+        Some(number).filter(|number| !number.is_empty())
+    })
+}
+
 /// Reads a number that is finite and above 0.
 pub(crate) fn positive(word: &str) -> Option<f64> {
     real(word).filter(|value| value.is_finite() && *value > 0.0)

@@ -169,24 +169,11 @@ pub(crate) fn plain(text: &str) -> String {
 /// Splits a plain unit such as `cm/s2` into its length and the power of the time below it. Names of columns
 /// have `cm_s2` and `cms2`.
 pub(crate) fn parts(plain: &str) -> Option<(&str, u8)> {
-    let below = [
-        ("/s2", 2),
-        ("/s/s", 2),
-        ("/ss", 2),
-        ("s-2", 2),
-        ("_s2", 2),
-        ("_s_2", 2),
-        ("_s_s", 2),
-        ("_s-2", 2),
-        ("ps2", 2),
-        ("s2", 2),
-        ("ss", 2),
-        ("/s", 1),
-        ("s-1", 1),
-        ("_s", 1),
-        ("s", 1),
-    ];
-    let found = below.iter().find_map(|(time, power)| Some((plain.strip_suffix(time)?, *power)));
-    let (length, power) = found.unwrap_or((plain, 0));
+    const SQUARED: [&str; 11] =
+        ["/s2", "/s/s", "/ss", "s-2", "_s2", "_s_2", "_s_s", "_s-2", "ps2", "s2", "ss"];
+    const PLAIN: [&str; 4] = ["/s", "s-1", "_s", "s"];
+    let without = |times: &[&str]| times.iter().find_map(|time| plain.strip_suffix(time));
+    let squared = without(&SQUARED).map(|length| (length, 2));
+    let (length, power) = squared.or(without(&PLAIN).map(|length| (length, 1))).unwrap_or((plain, 0));
     size_of(length, &LENGTHS).map(|_| (length, power))
 }

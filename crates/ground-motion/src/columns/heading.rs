@@ -1,6 +1,6 @@
 //! The names of columns, and the units that they state.
 
-use super::cells::{Cells, Separator, unquoted};
+use super::cells::{Separator, cells, unquoted};
 use crate::error::Fault;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
@@ -158,12 +158,12 @@ fn closing(text: &str, opening: &str) -> Option<usize> {
 /// Splits a line of names, without empty ones at its end.
 pub(super) fn names(line: &str, separator: Separator) -> Vec<Name> {
     let mut names: Vec<Name> = match separator {
-        Separator::Blanks if line.contains('\t') => Cells::new(line, Separator::Tab)
-            .filter(|name| !name.is_empty())
-            .map(|name| Name::of(&name))
-            .collect(),
+        Separator::Blanks if line.contains('\t') => {
+            let filled = cells(line, Separator::Tab).filter(|name| !name.is_empty());
+            filled.map(|name| Name::of(&name)).collect()
+        }
         Separator::Blanks => words(line).iter().map(|name| Name::of(name)).collect(),
-        _ => Cells::new(line, separator).map(|name| Name::of(&name)).collect(),
+        _ => cells(line, separator).map(|name| Name::of(&name)).collect(),
     };
     let filled = names.iter().rposition(|name| !name.written.is_empty()).map_or(0, |last| last + 1);
     names.truncate(filled);

@@ -14,7 +14,7 @@
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
 use crate::error::Fault;
-use crate::fields::{Line, find, leading_number, lines, positive, real, unit_word};
+use crate::fields::{Line, find, leading_number, lines, positive, real, touching, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
@@ -59,7 +59,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let mut line_start = 0;
     for (number, line) in rest {
         line_start = parsed.samples.len();
-        for word in line.split_ascii_whitespace().flat_map(|word| Touching { rest: word }) {
+        for word in line.split_ascii_whitespace().flat_map(touching) {
             parsed.push(real(word), number, word, "a finite number")?;
         }
     }
@@ -118,27 +118,5 @@ fn unit<'a>(
             let expected = "a unit in the header, `IN UNITS OF G`";
             Err(Fault::new(count_line, expected, "none before this line", STATE_THE_UNIT))
         }
-    }
-}
-
-/// Splits numbers that touch: fixed-width fields leave no blank before a sign, `.1234567E-03-.7654321E-03`.
-pub(super) struct Touching<'a> {
-    pub(super) rest: &'a str,
-}
-
-impl<'a> Iterator for Touching<'a> {
-    type Item = &'a str;
-
-    fn next(&mut self) -> Option<&'a str> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let bytes = self.rest.as_bytes();
-        let is_start = |at: &usize| {
-            matches!(bytes[*at], b'+' | b'-') && !matches!(bytes[*at - 1], b'E' | b'e' | b'D' | b'd')
-        };
-        let (number, rest) = self.rest.split_at((1..bytes.len()).find(is_start).unwrap_or(bytes.len()));
-        self.rest = rest;
-        Some(number)
     }
 }

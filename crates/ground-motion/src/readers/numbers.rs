@@ -9,10 +9,9 @@
 //! One number on every line is a column; where the first numbers of the lines rise, they are the times of a
 //! table.
 
-use super::at2::Touching;
 use crate::columns::COMMENTS;
 use crate::error::Fault;
-use crate::fields::{lines, real};
+use crate::fields::{lines, real, touching};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
 
@@ -34,7 +33,7 @@ fn values(line: &str) -> Option<Vec<f64>> {
 
 fn words(line: &str) -> impl Iterator<Item = &str> {
     let separated = line.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
-    separated.flat_map(|word| Touching { rest: word })
+    separated.flat_map(touching)
 }
 
 /// Returns whether the first column of a table never falls, as times do not, even if they are rounded.
