@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::companion::Times;
+use crate::companion::Companion;
 use crate::error::{Fault, GroundMotionError, excerpt};
 use crate::file::{END_OF_FILE, is_utf16, line_of, read_file, strange_byte, utf16};
 use crate::format::Format;
@@ -102,7 +102,7 @@ pub fn read_channels(
     let path = path.as_ref();
     let name = path.display().to_string();
     let bytes = read_bounded(path, &name)?;
-    let Some(times) = Times::beside(path, options)? else { return parse_channels(&name, bytes, options) };
+    let Some(times) = Companion::beside(path, options)? else { return parse_channels(&name, bytes, options) };
     let records = parse_channels(&name, bytes, &times.completed(options))?;
     records.iter().try_for_each(|record| times.check_count(record.motion.samples().len()))?;
     Ok(records)

@@ -182,11 +182,7 @@ fn stated_damping(name: &str) -> Option<f64> {
 
 /// Refuses long periods under a name without a unit.
 fn refuse_milliseconds(columns: &Columns<'_>, points: &[(f64, f64)], lines: &[usize]) -> Result<(), Fault> {
-    let is_seconds = |name: &Name| {
-        let words = name.words();
-        name.unit().or(words.last().map(String::as_str)).and_then(Quantity::of) == Some(Quantity::Time(1.0))
-    };
-    if columns.first().is_some_and(is_seconds) {
+    if matches!(columns.first().and_then(Name::stated), Some((_, Quantity::Time(1.0)))) {
         return Ok(());
     }
     let Some(at) = points.iter().position(|(period, _)| *period > LONGEST_PERIOD) else { return Ok(()) };

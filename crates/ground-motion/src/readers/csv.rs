@@ -16,17 +16,14 @@
 //! header line. The unit has to be stated, unless the header line has it in brackets: `t [s],a [g]`, or as in
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
-mod times;
-
 use crate::check::Warning;
 use crate::columns::{Columns, Name, Numbers, Said, Thousands};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
 use crate::quantity::Quantity;
+use crate::times::Times;
 use crate::unit::Unit;
-
-use times::Times;
 
 /// Header of a table of the ground's acceleration in m/s². Importers of FMUs find the input `a_g` by its
 /// name, so that no unit may follow it. They take the first column for the time whatever its name is, so the
