@@ -72,9 +72,8 @@ impl<'a> Columns<'a> {
         let first = first_line(text, forms)?;
         let titles: Vec<Line<'a>> =
             content(text).take_while(|(_, line)| !starts_a_number(line)).take(TITLE_LINES).collect();
-        refuse_other_comments(content(text).take(titles.len() + 1))?;
-        let bars = |line: &str| starts_a_number(line.trim_start_matches('|'));
-        refuse_bars(content(text).take(titles.len() + 1).filter(|(_, line)| bars(line)))?;
+        let is_row = |line: &str| starts_a_number(line.trim_start_matches('|'));
+        refuse_foreign(content(text).take(titles.len() + 1), is_row)?;
         let row = content(text).nth(titles.len()).filter(|(_, line)| starts_a_number(line));
         let of_row = row.map_or(Separator::None, |(_, line)| Separator::of_row(line));
         let width = row.map_or(0, |(_, line)| filled(of_row, line));
@@ -139,8 +138,7 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// [`Fault`] if there is no such line, or if two columns have one name.
     pub fn of_texts(text: &'a str, forms: &str) -> Result<Self, Fault> {
-        refuse_other_comments(content(text).take(1))?;
-        refuse_bars(content(text).take(1))?;
+        refuse_foreign(content(text).take(1), |_| true)?;
         let heading = first_line(text, forms)?;
         let separator = Separator::of_names(heading.1, true);
         let names = heading::names(heading.1, separator);
@@ -312,13 +310,6 @@ fn index_column((line, heading): Line<'_>) -> Fault {
     Fault::excerpt(line, "a name for the first column", heading, remedy)
 }
 
-/// Refuses columns between bars.
-fn refuse_bars<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
-    let Some((number, line)) = lines.find(|(_, line)| line.contains('|')) else { return Ok(()) };
-    let expected = "columns between commas, semicolons, tabs or blanks";
-    Err(Fault::excerpt(number, expected, line, "`|` separates no columns: write one of these instead"))
-}
-
 /// Refuses two columns of one name.
 fn refuse_twins(names: &[Name], line: usize) -> Result<(), Fault> {
     let mut named = names.iter().enumerate().filter(|(_, name)| !name.written().is_empty());
@@ -347,13 +338,22 @@ fn first_line<'a>(text: &'a str, forms: &str) -> Result<Line<'a>, Fault> {
     })
 }
 
-/// Refuses lines that start with the comment marks of other programs.
-fn refuse_other_comments<'a>(mut lines: impl Iterator<Item = Line<'a>>) -> Result<(), Fault> {
-    let is_other = |line: &str| OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark));
-    match lines.find(|(_, line)| is_other(line)) {
-        Some((number, line)) => Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT)),
-        None => Ok(()),
+/// Refuses comment marks of other programs, and bars between columns in lines that `is_row` knows.
+fn refuse_foreign<'a>(
+    lines: impl Iterator<Item = Line<'a>>,
+    is_row: impl Fn(&str) -> bool,
+) -> Result<(), Fault> {
+    for (number, line) in lines {
+        if OTHER_COMMENTS.iter().any(|mark| line.starts_with(mark)) {
+            return Err(Fault::excerpt(number, "names or numbers", line, OTHER_COMMENT));
+        }
+        if line.contains('|') && is_row(line) {
+            let expected = "columns between commas, semicolons, tabs or blanks";
+            let remedy = "`|` separates no columns: write one of these instead";
+            return Err(Fault::excerpt(number, expected, line, remedy));
+        }
     }
+    Ok(())
 }
 
 const OTHER_COMMENT: &str = "comments start with # or %; start this line with # if it is one";

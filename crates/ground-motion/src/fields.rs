@@ -104,6 +104,11 @@ pub(crate) fn check_count(
     Err(Fault::new(last_line, expected, format!("{found} up to the end"), remedy))
 }
 
+/// Makes the fault of numbers behind the last one.
+fn too_many((number, text): Line<'_>, count: usize, stated: usize) -> Fault {
+    Fault::excerpt(number, format!("an end after {count} numbers, as line {stated} says"), text, DAMAGED)
+}
+
 /// Returns half a unit of the last decimal that a number is written with: what rounding may have changed.
 pub(crate) fn rounding(text: &str) -> f64 {
     let (number, _) = leading_number(text);
@@ -182,8 +187,7 @@ impl Layout {
                     continue;
                 }
                 if numbers.len() == count {
-                    let expected = format!("an end after {count} numbers, as line {stated} says");
-                    return Err(Fault::excerpt(number, expected, field, DAMAGED));
+                    return Err(too_many((number, field), count, stated));
                 }
                 numbers.push(value.ok_or_else(|| {
                     let expected = format!(
@@ -217,10 +221,7 @@ impl Layout {
     ) -> Result<(), Fault> {
         let Some((number, line)) = next else { return Ok(()) };
         match self.fields(line).next() {
-            Some(field) if real(field).is_some() => {
-                let expected = format!("an end after {count} numbers, as line {stated} says");
-                Err(Fault::excerpt(number, expected, line.trim(), DAMAGED))
-            }
+            Some(field) if real(field).is_some() => Err(too_many((number, line.trim()), count, stated)),
             _ => Ok(()),
         }
     }

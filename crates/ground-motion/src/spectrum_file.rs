@@ -135,29 +135,20 @@ impl SpectrumFile {
     }
 }
 
-/// What a word of a name says about the first column.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Abscissa {
-    Period,
-    Frequency,
-}
-
-impl Abscissa {
-    fn of(name: &Name) -> Option<Self> {
-        let words = name.words();
-        words.iter().find_map(|word| match word.as_str() {
-            "t" | "tn" => Some(Self::Period),
-            "f" | "freq" | "frequency" | "frequencies" | "omega" | "ω" | "w" | "hz" => Some(Self::Frequency),
-            word if word.starts_with("period") => Some(Self::Period),
-            _ => None,
-        })
-    }
+/// Returns the quantity that a word of a name says of the first column.
+fn abscissa(name: &Name) -> Option<Quantity> {
+    name.words().iter().find_map(|word| match word.as_str() {
+        "t" | "tn" => Some(Quantity::Time(1.0)),
+        "f" | "freq" | "frequency" | "frequencies" | "omega" | "ω" | "w" | "hz" => Some(Quantity::Frequency),
+        word if word.starts_with("period") => Some(Quantity::Time(1.0)),
+        _ => None,
+    })
 }
 
 /// Returns whether a column may be the first of a spectrum.
 fn is_abscissa(name: &Name) -> bool {
     let quantity = name.unit().and_then(Quantity::of);
-    matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || Abscissa::of(name).is_some()
+    matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || abscissa(name).is_some()
 }
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
@@ -212,11 +203,11 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 /// Refuses a first column that is not the period in seconds.
 fn check_periods(columns: &Columns<'_>) -> Result<(), Fault> {
     let Some(name) = columns.checked_first()? else { return Ok(()) };
-    let remedy = match (name.stated(), Abscissa::of(name)) {
-        (Some((_, Quantity::Frequency)), _) | (_, Some(Abscissa::Frequency)) => {
+    let remedy = match (name.stated(), abscissa(name)) {
+        (Some((_, Quantity::Frequency)), _) | (_, Some(Quantity::Frequency)) => {
             "write periods instead of frequencies: T = 1/f, and T = 2π/ω".to_owned()
         }
-        (Some((_, Quantity::Time(1.0))), _) | (None, Some(Abscissa::Period)) => return Ok(()),
+        (Some((_, Quantity::Time(1.0))), _) | (None, Some(_)) => return Ok(()),
         (Some((unit, Quantity::Time(seconds))), _) => format!("convert the periods: 1 {unit} is {seconds} s"),
         // a comment need not name the columns
         (_, None) if columns.names().is_empty() => return Ok(()),
