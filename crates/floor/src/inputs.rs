@@ -5,10 +5,14 @@ use fmu_export::Input;
 use crate::choices::Coupling;
 use crate::floor::Floor;
 use crate::motion::Load;
-use crate::variables::{RealVariable, real_calculated, real_local, real_output, real_parameter};
+use crate::variables::RealVariable;
 
 /// Walls that can push one floor.
 const WALLS: usize = 8;
+
+// the inputs of the walls follow one another
+const _: () = assert!(RealVariable::Reaction8 as usize + 1 == RealVariable::Reaction1 as usize + WALLS);
+const _: () = assert!(RealVariable::Impulse8 as usize + 1 == RealVariable::Impulse1 as usize + WALLS);
 
 /// What an input belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,28 +26,15 @@ pub(crate) enum Source {
 impl Source {
     /// Returns what an input belongs to; `None` for other variables.
     pub(crate) fn of(variable: RealVariable) -> Option<Self> {
-        use Coupling::{Impulses, Reactions};
-        let (coupling, wall) = match variable {
-            RealVariable::AG => return Some(Self::Base),
-            RealVariable::Reaction1 => (Reactions, 0),
-            RealVariable::Reaction2 => (Reactions, 1),
-            RealVariable::Reaction3 => (Reactions, 2),
-            RealVariable::Reaction4 => (Reactions, 3),
-            RealVariable::Reaction5 => (Reactions, 4),
-            RealVariable::Reaction6 => (Reactions, 5),
-            RealVariable::Reaction7 => (Reactions, 6),
-            RealVariable::Reaction8 => (Reactions, 7),
-            RealVariable::Impulse1 => (Impulses, 0),
-            RealVariable::Impulse2 => (Impulses, 1),
-            RealVariable::Impulse3 => (Impulses, 2),
-            RealVariable::Impulse4 => (Impulses, 3),
-            RealVariable::Impulse5 => (Impulses, 4),
-            RealVariable::Impulse6 => (Impulses, 5),
-            RealVariable::Impulse7 => (Impulses, 6),
-            RealVariable::Impulse8 => (Impulses, 7),
-            real_output!() | real_local!() | real_parameter!() | real_calculated!() => return None,
+        let wall_from = |first: RealVariable| {
+            (variable as usize).checked_sub(first as usize).filter(|wall| *wall < WALLS)
         };
-        Some(Self::Wall(coupling, wall))
+        let reactions = wall_from(RealVariable::Reaction1).map(|wall| (Coupling::Reactions, wall));
+        let impulses = wall_from(RealVariable::Impulse1).map(|wall| (Coupling::Impulses, wall));
+        match reactions.or(impulses) {
+            Some((coupling, wall)) => Some(Self::Wall(coupling, wall)),
+            None => (variable == RealVariable::AG).then_some(Self::Base),
+        }
     }
 }
 

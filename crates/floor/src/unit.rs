@@ -126,15 +126,10 @@ impl Unit {
 
     /// Inputs of the other coupling are set but have no effect.
     pub(crate) fn tell_about_ignored_inputs(&mut self, log: &mut Log<'_>) {
+        let Inputs { reactions, impulses, .. } = &self.inputs;
         let (name, other, ignored) = match self.parameters.coupling {
-            Coupling::Reactions => {
-                ("reactions", "impulses", self.inputs.impulses.iter().any(|impulse| *impulse != 0.0))
-            }
-            Coupling::Impulses => (
-                "impulses",
-                "reactions",
-                self.inputs.reactions.iter().any(|input| *input != Input::default()),
-            ),
+            Coupling::Reactions => ("reactions", "impulses", impulses.iter().any(|impulse| *impulse != 0.0)),
+            Coupling::Impulses => ("impulses", "reactions", *reactions != [Input::default(); 8]),
         };
         if ignored && !self.ignored_told {
             self.ignored_told = true;
