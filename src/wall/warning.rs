@@ -9,7 +9,6 @@ use super::mechanism::Body;
 use super::parameters::Parameters;
 use super::tie::Tie;
 use super::usage::{Usage, usage};
-use super::usual::improbable;
 
 /// A usual step of records and importers \[s\].
 const USUAL_STEP: f64 = 0.01;
@@ -158,10 +157,5 @@ impl Warning {
     /// Returns whether the warning says that runs take long.
     pub fn is_about_work(&self) -> bool {
         matches!(self, Self::Fast { .. } | Self::SmallStep { .. })
-    }
-
-    /// Finds the parameters of a wall whose values are improbable.
-    pub fn unusual(parameters: &Parameters) -> impl Iterator<Item = Self> + use<> {
-        improbable(parameters)
     }
 }

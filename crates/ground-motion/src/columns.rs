@@ -15,7 +15,6 @@ mod heading;
 pub use crate::error::Fault;
 pub use cells::{Numbers, Row, Thousands};
 pub use heading::Name;
-pub(crate) use heading::Said;
 
 use crate::error::excerpt;
 use crate::fields::{Line, lines};

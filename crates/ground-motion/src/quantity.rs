@@ -15,6 +15,8 @@ pub(crate) enum Quantity {
     /// A time: how many seconds the unit has.
     Time(f64),
     Frequency,
+    /// A response spectrum, which names say and units do not.
+    Spectrum,
     /// Anything else that is a unit, or a unit times a factor.
     Other,
 }
@@ -106,7 +108,7 @@ impl Quantity {
             Self::Acceleration(_) | Self::OtherAcceleration(..) => "acceleration",
             Self::Time(_) => "time",
             Self::Frequency => "frequency",
-            Self::Other => "another quantity",
+            Self::Spectrum | Self::Other => "another quantity",
         }
     }
 
@@ -121,9 +123,7 @@ impl Quantity {
                     self.noun()
                 )
             }
-            Self::Acceleration(_) | Self::Time(_) | Self::Frequency | Self::Other => {
-                "correct the unit, or use another column".to_owned()
-            }
+            _ => "correct the unit, or use another column".to_owned(),
         };
         let remedy = format!(
             "{remedy}; m/s2, cm/s2, mm/s2 and g are read, and a unit that you state does not override that \

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Said, Thousands};
+use crate::columns::{Columns, Name, Numbers, Thousands};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
 use crate::options::stated_unit;
@@ -147,8 +147,7 @@ fn abscissa(name: &Name) -> Option<Quantity> {
 
 /// Returns whether a column may be the first of a spectrum.
 fn is_abscissa(name: &Name) -> bool {
-    let quantity = name.unit().and_then(Quantity::of);
-    matches!(quantity, Some(Quantity::Time(_) | Quantity::Frequency)) || abscissa(name).is_some()
+    matches!(name.quantity(), Some(Quantity::Time(_) | Quantity::Frequency)) || abscissa(name).is_some()
 }
 
 /// Finds the damping ratio that a name states: a percentage beside a word that means damping, `Sa (ξ = 5 %)`,
@@ -192,7 +191,7 @@ fn refuse_record(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
             .is_some_and(|word| word.starts_with("acc") || ["a", "ag", "ax", "ay"].contains(&word.as_str()))
     };
     let is_time = first.words().first().is_some_and(|word| word == "time") || first.text() == "t";
-    if !is_time || name.says() == Some(Said::Spectrum) || !is_of_record(name) {
+    if !is_time || name.says() == Some(Quantity::Spectrum) || !is_of_record(name) {
         return Ok(());
     }
     let remedy = "this is a record: give the spectrum of its response, or the record as such; name periods \

@@ -17,7 +17,7 @@
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Said, Thousands};
+use crate::columns::{Columns, Name, Numbers, Thousands};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
@@ -139,7 +139,7 @@ fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
     let names = [columns.names().first(), columns.names().get(column)].into_iter().flatten();
     let is_first_of_several = |index: usize| index == 0 && columns.width() > 1;
     let mut spectral = names.enumerate().filter(|(index, name)| {
-        name.says() == Some(Said::Spectrum) || is_first_of_several(*index) && name.text() == "T"
+        name.says() == Some(Quantity::Spectrum) || is_first_of_several(*index) && name.text() == "T"
     });
     let Some((_, name)) = spectral.next() else { return Ok(()) };
     let expected = "accelerations of the ground at times";

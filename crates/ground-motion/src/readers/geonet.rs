@@ -70,17 +70,13 @@ fn component<'a>(
     let unit = options.unit_of("mm/s2", first)?;
     let mut parsed = Parsed::new(step, unit, reals_end);
     let samples = count(if is_raw { 31 } else { 34 })?;
-    if is_raw {
-        parsed.read(LAYOUT, rest, samples, last + 4)?;
-    } else {
-        let (numbers, line) = LAYOUT.numbers(rest, samples, last + 4)?;
-        parsed.samples = numbers.into_iter().map(|value| unit.to_si(value)).collect();
-        parsed.last_line = line;
-        for place in [35, 36] {
-            LAYOUT.numbers(rest, count(place)?, last + 4)?;
-        }
-        LAYOUT.check_ended(rest.peek().copied(), samples, last + 4)?;
+    let (numbers, line) = LAYOUT.numbers(rest, samples, last + 4)?;
+    parsed.samples = numbers.into_iter().map(|value| unit.to_si(value)).collect();
+    parsed.last_line = line;
+    for &place in if is_raw { &[][..] } else { &[35, 36] } {
+        LAYOUT.numbers(rest, count(place)?, last + 4)?;
     }
+    LAYOUT.check_ended(rest.peek().copied(), samples, last + 4)?;
     let name = header.iter().find_map(|(_, line)| line.trim_start().strip_prefix("Component"));
     let name = name.and_then(|name| name.split_whitespace().next()).unwrap_or_default();
     parsed.is_vertical = is_vertical(name);
