@@ -105,15 +105,9 @@ impl<'a> Columns<'a> {
             let remedy = "write rows of numbers below a line that names the columns";
             return Err(Fault::excerpt(first.0, forms, first.1, remedy));
         };
-        let mut columns = Self {
-            text,
-            names: Vec::new(),
-            remark: Vec::new(),
-            heading: (number, line),
-            first_row: number,
-            separator: of_row,
-            width,
-        };
+        let (heading, separator, remark) = ((number, line), of_row, Vec::new());
+        let mut columns =
+            Self { text, names: Vec::new(), remark, heading, first_row: number, separator, width };
         if of_row == Separator::None {
             // one column has a name of any number of words
             if let Some(&title) = titles.first() {
@@ -230,21 +224,15 @@ impl<'a> Columns<'a> {
         }
         let is_wanted = |name: &Name| name.written() == wanted || name.text() == wanted;
         let mut matches = (1..self.names.len()).filter(|&column| is_wanted(&self.names[column]));
-        match (matches.next(), matches.next()) {
-            (Some(column), None) => Ok(column),
+        let (expected, found, remedy) = match (matches.next(), matches.next()) {
+            (Some(column), None) => return Ok(column),
             (None, _) if is_wanted(&self.names[0]) => {
-                let expected = format!("a column beside the first, {first}");
-                Err(Fault::excerpt(line, expected, wanted, "state the name of another column"))
+                (format!("a column beside the first, {first}"), wanted, "state the name of another column")
             }
-            (None, _) => {
-                let expected = format!("a column {}", excerpt(wanted));
-                Err(Fault::excerpt(line, expected, text, "state one of these columns"))
-            }
-            (Some(_), Some(_)) => {
-                let expected = format!("one column {}", excerpt(wanted));
-                Err(Fault::excerpt(line, expected, text, "give each column its own name"))
-            }
-        }
+            (None, _) => (format!("a column {}", excerpt(wanted)), text, "state one of these columns"),
+            _ => (format!("one column {}", excerpt(wanted)), text, "give each column its own name"),
+        };
+        Err(Fault::excerpt(line, expected, found, remedy))
     }
 
     /// Returns the name of the first column, or else what a comment above the rows calls it. Refuses an empty
