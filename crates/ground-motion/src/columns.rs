@@ -209,6 +209,29 @@ impl<'a> Columns<'a> {
         })
     }
 
+    /// Reads the numbers of a column; `take` takes each behind that of the first column, which is 0 where the
+    /// first column itself is read, and its line.
+    pub(crate) fn read(
+        &self,
+        column: usize,
+        mut take: impl FnMut(f64, f64, usize) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let (mut numbers, mut thousands) = (Numbers::new(self), Thousands::default());
+        for row in self.rows() {
+            let row = row?;
+            let mut cells = row.cells();
+            let mut first = 0.0;
+            if column > 0 {
+                first = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
+            }
+            let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
+            let value = numbers.real(&cell, row.line)?;
+            thousands.push(&cell, row.line);
+            take(first, value, row.line)?;
+        }
+        thousands.check()
+    }
+
     /// Finds the column to read beside the first: the one that is wanted by its name, or else the only one.
     /// Where there are more, it is the only one that states an acceleration while all others state something
     /// else. `first` is what the first column is, for messages.

@@ -3,7 +3,7 @@
 use std::iter::Peekable;
 
 use crate::check::Warning;
-use crate::error::{DAMAGED, Fault};
+use crate::error::Fault;
 use crate::fields::{Layout, Line, check_count, leading_real, rounding};
 use crate::unit::Unit;
 
@@ -50,16 +50,15 @@ impl Parsed {
         }
     }
 
-    /// Takes the next sample, the value of a field on a line; refuses one that is not finite.
+    /// Takes the next sample, a number on a line; where it is none, or not finite in m/s², `fault` says so.
     pub(crate) fn push(
         &mut self,
         value: Option<f64>,
         line: usize,
-        field: &str,
-        expected: &str,
+        fault: impl FnOnce() -> Fault,
     ) -> Result<(), Fault> {
         let sample = value.map(|value| self.unit.to_si(value)).filter(|sample| sample.is_finite());
-        self.samples.push(sample.ok_or_else(|| Fault::excerpt(line, expected, field, DAMAGED))?);
+        self.samples.push(sample.ok_or_else(fault)?);
         self.last_line = line;
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Thousands};
+use crate::columns::{Columns, Name};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
 use crate::options::stated_unit;
@@ -103,17 +103,11 @@ impl SpectrumFile {
             return Err(Fault::excerpt(columns.line(), "a unit of Sa", columns.heading(), remedy));
         };
         let (mut points, mut lines) = (Vec::new(), Vec::new());
-        let (mut numbers, mut thousands) = (Numbers::new(&columns), Thousands::default());
-        for row in columns.rows() {
-            let row = row?;
-            let mut cells = row.cells();
-            let period = numbers.real(&cells.next().unwrap_or_default(), row.line)?;
-            let cell = cells.nth(column_number - 1).unwrap_or_default();
-            points.push((period, unit.to_si(numbers.real(&cell, row.line)?)));
-            thousands.push(&cell, row.line);
-            lines.push(row.line);
-        }
-        thousands.check()?;
+        columns.read(column_number, |period, sa, line| {
+            points.push((period, unit.to_si(sa)));
+            lines.push(line);
+            Ok(())
+        })?;
         refuse_milliseconds(&columns, &points, &lines)?;
         let column = name.filter(|_| columns.width() > 2).map(|name| name.written().to_owned());
         let damping = columns.named(column_number).and_then(|name| stated_damping(name.written()));

@@ -13,7 +13,7 @@
 //!
 //! The oldest files write `3930 0.00500 NPTS, DT` instead.
 
-use crate::error::Fault;
+use crate::error::{DAMAGED, Fault};
 use crate::fields::{Line, find, leading_number, lines, positive, real, touching, unit_word};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
@@ -60,7 +60,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     for (number, line) in rest {
         line_start = parsed.samples.len();
         for word in line.split_ascii_whitespace().flat_map(touching) {
-            parsed.push(real(word), number, word, "a finite number")?;
+            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
     }
     parsed.trim_padding(count, line_start);

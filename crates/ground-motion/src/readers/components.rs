@@ -55,8 +55,10 @@ impl Components {
         let mut fields = fields.fuse();
         for (index, channel) in self.channels.iter_mut().enumerate() {
             let field = fields.next().unwrap_or_default();
-            let expected = format!("a finite number ({} of {columns})", index + 1);
-            channel.push(real(field), line, field, &expected)?;
+            channel.push(real(field), line, || {
+                let expected = format!("a finite number ({} of {columns})", index + 1);
+                Fault::excerpt(line, expected, field, DAMAGED)
+            })?;
         }
         match fields.next() {
             Some(more) => {

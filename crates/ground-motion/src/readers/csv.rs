@@ -17,7 +17,7 @@
 //! [`CSV_HEADER`]. [`crate::columns`] has the rest.
 
 use crate::check::Warning;
-use crate::columns::{Columns, Name, Numbers, Thousands};
+use crate::columns::{Columns, Name};
 use crate::error::{Fault, excerpt};
 use crate::options::{RecordOptions, is_close};
 use crate::parsed::Parsed;
@@ -150,7 +150,7 @@ fn refuse_spectrum(columns: &Columns<'_>, column: usize) -> Result<(), Fault> {
 
 /// Reads one column of samples.
 fn read_column(columns: &Columns<'_>, options: &RecordOptions, parsed: &mut Parsed) -> Result<(), Fault> {
-    read_samples(columns, 0, parsed, |_, _| Ok(()))?;
+    columns.read(0, |_, sample, line| parsed.push(Some(sample), line, || overflow(sample, line)))?;
     let name = columns.names().first().map(Name::written);
     if let Some(wanted) = &options.column
         && name != Some(wanted)
@@ -177,7 +177,13 @@ fn read_table(
     parsed: &mut Parsed,
 ) -> Result<(), Fault> {
     let mut times = Times::default();
-    read_samples(columns, column, parsed, |time, line| times.push(seconds * time, line))?;
+    if let Some(Ok(row)) = columns.rows().next() {
+        refuse_clock_time(&row.cells().next().unwrap_or_default(), row.line)?;
+    }
+    columns.read(column, |time, sample, line| {
+        times.push(seconds * time, line)?;
+        parsed.push(Some(sample), line, || overflow(sample, line))
+    })?;
     let Some((first_time, step)) = times.uniform()? else {
         let found = parsed.samples.len().to_string();
         let remedy = "check that the file is complete";
@@ -196,31 +202,9 @@ fn read_table(
     Ok(())
 }
 
-/// Reads the samples of a column; `take_time` takes the number of the first column and its line.
-fn read_samples(
-    columns: &Columns<'_>,
-    column: usize,
-    parsed: &mut Parsed,
-    mut take_time: impl FnMut(f64, usize) -> Result<(), Fault>,
-) -> Result<(), Fault> {
-    let (mut numbers, mut thousands) = (Numbers::new(columns), Thousands::default());
-    for row in columns.rows() {
-        let row = row?;
-        let mut cells = row.cells();
-        if column > 0 {
-            let time = cells.next().unwrap_or_default();
-            refuse_clock_time(&time, row.line)?;
-            take_time(numbers.real(&time, row.line)?, row.line)?;
-        }
-        let cell = cells.nth(column.saturating_sub(1)).unwrap_or_default();
-        let sample = Some(parsed.unit.to_si(numbers.real(&cell, row.line)?));
-        thousands.push(&cell, row.line);
-        parsed.samples.push(sample.filter(|sample| sample.is_finite()).ok_or_else(|| {
-            Fault::excerpt(row.line, "a finite acceleration", &cell, "check the value and the unit")
-        })?);
-        parsed.last_line = row.line;
-    }
-    thousands.check()
+/// Makes the fault of a number that is not finite in m/s².
+fn overflow(number: f64, line: usize) -> Fault {
+    Fault::new(line, "a finite acceleration", format!("`{number:e}`"), "check the value and the unit")
 }
 
 /// Refuses dates and times of the day.

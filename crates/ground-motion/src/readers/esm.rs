@@ -19,7 +19,7 @@
 //! above.
 
 use super::header::{count, step, value};
-use crate::error::Fault;
+use crate::error::{DAMAGED, Fault};
 use crate::fields::{Line, lines, real};
 use crate::options::RecordOptions;
 use crate::parsed::Parsed;
@@ -78,7 +78,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
 
     let mut parsed = Parsed::new(step, unit, header.last().map_or(1, |(number, _)| *number));
     for (number, line) in rest {
-        parsed.push(real(line), number, line, "one finite number")?;
+        parsed.push(real(line), number, || Fault::excerpt(number, "one finite number", line, DAMAGED))?;
     }
     parsed.check_count(count, &format!("NDATA on line {count_line}"))?;
     // the last letter of a stream is its direction, HNZ; before DYNA 1.0 it is a component, UP

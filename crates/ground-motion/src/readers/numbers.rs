@@ -10,7 +10,7 @@
 //! table.
 
 use crate::columns::COMMENTS;
-use crate::error::Fault;
+use crate::error::{DAMAGED, Fault};
 use crate::fields::{lines, real, touching};
 use crate::options::{RecordOptions, STATE_THE_UNIT};
 use crate::parsed::Parsed;
@@ -77,7 +77,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     for (number, line) in content() {
         let before = parsed.samples.len();
         for word in words(line) {
-            parsed.push(real(word), number, word, "a finite number")?;
+            parsed.push(real(word), number, || Fault::excerpt(number, "a finite number", word, DAMAGED))?;
         }
         let is_alike = previous.is_none_or(|previous| columns == Some(previous));
         previous = Some(parsed.samples.len() - before);
