@@ -138,16 +138,7 @@ impl<'a> Columns<'a> {
         if names.first().is_some_and(|name| name.written().is_empty()) {
             return Err(index_column(heading));
         }
-        let twin = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
-        if let Some((_, name)) = twin {
-            let found = format!("two columns {}", excerpt(name.text()));
-            return Err(Fault::new(
-                heading.0,
-                "columns with names of their own",
-                found,
-                "delete one of them",
-            ));
-        }
+        refuse_twins(&names, heading.0)?;
         let (first_row, width) = (heading.0 + 1, names.len());
         Ok(Self { text, names, remark: Vec::new(), heading, first_row, separator, width })
     }

@@ -32,7 +32,8 @@ pub fn is_listed(path: &Path) -> bool {
 /// The times beside a record.
 pub(crate) struct Companion {
     name: String,
-    step: f64,
+    /// Time between samples (s).
+    pub(crate) step: f64,
     /// How many there are; 1 where the file has the step alone.
     count: usize,
     last_line: usize,
@@ -49,11 +50,6 @@ impl Companion {
             Ok((step, count, last_line)) => Ok(Some(Self { name, step, count, last_line })),
             Err(fault) => Err(fault.in_file(&name)),
         }
-    }
-
-    /// Adds their step to what is stated of the record.
-    pub(crate) fn completed(&self, options: &RecordOptions) -> RecordOptions {
-        RecordOptions { step: Some(self.step), ..options.clone() }
     }
 
     /// Refuses a record with another number of samples.

@@ -102,7 +102,8 @@ pub fn read_channels(
     let name = path.display().to_string();
     let bytes = read_bounded(path, &name)?;
     let Some(times) = Companion::beside(path, options)? else { return parse_channels(&name, bytes, options) };
-    let records = parse_channels(&name, bytes, &times.completed(options))?;
+    let options = RecordOptions { step: Some(times.step), ..options.clone() };
+    let records = parse_channels(&name, bytes, &options)?;
     records.iter().try_for_each(|record| times.check_count(record.motion.samples().len()))?;
     Ok(records)
 }

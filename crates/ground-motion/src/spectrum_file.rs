@@ -6,7 +6,7 @@ use crate::check::Warning;
 use crate::columns::{Columns, Name};
 use crate::error::{Fault, GroundMotionError};
 use crate::file::{read_file, utf8_text};
-use crate::options::stated_unit;
+use crate::options::RecordOptions;
 use crate::quantity::Quantity;
 use crate::unit::Unit;
 
@@ -96,7 +96,8 @@ impl SpectrumFile {
                 columns.named(column_number).and_then(Name::unit).filter(|unit| Quantity::of(unit).is_some())
             }
         };
-        let stated = unit.map(|word| stated_unit(given, word, columns.line()));
+        let options = RecordOptions { unit: given, ..RecordOptions::default() };
+        let stated = unit.map(|word| options.unit_of(word, columns.line()));
         let Some(unit) = stated.transpose()?.or(given) else {
             let remedy =
                 "the file states no unit: give --unit, or write it into a header line, `T [s],Sa [g]`";

@@ -60,7 +60,8 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             counts.push(count.map_err(|_| Fault::excerpt(number, "a whole number", word, DAMAGED))?);
         }
     }
-    check_duration(counts.len(), [duration, frequency], duration_line, parsed.last_line)?;
+    let stated_by = format!("{DURATION} on line {duration_line}, {duration} s at {frequency} Hz,");
+    check_count(counts.len(), floor_index((duration * frequency).round()), &stated_by, parsed.last_line)?;
     // 2^24 counts of 2^31 stay below 2^56
     let sum: i64 = counts.iter().copied().map(i64::from).sum();
     let mean = sum as f64 / counts.len().max(1) as f64;
@@ -73,22 +74,6 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let peak = field(&header, "Max. Acc. (gal)").ok().and_then(|(_, text)| positive(leading_number(text).0));
     parsed.stated_peak = peak.map(|peak| Unit::CentimetrePerSecondSquared.to_si(peak));
     Ok(vec![parsed])
-}
-
-/// Refuses a number of counts other than the stated duration times the frequency.
-fn check_duration(
-    found: usize,
-    [duration, frequency]: [f64; 2],
-    duration_line: usize,
-    last_line: usize,
-) -> Result<(), Fault> {
-    let stated = (duration * frequency).round();
-    if (found as f64 - stated).abs() < 0.5 {
-        return Ok(());
-    }
-    // More than a file can hold: any other number than the one found says so as well.
-    let stated_by = format!("{DURATION} on line {duration_line}, {duration} s at {frequency} Hz,");
-    check_count(found, floor_index(stated), &stated_by, last_line)
 }
 
 /// Finds the value after a label, and its line.
