@@ -1,4 +1,4 @@
-//! What files state where a unit of acceleration should stand.
+//! The quantity that a unit measures: an acceleration, or what files state in its place.
 
 use crate::error::Fault;
 use crate::unit::Unit;

@@ -45,8 +45,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
         Some((number, unit.to_owned()))
     };
     let Some((unit_line, unit)) = peaks.and_then(in_brackets) else {
-        let expected = "the unit in `RAW PGA VALUES (gal)`";
-        return Err(Fault::new(count_line, expected, "none", "complete the header"));
+        return Err(Fault::missing(count_line, "the unit in `RAW PGA VALUES (gal)`"));
     };
     let unit = options.unit_of(&unit, unit_line)?;
     let &(names_line, names) = header.last().unwrap_or(&(1, ""));

@@ -66,7 +66,7 @@ fn scale(
     let real = |place: usize| channel.reals.get(place - 1).copied().filter(|value| *value != UNKNOWN);
     let Some(interval) = real(INTERVAL).filter(|interval| *interval > 0.0) else {
         let expected = format!("the sample interval in ms as real header {INTERVAL}");
-        return Err(Fault::new(channel.reals_line.max(1), expected, "none", "complete the header"));
+        return Err(Fault::missing(channel.reals_line.max(1), expected));
     };
     let step = interval / 1000.0;
     options.check_step(step, channel.reals_line)?;

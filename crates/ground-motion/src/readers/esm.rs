@@ -88,8 +88,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     parsed.keep_header(described.iter().filter_map(|key| Some(optional(key)?.1)));
     if let Some((line, text)) = optional("PGA_CM/S^2") {
         let peak = real(text).filter(|peak| peak.is_finite());
-        let expected = "a number for `PGA_CM/S^2`";
-        let peak = peak.ok_or_else(|| Fault::excerpt(line, expected, text, "correct the header"))?;
+        let peak = peak.ok_or_else(|| Fault::in_header(line, "a number for `PGA_CM/S^2`", text))?;
         let stated = Unit::CentimetrePerSecondSquared.to_si(peak.abs());
         parsed.stated_peak = Some(stated);
         check_peak(&parsed.samples, stated, line)?;

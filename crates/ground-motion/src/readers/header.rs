@@ -21,16 +21,16 @@ pub(super) fn required<'a>(
 ) -> Result<Line<'a>, Fault> {
     found.filter(|(_, value)| !value.is_empty()).ok_or_else(|| {
         let line = found.or(header.last().copied()).map_or(1, |(number, _)| number);
-        Fault::new(line, format!("a value for `{key}` in the header"), "none", "complete the header")
+        Fault::missing(line, format!("a value for `{key}` in the header"))
     })
 }
 
 /// Reads the positive number that a value starts with; a unit may follow.
 pub(super) fn number((line, text): Line<'_>, key: &str) -> Result<(usize, f64), Fault> {
     let number = positive(leading_number(text).0);
-    number.map(|number| (line, number)).ok_or_else(|| {
-        Fault::excerpt(line, format!("a positive number for `{key}`"), text, "correct the header")
-    })
+    number
+        .map(|number| (line, number))
+        .ok_or_else(|| Fault::in_header(line, format!("a positive number for `{key}`"), text))
 }
 
 /// Reads the value of a key as a whole number, and its line.
@@ -38,7 +38,7 @@ pub(super) fn count(header: &[Line<'_>], key: &str) -> Result<(usize, usize), Fa
     let (line, text) = value(header, key)?;
     text.parse()
         .map(|count| (line, count))
-        .map_err(|_| Fault::excerpt(line, format!("{key} as a whole number"), text, "correct the header"))
+        .map_err(|_| Fault::in_header(line, format!("{key} as a whole number"), text))
 }
 
 /// Reads the step from the value of a key, and compares it with the one that the user states.

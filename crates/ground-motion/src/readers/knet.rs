@@ -46,8 +46,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let (duration_line, duration) = number(field(&header, DURATION)?, DURATION)?;
     let (factor_line, factor) = field(&header, "Scale Factor")?;
     let Some((numerator, unit, denominator)) = scale(factor) else {
-        let expected = "a scale factor `3920(gal)/6182761`";
-        return Err(Fault::excerpt(factor_line, expected, factor, "correct the header"));
+        return Err(Fault::in_header(factor_line, "a scale factor `3920(gal)/6182761`", factor));
     };
     let unit = options.unit_of(unit, factor_line)?;
 

@@ -61,8 +61,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let columns: Vec<(&str, &str)> = names.split(',').skip(2).take(MOST + 1).map(name_and_unit).collect();
     let unit = options.unit_of(columns[0].1, names_line)?;
     if let Some((_, other)) = columns.iter().find(|(_, other)| *other != columns[0].1) {
-        let expected = format!("one unit for all components, {unit}");
-        return Err(Fault::excerpt(names_line, expected, other, "correct the header"));
+        return Err(Fault::in_header(names_line, format!("one unit for all components, {unit}"), other));
     }
     let names = columns.iter().map(|(name, _)| *name);
     let mut components = Components::new([step, 0.0], unit, names, names_line)?;

@@ -66,8 +66,7 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
             let expected = "evenly spaced samples and their number a second as real 2 of the header";
             return Err(Fault::new(reals_line, expected, "pairs of times and accelerations", UNEVEN));
         }
-        let expected = "the samples a second as real 2 of the header";
-        return Err(Fault::new(reals_line, expected, "none", "complete the header"));
+        return Err(Fault::missing(reals_line, "the samples a second as real 2 of the header"));
     };
     let mut parsed = Parsed::new(1.0 / frequency, unit, text_end);
     options.check_step(parsed.step, reals_line)?;

@@ -58,14 +58,14 @@ pub(super) fn parse(text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, 
     let (unit_line, unit) = value(&header, "UNIDADES DE LOS DATOS")?;
     let unit = options.unit_of(unit.split_whitespace().next().unwrap_or_default(), unit_line)?;
     let (format_line, format) = value(&header, FORMAT)?;
-    let layout = Layout::of(format)
-        .ok_or_else(|| Fault::excerpt(format_line, "a format `3F10.4`", format, "correct the header"))?;
+    let layout =
+        Layout::of(format).ok_or_else(|| Fault::in_header(format_line, "a format `3F10.4`", format))?;
     let (steps_line, steps) = of_channels(&header, STEP)?;
     let (_, names) = of_channels(&header, "ORIENTACION")?;
     let step = steps.first().and_then(|step| positive(step));
     let Some(step) = step.filter(|_| steps.iter().all(|other| Some(*other) == steps.first().copied())) else {
         let expected = format!("one step for all channels as {STEP}");
-        return Err(Fault::excerpt(steps_line, expected, &steps.join("/"), "correct the header"));
+        return Err(Fault::in_header(steps_line, expected, &steps.join("/")));
     };
     options.check_step(step, steps_line)?;
     let (counts_line, counts) = of_channels(&header, COUNT)?;
@@ -112,7 +112,7 @@ fn of_channels<'a>(header: &[Line<'a>], key: &str) -> Result<(usize, Vec<&'a str
         _ => {
             let line = header.last().map_or(1, |(number, _)| *number);
             let expected = format!("`{key}, C1-C6` with a value for each channel, `/1/2/3`");
-            Err(Fault::new(first.unwrap_or(line), expected, "none", "complete the header"))
+            Err(Fault::missing(first.unwrap_or(line), expected))
         }
     }
 }

@@ -60,9 +60,9 @@ fn channel<'a>(
     let has_times = !header.iter().any(|(_, line)| find(line, BHRC).is_some());
     let units = header.iter().find(|(_, line)| find(line, "UNITS").is_some() && find(line, "G/10").is_some());
     let Some(&(unit_line, units)) = units else {
-        let found =
-            header.iter().find(|(_, line)| find(line, "UNITS").is_some()).map_or("", |(_, line)| line);
-        return Err(Fault::excerpt(count_line, "`UNITS ARE SEC AND G/10`", found, "correct the header"));
+        let units = header.iter().find(|(_, line)| find(line, "UNITS").is_some());
+        let found = units.map_or("", |(_, line)| line);
+        return Err(Fault::in_header(count_line, "`UNITS ARE SEC AND G/10`", found));
     };
     let unit = options.unit_of(Unit::StandardGravity.name(), unit_line)?;
     skip_headers(rest);
@@ -113,7 +113,7 @@ fn count_and_length(header: &[Line<'_>]) -> Result<(usize, usize, f64), Fault> {
     let length = length.and_then(|text| positive(leading_number(text).0));
     match (count, length) {
         (Some(count), Some(length)) if count > 1 => Ok((number, count, length)),
-        _ => Err(Fault::excerpt(number, expected, line.trim(), "correct the header")),
+        _ => Err(Fault::in_header(number, expected, line.trim())),
     }
 }
 
